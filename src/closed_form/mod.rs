@@ -1,0 +1,1 @@
+//! Closed-form solutions that models are verified against, one family a file.

@@ -1,0 +1,9 @@
+//! `impinge`: what a hot, fast droplet does to the surface it hits.
+//!
+//! Data flows one way: scene → checked plain data → immutable [`model::Model`] + flat
+//! [`model::State`] → step → variables → FMI, command line or files. A module uses only the
+//! modules listed above it here; a test holds that order.
+
+pub mod closed_form;
+pub mod material;
+pub mod scene;

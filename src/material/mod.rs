@@ -1,0 +1,15 @@
+//! Constitutive laws, one a file. The enum is also the parser of a scene's `material` table.
+
+mod thermoelastic;
+
+pub use thermoelastic::Thermoelastic;
+
+use serde::{Deserialize, Serialize};
+
+/// A constitutive law with its constants.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "model", rename_all = "snake_case", deny_unknown_fields)]
+pub enum Material {
+    /// Isotropic Fourier conduction and linear thermo-elasticity.
+    Thermoelastic(Thermoelastic),
+}

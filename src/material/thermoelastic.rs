@@ -1,0 +1,50 @@
+use serde::{Deserialize, Serialize};
+
+/// Isotropic Fourier conduction with linear, small-strain thermo-elasticity.
+///
+/// `σ = λ tr(ε) 1 + 2 G ε − (3 λ + 2 G) α ΔT 1` and `q = −k ∇T`.
+///
+/// Source: B. A. Boley and J. H. Weiner, *Theory of Thermal Stresses*, Wiley 1960, §1.12.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Thermoelastic {
+    /// Mass density ρ [kg/m³].
+    pub density: f64,
+    /// Specific heat capacity c [J/(kg K)].
+    pub specific_heat: f64,
+    /// Thermal conductivity k [W/(m K)].
+    pub conductivity: f64,
+    /// Young's modulus E [Pa].
+    pub young: f64,
+    /// Poisson's ratio ν [1].
+    pub poisson: f64,
+    /// Coefficient of linear thermal expansion α [1/K].
+    pub expansion: f64,
+}
+
+impl Thermoelastic {
+    /// First Lamé constant `λ = E ν / ((1 + ν)(1 − 2ν))` [Pa].
+    pub fn lame_first(&self) -> f64 {
+        self.young * self.poisson / ((1.0 + self.poisson) * (1.0 - 2.0 * self.poisson))
+    }
+
+    /// Shear modulus `G = E / (2 (1 + ν))` [Pa].
+    pub fn shear_modulus(&self) -> f64 {
+        self.young / (2.0 * (1.0 + self.poisson))
+    }
+
+    /// Thermal stress modulus `β = (3 λ + 2 G) α` [Pa/K].
+    pub fn thermal_modulus(&self) -> f64 {
+        (3.0 * self.lame_first() + 2.0 * self.shear_modulus()) * self.expansion
+    }
+
+    /// Volumetric heat capacity `ρ c` [J/(m³ K)].
+    pub fn heat_capacity(&self) -> f64 {
+        self.density * self.specific_heat
+    }
+
+    /// Thermal diffusivity `a = k / (ρ c)` [m²/s].
+    pub fn diffusivity(&self) -> f64 {
+        self.conductivity / self.heat_capacity()
+    }
+}

@@ -1,0 +1,370 @@
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use crate::material::Material;
+
+/// Everything that a `scene.toml` says.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scene {
+    /// FMI model name and identifier; a C identifier.
+    pub name: String,
+    /// One line for people.
+    #[serde(default)]
+    pub description: String,
+    /// End of the default experiment [s].
+    pub stop_time: f64,
+    /// Communication step of the default experiment [s].
+    pub step: f64,
+    /// The bodies by name.
+    pub body: BTreeMap<String, Body>,
+    /// Loads on faces; their amounts become FMI inputs.
+    #[serde(default)]
+    pub load: Vec<Load>,
+    /// Points whose values become FMI outputs.
+    #[serde(default)]
+    pub probe: Vec<Probe>,
+    /// Grids of points whose values become arrays of FMI outputs.
+    #[serde(default)]
+    pub field: Vec<Field>,
+    /// How much model the scene wants.
+    #[serde(default)]
+    pub fidelity: Fidelity,
+    /// Settings of the solver that change cost but not results.
+    #[serde(default)]
+    pub solver: Solver,
+}
+
+/// A body by kind.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+pub enum Body {
+    /// A solid that conducts heat and deforms elastically.
+    Solid(Solid),
+}
+
+/// A solid body.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Solid {
+    pub shape: Shape,
+    pub material: Material,
+    /// Uniform temperature at time zero, at which the body is free of thermal stress [K].
+    pub initial_temperature: f64,
+    /// Discretisation of the heat equation.
+    #[serde(default)]
+    pub heat: HeatMethod,
+    #[serde(default)]
+    pub symmetry: Symmetry,
+    #[serde(default)]
+    pub mesh: Mesh,
+    /// Conditions on faces; a face that is left out is insulated and free.
+    #[serde(default)]
+    pub faces: BTreeMap<FaceName, Face>,
+}
+
+/// The shape of a body. The origin is the centre of its top face; z points out of the body.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Shape {
+    /// Extents along x, y and z [m].
+    Box([f64; 3]),
+    /// A round plate.
+    Disc(Disc),
+}
+
+/// A round plate with its axis along z.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Disc {
+    /// [m]
+    pub radius: f64,
+    /// [m]
+    pub thickness: f64,
+}
+
+impl Shape {
+    /// Extent along z [m].
+    pub fn thickness(&self) -> f64 {
+        match self {
+            Shape::Box(extents) => extents[2],
+            Shape::Disc(disc) => disc.thickness,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum HeatMethod {
+    /// Finite elements on the mesh of the mechanics.
+    #[default]
+    Fem,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Symmetry {
+    /// Use whatever symmetry shape and faces have.
+    #[default]
+    Auto,
+    /// Mesh the whole body (boxes only).
+    None,
+    /// Mesh a quarter of a box; loads of any place are split into parts even and odd about the two
+    /// planes, so nothing is neglected.
+    Quarter,
+    /// Mesh a meridian section of a disc.
+    Axisymmetric,
+}
+
+/// The mesh; whatever is left out is chosen from loads, material and stop time.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Mesh {
+    /// Distance of nodes along the surface at the loads [m].
+    pub spacing: Option<f64>,
+    /// Distance of nodes along z at the loaded faces [m]; `spacing` if only that is given.
+    pub depth_spacing: Option<f64>,
+    /// Ratio of the sizes of neighbouring elements away from the loads.
+    pub growth: Option<f64>,
+    /// Order of the shape functions: 1 (linear) or 2 (quadratic).
+    pub order: Option<usize>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FaceName {
+    Top,
+    Bottom,
+    /// All lateral faces.
+    Sides,
+    /// x = −Lx/2 of a box.
+    Left,
+    /// x = +Lx/2 of a box.
+    Right,
+    /// y = −Ly/2 of a box.
+    Front,
+    /// y = +Ly/2 of a box.
+    Back,
+}
+
+/// Conditions on one face: at most one thermal and at most one mechanical.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Face {
+    /// Prescribed temperature [K].
+    pub temperature: Option<f64>,
+    /// Prescribed uniform heat flux into the body [W/m²].
+    pub flux: Option<f64>,
+    pub convection: Option<Convection>,
+    /// No displacement at all.
+    #[serde(default)]
+    pub clamped: bool,
+    /// No displacement along the normal.
+    #[serde(default)]
+    pub roller: bool,
+}
+
+/// Heat flux into the body `q = h (T∞ − T)`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Convection {
+    /// Heat transfer coefficient h [W/(m² K)].
+    pub coefficient: f64,
+    /// Ambient temperature T∞ [K].
+    pub ambient: f64,
+}
+
+/// Heat and traction on a part of a face.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    pub name: String,
+    /// `BODY.top` or `BODY.bottom`.
+    pub on: String,
+    pub footprint: Footprint,
+    pub carries: Vec<Carries>,
+    #[serde(default)]
+    pub start: LoadStart,
+    /// Bounds of the inputs that move the footprint; the mesh is fine wherever they let it go.
+    #[serde(default)]
+    pub range: LoadRange,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum Footprint {
+    /// Uniform inside `radius` [m].
+    Disc { radius: f64 },
+    /// Peak value at the centre, 1/e² of it at `radius` [m].
+    Gaussian { radius: f64 },
+    /// `count` concentric rings of equal width out to `radius` [m], a value each.
+    Rings { count: usize, radius: f64 },
+    /// `count` rectangles over `size` [m], a value each.
+    Tiles { count: [usize; 2], size: [f64; 2] },
+}
+
+impl Footprint {
+    /// Outer radius of round footprints [m].
+    pub fn radius(&self) -> Option<f64> {
+        match *self {
+            Footprint::Disc { radius }
+            | Footprint::Gaussian { radius }
+            | Footprint::Rings { radius, .. } => Some(radius),
+            Footprint::Tiles { .. } => None,
+        }
+    }
+
+    /// Number of cells that have a value of their own, first index running along the first axis;
+    /// `None` for a single value without index.
+    pub fn cells(&self) -> Option<CellShape> {
+        match *self {
+            Footprint::Disc { .. } | Footprint::Gaussian { .. } => None,
+            Footprint::Rings { count, .. } => Some(CellShape::Rings(count)),
+            Footprint::Tiles { count, .. } => Some(CellShape::Tiles(count)),
+        }
+    }
+}
+
+/// Index ranges of a footprint of many values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CellShape {
+    Rings(usize),
+    Tiles([usize; 2]),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Carries {
+    /// Heat flux into the body [W/m²].
+    HeatFlux,
+    /// Pressure that acts into the body [Pa].
+    Pressure,
+    /// Shear traction [Pa]: along x and y; radial on rings.
+    Shear,
+}
+
+/// Start values of a load's inputs.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoadStart {
+    pub heat_flux: Option<CellValues>,
+    pub pressure: Option<CellValues>,
+    pub shear_x: Option<CellValues>,
+    pub shear_y: Option<CellValues>,
+    pub shear_r: Option<CellValues>,
+    /// Place of the footprint's centre [m].
+    pub x: Option<f64>,
+    pub y: Option<f64>,
+    /// Radius of round footprints [m]; the footprint's own if left out.
+    pub radius: Option<f64>,
+}
+
+/// One value for all cells, or one for each.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum CellValues {
+    Uniform(f64),
+    Rings(Vec<f64>),
+    /// Row i holds the values of the tiles `[i, 1]`, `[i, 2]` …
+    Tiles(Vec<Vec<f64>>),
+}
+
+/// Bounds `[lowest, highest]` of the inputs that move a footprint [m].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LoadRange {
+    pub x: Option<[f64; 2]>,
+    pub y: Option<[f64; 2]>,
+    pub radius: Option<[f64; 2]>,
+}
+
+/// A point whose values become outputs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Probe {
+    pub name: String,
+    /// Name of the body.
+    #[serde(rename = "in")]
+    pub body: String,
+    /// Place [m].
+    pub at: [f64; 3],
+    pub gives: Vec<Gives>,
+}
+
+/// Points on a regular grid, in the middle of equal cells, over a face or a plane section.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Field {
+    pub name: String,
+    /// A face, `BODY.FACE`.
+    pub on: Option<String>,
+    /// A body, together with `plane`.
+    #[serde(rename = "in")]
+    pub body: Option<String>,
+    pub plane: Option<Plane>,
+    /// Number of points along the two axes of the face or section.
+    pub grid: [usize; 2],
+    /// Extent of the grid along its axes [m], centred; the whole face or section if left out.
+    pub size: Option<[f64; 2]>,
+    pub gives: Vec<Gives>,
+}
+
+/// A section through a body at a constant coordinate [m].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum Plane {
+    X(f64),
+    Y(f64),
+    Z(f64),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Gives {
+    Temperature,
+    /// The six components of the stress tensor and its von Mises value.
+    Stress,
+    VonMises,
+    /// The largest principal stress, which opens cracks in brittle solids.
+    MaxPrincipal,
+    /// The three components.
+    Displacement,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fidelity {
+    #[serde(default)]
+    pub level: FidelityLevel,
+    /// Relative.
+    #[serde(default = "default_tolerance")]
+    pub tolerance: f64,
+}
+
+impl Default for Fidelity {
+    fn default() -> Self {
+        Self { level: FidelityLevel::default(), tolerance: default_tolerance() }
+    }
+}
+
+fn default_tolerance() -> f64 {
+    1e-3
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FidelityLevel {
+    #[default]
+    Full,
+    /// The cheapest level within the tolerance.
+    Auto,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Solver {
+    /// Threads a unit may use; 0 lets the program choose.
+    #[serde(default)]
+    pub threads: usize,
+}
