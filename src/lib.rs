@@ -5,5 +5,7 @@
 //! modules listed above it here; a test holds that order.
 
 pub mod closed_form;
+pub mod math;
 pub mod material;
 pub mod scene;
+pub mod variables;

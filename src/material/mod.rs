@@ -1,5 +1,6 @@
 //! Constitutive laws, one a file. The enum is also the parser of a scene's `material` table.
 
+pub mod stress;
 mod thermoelastic;
 
 pub use thermoelastic::Thermoelastic;

@@ -48,3 +48,20 @@ impl Thermoelastic {
         self.conductivity / self.heat_capacity()
     }
 }
+
+impl Thermoelastic {
+    /// Stress [Pa] of the strain xx, yy, zz, xy, yz, xz (engineering shears) at `rise` kelvin above
+    /// the stress-free temperature.
+    pub fn stress(&self, [xx, yy, zz, xy, yz, xz]: [f64; 6], rise: f64) -> [f64; 6] {
+        let shear = self.shear_modulus();
+        let pressure = self.lame_first() * (xx + yy + zz) - self.thermal_modulus() * rise;
+        [
+            pressure + 2.0 * shear * xx,
+            pressure + 2.0 * shear * yy,
+            pressure + 2.0 * shear * zz,
+            shear * xy,
+            shear * yz,
+            shear * xz,
+        ]
+    }
+}

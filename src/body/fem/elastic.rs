@@ -1,0 +1,397 @@
+//! Quasi-static thermo-elasticity on a structured mesh: one factorisation serves all time.
+
+use std::sync::OnceLock;
+
+use rayon::prelude::*;
+
+use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
+use super::hexahedron::HexahedronMatrices;
+use super::mesh::{Geometry, Mesh, MeshFace, Parity};
+use super::recovery::sampling_places;
+use crate::material::Thermoelastic;
+use crate::math::cholesky::{CholeskyError, LowerTriangle, SparseCholesky};
+use crate::math::nested_dissection::nested_dissection;
+use crate::math::stencil_matrix::{Reach, StencilMatrix};
+
+/// Mechanical condition on an end of an axis; free where nothing is said.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Support {
+    /// No displacement.
+    Clamped,
+    /// No displacement along the normal.
+    Roller,
+}
+
+/// The elastic problem of a body: everything known before time starts.
+///
+/// The factorisation of a symmetry class is made when that class is first loaded.
+pub struct ElasticProblem {
+    mesh: Mesh,
+    law: Thermoelastic,
+    supports: Vec<(MeshFace, Support)>,
+    /// Nodal force per nodal degree.
+    thermal: StencilMatrix,
+    classes: Vec<(Parity, OnceLock<Result<Factor, CholeskyError>>)>,
+}
+
+/// Factorised stiffness of one symmetry class.
+struct Factor {
+    /// Degrees of freedom that are solved for, ascending.
+    free: Vec<usize>,
+    cholesky: SparseCholesky,
+}
+
+/// Strains at the sampling points of one class, [`ElasticProblem::strain_count`] a point.
+pub type Strains = Vec<f64>;
+
+impl ElasticProblem {
+    pub fn new(mesh: &Mesh, law: &Thermoelastic, supports: Vec<(MeshFace, Support)>) -> Self {
+        let thermal = assemble(mesh, law, [degrees(mesh.geometry), 1], Part::Thermal);
+        let classes = mesh.parities().into_iter().map(|p| (p, OnceLock::new())).collect();
+        Self { mesh: mesh.clone(), law: law.clone(), supports, thermal, classes }
+    }
+
+    /// Displacements a node: 3 in a box, 2 (r, z) in axisymmetry.
+    pub fn degrees(&self) -> usize {
+        degrees(self.mesh.geometry)
+    }
+
+    /// Strains a point: 6 in a box, 4 (rr, tt, zz, rz) in axisymmetry.
+    pub fn strain_count(&self) -> usize {
+        2 * self.degrees()
+    }
+
+    /// Factors the even class, so that the first step is no slower than the others.
+    pub fn prepare(&self) -> Result<(), CholeskyError> {
+        self.factor(0).map(|_| ())
+    }
+
+    /// Entries of all factors made so far.
+    pub fn factor_entries(&self) -> usize {
+        let made = self.classes.iter().filter_map(|(_, lock)| lock.get()?.as_ref().ok());
+        made.map(|factor| factor.cholesky.entries()).sum()
+    }
+
+    /// Nodal displacements of a class [m], empty if nothing drives it.
+    ///
+    /// `temperature` is the nodal temperature above the stress-free one [K], `forces` the nodal
+    /// forces on the bottom and the top of the mesh [N], a list for each displacement component.
+    pub fn displacement(
+        &self,
+        class: usize,
+        temperature: &[f64],
+        forces: &[Vec<Vec<f64>>; 2],
+    ) -> Result<Vec<f64>, CholeskyError> {
+        let degrees = self.degrees();
+        let mut load = vec![0.0; self.mesh.nodes() * degrees];
+        if !temperature.is_empty() {
+            self.thermal.multiply(temperature, &mut load);
+        }
+        let plane = self.mesh.axes[0].len() * self.mesh.axes[1].len();
+        for (lists, first) in forces.iter().zip([0, self.mesh.nodes() - plane]) {
+            for (component, list) in lists.iter().enumerate() {
+                for (node, force) in list.iter().enumerate() {
+                    load[(first + node) * degrees + component] += force;
+                }
+            }
+        }
+        if load.iter().all(|&v| v == 0.0) {
+            return Ok(Vec::new());
+        }
+        let factor = self.factor(class)?;
+        let mut solution: Vec<f64> = factor.free.iter().map(|&i| load[i]).collect();
+        factor.cholesky.solve_in_place(&mut solution);
+        load.fill(0.0);
+        for (&i, value) in factor.free.iter().zip(solution) {
+            load[i] = value;
+        }
+        Ok(load)
+    }
+
+    /// Strains of a class at the sampling points, which run like nodes, x fastest.
+    pub fn strains(&self, displacement: &[f64], temperature: &[f64]) -> Strains {
+        match self.mesh.geometry {
+            Geometry::Box => self.box_strains(displacement),
+            Geometry::Axisymmetric => self.ring_strains(displacement, temperature),
+        }
+    }
+
+    fn factor(&self, class: usize) -> Result<&Factor, CholeskyError> {
+        let (parity, lock) = &self.classes[class];
+        lock.get_or_init(|| self.make_factor(*parity)).as_ref().map_err(Clone::clone)
+    }
+
+    fn make_factor(&self, parity: Parity) -> Result<Factor, CholeskyError> {
+        let degrees = self.degrees();
+        let stiffness = assemble(&self.mesh, &self.law, [degrees; 2], Part::Stiffness);
+        let held = self.held(parity);
+        let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
+        let mut number = vec![usize::MAX; held.len()];
+        for (k, &i) in free.iter().enumerate() {
+            number[i] = k;
+        }
+        let order: Vec<usize> = nested_dissection(self.mesh.element_counts(), self.mesh.order())
+            .into_iter()
+            .flat_map(|node| (0..degrees).map(move |c| node * degrees + c))
+            .filter_map(|i| (number[i] != usize::MAX).then_some(number[i]))
+            .collect();
+        let triangle = lower_triangle(&stiffness, degrees, &number);
+        drop(stiffness);
+        let cholesky = SparseCholesky::factor(&triangle, &order)?;
+        Ok(Factor { free, cholesky })
+    }
+
+    /// Which degrees of freedom supports and symmetry planes hold.
+    fn held(&self, parity: Parity) -> Vec<bool> {
+        let degrees = self.degrees();
+        let mut held = vec![false; self.mesh.nodes() * degrees];
+        let component_of_axis = |axis: usize| match self.mesh.geometry {
+            Geometry::Box => axis,
+            Geometry::Axisymmetric => axis / 2,
+        };
+        for &(face, support) in &self.supports {
+            let normal = component_of_axis(face.axis);
+            for node in self.face_nodes(face) {
+                for c in 0..degrees {
+                    held[node * degrees + c] |= support == Support::Clamped || c == normal;
+                }
+            }
+        }
+        for axis in (0..2).filter(|&a| self.mesh.mirrored[a]) {
+            // On the plane an even field has no normal, an odd one no tangential displacement.
+            for node in self.face_nodes(MeshFace { axis, high: false }) {
+                for c in 0..degrees {
+                    held[node * degrees + c] |= (c == axis) != parity.odd[axis];
+                }
+            }
+        }
+        if self.mesh.geometry == Geometry::Axisymmetric && self.mesh.axes[0].start() == 0.0 {
+            for node in self.face_nodes(MeshFace { axis: 0, high: false }) {
+                held[node * degrees] = true;
+            }
+        }
+        held
+    }
+
+    fn face_nodes(&self, face: MeshFace) -> Vec<usize> {
+        let counts = self.mesh.node_counts();
+        let at = if face.high { counts[face.axis] - 1 } else { 0 };
+        let strides = [1, counts[0], counts[0] * counts[1]];
+        (0..self.mesh.nodes()).filter(|n| n / strides[face.axis] % counts[face.axis] == at).collect()
+    }
+
+    fn box_strains(&self, displacement: &[f64]) -> Strains {
+        let places = self.mesh.axes.each_ref().map(|axis| {
+            let shapes = sampling_places(axis).into_iter();
+            shapes.map(|(element, x)| axis.shape_in(element, x)).collect::<Vec<_>>()
+        });
+        let counts = self.mesh.node_counts();
+        let plane = places[0].len() * places[1].len();
+        let mut out = vec![0.0; plane * places[2].len() * 6];
+        out.par_chunks_exact_mut(6 * plane).zip(&places[2]).for_each(|(slab, z)| {
+            let mut targets = slab.chunks_exact_mut(6);
+            for y in &places[1] {
+                for x in &places[0] {
+                    let Some(target) = targets.next() else { return };
+                    let mut g = [[0.0; 3]; 3];
+                    for c in 0..z.count {
+                        for b in 0..y.count {
+                            let row = counts[0] * (y.first + b + counts[1] * (z.first + c));
+                            for a in 0..x.count {
+                                let n = [
+                                    x.slopes[a] * y.values[b] * z.values[c],
+                                    x.values[a] * y.slopes[b] * z.values[c],
+                                    x.values[a] * y.values[b] * z.slopes[c],
+                                ];
+                                let u = &displacement[3 * (row + x.first + a)..][..3];
+                                for i in 0..3 {
+                                    for j in 0..3 {
+                                        g[i][j] += u[i] * n[j];
+                                    }
+                                }
+                            }
+                        }
+                    }
+                    target.copy_from_slice(&[
+                        g[0][0],
+                        g[1][1],
+                        g[2][2],
+                        g[0][1] + g[1][0],
+                        g[1][2] + g[2][1],
+                        g[0][2] + g[2][0],
+                    ]);
+                }
+            }
+        });
+        out
+    }
+
+    fn ring_strains(&self, displacement: &[f64], temperature: &[f64]) -> Strains {
+        let [radii, _, heights] = &self.mesh.axes;
+        let (places_r, places_z) = (sampling_places(radii), sampling_places(heights));
+        let per_element = places_r.len() / radii.elements();
+        let mut out = vec![0.0; places_r.len() * places_z.len() * 4];
+        for ez in 0..heights.elements() {
+            for er in 0..radii.elements() {
+                let element = self.ring(er, ez);
+                let nodes = self.ring_nodes(er, ez);
+                let u: Vec<f64> =
+                    nodes.iter().flat_map(|&n| [displacement[2 * n], displacement[2 * n + 1]]).collect();
+                let value = |&n: &usize| temperature.get(n).copied().unwrap_or(0.0);
+                let t: Vec<f64> = nodes.iter().map(value).collect();
+                for jz in per_element * ez..per_element * (ez + 1) {
+                    for jr in per_element * er..per_element * (er + 1) {
+                        let xi = local(radii.bounds(er), places_r[jr].1);
+                        let eta = local(heights.bounds(ez), places_z[jz].1);
+                        out[4 * (jr + places_r.len() * jz)..][..4]
+                            .copy_from_slice(&element.strain(xi, eta, &u, &t));
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    fn ring(&self, er: usize, ez: usize) -> QuadrilateralMatrices {
+        let [radii, _, heights] = &self.mesh.axes;
+        let rectangle = Rectangle { r: radii.bounds(er), z: heights.bounds(ez) };
+        QuadrilateralMatrices::new(self.mesh.order(), rectangle, &self.law)
+    }
+
+    fn ring_nodes(&self, er: usize, ez: usize) -> Vec<usize> {
+        let order = self.mesh.order();
+        let columns = self.mesh.axes[0].len();
+        (0..=order)
+            .flat_map(|j| (0..=order).map(move |i| (er * order + i) + columns * (ez * order + j)))
+            .collect()
+    }
+}
+
+/// Local coordinate of `x` in `[a, b]`.
+fn local([a, b]: [f64; 2], x: f64) -> f64 {
+    (2.0 * x - a - b) / (b - a)
+}
+
+fn degrees(geometry: Geometry) -> usize {
+    match geometry {
+        Geometry::Box => 3,
+        Geometry::Axisymmetric => 2,
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Stiffness,
+    Thermal,
+}
+
+fn assemble(mesh: &Mesh, law: &Thermoelastic, block: [usize; 2], part: Part) -> StencilMatrix {
+    let reach = mesh.axes.each_ref().map(|axis| match axis.elements() {
+        0 => Reach { first: vec![0], last: vec![0] },
+        n => Reach::of_elements(n, axis.order),
+    });
+    let mut matrix = StencilMatrix::zeros(reach, block);
+    match mesh.geometry {
+        Geometry::Box => assemble_box(mesh, law, part, &mut matrix),
+        Geometry::Axisymmetric => assemble_rings(mesh, law, part, &mut matrix),
+    }
+    matrix
+}
+
+fn assemble_box(mesh: &Mesh, law: &Thermoelastic, part: Part, matrix: &mut StencilMatrix) {
+    let [nx, ny, nz] = mesh.element_counts();
+    let order = mesh.order();
+    let length = |axis: usize, e: usize| {
+        let [a, b] = mesh.axes[axis].bounds(e);
+        b - a
+    };
+    let n = order + 1;
+    for ez in 0..nz {
+        // A slab of element matrices at a time: computed in parallel, added in fixed order.
+        let slab: Vec<HexahedronMatrices> = (0..nx * ny)
+            .into_par_iter()
+            .map(|e| {
+                let size = [length(0, e % nx), length(1, e / nx), length(2, ez)];
+                HexahedronMatrices::new(order, size, law)
+            })
+            .collect();
+        for (e, element) in slab.iter().enumerate() {
+            let node = |a: usize| {
+                [
+                    e % nx * order + a % n,
+                    e / nx * order + a / n % n,
+                    ez * order + a / (n * n),
+                ]
+            };
+            for a in 0..n * n * n {
+                for b in 0..n * n * n {
+                    let target = matrix.block_mut(node(a), node(b));
+                    match part {
+                        Part::Stiffness => add(target, element.stiffness(a, b)),
+                        Part::Thermal => add(target, element.thermal(a, b)),
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn assemble_rings(mesh: &Mesh, law: &Thermoelastic, part: Part, matrix: &mut StencilMatrix) {
+    let [radii, _, heights] = &mesh.axes;
+    let order = mesh.order();
+    let n = order + 1;
+    for ez in 0..heights.elements() {
+        for er in 0..radii.elements() {
+            let rectangle = Rectangle { r: radii.bounds(er), z: heights.bounds(ez) };
+            let element = QuadrilateralMatrices::new(order, rectangle, law);
+            let node = |a: usize| [er * order + a % n, 0, ez * order + a / n];
+            for a in 0..n * n {
+                for b in 0..n * n {
+                    let target = matrix.block_mut(node(a), node(b));
+                    match part {
+                        Part::Stiffness => {
+                            let k = &element.stiffness;
+                            let at = |i: usize, j: usize| k[(2 * a + i, 2 * b + j)];
+                            add(target, &[at(0, 0), at(0, 1), at(1, 0), at(1, 1)]);
+                        }
+                        Part::Thermal => {
+                            let t = &element.thermal;
+                            add(target, &[t[(2 * a, b)], t[(2 * a + 1, b)]]);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+fn add(target: &mut [f64], values: &[f64]) {
+    for (t, v) in target.iter_mut().zip(values) {
+        *t += v;
+    }
+}
+
+/// The lower triangle of the free part of a symmetric stencil matrix; by symmetry the columns are
+/// read from the rows.
+fn lower_triangle(matrix: &StencilMatrix, degrees: usize, number: &[usize]) -> LowerTriangle {
+    let mut triangle = LowerTriangle { column_start: vec![0], ..Default::default() };
+    for node in 0..matrix.nodes() {
+        for c in 0..degrees {
+            let column = number[node * degrees + c];
+            if column == usize::MAX {
+                continue;
+            }
+            matrix.for_each_block(node, |other, block| {
+                for d in 0..degrees {
+                    let row = number[other * degrees + d];
+                    if row != usize::MAX && row >= column {
+                        triangle.rows.push(row);
+                        triangle.values.push(block[c * degrees + d]);
+                    }
+                }
+            });
+            triangle.column_start.push(triangle.rows.len());
+        }
+    }
+    triangle
+}

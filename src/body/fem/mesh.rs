@@ -1,0 +1,121 @@
+use super::axis::Axis;
+use crate::scene::FaceName;
+
+/// A structured mesh as the product of three axes; the x index of a node runs fastest.
+///
+/// In axisymmetry the axes are the radius, a point and z. Where an axis is `mirrored`, the mesh
+/// covers the half from its symmetry plane at 0 to the high end of the body.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mesh {
+    pub axes: [Axis; 3],
+    pub mirrored: [bool; 2],
+    pub geometry: Geometry,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Geometry {
+    Box,
+    Axisymmetric,
+}
+
+/// An end of an axis of the mesh, where faces of the body lie.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MeshFace {
+    pub axis: usize,
+    pub high: bool,
+}
+
+/// Symmetry class of a part of the solution: odd or even about the planes x = 0 and y = 0.
+///
+/// Even means the mirror image: scalars equal, the normal component of vectors opposite. Odd is
+/// minus that. Every field is the sum of its parts, and linear physics keeps them apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Parity {
+    pub odd: [bool; 2],
+}
+
+impl Mesh {
+    pub fn node_counts(&self) -> [usize; 3] {
+        [0, 1, 2].map(|a| self.axes[a].len())
+    }
+
+    pub fn nodes(&self) -> usize {
+        self.node_counts().iter().product()
+    }
+
+    pub fn element_counts(&self) -> [usize; 3] {
+        [0, 1, 2].map(|a| self.axes[a].elements())
+    }
+
+    pub fn order(&self) -> usize {
+        self.axes[0].order
+    }
+
+    /// Number of copies of the mesh that make the body.
+    pub fn copies(&self) -> f64 {
+        self.mirrored.iter().map(|&m| if m { 2.0 } else { 1.0 }).product()
+    }
+
+    /// The parts that a solution splits into: one, two or four.
+    pub fn parities(&self) -> Vec<Parity> {
+        let choices = |mirrored: bool| if mirrored { vec![false, true] } else { vec![false] };
+        let mut list = Vec::new();
+        for odd_y in choices(self.mirrored[1]) {
+            for odd_x in choices(self.mirrored[0]) {
+                list.push(Parity { odd: [odd_x, odd_y] });
+            }
+        }
+        list
+    }
+
+    /// Where a face of the body lies on the mesh, and whether it is the mirror image of that place.
+    pub fn place(&self, face: FaceName) -> (MeshFace, bool) {
+        let (axis, high) = match face {
+            FaceName::Left => (0, false),
+            FaceName::Right | FaceName::Sides => (0, true),
+            FaceName::Front => (1, false),
+            FaceName::Back => (1, true),
+            FaceName::Bottom => (2, false),
+            FaceName::Top => (2, true),
+        };
+        let image = axis < 2 && self.mirrored[axis] && !high;
+        (MeshFace { axis, high: high || image }, image)
+    }
+
+    /// A point of the body on the mesh, and along which axes it was mirrored. In axisymmetry the
+    /// first coordinate is the radius.
+    pub fn locate(&self, point: [f64; 3]) -> ([f64; 3], [bool; 2]) {
+        let [x, y, z] = point;
+        match self.geometry {
+            Geometry::Axisymmetric => ([x.hypot(y), 0.0, z], [false; 2]),
+            Geometry::Box => {
+                let image = [self.mirrored[0] && x < 0.0, self.mirrored[1] && y < 0.0];
+                let fold = |value: f64, mirrored: bool| if mirrored { value.abs() } else { value };
+                ([fold(x, self.mirrored[0]), fold(y, self.mirrored[1]), z], image)
+            }
+        }
+    }
+}
+
+impl Parity {
+    /// Sign of a scalar of this class at the image of a point.
+    pub fn sign(&self, image: [bool; 2]) -> f64 {
+        (0..2).map(|a| if self.odd[a] && image[a] { -1.0 } else { 1.0 }).product()
+    }
+
+    /// Sign of the component `i` of a vector of this class at the image of a point.
+    pub fn vector_sign(&self, image: [bool; 2], i: usize) -> f64 {
+        let flip = if i < 2 && image[i] { -1.0 } else { 1.0 };
+        self.sign(image) * flip
+    }
+
+    /// Sign of a tensor component (xx, yy, zz, xy, yz, xz) of this class at the image of a point.
+    pub fn tensor_sign(&self, image: [bool; 2], component: usize) -> f64 {
+        let (i, j) = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)][component];
+        self.sign(image) * self.vector_sign(image, i) * self.vector_sign(image, j)
+    }
+
+    pub fn is_even(&self) -> bool {
+        self.odd == [false; 2]
+    }
+}

@@ -1,0 +1,19 @@
+//! A solid on a structured finite-element mesh.
+
+mod axis;
+mod axisymmetric;
+mod elastic;
+mod grading;
+mod heat;
+mod hexahedron;
+mod mesh;
+mod modes;
+mod plan;
+mod recovery;
+mod solid;
+
+pub use axis::{Axis, Weight};
+pub use heat::HeatTotals;
+pub use mesh::{Geometry, Mesh, MeshFace, Parity};
+pub use plan::{Plan, Refinement};
+pub use solid::{Deformation, Fields, SolidFem, SolidLoads};

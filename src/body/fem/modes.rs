@@ -1,0 +1,200 @@
+//! Eigenmodes of heat conduction along one axis.
+
+use faer::{Mat, Side};
+
+use super::axis::Axis;
+
+/// Condition at an end of an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum EndCondition {
+    /// Insulated, or under a flux that does not depend on the temperature.
+    Natural,
+    /// Prescribed temperature.
+    Prescribed,
+    /// Convective: heat transfer coefficient over conductivity, `h/k` [1/m].
+    Convective(f64),
+}
+
+/// Mass-orthonormal modes `(K + h/k e eᵀ) φ = μ M φ` of one axis.
+#[derive(Debug, Clone)]
+pub struct AxisModes {
+    /// Eigenvalues μ [1/m²], ascending.
+    pub decay: Vec<f64>,
+    /// Modes by columns, at all nodes; zero at nodes of prescribed temperature.
+    pub shapes: Mat<f64>,
+    /// Mass matrix of the axis.
+    pub mass: Mat<f64>,
+    /// Stiffness matrix of the axis, convective ends included.
+    pub stiffness: Mat<f64>,
+}
+
+impl AxisModes {
+    /// Solves the eigenproblem of an axis with conditions at its low and high end.
+    pub fn of(axis: &Axis, ends: [EndCondition; 2]) -> Self {
+        let n = axis.len();
+        let mass = axis.mass();
+        let mut stiffness = axis.stiffness();
+        for (end, node) in ends.iter().zip([0, n - 1]) {
+            if let EndCondition::Convective(ratio) = end {
+                // The weight of a radial axis makes the end a circle.
+                stiffness[(node, node)] += ratio * axis.weight_at(axis.nodes[node]);
+            }
+        }
+        let prescribed = ends.map(|end| end == EndCondition::Prescribed);
+        let free: Vec<usize> = (0..n)
+            .filter(|&i| !(i == 0 && prescribed[0] || i + 1 == n && prescribed[1]))
+            .collect();
+        let insulated = ends == [EndCondition::Natural; 2];
+        let (decay, shapes) = eigenpairs(axis, &ends, &mass, &stiffness, &free, insulated);
+        Self { decay, shapes, mass, stiffness }
+    }
+
+    pub fn count(&self) -> usize {
+        self.decay.len()
+    }
+
+    /// Coefficients `φᵀ v` of a nodal vector.
+    pub fn project(&self, v: &[f64]) -> Vec<f64> {
+        (0..self.count()).map(|k| (0..v.len()).map(|i| self.shapes[(i, k)] * v[i]).sum()).collect()
+    }
+
+    /// Values of all modes at one place.
+    pub fn at(&self, axis: &Axis, x: f64) -> Vec<f64> {
+        let shape = axis.shape_at(x);
+        let value = |k: usize| {
+            (0..shape.count).map(|i| shape.values[i] * self.shapes[(shape.first + i, k)]).sum()
+        };
+        (0..self.count()).map(value).collect()
+    }
+
+    /// Values of all modes at a node.
+    pub fn at_node(&self, node: usize) -> Vec<f64> {
+        (0..self.count()).map(|k| self.shapes[(node, k)]).collect()
+    }
+}
+
+fn eigenpairs(
+    axis: &Axis,
+    ends: &[EndCondition; 2],
+    mass: &Mat<f64>,
+    stiffness: &Mat<f64>,
+    free: &[usize],
+    insulated: bool,
+) -> (Vec<f64>, Mat<f64>) {
+    let m = free.len();
+    let restricted = |full: &Mat<f64>| Mat::from_fn(m, m, |i, j| full[(free[i], free[j])]);
+    let (mass, stiffness) = (restricted(mass), restricted(stiffness));
+    // M = L Lᵀ turns the pencil into the symmetric matrix L⁻¹ K L⁻ᵀ.
+    let factor = mass.llt(Side::Lower).expect("a mass matrix is positive definite");
+    let lower = factor.L().to_owned();
+    let mut symmetric = stiffness;
+    lower.as_ref().solve_lower_triangular_in_place(symmetric.as_mut());
+    let mut symmetric = symmetric.transpose().to_owned();
+    lower.as_ref().solve_lower_triangular_in_place(symmetric.as_mut());
+    let eigen = symmetric
+        .self_adjoint_eigen(Side::Lower)
+        .expect("the eigenproblem of a finite symmetric matrix converges");
+    let mut vectors = eigen.U().to_owned();
+    if insulated {
+        deflate_constant(&mut vectors, &lower, m);
+    }
+    lower.transpose().solve_upper_triangular_in_place(vectors.as_mut());
+
+    let mut shapes = Mat::zeros(axis.len(), m);
+    for (i, &node) in free.iter().enumerate() {
+        for k in 0..m {
+            shapes[(node, k)] = vectors[(i, k)];
+        }
+    }
+    let decay = (0..m).map(|k| rayleigh_quotient(axis, ends, &shapes, k)).collect();
+    (decay, shapes)
+}
+
+/// Makes the first mode of an insulated axis the constant, to rounding, and the others orthogonal
+/// to it, so that conduction neither makes nor loses heat however long a run is.
+fn deflate_constant(vectors: &mut Mat<f64>, lower: &Mat<f64>, m: usize) {
+    let mut constant: Vec<f64> = (0..m).map(|i| (i..m).map(|j| lower[(j, i)]).sum()).collect();
+    let norm = constant.iter().map(|v| v * v).sum::<f64>().sqrt();
+    constant.iter_mut().for_each(|v| *v /= norm);
+    for i in 0..m {
+        vectors[(i, 0)] = constant[i];
+    }
+    for k in 1..m {
+        let overlap: f64 = (0..m).map(|i| constant[i] * vectors[(i, k)]).sum();
+        for i in 0..m {
+            vectors[(i, k)] -= overlap * constant[i];
+        }
+    }
+}
+
+/// `μ = ∫ (φ')² w dx + h/k φ(end)²` of a mass-normal mode: its error is quadratic in the mode's,
+/// and slow modes do not suffer from the rounding of the fast ones.
+fn rayleigh_quotient(axis: &Axis, ends: &[EndCondition; 2], shapes: &Mat<f64>, k: usize) -> f64 {
+    let mut sum = 0.0;
+    for element in 0..axis.elements() {
+        let [a, b] = axis.bounds(element);
+        for (x, w) in crate::math::gauss::gauss_on(axis.order + 1, a, b) {
+            let at = axis.shape_in(element, x);
+            // Differences to the first node vanish exactly for a constant.
+            let base = shapes[(at.first, k)];
+            let slope: f64 =
+                (1..at.count).map(|i| at.slopes[i] * (shapes[(at.first + i, k)] - base)).sum();
+            sum += w * axis.weight_at(x) * slope * slope;
+        }
+    }
+    for (end, node) in ends.iter().zip([0, axis.len() - 1]) {
+        if let EndCondition::Convective(ratio) = end {
+            sum += ratio * axis.weight_at(axis.nodes[node]) * shapes[(node, k)].powi(2);
+        }
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::fem::axis::Weight;
+    use std::f64::consts::PI;
+
+    fn line(elements: usize, order: usize) -> Axis {
+        let ends: Vec<f64> = (0..=elements).map(|i| i as f64 / elements as f64).collect();
+        Axis::from_element_ends(&ends, order, Weight::Uniform)
+    }
+
+    #[test]
+    fn decay_of_the_first_modes_converges_to_the_exact_spectrum() {
+        let prescribed = [EndCondition::Prescribed; 2];
+        for (order, rate) in [(1, 2.0), (2, 4.0)] {
+            let error = |n: usize| AxisModes::of(&line(n, order), prescribed).decay[1] / (4.0 * PI * PI) - 1.0;
+            let observed = (error(10) / error(20)).log2();
+            assert!((observed - rate).abs() < 0.1, "order {order}: rate {observed}");
+        }
+    }
+
+    #[test]
+    fn an_insulated_axis_keeps_a_constant_for_ever() {
+        let modes = AxisModes::of(&line(40, 2), [EndCondition::Natural; 2]);
+        assert!(modes.decay[0].abs() < 1e-25, "{}", modes.decay[0]);
+    }
+
+    #[test]
+    fn a_convective_end_meets_the_transcendental_equation() {
+        // φ' = −B φ at x = 1 and φ' = 0 at 0: b tan b = B, decay b².
+        let modes =
+            AxisModes::of(&line(40, 2), [EndCondition::Natural, EndCondition::Convective(2.0)]);
+        let b = modes.decay[0].sqrt();
+        assert!((b * b.tan() - 2.0).abs() < 1e-6, "{}", b * b.tan());
+    }
+
+    #[test]
+    fn modes_are_orthonormal_in_mass() {
+        let modes = AxisModes::of(&line(12, 2), [EndCondition::Prescribed, EndCondition::Natural]);
+        let gram = modes.shapes.transpose() * &modes.mass * &modes.shapes;
+        for i in 0..modes.count() {
+            for j in 0..modes.count() {
+                let wanted = if i == j { 1.0 } else { 0.0 };
+                assert!((gram[(i, j)] - wanted).abs() < 1e-12);
+            }
+        }
+    }
+}

@@ -1,0 +1,84 @@
+//! Recovery of strains: from the points where they are most accurate to a continuous field.
+//!
+//! Strains of Lagrange elements of order p are one order more accurate at the p Gauss points along
+//! each axis (J. Barlow 1976, doi 10.1002/nme.1620100202). On a structured mesh these form a grid of
+//! their own. The value at a node is the polynomial through the nearest sampling points along each
+//! axis, and values between nodes follow the shape functions, so the field is continuous
+//! (cf. O. C. Zienkiewicz and J. Z. Zhu 1992, doi 10.1002/nme.1620330702).
+
+use faer::Mat;
+
+use super::axis::Axis;
+use crate::math::gauss::gauss_legendre;
+use crate::math::lagrange::interpolation_weights;
+
+/// Sampling points inside: cubic; at an end, where the polynomial is extrapolated: quadratic.
+const INSIDE: usize = 4;
+const AT_END: usize = 3;
+
+/// Element and coordinate of each sampling point along an axis.
+pub fn sampling_places(axis: &Axis) -> Vec<(usize, f64)> {
+    if axis.elements() == 0 {
+        return vec![(0, 0.0)];
+    }
+    let points = gauss_legendre(axis.order);
+    (0..axis.elements())
+        .flat_map(|element| {
+            let [a, b] = axis.bounds(element);
+            let place = move |xi: f64| 0.5 * (a + b) + 0.5 * (b - a) * xi;
+            points.iter().map(|&(xi, _)| (element, place(xi))).collect::<Vec<_>>()
+        })
+        .collect()
+}
+
+/// From sampling points to nodes along one axis, as a dense matrix.
+pub fn recovery_matrix(axis: &Axis) -> Mat<f64> {
+    let places: Vec<f64> = sampling_places(axis).into_iter().map(|(_, x)| x).collect();
+    let mut matrix = Mat::zeros(axis.len(), places.len());
+    for (node, &x) in axis.nodes.iter().enumerate() {
+        let inside = x > places[0] && x < places[places.len() - 1];
+        let wanted = if inside { INSIDE } else { AT_END }.min(places.len());
+        let first = nearest(&places, x, wanted);
+        let weights = interpolation_weights(&places[first..first + wanted], x);
+        for (i, w) in weights.into_iter().enumerate() {
+            matrix[(node, first + i)] = w;
+        }
+    }
+    matrix
+}
+
+/// First of the `count` consecutive points that surround `x` best.
+fn nearest(points: &[f64], x: f64, count: usize) -> usize {
+    let above = points.partition_point(|&p| p < x);
+    above.saturating_sub(count / 2).min(points.len() - count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::fem::axis::Weight;
+
+    #[test]
+    fn quadratics_are_recovered_everywhere() {
+        for order in [1, 2] {
+            let axis = Axis::from_element_ends(&[0.0, 1.0, 1.8, 3.0, 3.5, 5.0], order, Weight::Uniform);
+            let matrix = recovery_matrix(&axis);
+            let f = |x: f64| 1.0 - 2.0 * x + 0.3 * x * x;
+            for (node, &x) in axis.nodes.iter().enumerate() {
+                let value: f64 = sampling_places(&axis)
+                    .iter()
+                    .enumerate()
+                    .map(|(i, &(_, p))| matrix[(node, i)] * f(p))
+                    .sum();
+                assert!((value - f(x)).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn a_single_linear_element_has_one_value() {
+        let axis = Axis::from_element_ends(&[0.0, 1.0], 1, Weight::Uniform);
+        let matrix = recovery_matrix(&axis);
+        assert_eq!((matrix[(0, 0)], matrix[(1, 0)]), (1.0, 1.0));
+    }
+}

@@ -1,0 +1,444 @@
+//! A solid: heat and elasticity on one mesh, and what can be read from their solution.
+
+use faer::Mat;
+
+use super::axis::Axis;
+use super::elastic::{ElasticProblem, Strains};
+use super::heat::{HeatLoads, HeatProblem, HeatTotals};
+use super::mesh::{Geometry, Mesh, Parity};
+use super::plan::Plan;
+use super::recovery::recovery_matrix;
+use crate::material::Thermoelastic;
+use crate::material::stress::{from_cylindrical, max_principal, von_mises};
+use crate::math::cholesky::CholeskyError;
+use crate::math::separable::{Side, transform};
+
+/// Everything known of a solid before time starts.
+pub struct SolidFem {
+    mesh: Mesh,
+    law: Thermoelastic,
+    initial_temperature: f64,
+    heat: HeatProblem,
+    elastic: Option<ElasticProblem>,
+    recovery: [Mat<f64>; 3],
+    parities: Vec<Parity>,
+}
+
+/// What acts on a solid, held over a step; every list has an entry for each symmetry class.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct SolidLoads {
+    /// Heat into the nodes of the bottom and the top of the mesh [W]; empty for none.
+    pub heat: Vec<[Vec<f64>; 2]>,
+    /// Forces on the nodes of the bottom and the top [N], a list for each displacement component;
+    /// empty for none.
+    pub force: Vec<[Vec<Vec<f64>>; 2]>,
+    /// Value of each thermal face: flux [W/m²] or temperature above the initial one [K].
+    pub faces: Vec<Vec<f64>>,
+}
+
+/// Nodal temperature above the initial one [K], class by class; empty where a class is zero.
+pub type Temperatures = Vec<Vec<f64>>;
+
+/// Displacements [m] and strains, class by class; empty where a class is zero.
+#[derive(Debug, Clone, Default)]
+pub struct Deformation {
+    pub displacement: Vec<Vec<f64>>,
+    pub strains: Vec<Strains>,
+}
+
+/// Values at all nodes of the whole body, images included: a rectilinear grid.
+#[derive(Debug, Clone, Default)]
+pub struct Fields {
+    /// Coordinates along x, y, z [m]; the x index runs fastest. In axisymmetry x is the radius and
+    /// y the single value 0.
+    pub axes: [Vec<f64>; 3],
+    /// [K]
+    pub temperature: Vec<f64>,
+    /// [m]; empty where mechanics is not modelled.
+    pub displacement: Vec<[f64; 3]>,
+    /// xx, yy, zz, xy, yz, xz [Pa] (axisymmetry: rr, tt, zz, 0, 0, rz); empty where mechanics is not
+    /// modelled.
+    pub stress: Vec<[f64; 6]>,
+}
+
+/// Weights of consecutive values along one axis.
+struct Weights {
+    first: usize,
+    values: Vec<f64>,
+}
+
+impl SolidFem {
+    /// Builds matrices and factorisations of a plan.
+    pub fn new(plan: &Plan) -> Result<Self, CholeskyError> {
+        let mesh = plan.mesh.clone();
+        let law = plan.law.clone();
+        let heat = HeatProblem::new(
+            &mesh,
+            law.heat_capacity(),
+            law.conductivity,
+            plan.thermal_faces.clone(),
+        );
+        let elastic =
+            plan.mechanics.then(|| ElasticProblem::new(&mesh, &law, plan.supports.clone()));
+        if let Some(elastic) = &elastic {
+            elastic.prepare()?;
+        }
+        let recovery = mesh.axes.each_ref().map(recovery_matrix);
+        let parities = mesh.parities();
+        let initial_temperature = plan.initial_temperature;
+        Ok(Self { mesh, law, initial_temperature, heat, elastic, recovery, parities })
+    }
+
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    pub fn state_len(&self) -> usize {
+        self.heat.state_len()
+    }
+
+    /// Stored entries of all factorisations made so far.
+    pub fn factor_entries(&self) -> usize {
+        self.elastic.as_ref().map_or(0, ElasticProblem::factor_entries)
+    }
+
+    /// Advances `state` by `dt` [s] under loads held constant.
+    pub fn advance(&self, state: &mut [f64], loads: &SolidLoads, dt: f64) {
+        let heat = HeatLoads { surface: &loads.heat, faces: &loads.faces };
+        self.heat.advance(state, &heat, dt);
+    }
+
+    /// Heat stored since time zero [J].
+    pub fn heat_stored(&self, state: &[f64]) -> f64 {
+        self.heat.stored(state)
+    }
+
+    pub fn heat_totals(&self, state: &[f64]) -> HeatTotals {
+        self.heat.totals(state)
+    }
+
+    /// Temperature at one point [K], without computing the whole field.
+    pub fn temperature_at(&self, state: &[f64], loads: &SolidLoads, point: [f64; 3]) -> f64 {
+        let (place, image) = self.mesh.locate(point);
+        self.initial_temperature
+            + self.heat.temperature_at(&self.mesh, state, &loads.faces, place, image)
+    }
+
+    pub fn temperatures(&self, state: &[f64], loads: &SolidLoads) -> Temperatures {
+        self.heat.nodal(state, &loads.faces)
+    }
+
+    /// Solves for the deformation under temperatures and loads.
+    pub fn deformation(
+        &self,
+        temperatures: &Temperatures,
+        loads: &SolidLoads,
+    ) -> Result<Deformation, CholeskyError> {
+        let mut result = Deformation::default();
+        let Some(elastic) = &self.elastic else { return Ok(result) };
+        for (class, temperature) in temperatures.iter().enumerate() {
+            let displacement = elastic.displacement(class, temperature, &loads.force[class])?;
+            let strains = match displacement.is_empty() {
+                true => Vec::new(),
+                false => elastic.strains(&displacement, temperature),
+            };
+            result.displacement.push(displacement);
+            result.strains.push(strains);
+        }
+        Ok(result)
+    }
+
+    /// Temperature at a point from nodal values [K].
+    pub fn temperature_from(&self, temperatures: &Temperatures, point: [f64; 3]) -> f64 {
+        self.initial_temperature + self.rise_from(temperatures, point)
+    }
+
+    /// Displacement at a point along x, y, z [m].
+    pub fn displacement_at(&self, deformation: &Deformation, point: [f64; 3]) -> [f64; 3] {
+        let (place, image) = self.mesh.locate(point);
+        let weights = self.node_weights(place);
+        let mut total = [0.0; 3];
+        for (parity, field) in self.parities.iter().zip(&deformation.displacement) {
+            match self.mesh.geometry {
+                Geometry::Box => {
+                    let u: [f64; 3] = self.weighted(field, &weights, self.mesh.node_counts());
+                    for i in 0..3 {
+                        total[i] += parity.vector_sign(image, i) * u[i];
+                    }
+                }
+                Geometry::Axisymmetric => {
+                    let [radial, axial]: [f64; 2] =
+                        self.weighted(field, &weights, self.mesh.node_counts());
+                    let r = point[0].hypot(point[1]);
+                    let direction = |x: f64| if r > 0.0 { x / r } else { 0.0 };
+                    total =
+                        [radial * direction(point[0]), radial * direction(point[1]), axial];
+                }
+            }
+        }
+        total
+    }
+
+    /// Recovered stress at a point: xx, yy, zz, xy, yz, xz [Pa].
+    pub fn stress_at(
+        &self,
+        temperatures: &Temperatures,
+        deformation: &Deformation,
+        point: [f64; 3],
+    ) -> [f64; 6] {
+        let (place, image) = self.mesh.locate(point);
+        let weights = self.sample_weights(place);
+        let counts = self.recovery.each_ref().map(Mat::ncols);
+        let mut strain = [0.0; 6];
+        for (parity, field) in self.parities.iter().zip(&deformation.strains) {
+            match self.mesh.geometry {
+                Geometry::Box => {
+                    let e: [f64; 6] = self.weighted(field, &weights, counts);
+                    for i in 0..6 {
+                        strain[i] += parity.tensor_sign(image, i) * e[i];
+                    }
+                }
+                Geometry::Axisymmetric => {
+                    let [rr, tt, zz, rz] = self.weighted(field, &weights, counts);
+                    strain = [rr, tt, zz, 0.0, 0.0, rz];
+                }
+            }
+        }
+        let stress = self.law.stress(strain, self.rise_from(temperatures, point));
+        match self.mesh.geometry {
+            Geometry::Box => stress,
+            Geometry::Axisymmetric => {
+                let [rr, tt, zz, _, _, rz] = stress;
+                from_cylindrical([rr, tt, zz, rz], point[0], point[1])
+            }
+        }
+    }
+
+    /// Highest nodal temperature [K].
+    pub fn max_temperature(&self, temperatures: &Temperatures) -> f64 {
+        let mut highest = f64::NEG_INFINITY;
+        for image in self.images(temperatures) {
+            let rise = self.rise_of_image(temperatures, image);
+            highest = rise.into_iter().fold(highest, f64::max);
+        }
+        self.initial_temperature + highest
+    }
+
+    /// Highest von Mises and largest principal stress over all nodes [Pa].
+    pub fn max_stress(&self, temperatures: &Temperatures, deformation: &Deformation) -> [f64; 2] {
+        let mut highest = [f64::NEG_INFINITY; 2];
+        let nodal = self.nodal_strains(deformation);
+        for image in self.images(&deformation.displacement) {
+            for stress in self.stress_of_image(temperatures, &nodal, image) {
+                highest[0] = highest[0].max(von_mises(stress));
+                highest[1] = highest[1].max(max_principal(stress));
+            }
+        }
+        highest
+    }
+
+    /// Values at all nodes of the whole body.
+    pub fn fields(&self, temperatures: &Temperatures, deformation: &Deformation) -> Fields {
+        let [x, y, z] = &self.mesh.axes;
+        let [mirror_x, mirror_y] = self.mesh.mirrored;
+        let (columns, rows) = (unfold(x, mirror_x), unfold(y, mirror_y));
+        let coordinates = |axis: &Axis, places: &[(usize, bool)]| {
+            let signed = |&(node, image): &(usize, bool)| {
+                if image { -axis.nodes[node] } else { axis.nodes[node] }
+            };
+            places.iter().map(signed).collect::<Vec<f64>>()
+        };
+        let mut fields = Fields {
+            axes: [coordinates(x, &columns), coordinates(y, &rows), z.nodes.clone()],
+            ..Default::default()
+        };
+        let nodal = self.nodal_strains(deformation);
+        let images = [[false, false], [true, false], [false, true], [true, true]];
+        let parts = images.map(|image| {
+            let wanted = (!image[0] || mirror_x) && (!image[1] || mirror_y);
+            wanted.then(|| self.image_fields(temperatures, deformation, &nodal, image))
+        });
+        for k in 0..z.len() {
+            for &(j, image_y) in &rows {
+                for &(i, image_x) in &columns {
+                    let part = &parts[usize::from(image_x) + 2 * usize::from(image_y)];
+                    let Some(part) = part else { continue };
+                    let node = i + x.len() * (j + y.len() * k);
+                    fields.temperature.push(self.initial_temperature + part.temperature[node]);
+                    if !part.stress.is_empty() {
+                        fields.displacement.push(part.displacement[node]);
+                        fields.stress.push(part.stress[node]);
+                    }
+                }
+            }
+        }
+        fields
+    }
+
+    fn image_fields(
+        &self,
+        temperatures: &Temperatures,
+        deformation: &Deformation,
+        nodal_strains: &[Vec<Vec<f64>>],
+        image: [bool; 2],
+    ) -> Fields {
+        let temperature = self.rise_of_image(temperatures, image);
+        let (mut displacement, mut stress) = (Vec::new(), Vec::new());
+        if self.elastic.is_some() {
+            stress = self.stress_of_image(temperatures, nodal_strains, image);
+            displacement = self.displacement_of_image(deformation, image);
+        }
+        Fields { temperature, displacement, stress, ..Default::default() }
+    }
+
+    fn displacement_of_image(&self, deformation: &Deformation, image: [bool; 2]) -> Vec<[f64; 3]> {
+        let mut out = vec![[0.0; 3]; self.mesh.nodes()];
+        // Component along each axis, and the place of that component among a node's values.
+        let components: &[(usize, usize)] = match self.mesh.geometry {
+            Geometry::Box => &[(0, 0), (1, 1), (2, 2)],
+            Geometry::Axisymmetric => &[(0, 0), (2, 1)],
+        };
+        for (parity, field) in self.parities.iter().zip(&deformation.displacement) {
+            for (u, values) in out.iter_mut().zip(field.chunks_exact(components.len())) {
+                for &(axis, at) in components {
+                    u[axis] += parity.vector_sign(image, axis) * values[at];
+                }
+            }
+        }
+        out
+    }
+
+    /// Images that differ: all four only if an odd part is present.
+    fn images(&self, classes: &[Vec<f64>]) -> Vec<[bool; 2]> {
+        let odd = |axis: usize| {
+            let parts = self.parities.iter().zip(classes);
+            parts.into_iter().any(|(p, values)| p.odd[axis] && !values.is_empty())
+        };
+        let choices = |odd: bool| if odd { vec![false, true] } else { vec![false] };
+        let (along_x, along_y) = (choices(odd(0)), choices(odd(1)));
+        along_y.iter().flat_map(|&y| along_x.iter().map(move |&x| [x, y])).collect()
+    }
+
+    fn rise_of_image(&self, temperatures: &Temperatures, image: [bool; 2]) -> Vec<f64> {
+        let mut rise = vec![0.0; self.mesh.nodes()];
+        for (parity, part) in self.parities.iter().zip(temperatures) {
+            let sign = parity.sign(image);
+            for (r, t) in rise.iter_mut().zip(part) {
+                *r += sign * t;
+            }
+        }
+        rise
+    }
+
+    /// Recovered strains at the nodes: class, component, node.
+    fn nodal_strains(&self, deformation: &Deformation) -> Vec<Vec<Vec<f64>>> {
+        let matrices = self.recovery.each_ref();
+        let count = self.elastic.as_ref().map_or(0, ElasticProblem::strain_count);
+        let recover = |strains: &Strains| {
+            if strains.is_empty() {
+                return Vec::new();
+            }
+            (0..count)
+                .map(|c| {
+                    let component: Vec<f64> =
+                        strains.iter().skip(c).step_by(count).copied().collect();
+                    transform(&component, matrices, Side::Direct)
+                })
+                .collect()
+        };
+        deformation.strains.iter().map(recover).collect()
+    }
+
+    fn stress_of_image(
+        &self,
+        temperatures: &Temperatures,
+        nodal_strains: &[Vec<Vec<f64>>],
+        image: [bool; 2],
+    ) -> Vec<[f64; 6]> {
+        let rise = self.rise_of_image(temperatures, image);
+        let mut strain = vec![[0.0; 6]; rise.len()];
+        // Where each stored component stands among xx, yy, zz, xy, yz, xz.
+        let slots: &[usize] = match self.mesh.geometry {
+            Geometry::Box => &[0, 1, 2, 3, 4, 5],
+            Geometry::Axisymmetric => &[0, 1, 2, 5],
+        };
+        for (parity, components) in self.parities.iter().zip(nodal_strains) {
+            for (component, &slot) in components.iter().zip(slots) {
+                let sign = parity.tensor_sign(image, slot);
+                for (e, value) in strain.iter_mut().zip(component) {
+                    e[slot] += sign * value;
+                }
+            }
+        }
+        strain.into_iter().zip(rise).map(|(e, rise)| self.law.stress(e, rise)).collect()
+    }
+
+    fn rise_from(&self, temperatures: &Temperatures, point: [f64; 3]) -> f64 {
+        let (place, image) = self.mesh.locate(point);
+        let weights = self.node_weights(place);
+        let value = |field: &Vec<f64>| {
+            let [value]: [f64; 1] = self.weighted(field, &weights, self.mesh.node_counts());
+            value
+        };
+        let parts = self.parities.iter().zip(temperatures);
+        parts.map(|(parity, field)| parity.sign(image) * value(field)).sum()
+    }
+
+    fn node_weights(&self, place: [f64; 3]) -> [Weights; 3] {
+        [0, 1, 2].map(|a| {
+            let shape = self.mesh.axes[a].shape_at(place[a]);
+            Weights { first: shape.first, values: shape.values[..shape.count].to_vec() }
+        })
+    }
+
+    /// Weights of the strain sampling points: recovery to the nodes around, then shape functions.
+    fn sample_weights(&self, place: [f64; 3]) -> [Weights; 3] {
+        [0, 1, 2].map(|a| {
+            let shape = self.mesh.axes[a].shape_at(place[a]);
+            let matrix = &self.recovery[a];
+            let mut all = vec![0.0; matrix.ncols()];
+            for (i, value) in shape.values[..shape.count].iter().enumerate() {
+                for (j, weight) in all.iter_mut().enumerate() {
+                    *weight += value * matrix[(shape.first + i, j)];
+                }
+            }
+            let first = all.iter().position(|&w| w != 0.0).unwrap_or(0);
+            let last = all.iter().rposition(|&w| w != 0.0).unwrap_or(0);
+            Weights { first, values: all[first..=last].to_vec() }
+        })
+    }
+
+    /// Weighted sum of `N` values a point of a grid; zero for an empty field.
+    fn weighted<const N: usize>(
+        &self,
+        field: &[f64],
+        [x, y, z]: &[Weights; 3],
+        counts: [usize; 3],
+    ) -> [f64; N] {
+        let mut sum = [0.0; N];
+        if field.is_empty() {
+            return sum;
+        }
+        for (c, wz) in z.values.iter().enumerate() {
+            for (b, wy) in y.values.iter().enumerate() {
+                let row = counts[0] * (y.first + b + counts[1] * (z.first + c)) + x.first;
+                for (a, wx) in x.values.iter().enumerate() {
+                    let w = wx * wy * wz;
+                    for (s, v) in sum.iter_mut().zip(&field[N * (row + a)..][..N]) {
+                        *s += w * v;
+                    }
+                }
+            }
+        }
+        sum
+    }
+}
+
+/// Nodes of an axis over the whole body, `(node, is it the image)`, coordinates ascending.
+fn unfold(axis: &Axis, mirrored: bool) -> Vec<(usize, bool)> {
+    let own = (0..axis.len()).map(|i| (i, false));
+    if !mirrored {
+        return own.collect();
+    }
+    (1..axis.len()).rev().map(|i| (i, true)).chain(own).collect()
+}

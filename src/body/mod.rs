@@ -1,0 +1,3 @@
+//! Bodies: one discretisation a folder.
+
+pub mod fem;

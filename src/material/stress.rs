@@ -1,0 +1,70 @@
+//! Measures of a stress state, given as xx, yy, zz, xy, yz, xz [Pa].
+
+
+/// Von Mises stress `√(3 J₂)` [Pa] (R. von Mises 1913).
+pub fn von_mises([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> f64 {
+    let normal = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
+    (0.5 * normal + 3.0 * (xy * xy + yz * yz + xz * xz)).sqrt()
+}
+
+/// Largest principal stress [Pa], tension positive: the trigonometric solution of the
+/// characteristic cubic (O. K. Smith 1961, doi 10.1145/355578.366316).
+pub fn max_principal([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> f64 {
+    let mean = (xx + yy + zz) / 3.0;
+    let (a, b, c) = (xx - mean, yy - mean, zz - mean);
+    let spread = ((a * a + b * b + c * c + 2.0 * (xy * xy + yz * yz + xz * xz)) / 6.0).sqrt();
+    if spread == 0.0 {
+        return mean;
+    }
+    let determinant =
+        a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
+    let ratio = (determinant / (2.0 * spread.powi(3))).clamp(-1.0, 1.0);
+    mean + 2.0 * spread * (ratio.acos() / 3.0).cos()
+}
+
+/// Turns a stress in cylindrical components rr, tt, zz, rz at the angle of `(x, y)` into Cartesian
+/// ones.
+pub fn from_cylindrical([rr, tt, zz, rz]: [f64; 4], x: f64, y: f64) -> [f64; 6] {
+    let r = x.hypot(y);
+    let (c, s) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
+    [
+        rr * c * c + tt * s * s,
+        rr * s * s + tt * c * c,
+        zz,
+        (rr - tt) * s * c,
+        rz * s,
+        rz * c,
+    ]
+}
+
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uniaxial_and_hydrostatic_states_have_their_textbook_values() {
+        assert!((von_mises([5.0, 0.0, 0.0, 0.0, 0.0, 0.0]) - 5.0).abs() < 1e-15);
+        assert_eq!(von_mises([-3.0, -3.0, -3.0, 0.0, 0.0, 0.0]), 0.0);
+        assert!((max_principal([-5.0, 0.0, 0.0, 0.0, 0.0, 0.0])).abs() < 1e-14);
+        assert!((max_principal([0.0, 0.0, 0.0, 2.0, 0.0, 0.0]) - 2.0).abs() < 1e-14);
+        assert_eq!(max_principal([-3.0, -3.0, -3.0, 0.0, 0.0, 0.0]), -3.0);
+    }
+
+    #[test]
+    fn the_largest_principal_stress_is_an_eigenvalue() {
+        let s = [3.0, -1.0, 2.0, 0.7, -0.4, 1.1];
+        let m = nalgebra::Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
+        let largest = m.symmetric_eigenvalues().max();
+        assert!((max_principal(s) - largest).abs() < 1e-13);
+    }
+
+    #[test]
+    fn turning_the_axes_keeps_the_von_mises_stress() {
+        let cylinder = [4.0, -2.0, 1.0, 0.5];
+        let along_x = from_cylindrical(cylinder, 1.0, 0.0);
+        assert_eq!(along_x, [4.0, -2.0, 1.0, 0.0, 0.0, 0.5]);
+        let turned = from_cylindrical(cylinder, 0.5, 0.75_f64.sqrt());
+        assert!((von_mises(turned) - von_mises(along_x)).abs() < 1e-13);
+    }
+}

@@ -1,0 +1,138 @@
+//! Sparse Cholesky factorisation of a symmetric positive definite matrix, by faer.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::perm::PermRef;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Conj, MatMut, Par, Side};
+
+/// Lower triangle of a symmetric matrix by columns, rows ascending, diagonal first.
+#[derive(Debug, Clone, Default)]
+pub struct LowerTriangle {
+    pub column_start: Vec<usize>,
+    pub rows: Vec<usize>,
+    pub values: Vec<f64>,
+}
+
+/// `P A Pᵀ = L Lᵀ`, kept for any number of solutions.
+pub struct SparseCholesky {
+    symbolic: SymbolicCholesky<usize>,
+    values: Vec<f64>,
+}
+
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CholeskyError {
+    #[error("the matrix of {unknowns} unknowns is not positive definite")]
+    NotPositiveDefinite { unknowns: usize },
+    #[error("the factorisation of {unknowns} unknowns does not fit into memory")]
+    OutOfMemory { unknowns: usize },
+}
+
+impl SparseCholesky {
+    /// Factors `matrix`, eliminating unknowns in the given order (`order[k]` is eliminated k-th).
+    ///
+    /// The numerical work is sequential, so that the result does not depend on the machine.
+    pub fn factor(matrix: &LowerTriangle, order: &[usize]) -> Result<Self, CholeskyError> {
+        let unknowns = order.len();
+        let mut place = vec![0; unknowns];
+        for (k, &i) in order.iter().enumerate() {
+            place[i] = k;
+        }
+        let permutation = PermRef::new_checked(order, &place, unknowns);
+        let pattern = SymbolicSparseColMatRef::new_checked(
+            unknowns,
+            unknowns,
+            &matrix.column_start,
+            None,
+            &matrix.rows,
+        );
+        let memory = |_| CholeskyError::OutOfMemory { unknowns };
+        let symbolic = factorize_symbolic_cholesky(
+            pattern,
+            Side::Lower,
+            SymmetricOrdering::Custom(permutation),
+            CholeskySymbolicParams::default(),
+        )
+        .map_err(memory)?;
+
+        let mut values = Vec::new();
+        values.try_reserve_exact(symbolic.len_val()).map_err(|_| CholeskyError::OutOfMemory { unknowns })?;
+        values.resize(symbolic.len_val(), 0.0);
+        let need = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+        let mut buffer = MemBuffer::try_new(need).map_err(|_| CholeskyError::OutOfMemory { unknowns })?;
+        symbolic
+            .factorize_numeric_llt(
+                &mut values,
+                SparseColMatRef::new(pattern, &matrix.values),
+                Side::Lower,
+                Default::default(),
+                Par::Seq,
+                MemStack::new(&mut buffer),
+                Default::default(),
+            )
+            .map_err(|_| CholeskyError::NotPositiveDefinite { unknowns })?;
+        Ok(Self { symbolic, values })
+    }
+
+    /// Replaces `b` by the solution of `A x = b`; `b` may hold several columns, one after another.
+    pub fn solve_in_place(&self, b: &mut [f64]) {
+        let unknowns = self.symbolic.nrows();
+        if unknowns == 0 {
+            return;
+        }
+        let columns = b.len() / unknowns;
+        let need = self.symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq);
+        let mut buffer = MemBuffer::new(need);
+        LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(b, unknowns, columns),
+            Par::Seq,
+            MemStack::new(&mut buffer),
+        );
+    }
+
+    /// Number of stored entries of L.
+    pub fn entries(&self) -> usize {
+        self.values.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solves_the_second_difference_in_any_order() {
+        let n = 7;
+        let mut matrix = LowerTriangle::default();
+        for j in 0..n {
+            matrix.column_start.push(matrix.rows.len());
+            matrix.rows.push(j);
+            matrix.values.push(2.0);
+            if j + 1 < n {
+                matrix.rows.push(j + 1);
+                matrix.values.push(-1.0);
+            }
+        }
+        matrix.column_start.push(matrix.rows.len());
+        let factor = SparseCholesky::factor(&matrix, &[0, 2, 4, 6, 1, 5, 3]).unwrap();
+        let exact: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
+        let at = |i: isize| exact.get(i as usize).copied().unwrap_or(0.0);
+        let mut b: Vec<f64> =
+            (0..n as isize).map(|i| 2.0 * at(i) - at(i - 1) - at(i + 1)).collect();
+        factor.solve_in_place(&mut b);
+        for (x, e) in b.iter().zip(&exact) {
+            assert!((x - e).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn refuses_an_indefinite_matrix() {
+        let matrix =
+            LowerTriangle { column_start: vec![0, 1], rows: vec![0], values: vec![-1.0] };
+        assert!(SparseCholesky::factor(&matrix, &[0]).is_err());
+    }
+}

@@ -1,0 +1,8 @@
+//! Numerics without physics: quadrature, shape functions, separable transforms, sparse solvers.
+
+pub mod cholesky;
+pub mod gauss;
+pub mod lagrange;
+pub mod nested_dissection;
+pub mod separable;
+pub mod stencil_matrix;

@@ -1,0 +1,110 @@
+use std::ops::Range;
+
+use crate::scene::{Body, Carries, CellShape, FaceName, Footprint, Scene, Shape};
+
+/// Where each input of a scene stands in [`crate::model::State::inputs`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct InputLayout {
+    /// In the order of the scene's loads.
+    pub loads: Vec<LoadInputs>,
+    pub faces: Vec<FaceInput>,
+    /// Number of inputs.
+    pub len: usize,
+}
+
+/// Places of a load's inputs; a range holds a value for each cell, the first index running slowest.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct LoadInputs {
+    pub heat_flux: Option<Range<usize>>,
+    pub pressure: Option<Range<usize>>,
+    pub shear_x: Option<Range<usize>>,
+    pub shear_y: Option<Range<usize>>,
+    pub shear_r: Option<Range<usize>>,
+    pub x: Option<usize>,
+    pub y: Option<usize>,
+    pub radius: Option<usize>,
+}
+
+/// The input that a face's thermal condition offers.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FaceInput {
+    pub body: String,
+    pub face: FaceName,
+    pub kind: FaceInputKind,
+    pub index: usize,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FaceInputKind {
+    Temperature,
+    Ambient,
+    Flux,
+}
+
+impl InputLayout {
+    pub fn of(scene: &Scene) -> Self {
+        let mut next = 0;
+        let loads = scene.load.iter().map(|load| {
+            let round_body = matches!(
+                scene.body.get(load.body_and_face().0),
+                Some(Body::Solid(solid)) if matches!(solid.shape, Shape::Disc(_))
+            );
+            load_inputs(&load.footprint, &load.carries, round_body, &mut next)
+        });
+        let loads = loads.collect();
+        let faces = face_inputs(scene, &mut next);
+        Self { loads, faces, len: next }
+    }
+}
+
+fn load_inputs(
+    footprint: &Footprint,
+    carries: &[Carries],
+    round_body: bool,
+    next: &mut usize,
+) -> LoadInputs {
+    let cells = match footprint.cells() {
+        None => 1,
+        Some(CellShape::Rings(count)) => count,
+        Some(CellShape::Tiles([nx, ny])) => nx * ny,
+    };
+    let radial = matches!(footprint, Footprint::Rings { .. });
+    let mut take = |wanted: bool, count: usize| {
+        wanted.then(|| {
+            let range = *next..*next + count;
+            *next = range.end;
+            range
+        })
+    };
+    let shear = carries.contains(&Carries::Shear);
+    LoadInputs {
+        heat_flux: take(carries.contains(&Carries::HeatFlux), cells),
+        pressure: take(carries.contains(&Carries::Pressure), cells),
+        shear_x: take(shear && !radial, cells),
+        shear_y: take(shear && !radial, cells),
+        shear_r: take(shear && radial, cells),
+        x: take(!round_body, 1).map(|range| range.start),
+        y: take(!round_body, 1).map(|range| range.start),
+        radius: take(footprint.radius().is_some(), 1).map(|range| range.start),
+    }
+}
+
+fn face_inputs(scene: &Scene, next: &mut usize) -> Vec<FaceInput> {
+    let mut inputs = Vec::new();
+    for (body, Body::Solid(solid)) in &scene.body {
+        for (&face, condition) in &solid.faces {
+            let kind = if condition.temperature.is_some() {
+                FaceInputKind::Temperature
+            } else if condition.convection.is_some() {
+                FaceInputKind::Ambient
+            } else if condition.flux.is_some() {
+                FaceInputKind::Flux
+            } else {
+                continue;
+            };
+            inputs.push(FaceInput { body: body.clone(), face, kind, index: *next });
+            *next += 1;
+        }
+    }
+    inputs
+}

@@ -1,0 +1,12 @@
+//! The registry: every variable of a unit once, with name, unit, causality, start value and what it
+//! stands for. XML, get and set, CSV headers and documentation are all made from it.
+
+mod layout;
+mod parameter;
+mod quantity;
+mod registry;
+
+pub use layout::{FaceInput, FaceInputKind, InputLayout, LoadInputs};
+pub use parameter::{MaterialConstant, Parameter};
+pub use quantity::{DisplayUnit, Quantity};
+pub use registry::{BodyTotal, Causality, Component, Output, Registry, Slot, Value, Variable};

@@ -1,0 +1,136 @@
+/// A physical quantity: what its values are measured in, and how people like to read them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Quantity {
+    Temperature,
+    HeatFlux,
+    Stress,
+    Length,
+    Displacement,
+    Energy,
+    Density,
+    SpecificHeat,
+    Conductivity,
+    Modulus,
+    Ratio,
+    Expansion,
+    HeatTransferCoefficient,
+}
+
+/// A unit for display: `display value = factor · SI value + offset`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DisplayUnit {
+    pub name: &'static str,
+    pub factor: f64,
+    pub offset: f64,
+}
+
+const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
+    Some(DisplayUnit { name, factor, offset: 0.0 })
+}
+
+impl Quantity {
+    pub const ALL: [Quantity; 13] = [
+        Quantity::Temperature,
+        Quantity::HeatFlux,
+        Quantity::Stress,
+        Quantity::Length,
+        Quantity::Displacement,
+        Quantity::Energy,
+        Quantity::Density,
+        Quantity::SpecificHeat,
+        Quantity::Conductivity,
+        Quantity::Modulus,
+        Quantity::Ratio,
+        Quantity::Expansion,
+        Quantity::HeatTransferCoefficient,
+    ];
+
+    /// Name of the FMI type.
+    pub fn type_name(self) -> &'static str {
+        match self {
+            Quantity::Temperature => "Temperature",
+            Quantity::HeatFlux => "HeatFlux",
+            Quantity::Stress => "Stress",
+            Quantity::Length => "Length",
+            Quantity::Displacement => "Displacement",
+            Quantity::Energy => "Energy",
+            Quantity::Density => "Density",
+            Quantity::SpecificHeat => "SpecificHeat",
+            Quantity::Conductivity => "ThermalConductivity",
+            Quantity::Modulus => "ElasticModulus",
+            Quantity::Ratio => "Ratio",
+            Quantity::Expansion => "ThermalExpansion",
+            Quantity::HeatTransferCoefficient => "HeatTransferCoefficient",
+        }
+    }
+
+    /// The SI unit that values travel in.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Quantity::Temperature => "K",
+            Quantity::HeatFlux => "W/m2",
+            Quantity::Stress | Quantity::Modulus => "Pa",
+            Quantity::Length | Quantity::Displacement => "m",
+            Quantity::Energy => "J",
+            Quantity::Density => "kg/m3",
+            Quantity::SpecificHeat => "J/(kg.K)",
+            Quantity::Conductivity => "W/(m.K)",
+            Quantity::Ratio => "1",
+            Quantity::Expansion => "1/K",
+            Quantity::HeatTransferCoefficient => "W/(m2.K)",
+        }
+    }
+
+    /// Exponents of kg, m, s and K.
+    pub fn base_exponents(self) -> [i32; 4] {
+        match self {
+            Quantity::Temperature => [0, 0, 0, 1],
+            Quantity::HeatFlux => [1, 0, -3, 0],
+            Quantity::Stress | Quantity::Modulus => [1, -1, -2, 0],
+            Quantity::Length | Quantity::Displacement => [0, 1, 0, 0],
+            Quantity::Energy => [1, 2, -2, 0],
+            Quantity::Density => [1, -3, 0, 0],
+            Quantity::SpecificHeat => [0, 2, -2, -1],
+            Quantity::Conductivity => [1, 1, -3, -1],
+            Quantity::Ratio => [0, 0, 0, 0],
+            Quantity::Expansion => [0, 0, 0, -1],
+            Quantity::HeatTransferCoefficient => [1, 0, -3, -1],
+        }
+    }
+
+    /// The unit that a tool shows, where it differs from the SI unit.
+    pub fn display_unit(self) -> Option<DisplayUnit> {
+        match self {
+            Quantity::Temperature => {
+                Some(DisplayUnit { name: "degC", factor: 1.0, offset: -273.15 })
+            }
+            Quantity::HeatFlux => scaled("MW/m2", 1e-6),
+            Quantity::Stress => scaled("MPa", 1e-6),
+            Quantity::Modulus => scaled("GPa", 1e-9),
+            Quantity::Length => scaled("µm", 1e6),
+            Quantity::Displacement => scaled("nm", 1e9),
+            Quantity::Energy => scaled("µJ", 1e6),
+            Quantity::Expansion => scaled("1e-6/K", 1e6),
+            _ => None,
+        }
+    }
+
+    /// Magnitude of ordinary values, for tools that scale tolerances.
+    pub fn nominal(self) -> f64 {
+        match self {
+            Quantity::Temperature => 300.0,
+            Quantity::HeatFlux => 1e6,
+            Quantity::Stress => 1e6,
+            Quantity::Modulus => 1e11,
+            Quantity::Length => 1e-5,
+            Quantity::Displacement => 1e-9,
+            Quantity::Energy => 1e-6,
+            Quantity::Density => 1e3,
+            Quantity::SpecificHeat => 1e3,
+            Quantity::Conductivity => 10.0,
+            Quantity::Ratio => 1.0,
+            Quantity::Expansion => 1e-5,
+            Quantity::HeatTransferCoefficient => 10.0,
+        }
+    }
+}
