@@ -3,15 +3,30 @@
 //!
 //! | family | solutions |
 //! |---|---|
+//! | [`half_space_flux`] | half space under uniform flux, flux on a disc, flux `C/√t` |
+//! | [`half_space_surface`] | half space with sudden surface temperature, or sudden convection |
+//! | [`gaussian_flux`] | half space under a Gaussian flux, at rest or moving |
+//! | [`contact`] | two half spaces brought together |
+//! | [`slab`] | slab under flux, its back insulated, held or convective |
 //!
 //! [`medium`] holds the constants they share, [`special`] the special functions and
 //! [`quadrature`] the integrals that no closed form is known for.
 
+pub mod contact;
+pub mod gaussian_flux;
+pub mod half_space_flux;
+pub mod half_space_surface;
 pub mod medium;
 pub mod quadrature;
+pub mod slab;
 pub mod special;
 
 #[cfg(test)]
 mod checks;
 
+pub use contact::Contact;
+pub use gaussian_flux::GaussianFlux;
+pub use half_space_flux::{DecayingFlux, DiscFlux, UniformFlux};
+pub use half_space_surface::{ConvectiveSurface, SuddenSurface};
 pub use medium::{Conductor, Elastic};
+pub use slab::HeatedSlab;
