@@ -8,25 +8,39 @@
 //! | [`gaussian_flux`] | half space under a Gaussian flux, at rest or moving |
 //! | [`contact`] | two half spaces brought together |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
+//! | [`constrained_layer`] | step heating of a laterally constrained surface |
+//! | [`free_plate`] | free plate, temperature through the thickness |
+//! | [`heated_disc`] | thin free disc and long free cylinder, temperature along the radius |
+//! | [`disc_pressure`] | half space under uniform pressure on a disc |
+//! | [`thick_cylinder`] | thick cylinder under internal pressure, plane strain |
 //!
 //! [`medium`] holds the constants they share, [`special`] the special functions and
 //! [`quadrature`] the integrals that no closed form is known for.
 
+pub mod constrained_layer;
 pub mod contact;
+pub mod disc_pressure;
+pub mod free_plate;
 pub mod gaussian_flux;
 pub mod half_space_flux;
 pub mod half_space_surface;
+pub mod heated_disc;
 pub mod medium;
 pub mod quadrature;
 pub mod slab;
 pub mod special;
+pub mod thick_cylinder;
 
 #[cfg(test)]
 mod checks;
 
 pub use contact::Contact;
+pub use disc_pressure::DiscPressure;
+pub use free_plate::FreePlate;
 pub use gaussian_flux::GaussianFlux;
 pub use half_space_flux::{DecayingFlux, DiscFlux, UniformFlux};
 pub use half_space_surface::{ConvectiveSurface, SuddenSurface};
+pub use heated_disc::{LongCylinder, ThinDisc};
 pub use medium::{Conductor, Elastic};
 pub use slab::HeatedSlab;
+pub use thick_cylinder::ThickCylinder;
