@@ -13,10 +13,14 @@
 //! | [`heated_disc`] | thin free disc and long free cylinder, temperature along the radius |
 //! | [`disc_pressure`] | half space under uniform pressure on a disc |
 //! | [`thick_cylinder`] | thick cylinder under internal pressure, plane strain |
+//! | [`circular_plate`], [`square_plate`] | clamped plates under uniform pressure |
+//! | [`cantilever`] | beam under an end load, with shear |
 //!
 //! [`medium`] holds the constants they share, [`special`] the special functions and
 //! [`quadrature`] the integrals that no closed form is known for.
 
+pub mod cantilever;
+pub mod circular_plate;
 pub mod constrained_layer;
 pub mod contact;
 pub mod disc_pressure;
@@ -29,11 +33,14 @@ pub mod medium;
 pub mod quadrature;
 pub mod slab;
 pub mod special;
+pub mod square_plate;
 pub mod thick_cylinder;
 
 #[cfg(test)]
 mod checks;
 
+pub use cantilever::Cantilever;
+pub use circular_plate::CircularPlate;
 pub use contact::Contact;
 pub use disc_pressure::DiscPressure;
 pub use free_plate::FreePlate;
@@ -43,4 +50,5 @@ pub use half_space_surface::{ConvectiveSurface, SuddenSurface};
 pub use heated_disc::{LongCylinder, ThinDisc};
 pub use medium::{Conductor, Elastic};
 pub use slab::HeatedSlab;
+pub use square_plate::SquarePlate;
 pub use thick_cylinder::ThickCylinder;
