@@ -1,1 +1,54 @@
-//! Closed-form solutions that models are verified against, one family a file.
+//! Closed-form solutions that tests, benches and examples verify the models against, one family a
+//! file. SI units; stress is positive in tension; depth `z` is positive into the body.
+//!
+//! | family | solutions |
+//! |---|---|
+//! | [`half_space_flux`] | half space under uniform flux, flux on a disc, flux `C/√t` |
+//! | [`half_space_surface`] | half space with sudden surface temperature, or sudden convection |
+//! | [`gaussian_flux`] | half space under a Gaussian flux, at rest or moving |
+//! | [`contact`] | two half spaces brought together |
+//! | [`slab`] | slab under flux, its back insulated, held or convective |
+//! | [`constrained_layer`] | step heating of a laterally constrained surface |
+//! | [`free_plate`] | free plate, temperature through the thickness |
+//! | [`heated_disc`] | thin free disc and long free cylinder, temperature along the radius |
+//! | [`disc_pressure`] | half space under uniform pressure on a disc |
+//! | [`thick_cylinder`] | thick cylinder under internal pressure, plane strain |
+//! | [`circular_plate`], [`square_plate`] | clamped plates under uniform pressure |
+//! | [`cantilever`] | beam under an end load, with shear |
+//!
+//! [`medium`] holds the constants they share, [`special`] the special functions and
+//! [`quadrature`] the integrals that no closed form is known for.
+
+pub mod cantilever;
+pub mod circular_plate;
+pub mod constrained_layer;
+pub mod contact;
+pub mod disc_pressure;
+pub mod free_plate;
+pub mod gaussian_flux;
+pub mod half_space_flux;
+pub mod half_space_surface;
+pub mod heated_disc;
+pub mod medium;
+pub mod quadrature;
+pub mod slab;
+pub mod special;
+pub mod square_plate;
+pub mod thick_cylinder;
+
+#[cfg(test)]
+mod checks;
+
+pub use cantilever::Cantilever;
+pub use circular_plate::CircularPlate;
+pub use contact::Contact;
+pub use disc_pressure::DiscPressure;
+pub use free_plate::FreePlate;
+pub use gaussian_flux::GaussianFlux;
+pub use half_space_flux::{DecayingFlux, DiscFlux, UniformFlux};
+pub use half_space_surface::{ConvectiveSurface, SuddenSurface};
+pub use heated_disc::{LongCylinder, ThinDisc};
+pub use medium::{Conductor, Elastic};
+pub use slab::HeatedSlab;
+pub use square_plate::SquarePlate;
+pub use thick_cylinder::ThickCylinder;
