@@ -4,8 +4,12 @@
 //! [`model::State`] → step → variables → FMI, command line or files. A module uses only the
 //! modules listed above it here; a test holds that order.
 
+
 pub mod closed_form;
 pub mod math;
 pub mod material;
 pub mod scene;
 pub mod variables;
+pub mod body;
+pub mod coupling;
+pub mod model;

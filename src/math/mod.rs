@@ -4,5 +4,6 @@ pub mod cholesky;
 pub mod gauss;
 pub mod lagrange;
 pub mod nested_dissection;
+pub mod parallel;
 pub mod separable;
 pub mod stencil_matrix;

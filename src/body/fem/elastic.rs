@@ -2,8 +2,7 @@
 
 use std::sync::OnceLock;
 
-use rayon::prelude::*;
-
+use super::axis::ShapeAt;
 use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
 use super::hexahedron::HexahedronMatrices;
 use super::mesh::{Geometry, Mesh, MeshFace, Parity};
@@ -11,6 +10,7 @@ use super::recovery::sampling_places;
 use crate::material::Thermoelastic;
 use crate::math::cholesky::{CholeskyError, LowerTriangle, SparseCholesky};
 use crate::math::nested_dissection::nested_dissection;
+use crate::math::parallel;
 use crate::math::stencil_matrix::{Reach, StencilMatrix};
 
 /// Mechanical condition on an end of an axis; free where nothing is said.
@@ -28,6 +28,7 @@ pub enum Support {
 pub struct ElasticProblem {
     mesh: Mesh,
     law: Thermoelastic,
+    threads: usize,
     supports: Vec<(MeshFace, Support)>,
     /// Nodal force per nodal degree.
     thermal: StencilMatrix,
@@ -45,10 +46,15 @@ struct Factor {
 pub type Strains = Vec<f64>;
 
 impl ElasticProblem {
-    pub fn new(mesh: &Mesh, law: &Thermoelastic, supports: Vec<(MeshFace, Support)>) -> Self {
-        let thermal = assemble(mesh, law, [degrees(mesh.geometry), 1], Part::Thermal);
+    pub fn new(
+        mesh: &Mesh,
+        law: &Thermoelastic,
+        supports: Vec<(MeshFace, Support)>,
+        threads: usize,
+    ) -> Self {
+        let thermal = assemble(mesh, law, [degrees(mesh.geometry), 1], Part::Thermal, threads);
         let classes = mesh.parities().into_iter().map(|p| (p, OnceLock::new())).collect();
-        Self { mesh: mesh.clone(), law: law.clone(), supports, thermal, classes }
+        Self { mesh: mesh.clone(), law: law.clone(), threads, supports, thermal, classes }
     }
 
     /// Displacements a node: 3 in a box, 2 (r, z) in axisymmetry.
@@ -123,7 +129,7 @@ impl ElasticProblem {
 
     fn make_factor(&self, parity: Parity) -> Result<Factor, CholeskyError> {
         let degrees = self.degrees();
-        let stiffness = assemble(&self.mesh, &self.law, [degrees; 2], Part::Stiffness);
+        let stiffness = assemble(&self.mesh, &self.law, [degrees; 2], Part::Stiffness, self.threads);
         let held = self.held(parity);
         let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
         let mut number = vec![usize::MAX; held.len()];
@@ -186,44 +192,17 @@ impl ElasticProblem {
             shapes.map(|(element, x)| axis.shape_in(element, x)).collect::<Vec<_>>()
         });
         let counts = self.mesh.node_counts();
-        let plane = places[0].len() * places[1].len();
-        let mut out = vec![0.0; plane * places[2].len() * 6];
-        out.par_chunks_exact_mut(6 * plane).zip(&places[2]).for_each(|(slab, z)| {
-            let mut targets = slab.chunks_exact_mut(6);
+        let slabs = parallel::map(self.threads, places[2].len(), |k| {
+            let z = &places[2][k];
+            let mut slab = Vec::with_capacity(places[0].len() * places[1].len() * 6);
             for y in &places[1] {
                 for x in &places[0] {
-                    let Some(target) = targets.next() else { return };
-                    let mut g = [[0.0; 3]; 3];
-                    for c in 0..z.count {
-                        for b in 0..y.count {
-                            let row = counts[0] * (y.first + b + counts[1] * (z.first + c));
-                            for a in 0..x.count {
-                                let n = [
-                                    x.slopes[a] * y.values[b] * z.values[c],
-                                    x.values[a] * y.slopes[b] * z.values[c],
-                                    x.values[a] * y.values[b] * z.slopes[c],
-                                ];
-                                let u = &displacement[3 * (row + x.first + a)..][..3];
-                                for i in 0..3 {
-                                    for j in 0..3 {
-                                        g[i][j] += u[i] * n[j];
-                                    }
-                                }
-                            }
-                        }
-                    }
-                    target.copy_from_slice(&[
-                        g[0][0],
-                        g[1][1],
-                        g[2][2],
-                        g[0][1] + g[1][0],
-                        g[1][2] + g[2][1],
-                        g[0][2] + g[2][0],
-                    ]);
+                    slab.extend(strain_at([x, y, z], counts, displacement));
                 }
             }
+            slab
         });
-        out
+        slabs.concat()
     }
 
     fn ring_strains(&self, displacement: &[f64], temperature: &[f64]) -> Strains {
@@ -267,6 +246,37 @@ impl ElasticProblem {
     }
 }
 
+/// Strain xx, yy, zz, xy, yz, xz at a point with the given shape functions along the axes.
+fn strain_at([x, y, z]: [&ShapeAt; 3], counts: [usize; 3], displacement: &[f64]) -> [f64; 6] {
+    let mut g = [[0.0; 3]; 3];
+    for c in 0..z.count {
+        for b in 0..y.count {
+            let row = counts[0] * (y.first + b + counts[1] * (z.first + c));
+            for a in 0..x.count {
+                let n = [
+                    x.slopes[a] * y.values[b] * z.values[c],
+                    x.values[a] * y.slopes[b] * z.values[c],
+                    x.values[a] * y.values[b] * z.slopes[c],
+                ];
+                let u = &displacement[3 * (row + x.first + a)..][..3];
+                for i in 0..3 {
+                    for j in 0..3 {
+                        g[i][j] += u[i] * n[j];
+                    }
+                }
+            }
+        }
+    }
+    [
+        g[0][0],
+        g[1][1],
+        g[2][2],
+        g[0][1] + g[1][0],
+        g[1][2] + g[2][1],
+        g[0][2] + g[2][0],
+    ]
+}
+
 /// Local coordinate of `x` in `[a, b]`.
 fn local([a, b]: [f64; 2], x: f64) -> f64 {
     (2.0 * x - a - b) / (b - a)
@@ -285,20 +295,32 @@ enum Part {
     Thermal,
 }
 
-fn assemble(mesh: &Mesh, law: &Thermoelastic, block: [usize; 2], part: Part) -> StencilMatrix {
+fn assemble(
+    mesh: &Mesh,
+    law: &Thermoelastic,
+    block: [usize; 2],
+    part: Part,
+    threads: usize,
+) -> StencilMatrix {
     let reach = mesh.axes.each_ref().map(|axis| match axis.elements() {
         0 => Reach { first: vec![0], last: vec![0] },
         n => Reach::of_elements(n, axis.order),
     });
     let mut matrix = StencilMatrix::zeros(reach, block);
     match mesh.geometry {
-        Geometry::Box => assemble_box(mesh, law, part, &mut matrix),
+        Geometry::Box => assemble_box(mesh, law, part, threads, &mut matrix),
         Geometry::Axisymmetric => assemble_rings(mesh, law, part, &mut matrix),
     }
     matrix
 }
 
-fn assemble_box(mesh: &Mesh, law: &Thermoelastic, part: Part, matrix: &mut StencilMatrix) {
+fn assemble_box(
+    mesh: &Mesh,
+    law: &Thermoelastic,
+    part: Part,
+    threads: usize,
+    matrix: &mut StencilMatrix,
+) {
     let [nx, ny, nz] = mesh.element_counts();
     let order = mesh.order();
     let length = |axis: usize, e: usize| {
@@ -308,13 +330,10 @@ fn assemble_box(mesh: &Mesh, law: &Thermoelastic, part: Part, matrix: &mut Stenc
     let n = order + 1;
     for ez in 0..nz {
         // A slab of element matrices at a time: computed in parallel, added in fixed order.
-        let slab: Vec<HexahedronMatrices> = (0..nx * ny)
-            .into_par_iter()
-            .map(|e| {
-                let size = [length(0, e % nx), length(1, e / nx), length(2, ez)];
-                HexahedronMatrices::new(order, size, law)
-            })
-            .collect();
+        let slab = parallel::map(threads, nx * ny, |e| {
+            let size = [length(0, e % nx), length(1, e / nx), length(2, ez)];
+            HexahedronMatrices::new(order, size, law)
+        });
         for (e, element) in slab.iter().enumerate() {
             let node = |a: usize| {
                 [

@@ -105,15 +105,6 @@ impl HeatProblem {
         self.classes.iter().map(HeatClass::len).sum::<usize>() + self.faces.len() + 2
     }
 
-    /// Number of modes, all classes together.
-    pub fn unknowns(&self) -> usize {
-        self.classes[0].len()
-    }
-
-    pub fn faces(&self) -> &[(MeshFace, ThermalFace)] {
-        &self.faces
-    }
-
     /// Advances `state` by `dt` [s] under loads held constant.
     pub fn advance(&self, state: &mut [f64], loads: &HeatLoads, dt: f64) {
         let (contents, tail) = self.split_mut(state);

@@ -68,8 +68,8 @@ struct Weights {
 }
 
 impl SolidFem {
-    /// Builds matrices and factorisations of a plan.
-    pub fn new(plan: &Plan) -> Result<Self, CholeskyError> {
+    /// Builds matrices and factorisations of a plan on at most `threads` threads.
+    pub fn new(plan: &Plan, threads: usize) -> Result<Self, CholeskyError> {
         let mesh = plan.mesh.clone();
         let law = plan.law.clone();
         let heat = HeatProblem::new(
@@ -78,8 +78,9 @@ impl SolidFem {
             law.conductivity,
             plan.thermal_faces.clone(),
         );
-        let elastic =
-            plan.mechanics.then(|| ElasticProblem::new(&mesh, &law, plan.supports.clone()));
+        let elastic = plan
+            .mechanics
+            .then(|| ElasticProblem::new(&mesh, &law, plan.supports.clone(), threads));
         if let Some(elastic) = &elastic {
             elastic.prepare()?;
         }

@@ -1,0 +1,44 @@
+//! Loops over threads: the only threads there are.
+//!
+//! Every item is computed by itself and stored in its own place, so results do not depend on how
+//! many threads there are.
+
+use std::thread;
+
+/// `[f(0), …, f(count − 1)]`, in equal shares on at most `threads` threads.
+pub fn map<T: Send>(threads: usize, count: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let threads = threads.clamp(1, count.max(1));
+    if threads == 1 {
+        return (0..count).map(f).collect();
+    }
+    let share = count.div_ceil(threads);
+    let f = &f;
+    thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads)
+            .map(|t| {
+                let range = t * share..((t + 1) * share).min(count);
+                scope.spawn(move || range.map(f).collect::<Vec<T>>())
+            })
+            .collect();
+        let joined = workers.into_iter().map(|worker| match worker.join() {
+            Ok(part) => part,
+            Err(panic) => std::panic::resume_unwind(panic),
+        });
+        joined.flatten().collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn order_is_kept_on_any_number_of_threads() {
+        for threads in [0, 1, 2, 3, 8, 100] {
+            for count in [0, 1, 7, 16] {
+                let expected: Vec<usize> = (0..count).map(|i| i * i).collect();
+                assert_eq!(map(threads, count, |i| i * i), expected);
+            }
+        }
+    }
+}

@@ -1,0 +1,367 @@
+//! From scene to [`Model`] (what is known before time starts) and [`State`] (all that changes).
+
+mod cache;
+mod loads;
+mod sharing;
+
+use std::ops::Range;
+
+pub use cache::Cache;
+use loads::BodyLoads;
+
+use crate::body::fem::{Fields, Geometry, Plan, Refinement, SolidFem};
+use crate::material::stress::{max_principal, von_mises};
+use crate::math::cholesky::CholeskyError;
+use crate::scene::{Body, FaceName, Footprint, Grid, Load, Scene, SceneError};
+use crate::variables::{BodyTotal, Component, InputLayout, Output, Registry, Slot};
+
+/// Everything known before time starts: meshes, modes, factorisations, places of outputs.
+pub struct Model {
+    scene: Scene,
+    layout: InputLayout,
+    /// In the order of the scene's bodies.
+    bodies: Vec<BodyModel>,
+    grids: Vec<Grid>,
+}
+
+/// One body and what of the scene concerns it.
+struct BodyModel {
+    name: String,
+    plan: Plan,
+    solid: SolidFem,
+    loads: BodyLoads,
+}
+
+/// All that changes, as plain data: a saved state is a clone of this.
+#[derive(Debug, Clone, PartialEq)]
+pub struct State {
+    /// [s]
+    pub time: f64,
+    /// Values of the inputs, in the order of the [`InputLayout`].
+    pub inputs: Vec<f64>,
+    /// Unknowns of each body, in the order of the scene's bodies.
+    pub bodies: Vec<Vec<f64>>,
+}
+
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// An input is out of place; `index` is its place among the state's inputs.
+    #[error("{message}")]
+    Input { index: usize, message: String },
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    #[error("{0}")]
+    Solver(#[from] CholeskyError),
+}
+
+/// What a scene will cost, estimated before it is built.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Forecast {
+    pub bodies: Vec<BodyForecast>,
+    /// Communication steps of the default experiment.
+    pub steps: f64,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyForecast {
+    pub name: String,
+    /// Nodes along x, y, z (r, –, z in axisymmetry) of the meshed part.
+    pub nodes: [usize; 3],
+    /// Unknowns of heat and of displacement.
+    pub unknowns: [usize; 2],
+    /// Smallest and largest distance of nodes along each axis [m].
+    pub spacing: [[f64; 2]; 3],
+    /// Order of the shape functions.
+    pub order: usize,
+    /// Memory of the model [B].
+    pub memory: f64,
+    /// Time to build the model, and of a step whose stresses are read [s].
+    pub build_time: f64,
+    pub step_time: f64,
+    /// What was chosen or left out, and why.
+    pub notes: Vec<String>,
+}
+
+/// Models with fewer nodes than this are quicker on one thread.
+const NODES_WORTH_THREADS: usize = 20_000;
+
+impl Model {
+    /// Builds meshes, modes and factorisations; `threads` = 0 lets the program choose.
+    pub fn build(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
+        let layout = InputLayout::of(scene);
+        let mut bodies = Vec::new();
+        for name in scene.body.keys() {
+            let plan = plan(scene, name);
+            let solid = SolidFem::new(&plan, resolve_threads(threads, plan.mesh.nodes()))?;
+            let loads = BodyLoads::of(scene, &layout, name, &plan);
+            bodies.push(BodyModel { name: name.clone(), plan, solid, loads });
+        }
+        let grids = scene.field.iter().map(|field| {
+            let (body, _) = field.body_and_place();
+            let Body::Solid(solid) = &scene.body[body];
+            Grid::of(field, solid)
+        });
+        Ok(Self { scene: scene.clone(), layout, bodies, grids: grids.collect() })
+    }
+
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    pub fn layout(&self) -> &InputLayout {
+        &self.layout
+    }
+
+    /// Time zero, inputs at their start values.
+    pub fn initial_state(&self) -> State {
+        State {
+            time: 0.0,
+            inputs: initial_inputs(&self.scene),
+            bodies: self.bodies.iter().map(|b| vec![0.0; b.solid.state_len()]).collect(),
+        }
+    }
+
+    /// Whether all inputs make sense: finite, temperatures above absolute zero, footprints on their
+    /// faces and within their ranges.
+    pub fn check_inputs(&self, inputs: &[f64]) -> Result<(), ModelError> {
+        if let Some(index) = inputs.iter().position(|value| !value.is_finite()) {
+            let message = format!("{} is not a finite number", inputs[index]);
+            return Err(ModelError::Input { index, message });
+        }
+        for body in &self.bodies {
+            body.loads.check(&self.scene, inputs)?;
+        }
+        Ok(())
+    }
+
+    /// Advances by `dt` [s] under the state's inputs, held constant. A refusal changes nothing.
+    pub fn step(&self, state: &mut State, cache: &mut Cache, dt: f64) -> Result<(), ModelError> {
+        self.check_inputs(&state.inputs)?;
+        cache.meet(self, &state.inputs);
+        for (index, body) in self.bodies.iter().enumerate() {
+            body.solid.advance(&mut state.bodies[index], cache.loads(index), dt);
+        }
+        state.time += dt;
+        cache.clear();
+        Ok(())
+    }
+
+    /// The value of an output in a state.
+    pub fn output(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+        output: &Output,
+    ) -> Result<f64, ModelError> {
+        self.check_inputs(&state.inputs)?;
+        cache.meet(self, &state.inputs);
+        match output {
+            Output::Body { body, total } => self.body_total(state, cache, self.place(body), *total),
+            Output::Probe { probe, component } => {
+                let probe = &self.scene.probe[*probe];
+                let index = self.place(&probe.body);
+                if *component == Component::Temperature {
+                    // A single temperature is cheaper from the modes than from the whole field.
+                    let (unknowns, loads) = (&state.bodies[index], cache.loads(index));
+                    return Ok(self.bodies[index].solid.temperature_at(unknowns, loads, probe.at));
+                }
+                self.component(state, cache, index, *component, probe.at)
+            }
+            Output::Field { field, component, cell } => {
+                let (body, _) = self.scene.field[*field].body_and_place();
+                let point = self.grids[*field].point(cell[0], cell[1]);
+                self.component(state, cache, self.place(body), *component, point)
+            }
+        }
+    }
+
+    /// Values at all nodes of a body.
+    pub fn nodal_fields(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+        body: &str,
+    ) -> Result<Fields, ModelError> {
+        self.check_inputs(&state.inputs)?;
+        cache.meet(self, &state.inputs);
+        let index = self.place(body);
+        cache.solve(self, state, index)?;
+        let solid = &self.bodies[index].solid;
+        Ok(solid.fields(cache.temperatures(index), cache.deformation(index)))
+    }
+
+    /// Whether a body is a meridian section.
+    pub fn is_axisymmetric(&self, body: &str) -> bool {
+        self.bodies[self.place(body)].plan.mesh.geometry == Geometry::Axisymmetric
+    }
+
+    /// Stored entries of all factorisations made so far.
+    pub fn factor_entries(&self) -> usize {
+        self.bodies.iter().map(|body| body.solid.factor_entries()).sum()
+    }
+
+    /// What was chosen or left out, and why: a sentence each.
+    pub fn notes(&self) -> Vec<String> {
+        let notes = |b: &BodyModel| {
+            b.plan.notes.iter().map(|note| format!("{}: {note}", b.name)).collect::<Vec<_>>()
+        };
+        self.bodies.iter().flat_map(notes).collect()
+    }
+
+    fn place(&self, body: &str) -> usize {
+        let known = self.bodies.iter().position(|b| b.name == body);
+        known.expect("outputs are registered for bodies of the scene")
+    }
+
+    fn component(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+        index: usize,
+        component: Component,
+        point: [f64; 3],
+    ) -> Result<f64, ModelError> {
+        let solid = &self.bodies[index].solid;
+        if component == Component::Temperature {
+            cache.heat(self, state, index);
+            return Ok(solid.temperature_from(cache.temperatures(index), point));
+        }
+        cache.solve(self, state, index)?;
+        if let Component::Displacement(i) = component {
+            return Ok(solid.displacement_at(cache.deformation(index), point)[i]);
+        }
+        let stress = cache.stress_at(solid, index, point);
+        Ok(match component {
+            Component::Stress(i) => stress[i],
+            Component::MaxPrincipal => max_principal(stress),
+            _ => von_mises(stress),
+        })
+    }
+
+    fn body_total(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+        index: usize,
+        total: BodyTotal,
+    ) -> Result<f64, ModelError> {
+        let solid = &self.bodies[index].solid;
+        let unknowns = &state.bodies[index];
+        Ok(match total {
+            BodyTotal::HeatIn => solid.heat_totals(unknowns).brought_in,
+            BodyTotal::HeatLost => solid.heat_totals(unknowns).lost,
+            BodyTotal::HeatStored => solid.heat_stored(unknowns),
+            BodyTotal::MaxTemperature => {
+                cache.heat(self, state, index);
+                cache.max_temperature(solid, index)
+            }
+            BodyTotal::MaxVonMises | BodyTotal::MaxPrincipal => {
+                cache.solve(self, state, index)?;
+                let [von_mises, principal] = cache.max_stress(solid, index);
+                if total == BodyTotal::MaxVonMises { von_mises } else { principal }
+            }
+        })
+    }
+}
+
+/// Start values of all inputs, in the order of the layout.
+pub fn initial_inputs(scene: &Scene) -> Vec<f64> {
+    let mut inputs = vec![0.0; InputLayout::of(scene).len];
+    for variable in &Registry::of(scene).variables {
+        if let (Slot::Input(at), Some(value)) = (&variable.slot, variable.real_start()) {
+            inputs[*at] = value;
+        }
+    }
+    inputs
+}
+
+/// What a scene will cost, without building it.
+pub fn forecast(scene: &Scene) -> Forecast {
+    let bodies = scene.body.keys().map(|name| forecast_body(scene, name)).collect();
+    Forecast { bodies, steps: (scene.stop_time / scene.step).ceil() }
+}
+
+/// Entries of the factor of a solid mesh per unknown^(4/3), and of a meridian section per
+/// unknown · log₂(unknowns), measured on the example scenes.
+const ENTRIES_3D: f64 = 12.5;
+const ENTRIES_2D: f64 = 3.1;
+/// Rates of this kind of machine: entries a second when solving, operations a second when
+/// factoring.
+const SOLVE_RATE: f64 = 4e8;
+const FACTOR_RATE: f64 = 1.5e10;
+
+fn forecast_body(scene: &Scene, name: &str) -> BodyForecast {
+    let plan = plan(scene, name);
+    let unknowns = plan.unknowns();
+    let n = unknowns[1] as f64;
+    let flat = plan.mesh.geometry == Geometry::Axisymmetric;
+    let (entries, operations) = match (n > 0.0, flat) {
+        (false, _) => (0.0, 0.0),
+        (_, true) => (ENTRIES_2D * n * n.log2(), 10.0 * n.powf(1.5)),
+        (_, false) => (ENTRIES_3D * n.powf(4.0 / 3.0), 10.0 * n * n),
+    };
+    let spacing = plan.mesh.axes.each_ref().map(|axis| {
+        let steps = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
+        steps.fold([f64::INFINITY, 0.0], |[low, high], step| [low.min(step), high.max(step)])
+    });
+    BodyForecast {
+        name: name.into(),
+        nodes: plan.mesh.node_counts(),
+        unknowns,
+        spacing,
+        order: plan.mesh.order(),
+        memory: 8.0 * (entries + 60.0 * n + 20.0 * unknowns[0] as f64),
+        build_time: operations / FACTOR_RATE + 2e-5 * n,
+        step_time: entries / SOLVE_RATE + 5e-7 * n + 1e-7 * unknowns[0] as f64,
+        notes: plan.notes,
+    }
+}
+
+fn plan(scene: &Scene, name: &str) -> Plan {
+    let Body::Solid(solid) = &scene.body[name];
+    let on_body = scene.load.iter().filter(|load| load.body_and_face().0 == name);
+    let refinements: Vec<Refinement> = on_body.map(refinement).collect();
+    Plan::new(solid, scene.asks_mechanics(name), &refinements, scene.stop_time)
+}
+
+/// Where a load may act, wherever its inputs may move it.
+fn refinement(load: &Load) -> Refinement {
+    let start = [load.start.x.unwrap_or(0.0), load.start.y.unwrap_or(0.0)];
+    let range = [load.range.x, load.range.y];
+    let own = load.footprint.radius().unwrap_or(0.0);
+    let [_, radius] =
+        load.range.radius.unwrap_or([0.0, load.start.radius.unwrap_or(own).max(own)]);
+    let half = match load.footprint {
+        Footprint::Disc { .. } | Footprint::Rings { .. } => [radius; 2],
+        Footprint::Gaussian { .. } => [1.5 * radius; 2],
+        Footprint::Tiles { size, .. } => size.map(|s| s / 2.0),
+    };
+    let feature = match load.footprint {
+        Footprint::Disc { .. } | Footprint::Gaussian { .. } => {
+            load.range.radius.map_or(own, |[lowest, _]| lowest)
+        }
+        Footprint::Rings { count, .. } => radius * (5.0 / count as f64).min(1.0),
+        Footprint::Tiles { count, size } => (0..2)
+            .map(|a| size[a] * (5.0 / count[a] as f64).min(1.0))
+            .fold(f64::INFINITY, f64::min),
+    };
+    let stretch = |a: usize| {
+        let [low, high] = range[a].unwrap_or([start[a]; 2]);
+        [low - half[a], high + half[a]]
+    };
+    let top = load.body_and_face().1 == FaceName::Top;
+    Refinement { x: stretch(0), y: stretch(1), top, feature }
+}
+
+fn resolve_threads(wanted: usize, nodes: usize) -> usize {
+    match wanted {
+        0 if nodes < NODES_WORTH_THREADS => 1,
+        0 => std::thread::available_parallelism().map_or(1, Into::into),
+        threads => threads,
+    }
+}
+
+/// Values of a range of inputs.
+fn slice<'a>(inputs: &'a [f64], range: &Option<Range<usize>>) -> Option<&'a [f64]> {
+    range.as_ref().map(|range| &inputs[range.clone()])
+}

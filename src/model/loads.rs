@@ -1,0 +1,244 @@
+//! From inputs to what acts on a body.
+
+use super::{ModelError, slice};
+use crate::body::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
+use crate::coupling::{Pattern, Placement, split_load};
+use crate::scene::{Body, FaceName, Footprint, Load, Scene, Shape};
+use crate::variables::{FaceInputKind, InputLayout, LoadInputs};
+
+/// Which inputs act on a body, and where.
+pub struct BodyLoads {
+    /// Index of each load in the scene and the places of its inputs.
+    loads: Vec<(usize, LoadInputs)>,
+    /// For each thermal face of the plan: its axis, and the inputs of the face there and of its
+    /// image.
+    faces: Vec<(usize, FaceValue, Option<FaceValue>)>,
+    initial_temperature: f64,
+    shape: Shape,
+}
+
+/// An input that is the value of a thermal face.
+#[derive(Debug, Clone, Copy)]
+struct FaceValue {
+    index: usize,
+    kind: FaceInputKind,
+}
+
+impl BodyLoads {
+    pub fn of(scene: &Scene, layout: &InputLayout, body: &str, plan: &Plan) -> Self {
+        let loads = scene.load.iter().zip(&layout.loads).enumerate();
+        let loads = loads
+            .filter(|(_, (load, _))| load.body_and_face().0 == body)
+            .map(|(i, (_, inputs))| (i, inputs.clone()))
+            .collect();
+        let value = |face: FaceName| {
+            let own = |name| layout.faces.iter().find(|f| f.body == body && f.face == name);
+            let input = own(face).or_else(|| own(FaceName::Sides))?;
+            Some(FaceValue { index: input.index, kind: input.kind })
+        };
+        let sources = plan.thermal_faces.iter().zip(&plan.face_sources);
+        let faces = sources
+            .map(|((place, _), (face, image))| {
+                let face = value(*face).expect("a thermal face has an input");
+                (place.axis, face, image.and_then(value))
+            })
+            .collect();
+        let Body::Solid(solid) = &scene.body[body];
+        let initial_temperature = plan.initial_temperature;
+        Self { loads, faces, initial_temperature, shape: solid.shape }
+    }
+
+    /// Refuses inputs that make no sense for this body.
+    pub fn check(&self, scene: &Scene, inputs: &[f64]) -> Result<(), ModelError> {
+        for (_, face, image) in &self.faces {
+            for value in [Some(face), image.as_ref()].into_iter().flatten() {
+                let given = inputs[value.index];
+                if value.kind != FaceInputKind::Flux && given <= 0.0 {
+                    let message = format!("{given} K is not above absolute zero");
+                    return Err(ModelError::Input { index: value.index, message });
+                }
+            }
+        }
+        for (load, places) in &self.loads {
+            self.check_place(&scene.load[*load], places, inputs)?;
+        }
+        Ok(())
+    }
+
+    /// What acts on the body under these inputs.
+    pub fn assemble(&self, scene: &Scene, inputs: &[f64], mesh: &Mesh) -> SolidLoads {
+        let classes = mesh.parities().len();
+        let components = if mesh.geometry == Geometry::Box { 3 } else { 2 };
+        let mut out = SolidLoads {
+            heat: vec![[Vec::new(), Vec::new()]; classes],
+            force: vec![[vec![Vec::new(); components], vec![Vec::new(); components]]; classes],
+            faces: self.face_values(inputs, mesh),
+        };
+        for (load, places) in &self.loads {
+            let load = &scene.load[*load];
+            let top = usize::from(load.body_and_face().1 == FaceName::Top);
+            for part in self.parts(load, places, inputs, mesh) {
+                for (class, vector) in part.vectors.into_iter().enumerate() {
+                    let target = match part.component {
+                        None => &mut out.heat[class][top],
+                        Some(component) => &mut out.force[class][top][component],
+                    };
+                    add(target, &vector, part.sign);
+                }
+            }
+        }
+        out
+    }
+
+    fn face_values(&self, inputs: &[f64], mesh: &Mesh) -> Vec<Vec<f64>> {
+        let read = |value: &FaceValue| match value.kind {
+            FaceInputKind::Flux => inputs[value.index],
+            _ => inputs[value.index] - self.initial_temperature,
+        };
+        let parts = |parity: &Parity| {
+            let of_face = |&(axis, ref face, ref image): &(usize, FaceValue, Option<FaceValue>)| {
+                let Some(image) = image else {
+                    return if parity.is_even() { read(face) } else { 0.0 };
+                };
+                // The faces across a mirrored axis: half their sum is even, half their
+                // difference odd about that axis alone.
+                match (parity.odd[axis], parity.odd[1 - axis]) {
+                    (_, true) => 0.0,
+                    (false, false) => 0.5 * (read(face) + read(image)),
+                    (true, false) => 0.5 * (read(face) - read(image)),
+                }
+            };
+            self.faces.iter().map(of_face).collect()
+        };
+        mesh.parities().iter().map(parts).collect()
+    }
+
+    /// The loads' nodal vectors, each with where it goes.
+    fn parts(
+        &self,
+        load: &Load,
+        places: &LoadInputs,
+        inputs: &[f64],
+        mesh: &Mesh,
+    ) -> Vec<Part> {
+        let place = placement(load, places, inputs);
+        let top = load.body_and_face().1 == FaceName::Top;
+        let round = mesh.geometry == Geometry::Axisymmetric;
+        let vectors = |pattern: Pattern, flips: [bool; 2], values: &[f64]| {
+            if values.iter().all(|&v| v == 0.0) {
+                return Vec::new();
+            }
+            if round {
+                let radii = &mesh.axes[0];
+                return vec![pattern.on_radius(radii, &load.footprint, place.radius, values)];
+            }
+            let plane = [&mesh.axes[0], &mesh.axes[1]];
+            split_load(mesh, flips, |image| {
+                pattern.on_plane(plane, &load.footprint, &place, values, image)
+            })
+        };
+        let axial = if round { 1 } else { 2 };
+        // Pressure acts into the body: down on the top, up on the bottom.
+        let inward = if top { -1.0 } else { 1.0 };
+        let mut parts = Vec::new();
+        let mut push = |values: Option<&[f64]>, component, sign, pattern, flips| {
+            if let Some(values) = values {
+                parts.push(Part { component, sign, vectors: vectors(pattern, flips, values) });
+            }
+        };
+        let none = [false; 2];
+        push(slice(inputs, &places.heat_flux), None, 1.0, Pattern::Scalar, none);
+        push(slice(inputs, &places.pressure), Some(axial), inward, Pattern::Scalar, none);
+        push(slice(inputs, &places.shear_x), Some(0), 1.0, Pattern::Scalar, [true, false]);
+        push(slice(inputs, &places.shear_y), Some(1), 1.0, Pattern::Scalar, [false, true]);
+        let radial = slice(inputs, &places.shear_r);
+        push(radial, Some(0), 1.0, Pattern::Outward(0), [true, false]);
+        if !round {
+            push(radial, Some(1), 1.0, Pattern::Outward(1), [false, true]);
+        }
+        parts
+    }
+
+    fn check_place(
+        &self,
+        load: &Load,
+        places: &LoadInputs,
+        inputs: &[f64],
+    ) -> Result<(), ModelError> {
+        let named = [
+            (places.x, load.range.x),
+            (places.y, load.range.y),
+            (places.radius, load.range.radius),
+        ];
+        for (at, range) in named {
+            if let (Some(index), Some([low, high])) = (at, range)
+                && !(low..=high).contains(&inputs[index])
+            {
+                let message = format!(
+                    "{} m is outside the range of {} (allowed: {low} to {high} m)",
+                    inputs[index], load.name
+                );
+                return Err(ModelError::Input { index, message });
+            }
+        }
+        let place = placement(load, places, inputs);
+        if let Some(index) = places.radius
+            && place.radius <= 0.0
+        {
+            let message = format!("a radius of {} m; allowed: above zero", place.radius);
+            return Err(ModelError::Input { index, message });
+        }
+        let half = match load.footprint {
+            Footprint::Tiles { size, .. } => size.map(|s| s / 2.0),
+            _ => [place.radius; 2],
+        };
+        let limits = match self.shape {
+            Shape::Box([x, y, _]) => [x / 2.0, y / 2.0],
+            Shape::Disc(disc) => [disc.radius; 2],
+        };
+        let centres = [(place.x, places.x), (place.y, places.y)];
+        for axis in 0..2 {
+            let (centre, input) = centres[axis];
+            let room = limits[axis] * (1.0 + 1e-9);
+            if centre.abs() + half[axis] > room {
+                let index = input.or(places.radius).unwrap_or_default();
+                let message = format!(
+                    "the footprint of {} (centre {centre} m, half width {} m) leaves its face \
+                     (allowed: within ±{} m)",
+                    load.name, half[axis], limits[axis]
+                );
+                return Err(ModelError::Input { index, message });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Nodal vectors of one quantity of a load, one a symmetry class.
+struct Part {
+    /// Displacement component that the force acts on; heat if none.
+    component: Option<usize>,
+    sign: f64,
+    vectors: Vec<Vec<f64>>,
+}
+
+fn placement(load: &Load, places: &LoadInputs, inputs: &[f64]) -> Placement {
+    let read = |at: Option<usize>, other: f64| at.map_or(other, |index| inputs[index]);
+    Placement {
+        x: read(places.x, 0.0),
+        y: read(places.y, 0.0),
+        radius: read(places.radius, load.footprint.radius().unwrap_or(0.0)),
+    }
+}
+
+fn add(target: &mut Vec<f64>, vector: &[f64], sign: f64) {
+    if vector.is_empty() {
+        return;
+    }
+    if target.is_empty() {
+        target.resize(vector.len(), 0.0);
+    }
+    for (t, v) in target.iter_mut().zip(vector) {
+        *t += sign * v;
+    }
+}
