@@ -1,5 +1,43 @@
 //! The scene: plain, checked data that says what to model. Nothing here knows how.
+//!
+//! Text → `locate` (TOML with places) → `decode` (types) → `check` (sense) → [`Scene`].
 
+mod check;
+mod decode;
+mod error;
+mod grid;
+mod locate;
+mod lookup;
 mod types;
 
+use std::fs;
+use std::path::Path;
+
+pub use error::{Problem, SceneError};
+pub use grid::Grid;
+pub use lookup::Place;
 pub use types::*;
+
+use locate::Source;
+
+/// Reads and checks the scene in a file.
+pub fn read(path: &Path) -> Result<Scene, SceneError> {
+    let file = path.display().to_string();
+    let text = fs::read_to_string(path).map_err(|error| Problem {
+        file: file.clone(),
+        line: None,
+        path: String::new(),
+        value: String::new(),
+        message: format!("cannot be read: {error}"),
+        allowed: "a readable text file in UTF-8".to_owned(),
+    })?;
+    parse(&text, &file)
+}
+
+/// Reads and checks a scene's text; `file` is the name that messages show.
+pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
+    let source = Source::parse(text, file)?;
+    let scene = decode::decode(&source)?;
+    check::check(&scene, &source)?;
+    Ok(scene)
+}

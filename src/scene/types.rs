@@ -262,7 +262,10 @@ pub struct LoadStart {
 
 /// One value for all cells, or one for each.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(
+    untagged,
+    expecting = "a finite number, a list of them (rings) or a list of lists of them (tiles)"
+)]
 pub enum CellValues {
     Uniform(f64),
     Rings(Vec<f64>),

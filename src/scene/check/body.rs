@@ -1,0 +1,164 @@
+//! Shape, material, faces, symmetry and mesh of each body.
+
+use super::{Checker, fits, is_sound, number};
+use crate::material::Material;
+use crate::scene::grid::lateral_extents;
+use crate::scene::locate::Path;
+use crate::scene::types::{Body, Convection, Face, FaceName, Mesh, Shape, Solid, Symmetry};
+
+pub fn check(checker: &mut Checker) {
+    for (name, Body::Solid(solid)) in &checker.scene.body {
+        let path = Path::default().key("body").key(name);
+        shape(checker, &path.at("shape"), &solid.shape);
+        material(checker, &path.at("material"), &solid.material);
+        checker.temperature(&path.at("initial_temperature"), solid.initial_temperature);
+        for (&name, face) in &solid.faces {
+            let path = path.at("faces").key(name.as_str());
+            place_of_face(checker, &path, solid, name);
+            conditions(checker, &path, face);
+            condition_values(checker, &path, face);
+            overlap_with_sides(checker, &path, solid, name);
+        }
+        symmetry(checker, &path.at("symmetry"), solid);
+        mesh(checker, &path.at("mesh"), &solid.mesh, &solid.shape);
+    }
+}
+
+fn shape(checker: &mut Checker, path: &Path, shape: &Shape) {
+    match shape {
+        Shape::Box(extents) => {
+            for (i, &extent) in extents.iter().enumerate() {
+                checker.positive(&path.at("box").index(i), extent, "the extent of a body");
+            }
+        }
+        Shape::Disc(disc) => {
+            checker.positive(&path.at("disc.radius"), disc.radius, "the radius of a body");
+            checker.positive(&path.at("disc.thickness"), disc.thickness, "the thickness of a body");
+        }
+    }
+}
+
+fn material(checker: &mut Checker, path: &Path, Material::Thermoelastic(law): &Material) {
+    checker.positive(&path.at("density"), law.density, "the density");
+    checker.positive(&path.at("specific_heat"), law.specific_heat, "the specific heat capacity");
+    checker.positive(&path.at("conductivity"), law.conductivity, "the thermal conductivity");
+    checker.positive(&path.at("young"), law.young, "Young's modulus");
+    let message = match law.poisson {
+        high if high >= 0.5 => "Poisson's ratio must stay below one half",
+        low if low <= -1.0 => "Poisson's ratio must stay above minus one",
+        _ => return,
+    };
+    checker.refuse(&path.at("poisson"), message, "-1 < poisson < 0.5");
+}
+
+fn place_of_face(checker: &mut Checker, path: &Path, solid: &Solid, name: FaceName) {
+    let known = solid.shape.faces();
+    let fine = known.contains(&name) || name == FaceName::Sides;
+    let allowed = known.iter().map(|face| face.as_str()).collect::<Vec<_>>().join(", ");
+    checker.require(fine, path, format!("a disc has no face `{}`", name.as_str()), allowed);
+}
+
+fn conditions(checker: &mut Checker, path: &Path, face: &Face) {
+    for (kind, keys) in [("thermal", face.thermal()), ("mechanical", face.mechanical())] {
+        let message = format!("a face takes one {kind} condition, not {}", keys.join(" and "));
+        checker.require(keys.len() <= 1, path, message, format!("one of {}", keys.join(", ")));
+    }
+}
+
+fn condition_values(checker: &mut Checker, path: &Path, face: &Face) {
+    if let Some(temperature) = face.temperature {
+        checker.temperature(&path.at("temperature"), temperature);
+    }
+    if let Some(Convection { coefficient, ambient }) = face.convection {
+        let path = path.at("convection");
+        let message = "a heat transfer coefficient is not negative";
+        checker.require(coefficient >= 0.0, &path.at("coefficient"), message, ">= 0");
+        checker.temperature(&path.at("ambient"), ambient);
+    }
+}
+
+/// One of the four lateral faces and `sides` may both be given, but not with the same kind of
+/// condition.
+fn overlap_with_sides(checker: &mut Checker, path: &Path, solid: &Solid, name: FaceName) {
+    let Some(sides) = solid.faces.get(&FaceName::Sides) else { return };
+    if !name.is_one_of_four_sides() {
+        return;
+    }
+    let own = &solid.faces[&name];
+    for (kind, own, sides) in [
+        ("thermal", own.thermal(), sides.thermal()),
+        ("mechanical", own.mechanical(), sides.mechanical()),
+    ] {
+        let fine = own.is_empty() || sides.is_empty();
+        let message = format!("`sides` gives this face a {kind} condition already");
+        let allowed = format!("a {kind} condition on `sides` or on its single faces");
+        checker.require(fine, path, message, allowed);
+    }
+}
+
+fn symmetry(checker: &mut Checker, path: &Path, solid: &Solid) {
+    match (solid.symmetry, &solid.shape) {
+        (Symmetry::Axisymmetric, Shape::Box(_)) => {
+            checker.refuse(path, "a box is not axisymmetric", "auto, none, quarter");
+        }
+        (Symmetry::Quarter | Symmetry::None, Shape::Disc(_)) => {
+            checker.refuse(path, "a disc is modelled axisymmetric", "auto, axisymmetric");
+        }
+        (Symmetry::Quarter, Shape::Box(_)) => quarter(checker, path, solid),
+        _ => {}
+    }
+}
+
+fn quarter(checker: &mut Checker, path: &Path, solid: &Solid) {
+    for (one, other) in [(FaceName::Left, FaceName::Right), (FaceName::Front, FaceName::Back)] {
+        let fine = solid.face(one) == solid.face(other);
+        let (one, other) = (one.as_str(), other.as_str());
+        let message = format!("a quarter needs equal conditions, but `{one}` and `{other}` differ");
+        let allowed = format!("auto, none, or equal conditions on `{one}` and `{other}`");
+        checker.require(fine, path, message, allowed);
+    }
+}
+
+fn mesh(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {
+    if is_sound(shape) {
+        spacing(checker, path, mesh, shape);
+    }
+    if let Some(growth) = mesh.growth {
+        let fine = 1.0 < growth && growth <= 2.0;
+        let message = "neighbouring elements grow by a modest ratio";
+        checker.require(fine, &path.at("growth"), message, "1 < growth <= 2");
+    }
+    if let Some(order) = mesh.order {
+        let fine = order == 1 || order == 2;
+        let message = "no shape functions of this order";
+        checker.require(fine, &path.at("order"), message, "1 (linear), 2 (quadratic)");
+    }
+}
+
+fn spacing(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {
+    let [x, y] = lateral_extents(shape);
+    let thickness = shape.thickness();
+    if let Some(spacing) = mesh.spacing {
+        let path = path.at("spacing");
+        let fine = at_most(checker, &path, spacing, x.min(y) / 2.0, "half of the body's width");
+        if fine && mesh.depth_spacing.is_none() {
+            let what = "the body's thickness, which it is for too unless `depth_spacing` is given";
+            at_most(checker, &path, spacing, thickness, what);
+        }
+    }
+    if let Some(spacing) = mesh.depth_spacing {
+        at_most(checker, &path.at("depth_spacing"), spacing, thickness, "the body's thickness");
+    }
+}
+
+fn at_most(checker: &mut Checker, path: &Path, spacing: f64, limit: f64, what: &str) -> bool {
+    let message = if spacing <= 0.0 {
+        "the distance of nodes must be positive".to_owned()
+    } else if !fits(spacing, limit) {
+        format!("the distance of nodes exceeds {what}")
+    } else {
+        return true;
+    };
+    checker.refuse(path, message, format!("0 < {} <= {}", path.last_key(), number(limit)));
+    false
+}

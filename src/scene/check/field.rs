@@ -1,0 +1,98 @@
+//! Whether fields lie on a face or section of their bodies and give something.
+
+use super::{Checker, fits, is_in_depth, number};
+use crate::scene::grid::{Grid, lateral_extents, section_size};
+use crate::scene::locate::Path;
+use crate::scene::lookup::Place;
+use crate::scene::types::{Disc, FaceName, Field, Plane, Shape, Solid};
+
+pub fn check(checker: &mut Checker) {
+    for (i, field) in checker.scene.field.iter().enumerate() {
+        let path = Path::default().key("field").index(i);
+        checker.distinct(&path.at("gives"), &field.gives);
+        let counts_are_fine = counts(checker, &path.at("grid"), field.grid);
+        let size_is_fine = size(checker, &path.at("size"), field.size);
+        let place = place(checker, &path, field);
+        if let Some((place, solid)) = place.filter(|_| counts_are_fine && size_is_fine) {
+            extent(checker, &path.at("size"), &Grid::at(place, field, &solid.shape), &solid.shape);
+        }
+    }
+}
+
+fn counts(checker: &mut Checker, path: &Path, grid: [usize; 2]) -> bool {
+    let first = checker.count(&path.index(0), grid[0]);
+    checker.count(&path.index(1), grid[1]) && first
+}
+
+fn size(checker: &mut Checker, path: &Path, size: Option<[f64; 2]>) -> bool {
+    let Some(size) = size else { return true };
+    let first = checker.positive(&path.index(0), size[0], "the extent of a grid");
+    checker.positive(&path.index(1), size[1], "the extent of a grid") && first
+}
+
+/// The face or section and the body it belongs to.
+fn place<'a>(checker: &mut Checker<'a>, path: &Path, field: &Field) -> Option<(Place, &'a Solid)> {
+    match (&field.on, &field.body, field.plane) {
+        (Some(on), None, None) => {
+            let (face, solid) = checker.face(&path.at("on"), on, plane_faces)?;
+            Some((Place::Face(face), solid))
+        }
+        (None, Some(body), Some(plane)) => {
+            let solid = checker.body(&path.at("in"), body)?;
+            let fine = plane_is_inside(checker, &path.at("plane"), plane, &solid.shape);
+            fine.then_some((Place::Section(plane), solid))
+        }
+        _ => {
+            let message = "a field lies either on a face or in a plane of a body";
+            checker.refuse(path, message, "`on`, or `in` together with `plane`");
+            None
+        }
+    }
+}
+
+/// The faces whose points two coordinates count.
+fn plane_faces(shape: &Shape) -> Vec<FaceName> {
+    shape.faces().iter().copied().filter(|face| face.normal().is_some()).collect()
+}
+
+fn plane_is_inside(checker: &mut Checker, path: &Path, plane: Plane, shape: &Shape) -> bool {
+    let offset = plane.offset();
+    let half = lateral_extents(shape).map(|extent| extent / 2.0);
+    let (axis, fine, allowed) = match (plane, shape) {
+        (Plane::Z(_), _) => {
+            let thickness = shape.thickness();
+            let allowed = format!("{} <= z <= 0", number(-thickness));
+            ("z", is_in_depth(offset, thickness), allowed)
+        }
+        (Plane::X(_), Shape::Box(_)) => box_plane("x", offset, half[0]),
+        (Plane::Y(_), Shape::Box(_)) => box_plane("y", offset, half[1]),
+        (Plane::X(_), Shape::Disc(_)) => disc_plane("x", offset, half[0]),
+        (Plane::Y(_), Shape::Disc(_)) => disc_plane("y", offset, half[1]),
+    };
+    checker.require(fine, &path.at(axis), "the plane does not cut the body", allowed)
+}
+
+fn box_plane(axis: &'static str, offset: f64, half: f64) -> (&'static str, bool, String) {
+    (axis, fits(offset.abs(), half), format!("|{axis}| <= {}", number(half)))
+}
+
+/// At the radius itself the section has no width.
+fn disc_plane(axis: &'static str, offset: f64, radius: f64) -> (&'static str, bool, String) {
+    (axis, offset.abs() < radius, format!("|{axis}| < {}", number(radius)))
+}
+
+fn extent(checker: &mut Checker, path: &Path, grid: &Grid, shape: &Shape) {
+    let limits = section_size(shape, grid.normal, grid.offset);
+    let mut all_fine = true;
+    for (i, limit) in limits.into_iter().enumerate() {
+        let message = "the grid is larger than the face or section";
+        let allowed = format!("0 < size <= {}", number(limit));
+        all_fine &= checker.require(fits(grid.size[i], limit), &path.index(i), message, allowed);
+    }
+    if let (Shape::Disc(Disc { radius, .. }), 2, true) = (shape, grid.normal, all_fine) {
+        let [x, y, _] = grid.point(0, 0);
+        let message = "points of the grid lie outside of the disc";
+        let allowed = format!("points at most {} from the axis", number(*radius));
+        checker.require(fits(x.hypot(y), *radius), path, message, allowed);
+    }
+}

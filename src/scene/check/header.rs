@@ -1,0 +1,96 @@
+//! What stands outside bodies, loads, probes and fields; and the names of all of these.
+
+use std::collections::BTreeMap;
+
+use super::Checker;
+use crate::scene::locate::Path;
+
+/// Prefixes of variables that belong to no body, load, probe or field.
+const RESERVED: [&str; 2] = ["solver", "output"];
+/// More threads than any machine of today runs well.
+const MOST_THREADS: usize = 1024;
+
+pub fn check(checker: &mut Checker) {
+    description(checker);
+    times(checker);
+    names(checker);
+    settings(checker);
+}
+
+fn description(checker: &mut Checker) {
+    let fine = !checker.scene.description.contains(char::is_control);
+    let path = Path::default().key("description");
+    checker.require(fine, &path, "the description has control characters", "one line of text");
+}
+
+fn times(checker: &mut Checker) {
+    let root = Path::default();
+    let (stop_time, step) = (checker.scene.stop_time, checker.scene.step);
+    let stop_is_fine = checker.positive(&root.key("stop_time"), stop_time, "the stop time");
+    let step_is_fine = checker.positive(&root.key("step"), step, "the step");
+    if stop_is_fine && step_is_fine {
+        let message = "the step is longer than the whole run";
+        let allowed = format!("<= stop_time = {}", super::number(stop_time));
+        checker.require(step <= stop_time, &root.key("step"), message, allowed);
+    }
+}
+
+fn settings(checker: &mut Checker) {
+    let root = Path::default();
+    let tolerance = checker.scene.fidelity.tolerance;
+    let fine = 0.0 < tolerance && tolerance < 1.0;
+    let message = "the tolerance is relative";
+    checker.require(fine, &root.at("fidelity.tolerance"), message, "0 < tolerance < 1");
+    let fine = checker.scene.solver.threads <= MOST_THREADS;
+    let allowed = format!("0 to {MOST_THREADS} (0 lets the program choose)");
+    checker.require(fine, &root.at("solver.threads"), "too many threads", allowed);
+}
+
+/// Names become prefixes of FMI variables, so that each must be an identifier of its own.
+fn names(checker: &mut Checker) {
+    let scene = checker.scene;
+    let root = Path::default();
+    identifier(checker, &root.key("name"), &scene.name);
+    checker.require(!scene.body.is_empty(), &root.key("body"), "there is no body", "[body.NAME]");
+
+    let element = |kind: &str, i: usize| root.key(kind).index(i).key("name");
+    let bodies = scene.body.keys().map(|name| (root.key("body").key(name), name));
+    let loads = scene.load.iter().enumerate().map(|(i, load)| (element("load", i), &load.name));
+    let probes =
+        scene.probe.iter().enumerate().map(|(i, probe)| (element("probe", i), &probe.name));
+    let fields =
+        scene.field.iter().enumerate().map(|(i, field)| (element("field", i), &field.name));
+    let mut owners = BTreeMap::new();
+    for (path, name) in bodies.chain(loads).chain(probes).chain(fields) {
+        prefix(checker, &mut owners, path, name);
+    }
+}
+
+fn prefix<'a>(
+    checker: &mut Checker,
+    owners: &mut BTreeMap<&'a str, Path>,
+    path: Path,
+    name: &'a str,
+) {
+    identifier(checker, &path, name);
+    let free = !RESERVED.contains(&name);
+    let reserved = format!("any name but {}", RESERVED.join(" and "));
+    checker.require(free, &path, "the name is reserved for the unit's own variables", reserved);
+    match owners.get(name) {
+        Some(owner) => {
+            let message = format!("the name is taken by {owner}");
+            checker.refuse(&path, message, "a name for each body, load, probe and field");
+        }
+        None => {
+            owners.insert(name, path);
+        }
+    }
+}
+
+fn identifier(checker: &mut Checker, path: &Path, name: &str) {
+    let mut letters = name.chars();
+    let starts = letters.next().is_some_and(|c| c.is_ascii_alphabetic() || c == '_');
+    let fine = starts && letters.all(|c| c.is_ascii_alphanumeric() || c == '_');
+    let allowed = "letters a-z and A-Z, digits and _, no digit first";
+    checker.require(fine, path, format!("{name:?} is not a C identifier"), allowed);
+}

@@ -1,0 +1,187 @@
+//! Whether loads act on faces that take them, and lie on them wherever they go.
+
+use super::{Checker, fits, number, start};
+use crate::scene::grid::lateral_extents;
+use crate::scene::locate::Path;
+use crate::scene::types::{Carries, FaceName, Footprint, Load, Shape, Solid};
+
+pub fn check(checker: &mut Checker) {
+    for (i, load) in checker.scene.load.iter().enumerate() {
+        let path = Path::default().key("load").index(i);
+        checker.distinct(&path.at("carries"), &load.carries);
+        let before = checker.problems.len();
+        footprint(checker, &path.at("footprint"), &load.footprint);
+        start::check(checker, &path, load);
+        let lengths_are_fine = checker.problems.len() == before;
+        let Some((face, solid)) = checker.face(&path.at("on"), &load.on, loaded_faces) else {
+            continue;
+        };
+        held_face(checker, &path.at("carries"), load, face, solid);
+        if let Shape::Disc(_) = solid.shape {
+            axisymmetry(checker, &path, load);
+        }
+        if lengths_are_fine {
+            reach(checker, &path, load, &solid.shape);
+        }
+    }
+}
+
+fn loaded_faces(_: &Shape) -> Vec<FaceName> {
+    vec![FaceName::Top, FaceName::Bottom]
+}
+
+fn footprint(checker: &mut Checker, path: &Path, footprint: &Footprint) {
+    let path = path.key(footprint.name());
+    if let Some(radius) = footprint.radius() {
+        checker.positive(&path.at("radius"), radius, "the radius of a footprint");
+    }
+    match *footprint {
+        Footprint::Disc { .. } | Footprint::Gaussian { .. } => {}
+        Footprint::Rings { count, .. } => {
+            checker.count(&path.at("count"), count);
+        }
+        Footprint::Tiles { count, size } => {
+            for i in 0..2 {
+                checker.count(&path.at("count").index(i), count[i]);
+                checker.positive(&path.at("size").index(i), size[i], "the extent of a footprint");
+            }
+        }
+    }
+}
+
+/// What a face is held at, it does not take from a load: it would leave again at once.
+fn held_face(checker: &mut Checker, path: &Path, load: &Load, name: FaceName, solid: &Solid) {
+    let face = solid.face(name);
+    let name = name.as_str();
+    for (i, carries) in load.carries.iter().enumerate() {
+        let (reason, allowed) = match carries {
+            Carries::HeatFlux if face.temperature.is_some() => (
+                "the face has a prescribed temperature: the heat would leave at once",
+                "pressure, shear",
+            ),
+            Carries::Pressure | Carries::Shear if face.clamped => {
+                ("the face is clamped: the traction would move nothing", "heat_flux")
+            }
+            Carries::Pressure if face.roller => {
+                ("the face is on rollers: the pressure would move nothing", "heat_flux, shear")
+            }
+            _ => continue,
+        };
+        let allowed = format!("{allowed}; or a `{name}` without that condition");
+        checker.refuse(&path.index(i), reason, allowed);
+    }
+}
+
+/// On a disc, which is modelled in its meridian section, loads are centred and act alike all round.
+fn axisymmetry(checker: &mut Checker, path: &Path, load: &Load) {
+    let footprint = &load.footprint;
+    if let Footprint::Tiles { .. } = footprint {
+        let message = "a disc is modelled axisymmetric, which tiles are not";
+        checker.refuse(&path.at("footprint.tiles"), message, "disc, gaussian, rings");
+    }
+    if !matches!(footprint, Footprint::Rings { .. })
+        && let Some(i) = load.carries.iter().position(|carries| *carries == Carries::Shear)
+    {
+        let message = "a disc is modelled axisymmetric, which shear along x or y is not";
+        checker.refuse(&path.at("carries").index(i), message, "shear with `rings` only (radial)");
+    }
+    for (key, given) in [
+        ("start.x", load.start.x.is_some()),
+        ("start.y", load.start.y.is_some()),
+        ("range.x", load.range.x.is_some()),
+        ("range.y", load.range.y.is_some()),
+    ] {
+        let message = "a disc is modelled axisymmetric: its loads stay centred";
+        checker.require(!given, &path.at(key), message, "no `x` and `y` on a disc");
+    }
+}
+
+/// An axis along which a footprint must stay on its face.
+struct Reach {
+    axis: &'static str,
+    /// Place of the centre at the start, and bounds of it [m].
+    start: f64,
+    range: Option<[f64; 2]>,
+    /// Extent of the face to both sides of its centre [m].
+    half: f64,
+    /// Extent of the footprint to both sides of its centre, at the start and at most [m].
+    half_start: f64,
+    half_most: f64,
+}
+
+/// Refuses footprints that leave their face at the start or in a corner of their range. Of a
+/// Gaussian this concerns its radius, not its tails.
+fn reach(checker: &mut Checker, path: &Path, load: &Load, shape: &Shape) {
+    let tried = reaches(load, shape).into_iter().find_map(|reach| {
+        let key = reach.culprit(load)?;
+        Some((key, reach))
+    });
+    let Some((key, reach)) = tried else { return };
+    let (axis, half) = (reach.axis, number(reach.half));
+    let extent = load.footprint.radius().map_or("half of the size", |_| "radius");
+    let allowed = match shape {
+        Shape::Box(_) => format!("|{axis}| + {extent} <= {half}"),
+        Shape::Disc(_) => format!("{extent} <= {half}"),
+    };
+    checker.refuse(&path.at(&key), "the footprint does not stay on the face", allowed);
+}
+
+fn reaches(load: &Load, shape: &Shape) -> Vec<Reach> {
+    let half = lateral_extents(shape).map(|extent| extent / 2.0);
+    let along = |axis: usize| {
+        let (half_start, half_most) = half_extents(load, axis);
+        let name = ["x", "y"][axis];
+        let start = [load.start.x, load.start.y][axis].unwrap_or(0.0);
+        let range = [load.range.x, load.range.y][axis];
+        Reach { axis: name, start, range, half: half[axis], half_start, half_most }
+    };
+    match (shape, &load.footprint) {
+        (Shape::Box(_), _) => vec![along(0), along(1)],
+        (Shape::Disc(_), Footprint::Tiles { .. }) => Vec::new(),
+        (Shape::Disc(_), _) => vec![Reach { start: 0.0, range: None, ..along(0) }],
+    }
+}
+
+/// Extent of a footprint to both sides of its centre, at the start and at most [m].
+fn half_extents(load: &Load, axis: usize) -> (f64, f64) {
+    match load.footprint {
+        Footprint::Tiles { size, .. } => (size[axis] / 2.0, size[axis] / 2.0),
+        Footprint::Disc { radius }
+        | Footprint::Gaussian { radius }
+        | Footprint::Rings { radius, .. } => {
+            let start = load.start.radius.unwrap_or(radius);
+            (start, load.range.radius.map_or(start, |[_, most]| most.max(start)))
+        }
+    }
+}
+
+impl Reach {
+    /// The key that lets the footprint leave its face.
+    fn culprit(&self, load: &Load) -> Option<String> {
+        let farthest =
+            self.range.map_or(self.start.abs(), |range| range[0].abs().max(range[1].abs()));
+        let leaves = |centre: f64, extent: f64| !fits(centre + extent, self.half);
+        if leaves(self.start.abs(), self.half_start) {
+            Some(self.key_of_start(load))
+        } else if leaves(farthest, self.half_start) {
+            Some(format!("range.{}", self.axis))
+        } else if leaves(farthest, self.half_most) {
+            Some("range.radius".to_owned())
+        } else {
+            None
+        }
+    }
+
+    fn key_of_start(&self, load: &Load) -> String {
+        let name = load.footprint.name();
+        if self.start != 0.0 && fits(self.half_start, self.half) {
+            format!("start.{}", self.axis)
+        } else if load.start.radius.is_some() {
+            "start.radius".to_owned()
+        } else if load.footprint.radius().is_some() {
+            format!("footprint.{name}.radius")
+        } else {
+            format!("footprint.{name}.size")
+        }
+    }
+}

@@ -1,0 +1,167 @@
+//! Whether what a scene says makes sense and can be modelled. One subject a file.
+
+mod body;
+mod field;
+mod header;
+mod load;
+mod probe;
+mod start;
+mod support;
+
+use super::error::{Problem, SceneError};
+use super::locate::{Path, Source};
+use super::lookup::split_place;
+use super::types::{Body, FaceName, Scene, Shape, Solid};
+
+/// Largest number of points, rings or tiles along an axis.
+const MOST_CELLS: usize = 1000;
+
+/// Relative slack of comparisons of lengths, for places that were computed.
+const SLACK: f64 = 1e-9;
+
+/// Finds everything that is wrong with a scene whose numbers are all finite.
+pub fn check(scene: &Scene, source: &Source) -> Result<(), SceneError> {
+    let mut checker = Checker { scene, source, problems: Vec::new() };
+    header::check(&mut checker);
+    body::check(&mut checker);
+    load::check(&mut checker);
+    probe::check(&mut checker);
+    field::check(&mut checker);
+    support::check(&mut checker);
+    SceneError::unless_empty(checker.problems)
+}
+
+/// Collects the problems of a scene.
+struct Checker<'a> {
+    scene: &'a Scene,
+    source: &'a Source<'a>,
+    problems: Vec<Problem>,
+}
+
+impl<'a> Checker<'a> {
+    /// Notes a problem with the value at `path`.
+    fn refuse(&mut self, path: &Path, message: impl Into<String>, allowed: impl Into<String>) {
+        self.problems.push(self.source.problem(path, message.into(), allowed.into()));
+    }
+
+    /// Notes a problem unless `fine`; returns `fine`.
+    fn require(
+        &mut self,
+        fine: bool,
+        path: &Path,
+        message: impl Into<String>,
+        allowed: impl Into<String>,
+    ) -> bool {
+        if !fine {
+            self.refuse(path, message, allowed);
+        }
+        fine
+    }
+
+    /// Refuses numbers that are not above zero.
+    fn positive(&mut self, path: &Path, value: f64, what: &str) -> bool {
+        self.require(value > 0.0, path, format!("{what} must be positive"), "> 0")
+    }
+
+    /// Refuses kelvins at and below absolute zero.
+    fn temperature(&mut self, path: &Path, value: f64) {
+        self.require(value > 0.0, path, "a temperature is above absolute zero", "> 0 (kelvin)");
+    }
+
+    /// Refuses counts of nothing and of absurdly many.
+    fn count(&mut self, path: &Path, count: usize) -> bool {
+        let fine = (1..=MOST_CELLS).contains(&count);
+        self.require(fine, path, "the count is out of bounds", format!("1 to {MOST_CELLS}"))
+    }
+
+    /// Refuses empty lists and repetitions in lists of names.
+    fn distinct<T: PartialEq>(&mut self, path: &Path, names: &[T]) {
+        self.require(!names.is_empty(), path, "the list is empty", "at least one name");
+        for (i, name) in names.iter().enumerate() {
+            let fine = !names[..i].contains(name);
+            self.require(fine, &path.index(i), "this is named twice", "each name once");
+        }
+    }
+
+    /// The body of that name, refused if there is none; `None` also for bodies whose shape has
+    /// been refused, on which no place can be judged.
+    fn body(&mut self, path: &Path, name: &str) -> Option<&'a Solid> {
+        let solid = self.scene.solid(name);
+        let known = self.scene.body.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
+        self.require(solid.is_some(), path, format!("there is no body `{name}`"), known);
+        solid.filter(|solid| is_sound(&solid.shape))
+    }
+
+    /// The face that `BODY.FACE` names, refused if it is none of those that `offered` says of a
+    /// shape; `None` also on bodies whose shape has been refused.
+    fn face(
+        &mut self,
+        path: &Path,
+        place: &str,
+        offered: fn(&Shape) -> Vec<FaceName>,
+    ) -> Option<(FaceName, &'a Solid)> {
+        let named = split_place(place).and_then(|(body, face)| {
+            let solid = self.scene.solid(body)?;
+            offered(&solid.shape).contains(&face).then_some((face, solid))
+        });
+        if named.is_none() {
+            let known = self.scene.body.iter().flat_map(|(body, Body::Solid(solid))| {
+                let faces = offered(&solid.shape).into_iter();
+                faces.map(move |face| format!("{body}.{}", face.as_str()))
+            });
+            let known = known.collect::<Vec<_>>().join(", ");
+            self.refuse(path, format!("`{place}` is no face for this"), known);
+        }
+        named.filter(|(_, solid)| is_sound(&solid.shape))
+    }
+}
+
+/// Whether all extents of a shape are positive.
+fn is_sound(shape: &Shape) -> bool {
+    match shape {
+        Shape::Box(extents) => extents.iter().all(|&extent| extent > 0.0),
+        Shape::Disc(disc) => disc.radius > 0.0 && disc.thickness > 0.0,
+    }
+}
+
+/// Whether a length is at most as large as another.
+fn fits(length: f64, limit: f64) -> bool {
+    length <= limit * (1.0 + SLACK)
+}
+
+/// Whether z lies between the bottom and the top of a body.
+fn is_in_depth(z: f64, thickness: f64) -> bool {
+    z <= SLACK * thickness && fits(-z, thickness)
+}
+
+/// A number with six digits, as people write it.
+fn number(value: f64) -> String {
+    let rounded = format!("{value:.5e}").parse().unwrap_or(value);
+    let magnitude = f64::abs(rounded);
+    if magnitude == 0.0 || (1e-3..1e6).contains(&magnitude) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(number(1e-3 - 3e-5), "9.7e-4");
+        assert_eq!(number(0.1 + 0.2), "0.3");
+        assert_eq!(number(-2e9), "-2e9");
+        assert_eq!(number(0.0), "0");
+        assert_eq!(number(f64::INFINITY), "inf");
+    }
+
+    #[test]
+    fn lengths_have_a_little_slack() {
+        assert!(fits(1.0 + 1e-10, 1.0) && !fits(1.0 + 1e-8, 1.0));
+        assert!(is_in_depth(1e-10, 1.0) && !is_in_depth(1e-8, 1.0));
+        assert!(is_in_depth(-1.0 - 1e-10, 1.0) && !is_in_depth(-1.0 - 1e-8, 1.0));
+    }
+}

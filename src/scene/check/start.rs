@@ -1,0 +1,125 @@
+//! Start values and bounds of a load's inputs.
+
+use super::{Checker, number};
+use crate::scene::locate::Path;
+use crate::scene::types::{Carries, CellShape, CellValues, Footprint, Load};
+
+pub fn check(checker: &mut Checker, path: &Path, load: &Load) {
+    amounts(checker, &path.at("start"), load);
+    radius(checker, path, load);
+    ranges(checker, path, load);
+}
+
+fn amounts(checker: &mut Checker, path: &Path, load: &Load) {
+    let start = &load.start;
+    let amounts = [
+        ("heat_flux", &start.heat_flux, Carries::HeatFlux),
+        ("pressure", &start.pressure, Carries::Pressure),
+        ("shear_x", &start.shear_x, Carries::Shear),
+        ("shear_y", &start.shear_y, Carries::Shear),
+        ("shear_r", &start.shear_r, Carries::Shear),
+    ];
+    for (key, values, carries) in amounts {
+        let Some(values) = values else { continue };
+        let path = path.key(key);
+        if !load.carries.contains(&carries) {
+            let message = "a start value of something that the load does not carry";
+            checker.refuse(&path, message, carried_keys(load));
+        } else if direction(checker, &path, load, key) {
+            cells(checker, &path, values, load.footprint.cells());
+        }
+    }
+}
+
+/// The keys of start values that go with what the load carries.
+fn carried_keys(load: &Load) -> String {
+    let keys = load.carries.iter().map(|carries| match (carries, &load.footprint) {
+        (Carries::HeatFlux, _) => "heat_flux",
+        (Carries::Pressure, _) => "pressure",
+        (Carries::Shear, Footprint::Rings { .. }) => "shear_r",
+        (Carries::Shear, _) => "shear_x, shear_y",
+    });
+    keys.collect::<Vec<_>>().join(", ")
+}
+
+/// Shear is radial on rings and along x and y elsewhere.
+fn direction(checker: &mut Checker, path: &Path, load: &Load, key: &str) -> bool {
+    match (&load.footprint, key) {
+        (Footprint::Rings { .. }, "shear_x" | "shear_y") => {
+            checker.refuse(path, "shear on rings is radial", "shear_r");
+            false
+        }
+        (Footprint::Rings { .. }, _) => true,
+        (_, "shear_r") => {
+            checker.refuse(path, "only shear on rings is radial", "shear_x, shear_y");
+            false
+        }
+        _ => true,
+    }
+}
+
+/// Refuses values that are not one for each cell.
+fn cells(checker: &mut Checker, path: &Path, values: &CellValues, cells: Option<CellShape>) {
+    let allowed = match cells {
+        None => "one number".to_owned(),
+        Some(CellShape::Rings(count)) => format!("one number, or a list of {count}"),
+        Some(CellShape::Tiles([rows, columns])) => {
+            format!("one number, or a list of {rows} lists of {columns}")
+        }
+    };
+    let fine = match (values, cells) {
+        (CellValues::Uniform(_), _) => true,
+        (CellValues::Rings(values), Some(CellShape::Rings(count))) => values.len() == count,
+        (CellValues::Tiles(rows), Some(CellShape::Tiles(count))) => {
+            rows.len() == count[0] && rows.iter().all(|row| row.len() == count[1])
+        }
+        _ => false,
+    };
+    checker.require(fine, path, "the values are not one for each cell of the footprint", allowed);
+}
+
+fn radius(checker: &mut Checker, path: &Path, load: &Load) {
+    if load.footprint.radius().is_none() {
+        for (key, given) in [
+            ("start.radius", load.start.radius.is_some()),
+            ("range.radius", load.range.radius.is_some()),
+        ] {
+            checker.require(!given, &path.at(key), "tiles have no radius", "x, y");
+        }
+    } else {
+        let positive = "the radius of a footprint";
+        if let Some(radius) = load.start.radius {
+            checker.positive(&path.at("start.radius"), radius, positive);
+        }
+        if let Some([lowest, _]) = load.range.radius {
+            checker.positive(&path.at("range.radius").index(0), lowest, positive);
+        }
+    }
+}
+
+fn ranges(checker: &mut Checker, path: &Path, load: &Load) {
+    let own_radius = load.footprint.radius().unwrap_or(0.0);
+    for (key, range, start, otherwise) in [
+        ("x", load.range.x, load.start.x, 0.0),
+        ("y", load.range.y, load.start.y, 0.0),
+        ("radius", load.range.radius, load.start.radius, own_radius),
+    ] {
+        let Some([lowest, highest]) = range else { continue };
+        let at_range = path.at("range").key(key);
+        if lowest > highest {
+            checker.refuse(&at_range, "the bounds are in the wrong order", "[lowest, highest]");
+            continue;
+        }
+        let value = start.unwrap_or(otherwise);
+        let fine = lowest <= value && value <= highest;
+        if start.is_some() {
+            let allowed = format!("{} <= {key} <= {}", number(lowest), number(highest));
+            let path = path.at("start").key(key);
+            checker.require(fine, &path, "the start value is out of its range", allowed);
+        } else if load.footprint.radius().is_some() || key != "radius" {
+            let message = format!("the range leaves out the start value {}", number(value));
+            let allowed = format!("a range with {0} in it, or `start.{key}`", number(value));
+            checker.require(fine, &at_range, message, allowed);
+        }
+    }
+}

@@ -1,0 +1,58 @@
+//! Whether bodies whose mechanics is asked for are held against rigid motion.
+
+use super::Checker;
+use crate::scene::locate::Path;
+use crate::scene::types::{Body, FaceName, Shape, Solid};
+
+pub fn check(checker: &mut Checker) {
+    for (name, Body::Solid(solid)) in &checker.scene.body {
+        if checker.scene.asks_mechanics(name) {
+            let free = free_motions(solid);
+            let message = format!(
+                "stress and displacement are asked for, but nothing holds the body against {}",
+                free.join(", ")
+            );
+            let path = Path::default().key("body").key(name);
+            checker.require(free.is_empty(), &path, message, remedy(solid));
+        }
+    }
+}
+
+fn free_motions(solid: &Solid) -> Vec<&'static str> {
+    let faces = solid.shape.faces().iter().map(|&name| (name, solid.face(name)));
+    if faces.clone().any(|(_, face)| face.clamped) {
+        return Vec::new();
+    }
+    let rollers: Vec<_> = faces.filter(|(_, face)| face.roller).map(|(name, _)| name).collect();
+    match solid.shape {
+        Shape::Box(_) => free_motions_of_box(&rollers),
+        Shape::Disc(_) => free_motions_of_disc(&rollers),
+    }
+}
+
+/// A roller holds the translation along its normal and the rotations about the axes in its face.
+fn free_motions_of_box(rollers: &[FaceName]) -> Vec<&'static str> {
+    let normals: Vec<_> = rollers.iter().filter_map(|face| face.normal()).collect();
+    let translations = ["translation along x", "translation along y", "translation along z"];
+    let rotations = ["rotation about x", "rotation about y", "rotation about z"];
+    let moves = (0..3).filter(|axis| !normals.contains(axis)).map(|axis| translations[axis]);
+    let turns = (0..3)
+        .filter(|axis| !normals.iter().any(|normal| normal != axis))
+        .map(|axis| rotations[axis]);
+    moves.chain(turns).collect()
+}
+
+/// Axisymmetry leaves a disc one rigid motion, along its axis, which its lateral face slides in.
+fn free_motions_of_disc(rollers: &[FaceName]) -> Vec<&'static str> {
+    let held = rollers.iter().any(|face| face.normal() == Some(2));
+    if held { Vec::new() } else { vec!["translation along z"] }
+}
+
+fn remedy(solid: &Solid) -> &'static str {
+    match solid.shape {
+        Shape::Box(_) => {
+            "a face with `clamped = true`, or faces of all three normals with `roller = true`"
+        }
+        Shape::Disc(_) => "a face with `clamped = true`, or `roller = true` on `top` or `bottom`",
+    }
+}

@@ -1,0 +1,187 @@
+//! Why a value does not fit its type, with what would.
+
+use std::fmt;
+
+use serde::de::{Error, Expected, Unexpected};
+
+use crate::scene::locate::Path;
+
+/// The first value that does not fit.
+#[derive(Debug)]
+pub struct Failure {
+    /// Where; `None` until the failure has come up to the innermost value with a known place.
+    pub path: Option<Path>,
+    pub misfit: Misfit,
+}
+
+/// What does not fit.
+#[derive(Debug)]
+pub enum Misfit {
+    UnknownKey { key: String, known: &'static [&'static str] },
+    UnknownName { name: String, known: &'static [&'static str] },
+    MissingKey(&'static str),
+    Unexpected { expected: String },
+}
+
+impl Failure {
+    /// The failure of a value that is not `expected`, in serde's words.
+    pub fn expecting(expected: impl fmt::Display) -> Self {
+        Misfit::Unexpected { expected: expected.to_string() }.into()
+    }
+
+    /// Gives the failure a place unless it has one.
+    pub fn or_at(mut self, path: &Path) -> Self {
+        self.path.get_or_insert_with(|| path.clone());
+        self
+    }
+}
+
+impl From<Misfit> for Failure {
+    fn from(misfit: Misfit) -> Self {
+        Self { path: None, misfit }
+    }
+}
+
+impl Misfit {
+    /// What is wrong, as a sentence.
+    pub fn message(&self) -> String {
+        let hint = self.meant().map(|meant| format!(" (did you mean `{meant}`?)"));
+        let hint = hint.unwrap_or_default();
+        match self {
+            Misfit::UnknownKey { key, .. } => format!("unknown key `{key}`{hint}"),
+            Misfit::UnknownName { name, .. } => format!("`{name}` is not available{hint}"),
+            Misfit::MissingKey(key) => format!("the key `{key}` is missing"),
+            Misfit::Unexpected { expected } => format!("this is not {}", expectation(expected)),
+        }
+    }
+
+    /// What would fit.
+    pub fn allowed(&self) -> String {
+        match self {
+            Misfit::UnknownKey { known, .. } | Misfit::UnknownName { known, .. } => {
+                known.join(", ")
+            }
+            Misfit::MissingKey(key) => format!("`{key} = …`"),
+            Misfit::Unexpected { expected } => expectation(expected),
+        }
+    }
+
+    /// The known key or name that is spelt much like the unknown one.
+    pub fn meant(&self) -> Option<&'static str> {
+        let (Misfit::UnknownKey { key: word, known } | Misfit::UnknownName { name: word, known }) =
+            self
+        else {
+            return None;
+        };
+        known
+            .iter()
+            .map(|&known| (edits(word, known), known))
+            .filter(|&(edits, known)| edits <= 2 && edits < known.len())
+            .min_by_key(|&(edits, _)| edits)
+            .map(|(_, known)| known)
+    }
+}
+
+/// What a type takes, in the words of a scene's author instead of serde's.
+pub fn expectation(serde: &str) -> String {
+    match serde {
+        "f64" => "a finite number".to_owned(),
+        "usize" => "a whole number, not negative".to_owned(),
+        "a boolean" => "true or false".to_owned(),
+        "a string" => "a text in quotes".to_owned(),
+        "a sequence" => "a list".to_owned(),
+        "a map" => "a table".to_owned(),
+        _ if serde.starts_with("struct ") || serde.contains(" enum ") => "a table".to_owned(),
+        _ => match serde.strip_prefix("an array of length ") {
+            Some(length) => format!("a list of {length} values"),
+            None => serde.to_owned(),
+        },
+    }
+}
+
+/// Number of letters to insert, delete, replace or swap with a neighbour that turn one word into
+/// the other.
+///
+/// Source: R. Lowrance and R. A. Wagner, J. ACM 22 (1975) 177, in its restricted form.
+fn edits(from: &str, to: &str) -> usize {
+    let (from, to): (Vec<_>, Vec<_>) = (from.chars().collect(), to.chars().collect());
+    let mut before_last = Vec::new();
+    let mut last: Vec<usize> = (0..=to.len()).collect();
+    for i in 0..from.len() {
+        let mut row = vec![i + 1];
+        for j in 0..to.len() {
+            let replaced = last[j] + usize::from(from[i] != to[j]);
+            let mut fewest = replaced.min(last[j + 1] + 1).min(row[j] + 1);
+            if i > 0 && j > 0 && from[i] == to[j - 1] && from[i - 1] == to[j] {
+                fewest = fewest.min(before_last[j - 1] + 1);
+            }
+            row.push(fewest);
+        }
+        before_last = std::mem::replace(&mut last, row);
+    }
+    last[to.len()]
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}; allowed: {}", self.misfit.message(), self.misfit.allowed())
+    }
+}
+
+impl std::error::Error for Failure {}
+
+impl Error for Failure {
+    /// Only untagged enums come here, with the words of their `expecting`.
+    fn custom<T: fmt::Display>(message: T) -> Self {
+        Self::expecting(message)
+    }
+
+    fn invalid_type(_: Unexpected, expected: &dyn Expected) -> Self {
+        Self::expecting(expected)
+    }
+
+    fn invalid_value(_: Unexpected, expected: &dyn Expected) -> Self {
+        Self::expecting(expected)
+    }
+
+    fn invalid_length(_: usize, expected: &dyn Expected) -> Self {
+        Self::expecting(expected)
+    }
+
+    fn unknown_field(key: &str, known: &'static [&'static str]) -> Self {
+        Misfit::UnknownKey { key: key.to_owned(), known }.into()
+    }
+
+    fn unknown_variant(name: &str, known: &'static [&'static str]) -> Self {
+        Misfit::UnknownName { name: name.to_owned(), known }.into()
+    }
+
+    fn missing_field(key: &'static str) -> Self {
+        Misfit::MissingKey(key).into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_slip_of_the_pen_is_understood() {
+        let meant = |word: &str| {
+            Failure::unknown_field(word, &["density", "young", "on", "at"]).misfit.meant()
+        };
+        assert_eq!(meant("desnity"), Some("density"));
+        assert_eq!(meant("youngs"), Some("young"));
+        assert_eq!(meant("In"), Some("on"));
+        assert_eq!(meant("poisson"), None);
+        assert_eq!(meant(""), None);
+    }
+
+    #[test]
+    fn edits_are_counted() {
+        for (from, to, count) in [("", "abc", 3), ("abc", "acb", 1), ("kitten", "sitting", 3)] {
+            assert_eq!(edits(from, to), count, "{from} → {to}");
+            assert_eq!(edits(to, from), count, "{to} → {from}");
+        }
+    }
+}

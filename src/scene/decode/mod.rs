@@ -1,0 +1,158 @@
+//! From located TOML values to the types of a scene, with every misfit at its place.
+//!
+//! serde stops at the first misfit. Here that value is noted, left out and the rest read again,
+//! until nothing new turns up, so that one run reports what one run can.
+
+mod failure;
+mod value;
+
+use std::collections::BTreeSet;
+
+use serde::de::DeserializeOwned;
+use toml::de::{DeFloat, DeValue};
+
+use super::error::{Problem, SceneError};
+use super::locate::{Path, Source};
+use super::types::{Scene, Solid};
+use crate::material::Thermoelastic;
+use failure::{Failure, Misfit, expectation};
+use value::{Node, View};
+
+/// More problems than this are not worth reading.
+const MOST_PROBLEMS: usize = 100;
+
+/// Reads a scene whose keys, types and numbers are in order; whether they make sense together is
+/// not looked at.
+pub fn decode(source: &Source) -> Result<Scene, SceneError> {
+    let mut decoder = Decoder { source, left_out: BTreeSet::new(), problems: Vec::new() };
+    decoder.refuse_numbers_that_are_not_finite(source.root(), &Path::default());
+    decoder.read_bodies();
+    let scene = decoder.read::<Scene>(&Path::default(), None);
+    SceneError::unless_empty(decoder.problems)?;
+    scene.ok_or_else(|| {
+        source.problem(&Path::default(), "no scene".to_owned(), "a scene".to_owned()).into()
+    })
+}
+
+struct Decoder<'a> {
+    source: &'a Source<'a>,
+    /// What reads as if it were not there.
+    left_out: BTreeSet<Path>,
+    problems: Vec<Problem>,
+}
+
+impl Decoder<'_> {
+    /// Reads tables whose type a key of theirs chooses, from the inside out: serde loses the
+    /// places of values in such tables, so that they must be faultless when it gets to them.
+    fn read_bodies(&mut self) {
+        let path = Path::default().key("body");
+        let Some(DeValue::Table(bodies)) = self.source.value(&path) else { return };
+        for name in bodies.keys() {
+            let body = path.key(name.get_ref());
+            self.read_if::<Thermoelastic>(&body.key("material"), "model", "thermoelastic");
+            self.read_if::<Solid>(&body, "kind", "solid");
+        }
+    }
+
+    /// Reads the table at `path` as a `T` where its key `tag` says `name`.
+    fn read_if<T: DeserializeOwned>(&mut self, path: &Path, tag: &'static str, name: &str) {
+        let chosen = self.source.value(&path.key(tag)).and_then(DeValue::as_str);
+        if chosen == Some(name) {
+            self.read::<T>(path, Some(tag));
+        }
+    }
+
+    /// Reads the table at `path`, notes all that is wrong with it and leaves that out from then on.
+    fn read<T: DeserializeOwned>(&mut self, path: &Path, tag: Option<&'static str>) -> Option<T> {
+        let value = self.source.value(path)?;
+        while self.problems.len() < MOST_PROBLEMS && !self.left_out.contains(path) {
+            let view = View { left_out: &self.left_out, blank: None };
+            let failure = match T::deserialize(Node::new(value, path.clone(), &view).without(tag)) {
+                Ok(read) => return Some(read),
+                Err(failure) => failure,
+            };
+            let place = failure.path.clone().unwrap_or_else(|| path.clone());
+            if !self.is_echo(&place, &failure.misfit) {
+                let allowed = self.allowed::<T>(value, path, tag, &failure, &place);
+                self.note(&failure.misfit, &place, allowed);
+            }
+            if !self.leave_out(&failure.misfit, place) {
+                return None;
+            }
+        }
+        None
+    }
+
+    /// Whether the misfit only says that something is gone that was left out.
+    fn is_echo(&self, place: &Path, misfit: &Misfit) -> bool {
+        match misfit {
+            Misfit::MissingKey(key) => self.left_out.contains(&place.key(key)),
+            _ => self.left_out.iter().any(|path| path.is_within(place)),
+        }
+    }
+
+    fn note(&mut self, misfit: &Misfit, place: &Path, allowed: String) {
+        let place = match misfit {
+            Misfit::MissingKey(key) => place.key(key),
+            _ => place.clone(),
+        };
+        self.problems.push(self.source.problem(&place, misfit.message(), allowed));
+    }
+
+    /// A table that lacks a key goes as a whole; anything else that does not fit goes alone, and
+    /// with a misspelt key goes the one that was meant.
+    /// Returns whether that changes anything.
+    fn leave_out(&mut self, misfit: &Misfit, place: Path) -> bool {
+        if let (Misfit::UnknownKey { .. }, Some(meant)) = (misfit, misfit.meant()) {
+            let meant = place.parent().key(meant);
+            if self.source.value(&meant).is_none() {
+                self.left_out.insert(meant);
+            }
+        }
+        self.left_out.insert(place)
+    }
+
+    /// What would fit; for a missing key, what its type takes.
+    fn allowed<T: DeserializeOwned>(
+        &self,
+        value: &DeValue,
+        path: &Path,
+        tag: Option<&'static str>,
+        failure: &Failure,
+        place: &Path,
+    ) -> String {
+        let Misfit::MissingKey(key) = failure.misfit else { return failure.misfit.allowed() };
+        let blank = place.key(key);
+        let view = View { left_out: &self.left_out, blank: Some(&blank) };
+        match T::deserialize(Node::new(value, path.clone(), &view).without(tag)) {
+            Err(failure) if failure.path.as_ref() == Some(&blank) => failure.misfit.allowed(),
+            _ => failure.misfit.allowed(),
+        }
+    }
+
+    /// TOML knows `nan` and `inf`, and rounds numbers beyond the range of a double to the latter.
+    fn refuse_numbers_that_are_not_finite(&mut self, value: &DeValue, path: &Path) {
+        match value {
+            DeValue::Float(float) if !is_finite(float) => {
+                let message = "not a finite number".to_owned();
+                self.problems.push(self.source.problem(path, message, expectation("f64")));
+            }
+            DeValue::Array(array) => {
+                for (i, element) in array.iter().enumerate() {
+                    self.refuse_numbers_that_are_not_finite(element.get_ref(), &path.index(i));
+                }
+            }
+            DeValue::Table(table) => {
+                for (key, element) in table {
+                    let path = path.key(key.get_ref());
+                    self.refuse_numbers_that_are_not_finite(element.get_ref(), &path);
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn is_finite(float: &DeFloat) -> bool {
+    float.as_str().parse::<f64>().is_ok_and(f64::is_finite)
+}

@@ -1,0 +1,64 @@
+//! What is wrong with a scene: place, value, reason and what is allowed instead.
+
+use std::fmt;
+
+/// One thing that is wrong with a scene.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// Name of the file, as it was given.
+    pub file: String,
+    /// Line of the value, counted from 1; `None` where the file as a whole is at fault.
+    pub line: Option<usize>,
+    /// Dotted path of the value, as in `load[0].footprint.disc.radius`; empty for the file.
+    pub path: String,
+    /// Source text of the value; empty where there is none.
+    pub value: String,
+    /// What is wrong with it.
+    pub message: String,
+    /// What would be right.
+    pub allowed: String,
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.file)?;
+        if let Some(line) = self.line {
+            write!(f, "{line}:")?;
+        }
+        match (self.path.is_empty(), self.value.is_empty()) {
+            (true, true) => {}
+            (true, false) => write!(f, " `{}`:", self.value)?,
+            (false, true) => write!(f, " {}:", self.path)?,
+            (false, false) => write!(f, " {} = {}:", self.path, self.value)?,
+        }
+        write!(f, " {}; allowed: {}", self.message, self.allowed)
+    }
+}
+
+/// All problems that were found in a scene, in the order of their lines. Never empty.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}", one_a_line(problems))]
+pub struct SceneError {
+    pub problems: Vec<Problem>,
+}
+
+impl SceneError {
+    /// `Err` with the problems in the order of their lines, `Ok` if there are none.
+    pub(super) fn unless_empty(mut problems: Vec<Problem>) -> Result<(), Self> {
+        if problems.is_empty() {
+            return Ok(());
+        }
+        problems.sort_by_key(|problem| problem.line);
+        Err(Self { problems })
+    }
+}
+
+impl From<Problem> for SceneError {
+    fn from(problem: Problem) -> Self {
+        Self { problems: vec![problem] }
+    }
+}
+
+fn one_a_line(problems: &[Problem]) -> String {
+    problems.iter().map(Problem::to_string).collect::<Vec<_>>().join("\n")
+}

@@ -1,0 +1,227 @@
+//! Places in a scene's text: from the path of a value to its line and its source text.
+
+use std::fmt;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::error::{Problem, SceneError};
+
+/// Longest source text that a message repeats.
+const LONGEST_VALUE: usize = 60;
+
+/// The way from the root of a scene to one of its values.
+#[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Path(Vec<Step>);
+
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+enum Step {
+    Key(String),
+    Index(usize),
+}
+
+impl Path {
+    /// The path of the value under `key`, which may be any text.
+    pub fn key(&self, key: &str) -> Self {
+        self.step(Step::Key(key.to_owned()))
+    }
+
+    /// The path of an element of a list, counted from 0.
+    pub fn index(&self, index: usize) -> Self {
+        self.step(Step::Index(index))
+    }
+
+    /// The path below this one by bare keys separated by dots, as in `mesh.spacing`.
+    pub fn at(&self, keys: &str) -> Self {
+        keys.split('.').fold(self.clone(), |path, key| path.key(key))
+    }
+
+    /// The path of the table or list that holds the value; the root is its own parent.
+    pub fn parent(&self) -> Self {
+        Self(self.0[..self.0.len().saturating_sub(1)].to_vec())
+    }
+
+    /// The key of the value in its table; empty for elements of lists and for the root.
+    pub fn last_key(&self) -> &str {
+        match self.0.last() {
+            Some(Step::Key(key)) => key,
+            _ => "",
+        }
+    }
+
+    /// Whether this value is part of the value at `other` (or is that value).
+    pub fn is_within(&self, other: &Path) -> bool {
+        self.0.starts_with(&other.0)
+    }
+
+    fn step(&self, step: Step) -> Self {
+        let mut steps = self.0.clone();
+        steps.push(step);
+        Self(steps)
+    }
+}
+
+impl fmt::Display for Path {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, step) in self.0.iter().enumerate() {
+            match step {
+                Step::Index(index) => write!(f, "[{index}]")?,
+                Step::Key(key) => {
+                    let dot = if i == 0 { "" } else { "." };
+                    if is_bare(key) { write!(f, "{dot}{key}")? } else { write!(f, "{dot}{key:?}")? }
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether TOML takes this key without quotes.
+fn is_bare(key: &str) -> bool {
+    !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-')
+}
+
+/// A scene's text together with the places of its values.
+#[derive(Debug)]
+pub struct Source<'a> {
+    file: String,
+    text: &'a str,
+    root: Spanned<DeValue<'a>>,
+}
+
+impl<'a> Source<'a> {
+    /// Reads TOML; fails on every line that is none.
+    pub fn parse(text: &'a str, file: &str) -> Result<Self, SceneError> {
+        let (table, errors) = DeTable::parse_recoverable(text);
+        let root = Spanned::new(table.span(), DeValue::Table(table.into_inner()));
+        let source = Self { file: file.to_owned(), text, root };
+        let mut problems: Vec<_> = errors.iter().map(|error| source.not_toml(error)).collect();
+        problems.dedup_by_key(|problem| problem.line);
+        SceneError::unless_empty(problems)?;
+        Ok(source)
+    }
+
+    /// The whole scene, always a table.
+    pub fn root(&self) -> &DeValue<'a> {
+        self.root.get_ref()
+    }
+
+    /// The value at `path`, if there is one.
+    pub fn value(&self, path: &Path) -> Option<&DeValue<'a>> {
+        self.node(&path.0).map(Spanned::get_ref)
+    }
+
+    /// A problem with the value at `path`; where there is none, with the table it is missing in.
+    pub fn problem(&self, path: &Path, message: String, allowed: String) -> Problem {
+        Problem {
+            file: self.file.clone(),
+            line: Some(self.line(path)),
+            path: path.to_string(),
+            value: self.node(&path.0).map(|node| self.text_of(node)).unwrap_or_default(),
+            message,
+            allowed,
+        }
+    }
+
+    /// Line of the value at `path`, or of the innermost table around it.
+    fn line(&self, path: &Path) -> usize {
+        let around = (0..=path.0.len()).rev().find_map(|steps| self.node(&path.0[..steps]));
+        around.map_or(1, |node| self.line_of_offset(node.span().start))
+    }
+
+    fn node(&self, steps: &[Step]) -> Option<&Spanned<DeValue<'a>>> {
+        steps.iter().try_fold(&self.root, |node, step| match step {
+            Step::Key(key) => node.get_ref().get(key.as_str()),
+            Step::Index(index) => node.get_ref().get(*index),
+        })
+    }
+
+    /// First line of a value as it is written; nothing for tables that stand under a header.
+    fn text_of(&self, node: &Spanned<DeValue<'a>>) -> String {
+        let text = self.text.get(node.span()).unwrap_or_default();
+        let has_header = match node.get_ref() {
+            DeValue::Table(_) => !text.starts_with('{'),
+            DeValue::Array(array) => {
+                let tables = array.first().is_some_and(|first| first.get_ref().is_table());
+                tables && text.starts_with("[[")
+            }
+            _ => false,
+        };
+        if has_header { String::new() } else { shortened(text) }
+    }
+
+    fn line_of_offset(&self, offset: usize) -> usize {
+        1 + self.text.bytes().take(offset).filter(|&byte| byte == b'\n').count()
+    }
+
+    fn not_toml(&self, error: &toml::de::Error) -> Problem {
+        let span = error.span().unwrap_or(self.text.len()..self.text.len());
+        let (message, allowed) = match error.message().split_once(", expected ") {
+            Some((message, expected)) => (message, expected),
+            None if error.message() == "duplicate key" => ("duplicate key", "each key once"),
+            None => (error.message(), "TOML 1.0"),
+        };
+        Problem {
+            file: self.file.clone(),
+            line: Some(self.line_of_offset(span.start)),
+            path: String::new(),
+            value: shortened(self.text.get(span).unwrap_or_default()),
+            message: format!("not TOML: {message}"),
+            allowed: allowed.to_owned(),
+        }
+    }
+}
+
+/// The first line of a text, cut where it grows long.
+fn shortened(text: &str) -> String {
+    let line = text.lines().next().unwrap_or_default().trim_end();
+    let cut: String = line.chars().take(LONGEST_VALUE).collect();
+    if cut.len() < text.trim_end().len() { format!("{cut}…") } else { cut }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "a = 1\n\n[body.\"odd name\"]\nm = { x = 0.5,\n  y = [1,\n    2] }\n\
+        [[load]]\nn = 1\n[[load]]\nn = '''p\nq'''\n";
+
+    fn place(path: Path) -> (usize, String, String) {
+        let source = Source::parse(TEXT, "file").unwrap();
+        let problem = source.problem(&path, String::new(), String::new());
+        (problem.line.unwrap(), problem.path, problem.value)
+    }
+
+    fn expect(path: Path, line: usize, shown: &str, value: &str) {
+        assert_eq!(place(path), (line, shown.to_owned(), value.to_owned()));
+    }
+
+    #[test]
+    fn values_are_found_under_headers_in_inline_tables_and_in_lists() {
+        let root = Path::default();
+        expect(root.at("a"), 1, "a", "1");
+        let body = root.at("body").key("odd name");
+        expect(body.clone(), 3, "body.\"odd name\"", "");
+        expect(body.at("m.x"), 4, "body.\"odd name\".m.x", "0.5");
+        expect(body.at("m.y").index(1), 6, "body.\"odd name\".m.y[1]", "2");
+        expect(root.at("load"), 7, "load", "");
+        expect(root.at("load").index(1), 9, "load[1]", "");
+    }
+
+    #[test]
+    fn a_long_value_is_cut() {
+        expect(Path::default().at("load").index(1).at("n"), 10, "load[1].n", "'''p…");
+    }
+
+    #[test]
+    fn a_missing_value_has_the_line_of_its_table() {
+        expect(Path::default().at("load").index(0).at("on"), 7, "load[0].on", "");
+    }
+
+    #[test]
+    fn text_that_is_no_toml_is_refused_with_every_line() {
+        let error = Source::parse("a = \nb = 1\nb = 2\nc = 'x\n", "file").unwrap_err();
+        let lines: Vec<_> = error.problems.iter().map(|problem| problem.line).collect();
+        assert_eq!(lines, [Some(1), Some(3), Some(4)], "{error}");
+    }
+}

@@ -1,0 +1,201 @@
+//! What others ask of a checked scene.
+
+use super::types::*;
+
+/// Where a field lies in its body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Place {
+    Face(FaceName),
+    Section(Plane),
+}
+
+impl Scene {
+    /// The solid body of that name.
+    pub fn solid(&self, name: &str) -> Option<&Solid> {
+        self.body.get(name).map(|Body::Solid(solid)| solid)
+    }
+
+    /// Whether anything needs the displacements or stresses of a body, so that its mechanics must
+    /// be modelled.
+    pub fn asks_mechanics(&self, body: &str) -> bool {
+        let mechanical = |gives: &[Gives]| gives.iter().any(Gives::is_mechanical);
+        self.probe.iter().any(|probe| probe.body == body && mechanical(&probe.gives))
+            || self.field.iter().any(|field| field.body() == Some(body) && mechanical(&field.gives))
+            || self.load.iter().any(|load| {
+                split_place(&load.on).is_some_and(|(on, _)| on == body)
+                    && load.carries.iter().any(Carries::is_mechanical)
+            })
+    }
+}
+
+impl Shape {
+    /// The single faces of the shape, in the order of their numbers.
+    pub fn faces(&self) -> &'static [FaceName] {
+        match self {
+            Shape::Box(_) => &FaceName::OF_BOX,
+            Shape::Disc(_) => &FaceName::OF_DISC,
+        }
+    }
+}
+
+impl Solid {
+    /// The conditions on a face, those of `sides` included on the lateral faces of a box.
+    pub fn face(&self, name: FaceName) -> Face {
+        let own = self.faces.get(&name).copied().unwrap_or_default();
+        if !name.is_one_of_four_sides() {
+            return own;
+        }
+        let sides = self.faces.get(&FaceName::Sides).copied().unwrap_or_default();
+        Face {
+            temperature: own.temperature.or(sides.temperature),
+            flux: own.flux.or(sides.flux),
+            convection: own.convection.or(sides.convection),
+            clamped: own.clamped || sides.clamped,
+            roller: own.roller || sides.roller,
+        }
+    }
+}
+
+impl Face {
+    /// Keys of the thermal conditions that are given.
+    pub fn thermal(&self) -> Vec<&'static str> {
+        let given = [
+            ("temperature", self.temperature.is_some()),
+            ("flux", self.flux.is_some()),
+            ("convection", self.convection.is_some()),
+        ];
+        given.into_iter().filter(|(_, given)| *given).map(|(key, _)| key).collect()
+    }
+
+    /// Keys of the mechanical conditions that are given.
+    pub fn mechanical(&self) -> Vec<&'static str> {
+        let given = [("clamped", self.clamped), ("roller", self.roller)];
+        given.into_iter().filter(|(_, given)| *given).map(|(key, _)| key).collect()
+    }
+}
+
+impl FaceName {
+    const ALL: [Self; 7] =
+        [Self::Top, Self::Bottom, Self::Sides, Self::Left, Self::Right, Self::Front, Self::Back];
+    const OF_BOX: [Self; 6] =
+        [Self::Top, Self::Bottom, Self::Left, Self::Right, Self::Front, Self::Back];
+    const OF_DISC: [Self; 3] = [Self::Top, Self::Bottom, Self::Sides];
+
+    /// The name as scenes write it.
+    pub fn as_str(self) -> &'static str {
+        match self {
+            Self::Top => "top",
+            Self::Bottom => "bottom",
+            Self::Sides => "sides",
+            Self::Left => "left",
+            Self::Right => "right",
+            Self::Front => "front",
+            Self::Back => "back",
+        }
+    }
+
+    /// The face that scenes write so.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|face| face.as_str() == name)
+    }
+
+    /// Whether `sides` of a box includes the face.
+    pub fn is_one_of_four_sides(self) -> bool {
+        matches!(self, Self::Left | Self::Right | Self::Front | Self::Back)
+    }
+
+    /// The axis along the normal, 0 = x, 1 = y, 2 = z; `None` for `sides`, which has several.
+    pub fn normal(self) -> Option<usize> {
+        match self {
+            Self::Left | Self::Right => Some(0),
+            Self::Front | Self::Back => Some(1),
+            Self::Top | Self::Bottom => Some(2),
+            Self::Sides => None,
+        }
+    }
+}
+
+impl Footprint {
+    /// The name as scenes write it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Footprint::Disc { .. } => "disc",
+            Footprint::Gaussian { .. } => "gaussian",
+            Footprint::Rings { .. } => "rings",
+            Footprint::Tiles { .. } => "tiles",
+        }
+    }
+}
+
+impl Load {
+    /// The body and the face that the load acts on.
+    ///
+    /// # Panics
+    /// If the scene has not been checked and `on` is not `BODY.FACE`.
+    pub fn body_and_face(&self) -> (&str, FaceName) {
+        split_place(&self.on).expect("a checked load is on BODY.FACE")
+    }
+}
+
+impl Field {
+    /// The body and the face or section that the field lies in.
+    ///
+    /// # Panics
+    /// If the scene has not been checked and the field says neither `on` nor `in` and `plane`.
+    pub fn body_and_place(&self) -> (&str, Place) {
+        match (&self.on, &self.body, self.plane) {
+            (Some(on), None, None) => {
+                let (body, face) = split_place(on).expect("a checked field is on BODY.FACE");
+                (body, Place::Face(face))
+            }
+            (None, Some(body), Some(plane)) => (body, Place::Section(plane)),
+            _ => panic!("a checked field has either `on` or `in` and `plane`"),
+        }
+    }
+
+    /// Name of the body, as far as the field says one.
+    fn body(&self) -> Option<&str> {
+        match (&self.on, &self.body) {
+            (Some(on), _) => split_place(on).map(|(body, _)| body),
+            (None, body) => body.as_deref(),
+        }
+    }
+}
+
+impl Plane {
+    /// The axis along the normal, 0 = x, 1 = y, 2 = z.
+    pub fn normal(self) -> usize {
+        match self {
+            Plane::X(_) => 0,
+            Plane::Y(_) => 1,
+            Plane::Z(_) => 2,
+        }
+    }
+
+    /// The constant coordinate [m].
+    pub fn offset(self) -> f64 {
+        match self {
+            Plane::X(offset) | Plane::Y(offset) | Plane::Z(offset) => offset,
+        }
+    }
+}
+
+impl Carries {
+    /// Whether it is a traction.
+    pub fn is_mechanical(&self) -> bool {
+        matches!(self, Carries::Pressure | Carries::Shear)
+    }
+}
+
+impl Gives {
+    /// Whether it comes from the displacements.
+    pub fn is_mechanical(&self) -> bool {
+        !matches!(self, Gives::Temperature)
+    }
+}
+
+/// The two parts of `BODY.FACE`.
+pub(super) fn split_place(place: &str) -> Option<(&str, FaceName)> {
+    let (body, face) = place.rsplit_once('.')?;
+    Some((body, FaceName::named(face)?))
+}

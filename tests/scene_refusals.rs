@@ -1,0 +1,259 @@
+//! Scenes that make sense are read; of all others the file, line, value and what is allowed are
+//! named. The refusals themselves are listed in `scenes/refusals.toml`.
+
+use std::path::Path;
+
+use impinge::scene::{Body, Carries, CellValues, FaceName, Grid, Place, Scene, parse, read};
+use serde::Deserialize;
+
+const PLATE: &str = include_str!("scenes/plate.toml");
+const DISC: &str = include_str!("scenes/disc.toml");
+const TILES: &str = include_str!("scenes/tiles.toml");
+const SCENES: [(&str, &str); 3] = [("plate", PLATE), ("disc", DISC), ("tiles", TILES)];
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Refusals {
+    refused: Vec<Refusal>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Refusal {
+    what: String,
+    scene: String,
+    /// Pairs of a text that occurs once in the scene and the text that stands there instead.
+    edits: Vec<[String; 2]>,
+    /// The whole message after `scene.toml:`.
+    says: String,
+}
+
+impl Refusal {
+    fn text(&self) -> String {
+        let (_, scene) = SCENES.iter().find(|(name, _)| *name == self.scene).unwrap();
+        self.edits.iter().fold(scene.to_string(), |text, [from, to]| edited(&text, from, to))
+    }
+}
+
+/// The text with a part of it, which occurs once, replaced.
+fn edited(text: &str, from: &str, to: &str) -> String {
+    assert_eq!(text.matches(from).count(), 1, "{from:?} does not occur once");
+    text.replace(from, to)
+}
+
+fn accepted(text: &str) -> Scene {
+    parse(text, "scene.toml").unwrap_or_else(|error| panic!("refused:\n{error}\nin\n{text}"))
+}
+
+fn refused(text: &str) -> String {
+    match parse(text, "scene.toml") {
+        Ok(_) => panic!("accepted:\n{text}"),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[test]
+fn every_refusal_names_file_line_value_and_what_is_allowed() {
+    let table: Refusals = toml::from_str(include_str!("scenes/refusals.toml")).unwrap();
+    let mut wrong = Vec::new();
+    for refusal in table.refused {
+        let expected = format!("scene.toml:{}", refusal.says);
+        match parse(&refusal.text(), "scene.toml") {
+            Ok(_) => wrong.push(format!("{}: accepted", refusal.what)),
+            Err(error) if error.to_string() != expected => {
+                wrong.push(format!("{}:\n  {error}\ninstead of\n  {expected}", refusal.what));
+            }
+            Err(_) => {}
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn scenes_that_make_sense_are_accepted() {
+    for (_, scene) in SCENES {
+        accepted(scene);
+    }
+    let fixed = "sides = { clamped = true }";
+    for sides in [
+        "sides = { roller = true }\ntop = { roller = true }",
+        "left = { clamped = true }\nright = { flux = 1e3 }",
+        "sides = { clamped = true }\nleft = { temperature = 300.0 }",
+        "sides = { flux = 0.0 }\nback = { clamped = true }",
+    ] {
+        accepted(&edited(PLATE, fixed, sides).replace(r#", "pressure", "shear"]"#, "]"));
+    }
+    for at in ["[1e-3, -1e-3, -0.26e-3]", "[0, 0, 0]", "[1.0000000001e-3, 0.0, 1e-14]"] {
+        accepted(&edited(PLATE, "at = [0.0, 0.0, 0.0]", &format!("at = {at}")));
+    }
+    for place in ["on = \"plate.top\"", "in = \"plate\"\nplane = { z = -0.3e-3 }"] {
+        accepted(&edited(DISC, "in = \"plate\"\nplane = { y = 0.0 }", place));
+    }
+    for symmetry in ["none", "quarter"] {
+        accepted(&edited(PLATE, "\"auto\"     ", &format!("\"{symmetry}\"")));
+    }
+}
+
+#[test]
+fn mechanics_needs_no_support_where_nothing_asks_for_it() {
+    let free = edited(PLATE, "sides = { clamped = true }", "");
+    let free = edited(&free, r#"["heat_flux", "pressure", "shear"]"#, r#"["heat_flux"]"#);
+    let free = edited(&free, r#"["temperature", "stress", "displacement"]"#, r#"["temperature"]"#);
+    let free = edited(&free, r#"["temperature", "von_mises"]"#, r#"["temperature"]"#);
+    assert!(!accepted(&free).asks_mechanics("plate"));
+    assert!(accepted(PLATE).asks_mechanics("plate"));
+    assert!(!accepted(PLATE).asks_mechanics("anvil"));
+}
+
+#[test]
+fn a_gaussian_may_have_its_tails_off_the_face() {
+    let wide = edited(PLATE, "{ disc = { radius = 30e-6", "{ gaussian = { radius = 1e-3");
+    accepted(&wide);
+}
+
+#[test]
+fn what_is_read_is_what_stands_in_the_scene() {
+    let scene = accepted(TILES);
+    assert_eq!((scene.name.as_str(), scene.stop_time, scene.step), ("Tiled", 1.0, 0.1));
+    let load = &scene.load[0];
+    assert_eq!(load.body_and_face(), ("block", FaceName::Top));
+    assert_eq!(load.carries, [Carries::HeatFlux, Carries::Shear]);
+    let rows = vec![vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 6.0]];
+    assert_eq!(load.start.heat_flux, Some(CellValues::Tiles(rows)));
+    let Body::Solid(block) = &scene.body["block"];
+    assert_eq!(block.face(FaceName::Front).flux, Some(-10.0));
+    let (body, place) = scene.field[0].body_and_place();
+    assert_eq!((body, place), ("block", Place::Face(FaceName::Left)));
+    assert_eq!(Grid::of(&scene.field[0], block).size, [2e-3, 1e-3]);
+}
+
+#[test]
+fn sides_are_the_four_lateral_faces_of_a_box() {
+    let heated = edited(PLATE, "bottom = { temp", "left = { flux = 2.0 }\nbottom = { temp");
+    let scene = accepted(&heated);
+    let plate = scene.solid("plate").unwrap();
+    let left = plate.face(FaceName::Left);
+    assert_eq!((left.clamped, left.flux), (true, Some(2.0)));
+    let back = plate.face(FaceName::Back);
+    assert_eq!((back.clamped, back.flux), (true, None));
+    assert!(!plate.face(FaceName::Top).clamped);
+}
+
+#[test]
+fn a_body_is_needed() {
+    let empty = refused("name = 'n'\nstop_time = 1\nstep = 1\n[body]\n");
+    assert_eq!(empty, "scene.toml:4: body: there is no body; allowed: [body.NAME]");
+    let missing = refused("name = 'n'\nstop_time = 1\nstep = 1\n");
+    assert_eq!(missing, "scene.toml:1: body: the key `body` is missing; allowed: a table");
+}
+
+#[test]
+fn all_problems_are_reported_at_once() {
+    let text = edited(PLATE, "density = 3950.0", "desnity = \"heavy\"");
+    let text = edited(&text, "young = 300e9", "young = true");
+    let text = edited(&text, "heat = \"fem\"", "heat = \"sph\"");
+    let text = edited(&text, "mesh = { spacing", "mesh = { spacig");
+    let text = edited(&text, "carries = [\"heat_flux\", ", "carries = [\"cold_flux\", ");
+    let text = edited(&text, "at = [0.0, 0.0, 0.0]", "at = [0.0, nan, 0.0]");
+    let text = edited(&text, "grid = [16, 16]", "grid = 16");
+    let error = parse(&text, "scene.toml").unwrap_err();
+    let places: Vec<_> = error.problems.iter().map(|problem| problem.path.as_str()).collect();
+    assert_eq!(
+        places,
+        [
+            "body.plate.material.desnity",
+            "body.plate.material.young",
+            "body.plate.heat",
+            "body.plate.mesh.spacig",
+            "load[0].carries[0]",
+            "probe[0].at[1]",
+            "field[0].grid"
+        ],
+        "{error}"
+    );
+
+    let text = edited(PLATE, "poisson = 0.21", "poisson = 0.5");
+    let text = edited(&text, "on = \"plate.top\"\nfoot", "on = \"plate.lid\"\nfoot");
+    let text = edited(&text, "tolerance = 1e-3", "tolerance = 1.5");
+    let error = parse(&text, "scene.toml").unwrap_err();
+    let lines: Vec<_> = error.problems.iter().map(|problem| problem.line).collect();
+    assert_eq!(lines, [Some(9), Some(20), Some(40)], "{error}");
+}
+
+#[test]
+fn a_file_is_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes");
+    assert_eq!(read(&folder.join("plate.toml")).unwrap(), accepted(PLATE));
+    let missing = folder.join("nowhere.toml");
+    let error = read(&missing).unwrap_err().to_string();
+    assert!(error.starts_with(&format!("{}: cannot be read: ", missing.display())), "{error}");
+}
+
+#[test]
+fn no_beginning_of_a_scene_is_too_short_to_be_judged() {
+    for (_, scene) in SCENES {
+        for (end, _) in scene.char_indices() {
+            let _ = parse(&scene[..end], "scene.toml");
+        }
+    }
+}
+
+#[test]
+fn no_damage_to_a_scene_is_too_odd_to_be_judged() {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    for _ in 0..3000 {
+        for (_, scene) in SCENES {
+            let text = damaged(scene, &mut random);
+            match parse(&text, "scene.toml") {
+                Ok(scene) => look_up_everything(&scene),
+                Err(error) => assert!(!error.problems.is_empty() && !error.to_string().is_empty()),
+            }
+        }
+    }
+}
+
+/// Asks a checked scene what can be asked of it.
+fn look_up_everything(scene: &Scene) {
+    for load in &scene.load {
+        let (body, face) = load.body_and_face();
+        scene.solid(body).unwrap().face(face);
+    }
+    for field in &scene.field {
+        let (body, _) = field.body_and_place();
+        let grid = Grid::of(field, scene.solid(body).unwrap());
+        assert!(grid.points().flatten().all(f64::is_finite));
+    }
+}
+
+/// The scene with a few bytes replaced, or a piece of it cut out and put elsewhere.
+fn damaged(scene: &str, random: &mut Random) -> String {
+    const BYTES: &[u8] = b"\"'[]{}=.,#-+_0159eixn \n\r\\\x00\x7f\xc3\xff";
+    let mut bytes = scene.as_bytes().to_vec();
+    for _ in 0..=random.below(4) {
+        let at = random.below(bytes.len());
+        match random.below(4) {
+            0 => bytes[at] = BYTES[random.below(BYTES.len())],
+            1 => bytes.insert(at, BYTES[random.below(BYTES.len())]),
+            2 => drop(bytes.remove(at)),
+            _ => {
+                let end = (at + random.below(40)).min(bytes.len());
+                let piece: Vec<u8> = bytes.drain(at..end).collect();
+                let to = random.below(bytes.len());
+                bytes.splice(to..to, piece);
+            }
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+/// The generator xorshift64 (G. Marsaglia, J. Stat. Softw. 8 (2003) 14).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 % bound.max(1) as u64) as usize
+    }
+}
