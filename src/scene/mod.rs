@@ -41,3 +41,22 @@ pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
     check::check(&scene, &source)?;
     Ok(scene)
 }
+
+/// Checks a scene whose constants were changed after it was read; problems name no line.
+pub fn check(scene: &Scene) -> Result<(), SceneError> {
+    let file = "the scene with its parameters as set";
+    let text = toml::to_string(scene).map_err(|error| Problem {
+        file: file.to_owned(),
+        line: None,
+        path: String::new(),
+        value: String::new(),
+        message: format!("cannot be written as text: {error}"),
+        allowed: "values that a scene can hold".to_owned(),
+    })?;
+    check::check(scene, &Source::parse(&text, file)?).map_err(|mut error| {
+        for problem in &mut error.problems {
+            problem.line = None;
+        }
+        error
+    })
+}
