@@ -1,0 +1,102 @@
+use std::borrow::Cow;
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use super::OutputError;
+use crate::model::{Cache, Model, State};
+use crate::variables::{Registry, Slot, Variable};
+
+/// All inputs and outputs over time as comma-separated values (RFC 4180), a row a time.
+///
+/// Each row goes to the operating system at once, so a run that is cut off loses at most its last
+/// row. Numbers are the shortest that read back to the same bits.
+pub struct CsvTable {
+    path: PathBuf,
+    file: File,
+    columns: Vec<Slot>,
+}
+
+impl CsvTable {
+    /// Creates the file, and its folder where that is missing, and writes the header.
+    pub fn create(path: &Path, model: &Model) -> Result<Self, OutputError> {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(OutputError::at("create the folder", folder))?;
+        }
+        let file = File::create(path).map_err(OutputError::at("create", path))?;
+        let mut header = vec!["time [s]".to_owned()];
+        let mut columns = Vec::new();
+        for variable in Registry::of(model.scene()).variables {
+            if matches!(variable.slot, Slot::Input(_) | Slot::Output(_)) {
+                header.push(quoted(&title(&variable)).into_owned());
+                columns.push(variable.slot);
+            }
+        }
+        let mut table = Self { path: path.to_owned(), file, columns };
+        table.write_row(&header)?;
+        Ok(table)
+    }
+
+    /// Appends the row of one state.
+    pub fn write(
+        &mut self,
+        model: &Model,
+        state: &State,
+        cache: &mut Cache,
+    ) -> Result<(), OutputError> {
+        let mut row = vec![number(state.time)];
+        for column in &self.columns {
+            match column {
+                Slot::Input(at) => row.push(number(state.inputs[*at])),
+                Slot::Output(output) => row.push(number(model.output(state, cache, output)?)),
+                Slot::Parameter(_) | Slot::Threads | Slot::OutputDirectory => {}
+            }
+        }
+        self.write_row(&row)
+    }
+
+    fn write_row(&mut self, fields: &[String]) -> Result<(), OutputError> {
+        let mut line = fields.join(",");
+        line.push('\n');
+        self.file.write_all(line.as_bytes()).map_err(OutputError::at("write", &self.path))
+    }
+}
+
+/// Name and unit of a variable, as a column is headed.
+fn title(variable: &Variable) -> String {
+    let unit = variable.quantity.map_or("1", |quantity| quantity.unit());
+    format!("{} [{unit}]", variable.name)
+}
+
+/// The shortest decimal that reads back to the same bits.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}
+
+/// A field in quotation marks where its text would otherwise be taken apart.
+fn quoted(field: &str) -> Cow<'_, str> {
+    if field.contains([',', '"', '\n']) {
+        format!("\"{}\"", field.replace('"', "\"\"")).into()
+    } else {
+        field.into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_read_back_to_the_same_bits() {
+        for value in [0.1 + 0.2, 1e-8, 293.15, -3.0e11, f64::MIN_POSITIVE, f64::MAX, -0.0] {
+            let back: f64 = number(value).parse().unwrap();
+            assert_eq!(back.to_bits(), value.to_bits(), "{value}");
+        }
+    }
+
+    #[test]
+    fn names_with_two_indices_stay_one_column() {
+        assert_eq!(quoted("surface.temperature[1,2] [K]"), "\"surface.temperature[1,2] [K]\"");
+        assert_eq!(quoted("spot.heat_flux [W/m2]"), "spot.heat_flux [W/m2]");
+    }
+}

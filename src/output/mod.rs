@@ -1,0 +1,10 @@
+//! Files for people and viewers, made from Model and State only.
+
+mod csv;
+mod error;
+mod series;
+mod vtk;
+
+pub use csv::CsvTable;
+pub use error::OutputError;
+pub use series::FieldSeries;
