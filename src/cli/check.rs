@@ -1,0 +1,250 @@
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use impinge::model::Model;
+use impinge::scene::{self, Body, Face, Field, Footprint, Load, Probe, Scene, Shape, Solid};
+use impinge::variables::{Causality, Registry, Value, Variable};
+use serde::Serialize;
+
+use super::CliError;
+use super::fold::folded;
+use super::table::table;
+use super::timeline::Timeline;
+use super::units::{decimal, engineering, kelvin};
+
+/// Say what a scene will model, and what is left out and why
+#[derive(Args)]
+pub struct Check {
+    /// The scene, a TOML file
+    scene: PathBuf,
+}
+
+impl Check {
+    /// Reports on the scene.
+    pub fn execute(&self) -> Result<String, CliError> {
+        let scene = scene::read(&self.scene)?;
+        let notes = notes(&scene)?;
+        let sections = [
+            ("Bodies", bodies(&scene)),
+            ("Faces", faces(&scene)),
+            ("Loads", loads(&scene)),
+            ("Probes", probes(&scene)),
+            ("Fields", fields(&scene)),
+            ("Model", notes),
+        ];
+        let mut text = head(&scene);
+        for (title, body) in sections.iter().filter(|(_, body)| !body.is_empty()) {
+            let _ = write!(text, "\n{title}\n{body}");
+        }
+        text.push_str(&variables(&scene));
+        Ok(text)
+    }
+}
+
+/// What the model says about itself, a sentence a line.
+fn notes(scene: &Scene) -> Result<String, CliError> {
+    let model = Model::build(scene, scene.solver.threads)
+        .map_err(|error| CliError::from_model(error, scene))?;
+    Ok(model.notes().iter().map(|note| format!("  {note}\n")).collect())
+}
+
+fn head(scene: &Scene) -> String {
+    let seconds = |value| engineering(value, "s");
+    let steps = Timeline::new(scene.step, scene.stop_time).count;
+    let mut text = scene.name.clone();
+    if !scene.description.is_empty() {
+        let _ = write!(text, ": {}", scene.description);
+    }
+    let (step, stop) = (seconds(scene.step), seconds(scene.stop_time));
+    let fidelity = key(&scene.fidelity.level);
+    let tolerance = scene.fidelity.tolerance;
+    let _ = writeln!(
+        text,
+        "\n  {steps} steps of {step} to {stop}; fidelity {fidelity}, tolerance {tolerance}"
+    );
+    text
+}
+
+fn bodies(scene: &Scene) -> String {
+    let rows: Vec<_> = scene
+        .body
+        .iter()
+        .map(|(name, Body::Solid(solid))| {
+            [
+                name.clone(),
+                shape(&solid.shape),
+                law(solid),
+                kelvin(solid.initial_temperature),
+                key(&solid.heat),
+                key(&solid.symmetry),
+            ]
+        })
+        .collect();
+    table(["body", "shape", "material", "initially", "heat", "symmetry"], &rows)
+}
+
+fn faces(scene: &Scene) -> String {
+    let mut rows = Vec::new();
+    for (body, Body::Solid(solid)) in &scene.body {
+        for (face, condition) in &solid.faces {
+            let name = format!("{body}.{}", key(face));
+            rows.push([name, thermal(condition), mechanical(condition).into()]);
+        }
+    }
+    table(["face", "thermal", "mechanical"], &rows)
+}
+
+fn loads(scene: &Scene) -> String {
+    let row = |load: &Load| {
+        [load.name.clone(), load.on.clone(), footprint(&load.footprint), keys(&load.carries)]
+    };
+    let rows: Vec<_> = scene.load.iter().map(row).collect();
+    table(["load", "on", "footprint", "carries"], &rows)
+}
+
+fn probes(scene: &Scene) -> String {
+    let row = |probe: &Probe| {
+        let at = probe.at.map(metres).join(", ");
+        [probe.name.clone(), probe.body.clone(), at, keys(&probe.gives)]
+    };
+    let rows: Vec<_> = scene.probe.iter().map(row).collect();
+    table(["probe", "in", "at x, y, z", "gives"], &rows)
+}
+
+fn fields(scene: &Scene) -> String {
+    let rows: Vec<_> = scene
+        .field
+        .iter()
+        .map(|field| {
+            let [nx, ny] = field.grid;
+            let size = field.size.map_or("whole".into(), |size| size.map(metres).join(" × "));
+            [field.name.clone(), place(field), format!("{nx} × {ny}"), size, keys(&field.gives)]
+        })
+        .collect();
+    table(["field", "on", "grid", "size", "gives"], &rows)
+}
+
+/// The face or section of a field.
+fn place(field: &Field) -> String {
+    match (&field.on, &field.body, field.plane) {
+        (Some(face), ..) => face.clone(),
+        (None, Some(body), Some(plane)) => {
+            let (axis, at) = match plane {
+                scene::Plane::X(at) => ("x", at),
+                scene::Plane::Y(at) => ("y", at),
+                scene::Plane::Z(at) => ("z", at),
+            };
+            format!("{body}, {axis} = {}", metres(at))
+        }
+        (None, body, _) => body.clone().unwrap_or_default(),
+    }
+}
+
+/// The variables by causality: how many, and each with its unit and start value, arrays folded.
+fn variables(scene: &Scene) -> String {
+    let registry = Registry::of(scene);
+    let kinds = [
+        ("Parameters", Causality::Parameter),
+        ("Inputs", Causality::Input),
+        ("Outputs", Causality::Output),
+    ];
+    let mut text = String::new();
+    for (title, causality) in kinds {
+        let list = folded(&registry, causality);
+        let values: usize = list.iter().map(|folded| folded.elements.len()).sum();
+        let count = match list.len() {
+            names if names == values => format!("{names}"),
+            names => format!("{names}, {values} values"),
+        };
+        let rows: Vec<_> = list
+            .into_iter()
+            .map(|folded| {
+                let elements: Vec<&Variable> =
+                    folded.elements.iter().map(|&i| &registry.variables[i]).collect();
+                let unit = elements[0].quantity.map_or("", |quantity| quantity.unit());
+                [folded.name, unit.to_owned(), start(&elements)]
+            })
+            .collect();
+        let heading = if causality == Causality::Output { "" } else { "start" };
+        let _ = write!(text, "\n{title} ({count})\n{}", table(["name", "unit", heading], &rows));
+    }
+    text
+}
+
+/// The start value that all elements share.
+fn start(elements: &[&Variable]) -> String {
+    let first = &elements[0].start;
+    if elements.iter().any(|element| element.start != *first) {
+        return "various".into();
+    }
+    match first {
+        None => String::new(),
+        Some(Value::Real(value)) => decimal(*value),
+        Some(Value::Integer(value)) => value.to_string(),
+        Some(Value::Text(value)) => format!("{value:?}"),
+    }
+}
+
+fn shape(shape: &Shape) -> String {
+    match shape {
+        Shape::Box(extents) => format!("box {}", extents.map(metres).join(" × ")),
+        Shape::Disc(disc) => {
+            format!("disc, radius {}, thickness {}", metres(disc.radius), metres(disc.thickness))
+        }
+    }
+}
+
+fn footprint(footprint: &Footprint) -> String {
+    match *footprint {
+        Footprint::Disc { radius } => format!("disc, radius {}", metres(radius)),
+        Footprint::Gaussian { radius } => format!("gaussian, 1/e² radius {}", metres(radius)),
+        Footprint::Rings { count, radius } => format!("{count} rings, radius {}", metres(radius)),
+        Footprint::Tiles { count: [nx, ny], size } => {
+            format!("{nx} × {ny} tiles, {}", size.map(metres).join(" × "))
+        }
+    }
+}
+
+fn thermal(face: &Face) -> String {
+    if let Some(temperature) = face.temperature {
+        kelvin(temperature)
+    } else if let Some(convection) = face.convection {
+        format!("convection, {} W/(m² K) to {}", convection.coefficient, kelvin(convection.ambient))
+    } else if let Some(flux) = face.flux {
+        format!("flux {}", engineering(flux, "W/m²"))
+    } else {
+        "insulated".into()
+    }
+}
+
+fn mechanical(face: &Face) -> &'static str {
+    match (face.clamped, face.roller) {
+        (true, _) => "clamped",
+        (false, true) => "roller",
+        (false, false) => "free",
+    }
+}
+
+fn metres(value: f64) -> String {
+    engineering(value, "m")
+}
+
+/// Name of a body's constitutive law in the scene.
+fn law(solid: &Solid) -> String {
+    let table = toml::Value::try_from(&solid.material).ok();
+    let model = table.as_ref().and_then(|table| table.get("model")?.as_str());
+    model.unwrap_or_default().to_owned()
+}
+
+/// The word that stands for a value in the scene.
+fn key(value: &impl Serialize) -> String {
+    match toml::Value::try_from(value) {
+        Ok(toml::Value::String(word)) => word,
+        _ => String::new(),
+    }
+}
+
+fn keys(values: &[impl Serialize]) -> String {
+    values.iter().map(key).collect::<Vec<_>>().join(", ")
+}

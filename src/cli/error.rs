@@ -1,0 +1,46 @@
+use std::io;
+
+use impinge::model::ModelError;
+use impinge::output::OutputError;
+use impinge::scene::{Scene, SceneError};
+use impinge::variables::{Registry, Slot};
+
+use super::set::SetErrors;
+
+/// Why a command did not do what was asked.
+#[derive(Debug, thiserror::Error)]
+pub enum CliError {
+    #[error(transparent)]
+    Scene(#[from] SceneError),
+    #[error(transparent)]
+    Set(#[from] SetErrors),
+    /// The model refuses the value of an input.
+    #[error("{name}: {message}")]
+    Input { name: String, message: String },
+    #[error(transparent)]
+    Model(ModelError),
+    #[error("in the step from t = {time} s: {reason}")]
+    Step { time: f64, reason: Box<CliError> },
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    #[error("cannot print: {0}")]
+    Print(io::Error),
+}
+
+impl CliError {
+    /// Says by name which input the model refuses.
+    pub fn from_model(error: ModelError, scene: &Scene) -> Self {
+        match error {
+            ModelError::Input { index, message } => {
+                Self::Input { name: input_name(scene, index), message }
+            }
+            other => Self::Model(other),
+        }
+    }
+}
+
+fn input_name(scene: &Scene, index: usize) -> String {
+    let variables = Registry::of(scene).variables;
+    let input = variables.into_iter().find(|variable| variable.slot == Slot::Input(index));
+    input.map_or_else(|| format!("input {index}"), |variable| variable.name)
+}

@@ -1,0 +1,56 @@
+//! What the commands do. Reports go to standard output; errors, warnings and progress to standard
+//! error. Exit status: 0 done, 1 refused or failed, 2 wrong usage.
+
+mod check;
+mod error;
+mod fold;
+mod run;
+mod set;
+mod summary;
+mod table;
+mod timeline;
+mod units;
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use error::CliError;
+
+/// What a hot droplet does to the surface it hits: heat and stress
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Check(check::Check),
+    Run(run::Run),
+}
+
+/// Runs the command that the process was called with.
+pub fn main() -> ExitCode {
+    let report = match Arguments::parse().command {
+        Command::Check(command) => command.execute(),
+        Command::Run(command) => command.execute(),
+    };
+    match report.and_then(|report| print(&report)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Prints a report; a reader that has seen enough and closed the pipe is no error.
+fn print(report: &str) -> Result<(), CliError> {
+    match io::stdout().write_all(report.as_bytes()) {
+        Err(reason) if reason.kind() != io::ErrorKind::BrokenPipe => Err(CliError::Print(reason)),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,180 @@
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use impinge::model::{Cache, Model, State};
+use impinge::output::{CsvTable, FieldSeries, OutputError};
+use impinge::scene::{self, Scene};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::CliError;
+use super::set::{self, Assignment, InputValue};
+use super::summary;
+use super::timeline::Timeline;
+use super::units::engineering;
+
+/// Number of times at which fields are written, about, if the user does not say.
+const SNAPSHOTS: usize = 50;
+
+/// Run a scene, and write its variables and fields over time
+#[derive(Args)]
+pub struct Run {
+    /// The scene, a TOML file
+    scene: PathBuf,
+    /// Set a parameter or an input by name; `impinge check` lists them
+    #[arg(long, value_name = "NAME=VALUE")]
+    set: Vec<Assignment>,
+    /// Stop at this time, as if the scene's stop_time said so
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
+    until: Option<f64>,
+    /// Use this communication step, as if the scene's step said so
+    #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
+    step: Option<f64>,
+    /// Folder for the files [default: out/NAME]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Write fields every N steps, 0 for never [default: about 50 times]
+    #[arg(long, value_name = "N")]
+    fields_every: Option<usize>,
+}
+
+fn positive(text: &str) -> Result<f64, &'static str> {
+    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
+    value.ok_or("expected a positive number of seconds")
+}
+
+impl Run {
+    /// Runs, and reports where the heat went.
+    pub fn execute(&self) -> Result<String, CliError> {
+        let started = Instant::now();
+        let (scene, inputs) = self.asked_scene()?;
+        let model = Model::build(&scene, scene.solver.threads)
+            .map_err(|error| CliError::from_model(error, &scene))?;
+        let mut run = Running {
+            state: start(&model, &inputs)?,
+            cache: Cache::default(),
+            timeline: Timeline::new(scene.step, scene.stop_time),
+            model: &model,
+        };
+        let mut record = self.record(&run)?;
+        run.finish(&mut record)?;
+        let spent = engineering(started.elapsed().as_secs_f64(), "s");
+        let report = run.report()?;
+        Ok(format!(
+            "{}: {spent}, {} steps\n\n{report}\n{}",
+            scene.name, run.timeline.count, record.place
+        ))
+    }
+
+    /// The scene with everything that the command line changes in it, and the inputs it sets.
+    fn asked_scene(&self) -> Result<(Scene, Vec<InputValue>), CliError> {
+        let mut scene = scene::read(&self.scene)?;
+        scene.stop_time = self.until.unwrap_or(scene.stop_time);
+        scene.step = self.step.unwrap_or(scene.step);
+        let inputs = set::apply(&mut scene, &self.set)?;
+        scene::check(&scene)?;
+        Ok((scene, inputs))
+    }
+
+    /// Opens the files of the run.
+    fn record(&self, run: &Running) -> Result<Record, OutputError> {
+        let scene = run.model.scene();
+        let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
+        let every = self.fields_every.unwrap_or(run.timeline.count.div_ceil(SNAPSHOTS));
+        let table = CsvTable::create(&folder.join("outputs.csv"), run.model)?;
+        let fields = match every {
+            0 => None,
+            _ => Some(FieldSeries::create(&folder, run.model)?),
+        };
+        let place = format!("files in {}\n", folder.display());
+        Ok(Record { table, fields, every, place })
+    }
+}
+
+/// The state at time zero with the inputs that were asked for.
+fn start(model: &Model, inputs: &[InputValue]) -> Result<State, CliError> {
+    let mut state = model.initial_state();
+    for &(index, value) in inputs {
+        state.inputs[index] = value;
+    }
+    model
+        .check_inputs(&state.inputs)
+        .map_err(|error| CliError::from_model(error, model.scene()))?;
+    Ok(state)
+}
+
+/// The files of a run.
+struct Record {
+    table: CsvTable,
+    fields: Option<FieldSeries>,
+    /// Steps between two times at which fields are written.
+    every: usize,
+    /// Words for where the files are.
+    place: String,
+}
+
+impl Record {
+    /// Adds what `run` has reached after `done` steps.
+    fn write(&mut self, run: &mut Running, done: usize) -> Result<(), OutputError> {
+        let is_due =
+            done == run.timeline.count || (self.every > 0 && done.is_multiple_of(self.every));
+        self.table.write(run.model, &run.state, &mut run.cache)?;
+        match &mut self.fields {
+            Some(fields) if is_due => fields.write(run.model, &run.state, &mut run.cache),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// A model on its way through time.
+struct Running<'a> {
+    model: &'a Model,
+    state: State,
+    cache: Cache,
+    timeline: Timeline,
+}
+
+impl Running<'_> {
+    fn finish(&mut self, record: &mut Record) -> Result<(), CliError> {
+        let progress = progress_bar(self.timeline.count);
+        record.write(self, 0)?;
+        for i in 0..self.timeline.count {
+            self.step(i)?;
+            record.write(self, i + 1)?;
+            progress.inc(1);
+        }
+        progress.finish_and_clear();
+        Ok(())
+    }
+
+    /// Takes the step that begins after `i` steps.
+    fn step(&mut self, i: usize) -> Result<(), CliError> {
+        self.model.step(&mut self.state, self.timeline.length(i)).map_err(|error| {
+            let reason = Box::new(CliError::from_model(error, self.model.scene()));
+            CliError::Step { time: self.timeline.time(i), reason }
+        })?;
+        self.state.time = self.timeline.time(i + 1);
+        self.cache.clear();
+        Ok(())
+    }
+
+    /// The heat balance and the extremes; warns on standard error if the heat does not add up.
+    fn report(&mut self) -> Result<String, CliError> {
+        let named = |error| CliError::from_model(error, self.model.scene());
+        let balances =
+            summary::balances(self.model, &self.state, &mut self.cache).map_err(named)?;
+        let extremes =
+            summary::extremes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
+        for warning in balances.iter().filter_map(summary::Balance::warning) {
+            eprintln!("warning: {warning}");
+        }
+        Ok(format!("{}\n{extremes}", summary::balance_table(&balances)))
+    }
+}
+
+/// A bar on standard error; hidden where that is not a terminal.
+fn progress_bar(steps: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left")
+        .expect("a valid template");
+    ProgressBar::new(steps as u64).with_style(style)
+}

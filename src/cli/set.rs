@@ -1,0 +1,170 @@
+use std::collections::BTreeSet;
+use std::fmt;
+use std::str::FromStr;
+
+use impinge::scene::Scene;
+use impinge::variables::{Causality, Registry, Slot, Value, Variable};
+
+use super::fold::array_name;
+
+/// A value for a variable, as given on the command line.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Assignment {
+    name: String,
+    value: String,
+}
+
+impl FromStr for Assignment {
+    type Err = &'static str;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
+        Ok(Self { name: name.trim().to_owned(), value: value.trim().to_owned() })
+    }
+}
+
+/// Index into a state's inputs, and its value.
+pub type InputValue = (usize, f64);
+
+/// Everything that is wrong with a list of assignments.
+#[derive(Debug, PartialEq, Eq)]
+pub struct SetErrors(Vec<SetError>);
+
+impl std::error::Error for SetErrors {}
+
+impl fmt::Display for SetErrors {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let lines: Vec<String> = self.0.iter().map(ToString::to_string).collect();
+        f.write_str(&lines.join("\nerror: "))
+    }
+}
+
+#[derive(Debug, PartialEq, Eq, thiserror::Error)]
+enum SetError {
+    #[error("cannot set {name}: there is no such parameter or input{}", suggestion(close))]
+    Unknown { name: String, close: Vec<String> },
+    #[error("cannot set {name}: it is an output")]
+    Output { name: String },
+    #[error("cannot set {name}: --out says where a run's files go")]
+    Directory { name: String },
+    #[error("cannot set {name} = {value}: expected {expected}")]
+    Value { name: String, value: String, expected: String },
+}
+
+/// Puts parameters into the scene, and returns the inputs for the state. A name without indices
+/// stands for all elements of an array.
+///
+/// Bounds are those of the registry; the scene's own check has the last word on parameters.
+pub fn apply(scene: &mut Scene, assignments: &[Assignment]) -> Result<Vec<InputValue>, SetErrors> {
+    let registry = Registry::of(scene);
+    let mut inputs = Vec::new();
+    let mut errors = Vec::new();
+    for assignment in assignments {
+        match targets(&registry, &assignment.name) {
+            Ok(variables) => {
+                let results =
+                    variables.into_iter().map(|v| put(v, &assignment.value, scene, &mut inputs));
+                // Elements of an array share their bounds, so one complaint stands for all.
+                errors.extend(results.filter_map(Result::err).next());
+            }
+            Err(error) => errors.push(error),
+        }
+    }
+    if errors.is_empty() { Ok(inputs) } else { Err(SetErrors(errors)) }
+}
+
+/// The variables that a name stands for: at least one, none of them an output.
+fn targets<'a>(registry: &'a Registry, name: &str) -> Result<Vec<&'a Variable>, SetError> {
+    let found: Vec<&Variable> = match registry.find(name) {
+        Some(reference) => vec![&registry.variables[reference]],
+        None => registry.variables.iter().filter(|v| array_name(&v.name) == name).collect(),
+    };
+    if found.is_empty() {
+        return Err(SetError::Unknown {
+            name: name.to_owned(),
+            close: close_names(registry, name),
+        });
+    }
+    if found.iter().any(|variable| variable.causality() == Causality::Output) {
+        return Err(SetError::Output { name: name.to_owned() });
+    }
+    Ok(found)
+}
+
+fn put(
+    variable: &Variable,
+    value: &str,
+    scene: &mut Scene,
+    inputs: &mut Vec<InputValue>,
+) -> Result<(), SetError> {
+    match &variable.slot {
+        Slot::Parameter(parameter) => parameter.set(scene, number(variable, value)?),
+        Slot::Threads => scene.solver.threads = number(variable, value)? as usize,
+        Slot::Input(index) => inputs.push((*index, number(variable, value)?)),
+        Slot::OutputDirectory => {
+            return Err(SetError::Directory { name: variable.name.clone() });
+        }
+        Slot::Output(_) => return Err(SetError::Output { name: variable.name.clone() }),
+    }
+    Ok(())
+}
+
+/// Reads a finite number, whole where the variable is, within the variable's bounds.
+fn number(variable: &Variable, text: &str) -> Result<f64, SetError> {
+    let is_whole = matches!(variable.start, Some(Value::Integer(_)));
+    let (lowest, highest) =
+        (variable.min.unwrap_or(f64::NEG_INFINITY), variable.max.unwrap_or(f64::INFINITY));
+    let fits = |value: &f64| {
+        value.is_finite()
+            && (lowest..=highest).contains(value)
+            && (!is_whole || value.fract() == 0.0)
+    };
+    text.parse().ok().filter(fits).ok_or_else(|| SetError::Value {
+        name: variable.name.clone(),
+        value: text.to_owned(),
+        expected: expectation(variable, is_whole),
+    })
+}
+
+/// Words for what a variable accepts.
+fn expectation(variable: &Variable, is_whole: bool) -> String {
+    let kind = if is_whole { "a whole number" } else { "a number" };
+    let unit = match variable.quantity.map(|quantity| quantity.unit()) {
+        None | Some("1") => String::new(),
+        Some(unit) => format!(" in {unit}"),
+    };
+    let bounds = match (variable.min, variable.max) {
+        (Some(min), Some(max)) => format!(" from {min} to {max}"),
+        (Some(min), None) => format!(", at least {min}"),
+        (None, Some(max)) => format!(", at most {max}"),
+        (None, None) => String::new(),
+    };
+    format!("{kind}{unit}{bounds}")
+}
+
+/// At most three names that can be set and look like `name`, the likest first.
+fn close_names(registry: &Registry, name: &str) -> Vec<String> {
+    const ALIKE: f64 = 0.8;
+    let likeness = |candidate: &str| {
+        let last = candidate.rsplit('.').next().unwrap_or(candidate);
+        strsim::jaro_winkler(candidate, name).max(strsim::jaro_winkler(last, name))
+    };
+    let settable: BTreeSet<&str> = [Causality::Parameter, Causality::Input]
+        .into_iter()
+        .flat_map(|causality| registry.of_causality(causality))
+        .map(|reference| array_name(&registry.variables[reference].name))
+        .collect();
+    let mut ranked: Vec<(f64, &str)> =
+        settable.into_iter().map(|candidate| (likeness(candidate), candidate)).collect();
+    ranked.retain(|(likeness, _)| *likeness >= ALIKE);
+    ranked.sort_by(|a, b| b.0.total_cmp(&a.0));
+    ranked.into_iter().take(3).map(|(_, name)| name.to_owned()).collect()
+}
+
+fn suggestion(close: &[String]) -> String {
+    if close.is_empty() {
+        "; `impinge check` lists them".into()
+    } else {
+        format!("; did you mean {}?", close.join(" or "))
+    }
+}

@@ -1,0 +1,117 @@
+use impinge::model::{Cache, Model, ModelError, State};
+use impinge::variables::{BodyTotal, Output, Quantity, Registry, Slot};
+
+use super::table::table;
+use super::units::{engineering, kelvin};
+
+/// Relative residual of the heat balance above which a run warns.
+const BALANCED: f64 = 1e-9;
+
+/// Where the heat of a body went [J].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Balance {
+    body: String,
+    heat_in: f64,
+    stored: f64,
+    lost: f64,
+}
+
+impl Balance {
+    /// `|in − stored − lost| / max(|in|, |stored|, |lost|)`; zero where nothing moved.
+    fn residual(&self) -> f64 {
+        let scale = self.heat_in.abs().max(self.stored.abs()).max(self.lost.abs());
+        if scale == 0.0 { 0.0 } else { (self.heat_in - self.stored - self.lost).abs() / scale }
+    }
+
+    /// What to say if the heat does not add up.
+    pub fn warning(&self) -> Option<String> {
+        let residual = self.residual();
+        let is_balanced = residual <= BALANCED;
+        (!is_balanced).then(|| {
+            format!(
+                "{}: heat in differs from heat stored and lost by {residual:.1e} of the largest \
+                 of them (expected at most {BALANCED:e})",
+                self.body
+            )
+        })
+    }
+
+    fn row(&self) -> [String; 5] {
+        let joule = |value| engineering(value, "J");
+        [
+            self.body.clone(),
+            joule(self.heat_in),
+            joule(self.stored),
+            joule(self.lost),
+            format!("{:.1e}", self.residual()),
+        ]
+    }
+}
+
+/// The heat balance of each body at `state`.
+pub fn balances(
+    model: &Model,
+    state: &State,
+    cache: &mut Cache,
+) -> Result<Vec<Balance>, ModelError> {
+    let mut list = Vec::new();
+    for body in model.scene().body.keys() {
+        let mut heat =
+            |total| model.output(state, cache, &Output::Body { body: body.clone(), total });
+        list.push(Balance {
+            body: body.clone(),
+            heat_in: heat(BodyTotal::HeatIn)?,
+            stored: heat(BodyTotal::HeatStored)?,
+            lost: heat(BodyTotal::HeatLost)?,
+        });
+    }
+    Ok(list)
+}
+
+/// The balances as a table.
+pub fn balance_table(balances: &[Balance]) -> String {
+    let rows: Vec<_> = balances.iter().map(Balance::row).collect();
+    table(["body", "heat in", "stored", "lost", "residual"], &rows)
+}
+
+/// The extremes of each body at `state` as a table.
+pub fn extremes_table(
+    model: &Model,
+    state: &State,
+    cache: &mut Cache,
+) -> Result<String, ModelError> {
+    let mut rows = Vec::new();
+    for variable in Registry::of(model.scene()).variables {
+        let Slot::Output(output @ Output::Body { .. }) = &variable.slot else { continue };
+        let show: fn(f64) -> String = match variable.quantity {
+            Some(Quantity::Temperature) => kelvin,
+            Some(Quantity::Stress) => |value| engineering(value, "Pa"),
+            _ => continue,
+        };
+        rows.push([variable.name.clone(), show(model.output(state, cache, output)?)]);
+    }
+    Ok(table(["at the end", "value"], &rows))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn balance(heat_in: f64, stored: f64, lost: f64) -> Balance {
+        Balance { body: "plate".into(), heat_in, stored, lost }
+    }
+
+    #[test]
+    fn heat_that_adds_up_passes_without_warning() {
+        assert_eq!(balance(3.0, 2.0, 1.0).warning(), None);
+        assert_eq!(balance(0.0, 0.0, 0.0).warning(), None);
+        assert_eq!(balance(1.0, 1.0 + 1e-10, 0.0).warning(), None);
+    }
+
+    #[test]
+    fn missing_heat_is_reported_against_the_largest_amount() {
+        assert_eq!(balance(1.0, -4.0, 4.5).residual(), 0.5 / 4.5);
+        assert!(balance(1.0, 0.9, 0.0).warning().unwrap().contains("plate"));
+        assert!(balance(f64::NAN, 1.0, 0.0).warning().is_some());
+    }
+}

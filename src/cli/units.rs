@@ -1,0 +1,82 @@
+/// A value with at most five significant digits and the SI prefix that keeps it short.
+pub fn engineering(value: f64, unit: &str) -> String {
+    const PREFIXES: [(&str, i32); 10] = [
+        ("f", -15),
+        ("p", -12),
+        ("n", -9),
+        ("µ", -6),
+        ("m", -3),
+        ("", 0),
+        ("k", 3),
+        ("M", 6),
+        ("G", 9),
+        ("T", 12),
+    ];
+    let (digits, exponent) = scientific(value);
+    let fitting = PREFIXES.iter().find(|(_, power)| (0..3).contains(&(exponent - power)));
+    match fitting {
+        Some((prefix, power)) if value != 0.0 => {
+            // The decimal point moves in the decimal text, so no digit is lost to a product.
+            let shifted = format!("{digits}e{}", exponent - power);
+            let shifted = shifted.parse().unwrap_or(value);
+            format!("{shifted} {prefix}{unit}")
+        }
+        _ => format!("{value} {unit}"),
+    }
+}
+
+/// Digits and power of ten of a value rounded to five significant digits.
+fn scientific(value: f64) -> (String, i32) {
+    let text = format!("{value:.4e}");
+    match text.split_once('e') {
+        Some((digits, exponent)) => (digits.to_owned(), exponent.parse().unwrap_or(0)),
+        None => (text, 0),
+    }
+}
+
+/// A value in full precision, with an exponent where it would be long without.
+pub fn decimal(value: f64) -> String {
+    let is_short = value == 0.0 || (1e-3..1e6).contains(&value.abs());
+    if is_short { format!("{value}") } else { format!("{value:e}") }
+}
+
+/// A temperature [K].
+pub fn kelvin(value: f64) -> String {
+    format!("{value:.2} K")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn prefixes_keep_numbers_short() {
+        let cases = [
+            (0.26e-3, "260 µm"),
+            (2e-3, "2 mm"),
+            (3.5e-6, "3.5 µm"),
+            (999.999, "1 km"),
+            (-1.5e11, "-150 Gm"),
+            (0.0, "0 m"),
+            (1.0, "1 m"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(engineering(value, "m"), text);
+        }
+    }
+
+    #[test]
+    fn full_precision_is_written_as_people_write_it() {
+        let cases = [(3e11, "3e11"), (8.1e-6, "8.1e-6"), (0.0, "0"), (293.15, "293.15")];
+        for (value, text) in cases {
+            assert_eq!(decimal(value), text);
+        }
+    }
+
+    #[test]
+    fn values_beyond_all_prefixes_are_still_shown() {
+        assert_eq!(engineering(f64::NAN, "J"), "NaN J");
+        assert_eq!(engineering(f64::INFINITY, "J"), "inf J");
+        assert!(engineering(1e-20, "J").ends_with(" J"));
+    }
+}
