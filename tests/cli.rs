@@ -1,0 +1,252 @@
+//! The commands as a user calls them: exit status, messages, files.
+
+use std::fs;
+use std::path::PathBuf;
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+const SCENE: &str = r#"
+name = "HotSpot"
+description = "A small plate under a hot spot"
+stop_time = 1e-6
+step = 1e-7
+
+[body.plate]
+kind = "solid"
+shape = { box = [4e-4, 4e-4, 1e-4] }
+material = { model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = 10.0, young = 300e9, poisson = 0.21, expansion = 8.1e-6 }
+initial_temperature = 293.15
+mesh = { spacing = 2e-5 }
+[body.plate.faces]
+bottom = { temperature = 293.15 }
+sides = { clamped = true }
+
+[[load]]
+name = "spot"
+on = "plate.top"
+footprint = { disc = { radius = 60e-6 } }
+carries = ["heat_flux", "pressure"]
+start = { heat_flux = 5e7 }
+
+[[probe]]
+name = "centre"
+in = "plate"
+at = [0.0, 0.0, 0.0]
+gives = ["temperature", "stress"]
+
+[[field]]
+name = "surface"
+on = "plate.top"
+grid = [2, 3]
+gives = ["temperature"]
+"#;
+
+/// A scene in a folder of its own, which goes when the test ends.
+struct Workplace(TempDir);
+
+impl Workplace {
+    fn new() -> Self {
+        let folder = TempDir::with_prefix("impinge-cli-").unwrap();
+        fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn call(&self, arguments: &[&str]) -> Called {
+        let output = Command::new(env!("CARGO_BIN_EXE_impinge"))
+            .args(arguments)
+            .current_dir(self.0.path())
+            .output()
+            .unwrap();
+        Called(output)
+    }
+
+    fn run(&self, options: &[&str]) -> Called {
+        self.call(&[&["run", "scene.toml"], options].concat())
+    }
+
+    /// Header and rows of a run's table.
+    fn table(&self, folder: &str) -> (String, Vec<Vec<f64>>) {
+        let text = fs::read_to_string(self.path(folder).join("outputs.csv")).unwrap();
+        let (header, body) = text.split_once('\n').unwrap();
+        let row = |line: &str| line.split(',').map(|field| field.parse().unwrap()).collect();
+        (header.to_owned(), body.lines().map(row).collect())
+    }
+
+    /// Times of a run's fields; every listed file is there.
+    fn field_times(&self, folder: &str) -> Vec<f64> {
+        let folder = self.path(folder);
+        let list = fs::read_to_string(folder.join("plate.pvd")).unwrap();
+        let entries = list.lines().filter(|line| line.contains("<DataSet"));
+        entries
+            .map(|entry| {
+                assert!(folder.join(attribute(entry, "file")).is_file(), "{entry}");
+                attribute(entry, "timestep").parse().unwrap()
+            })
+            .collect()
+    }
+}
+
+fn attribute<'a>(element: &'a str, key: &str) -> &'a str {
+    let (_, rest) = element.split_once(&format!("{key}=\"")).unwrap();
+    rest.split_once('"').unwrap().0
+}
+
+struct Called(Output);
+
+impl Called {
+    fn stdout(&self) -> String {
+        String::from_utf8(self.0.stdout.clone()).unwrap()
+    }
+
+    fn stderr(&self) -> String {
+        String::from_utf8(self.0.stderr.clone()).unwrap()
+    }
+
+    #[track_caller]
+    fn succeeds(self) -> Self {
+        assert_eq!(self.0.status.code(), Some(0), "{}", self.stderr());
+        self
+    }
+
+    /// Ends with `status`, and says all of `words` on standard error and nothing on standard output.
+    #[track_caller]
+    fn fails(self, status: i32, words: &[&str]) -> Self {
+        let stderr = self.stderr();
+        assert_eq!(self.0.status.code(), Some(status), "{stderr}");
+        assert_eq!(self.stdout(), "");
+        for word in words {
+            assert!(stderr.contains(word), "`{word}` is missing in: {stderr}");
+        }
+        self
+    }
+}
+
+#[test]
+fn check_says_what_will_be_modelled() {
+    let report = Workplace::new().call(&["check", "scene.toml"]).succeeds().stdout();
+    for words in [
+        "HotSpot: A small plate under a hot spot",
+        "10 steps of 100 ns to 1 µs",
+        "box 400 µm × 400 µm × 100 µm",
+        "disc, radius 60 µm",
+        "plate.bottom",
+        "surface.temperature[2,3]",
+        "spot.heat_flux",
+        "plate.conductivity",
+    ] {
+        assert!(report.contains(words), "`{words}` is missing in: {report}");
+    }
+}
+
+#[test]
+fn check_refuses_a_scene_that_is_wrong_or_missing() {
+    let place = Workplace::new();
+    fs::write(place.path("wrong.toml"), SCENE.replace("stop_time", "stop_tme")).unwrap();
+    place.call(&["check", "wrong.toml"]).fails(1, &["error: ", "wrong.toml", "stop_tme"]);
+    place.call(&["check", "nowhere.toml"]).fails(1, &["error: "]);
+}
+
+#[test]
+fn wrong_usage_has_its_own_status() {
+    let place = Workplace::new();
+    place.call(&[]).fails(2, &["Usage"]);
+    place.call(&["check"]).fails(2, &["SCENE"]);
+    place.run(&["--until", "-1"]).fails(2, &["positive"]);
+    place.run(&["--step", "soon"]).fails(2, &["positive"]);
+    place.run(&["--set", "plate.young"]).fails(2, &["NAME=VALUE"]);
+}
+
+#[test]
+fn a_run_writes_a_row_a_step_and_fields() {
+    let place = Workplace::new();
+    let report = place.run(&[]).succeeds().stdout();
+    for words in ["HotSpot", "10 steps", "heat in", "residual", "plate.max_temperature"] {
+        assert!(report.contains(words), "`{words}` is missing in: {report}");
+    }
+    let (header, rows) = place.table("out/HotSpot");
+    assert!(header.starts_with("time [s],spot.heat_flux [W/m2],spot.pressure [Pa]"), "{header}");
+    assert!(header.contains(",\"surface.temperature[1,2] [K]\","), "{header}");
+    assert_eq!(rows.len(), 11);
+    for (i, row) in rows.iter().enumerate() {
+        let time = if i == 10 { 1e-6 } else { i as f64 * 1e-7 };
+        assert_eq!(row[..2], [time, 5e7]);
+    }
+    let times: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    assert_eq!(place.field_times("out/HotSpot"), times);
+}
+
+#[test]
+fn a_stop_time_between_steps_is_hit_exactly() {
+    let place = Workplace::new();
+    let options = ["--until", "3.5e-7", "--out", "short", "--fields-every", "2"];
+    place.run(&options).succeeds();
+    let times: Vec<f64> = place.table("short").1.iter().map(|row| row[0]).collect();
+    assert_eq!(times, [0.0, 1e-7, 2.0 * 1e-7, 3.0 * 1e-7, 3.5e-7]);
+    assert_eq!(place.field_times("short"), [0.0, 2.0 * 1e-7, 3.5e-7]);
+}
+
+#[test]
+fn a_step_of_its_own_replaces_the_scenes() {
+    let place = Workplace::new();
+    place.run(&["--step", "5e-7", "--out", "coarse", "--fields-every", "0"]).succeeds();
+    let times: Vec<f64> = place.table("coarse").1.iter().map(|row| row[0]).collect();
+    assert_eq!(times, [0.0, 5e-7, 1e-6]);
+    assert!(!place.path("coarse/plate.pvd").exists());
+}
+
+#[test]
+fn inputs_and_parameters_can_be_set() {
+    let place = Workplace::new();
+    let options = ["--set", "spot.heat_flux=2e7", "--set", "plate.conductivity = 20", "--out", "a"];
+    place.run(&options).succeeds();
+    assert!(place.table("a").1.iter().all(|row| row[1] == 2e7));
+}
+
+#[test]
+fn an_array_is_set_by_its_name_or_an_element_by_its_index() {
+    let place = Workplace::new();
+    let rings = SCENE.replace("disc = { radius", "rings = { count = 3, radius");
+    fs::write(place.path("scene.toml"), rings).unwrap();
+    let options = ["--set", "spot.heat_flux=1e7", "--set", "spot.heat_flux[2]=3e7", "--out", "a"];
+    place.run(&options).succeeds();
+    assert!(place.table("a").1.iter().all(|row| row[1..4] == [1e7, 3e7, 1e7]));
+}
+
+#[test]
+fn what_cannot_be_set_is_refused_with_the_reason() {
+    let place = Workplace::new();
+    let refused = |setting: &str, words: &[&str]| {
+        place.run(&["--set", setting]).fails(1, words);
+    };
+    refused("spot.heatflux=1", &["spot.heatflux", "did you mean spot.heat_flux"]);
+    refused("conductivity=1", &["did you mean plate.conductivity"]);
+    refused("zzz=1", &["zzz", "impinge check"]);
+    refused("centre.temperature=300", &["centre.temperature", "output"]);
+    refused("output.directory=here", &["--out"]);
+    refused("plate.young=stiff", &["plate.young = stiff", "a number in Pa"]);
+    refused("plate.density=NaN", &["plate.density = NaN"]);
+    refused("plate.density=-1", &["plate.density = -1", "at least 0"]);
+    refused("plate.poisson=0.7", &["plate.poisson = 0.7", "from -1 to 0.5"]);
+    refused("plate.poisson=0.5", &["0.5"]);
+    refused("solver.threads=1.5", &["solver.threads = 1.5", "whole number"]);
+    assert!(!place.path("out").exists(), "a refused run writes nothing");
+}
+
+#[test]
+fn all_refused_settings_are_named_at_once() {
+    let place = Workplace::new();
+    let options = ["--set", "plate.density=-1", "--set", "nothing=1"];
+    place.run(&options).fails(1, &["error: cannot set plate.density", "error: cannot set nothing"]);
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_named() {
+    let place = Workplace::new();
+    fs::write(place.path("taken"), "a file").unwrap();
+    place.run(&["--out", "taken/here"]).fails(1, &["cannot create the folder", "taken"]);
+}
