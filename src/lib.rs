@@ -4,12 +4,23 @@
 //! [`model::State`] → step → variables → FMI, command line or files. A module uses only the
 //! modules listed above it here; a test holds that order.
 
+// Blank lines keep the order, which is the architecture.
+#![allow(rustdoc::broken_intra_doc_links)] // Units stand in brackets: [K], [Pa].
 
 pub mod closed_form;
+
 pub mod math;
+
 pub mod material;
+
 pub mod scene;
+
 pub mod variables;
+
 pub mod body;
+
 pub mod coupling;
+
 pub mod model;
+
+pub mod output;

@@ -9,7 +9,8 @@ use std::ops::Range;
 pub use cache::Cache;
 use loads::BodyLoads;
 
-use crate::body::fem::{Fields, Geometry, Plan, Refinement, SolidFem};
+pub use crate::body::fem::NodalFields;
+use crate::body::fem::{Geometry, Plan, Refinement, SolidFem};
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::cholesky::CholeskyError;
 use crate::scene::{Body, FaceName, Footprint, Grid, Load, Scene, SceneError};
@@ -181,7 +182,7 @@ impl Model {
         state: &State,
         cache: &mut Cache,
         body: &str,
-    ) -> Result<Fields, ModelError> {
+    ) -> Result<NodalFields, ModelError> {
         self.check_inputs(&state.inputs)?;
         cache.meet(self, &state.inputs);
         let index = self.place(body);

@@ -149,12 +149,12 @@ impl Running<'_> {
 
     /// Takes the step that begins after `i` steps.
     fn step(&mut self, i: usize) -> Result<(), CliError> {
-        self.model.step(&mut self.state, self.timeline.length(i)).map_err(|error| {
+        let length = self.timeline.length(i);
+        self.model.step(&mut self.state, &mut self.cache, length).map_err(|error| {
             let reason = Box::new(CliError::from_model(error, self.model.scene()));
             CliError::Step { time: self.timeline.time(i), reason }
         })?;
         self.state.time = self.timeline.time(i + 1);
-        self.cache.clear();
         Ok(())
     }
 

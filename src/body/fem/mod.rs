@@ -16,4 +16,4 @@ pub use axis::{Axis, Weight};
 pub use heat::HeatTotals;
 pub use mesh::{Geometry, Mesh, MeshFace, Parity};
 pub use plan::{Plan, Refinement};
-pub use solid::{Deformation, Fields, SolidFem, SolidLoads, Temperatures};
+pub use solid::{Deformation, NodalFields, SolidFem, SolidLoads, Temperatures};

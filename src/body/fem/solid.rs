@@ -48,7 +48,7 @@ pub struct Deformation {
 
 /// Values at all nodes of the whole body, images included: a rectilinear grid.
 #[derive(Debug, Clone, Default)]
-pub struct Fields {
+pub struct NodalFields {
     /// Coordinates along x, y, z [m]; the x index runs fastest. In axisymmetry x is the radius and
     /// y the single value 0.
     pub axes: [Vec<f64>; 3],
@@ -239,7 +239,7 @@ impl SolidFem {
     }
 
     /// Values at all nodes of the whole body.
-    pub fn fields(&self, temperatures: &Temperatures, deformation: &Deformation) -> Fields {
+    pub fn fields(&self, temperatures: &Temperatures, deformation: &Deformation) -> NodalFields {
         let [x, y, z] = &self.mesh.axes;
         let [mirror_x, mirror_y] = self.mesh.mirrored;
         let (columns, rows) = (unfold(x, mirror_x), unfold(y, mirror_y));
@@ -249,7 +249,7 @@ impl SolidFem {
             };
             places.iter().map(signed).collect::<Vec<f64>>()
         };
-        let mut fields = Fields {
+        let mut fields = NodalFields {
             axes: [coordinates(x, &columns), coordinates(y, &rows), z.nodes.clone()],
             ..Default::default()
         };
@@ -282,14 +282,14 @@ impl SolidFem {
         deformation: &Deformation,
         nodal_strains: &[Vec<Vec<f64>>],
         image: [bool; 2],
-    ) -> Fields {
+    ) -> NodalFields {
         let temperature = self.rise_of_image(temperatures, image);
         let (mut displacement, mut stress) = (Vec::new(), Vec::new());
         if self.elastic.is_some() {
             stress = self.stress_of_image(temperatures, nodal_strains, image);
             displacement = self.displacement_of_image(deformation, image);
         }
-        Fields { temperature, displacement, stress, ..Default::default() }
+        NodalFields { temperature, displacement, stress, ..Default::default() }
     }
 
     fn displacement_of_image(&self, deformation: &Deformation, image: [bool; 2]) -> Vec<[f64; 3]> {
