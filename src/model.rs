@@ -330,8 +330,7 @@ fn refinement(load: &Load) -> Refinement {
     let start = [load.start.x.unwrap_or(0.0), load.start.y.unwrap_or(0.0)];
     let range = [load.range.x, load.range.y];
     let own = load.footprint.radius().unwrap_or(0.0);
-    let [_, radius] =
-        load.range.radius.unwrap_or([0.0, load.start.radius.unwrap_or(own).max(own)]);
+    let [_, radius] = load.range.radius.unwrap_or([0.0, load.start.radius.unwrap_or(own).max(own)]);
     let half = match load.footprint {
         Footprint::Disc { .. } | Footprint::Rings { .. } => [radius; 2],
         Footprint::Gaussian { .. } => [1.5 * radius; 2],
@@ -342,9 +341,9 @@ fn refinement(load: &Load) -> Refinement {
             load.range.radius.map_or(own, |[lowest, _]| lowest)
         }
         Footprint::Rings { count, .. } => radius * (5.0 / count as f64).min(1.0),
-        Footprint::Tiles { count, size } => (0..2)
-            .map(|a| size[a] * (5.0 / count[a] as f64).min(1.0))
-            .fold(f64::INFINITY, f64::min),
+        Footprint::Tiles { count, size } => {
+            (0..2).map(|a| size[a] * (5.0 / count[a] as f64).min(1.0)).fold(f64::INFINITY, f64::min)
+        }
     };
     let stretch = |a: usize| {
         let [low, high] = range[a].unwrap_or([start[a]; 2]);

@@ -1,6 +1,5 @@
 //! Measures of a stress state, given as xx, yy, zz, xy, yz, xz [Pa].
 
-
 /// Von Mises stress `√(3 J₂)` [Pa] (R. von Mises 1913).
 pub fn von_mises([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> f64 {
     let normal = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
@@ -16,8 +15,7 @@ pub fn max_principal([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> f64 {
     if spread == 0.0 {
         return mean;
     }
-    let determinant =
-        a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
+    let determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
     let ratio = (determinant / (2.0 * spread.powi(3))).clamp(-1.0, 1.0);
     mean + 2.0 * spread * (ratio.acos() / 3.0).cos()
 }
@@ -27,16 +25,8 @@ pub fn max_principal([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> f64 {
 pub fn from_cylindrical([rr, tt, zz, rz]: [f64; 4], x: f64, y: f64) -> [f64; 6] {
     let r = x.hypot(y);
     let (c, s) = if r > 0.0 { (x / r, y / r) } else { (1.0, 0.0) };
-    [
-        rr * c * c + tt * s * s,
-        rr * s * s + tt * c * c,
-        zz,
-        (rr - tt) * s * c,
-        rz * s,
-        rz * c,
-    ]
+    [rr * c * c + tt * s * s, rr * s * s + tt * c * c, zz, (rr - tt) * s * c, rz * s, rz * c]
 }
-
 
 #[cfg(test)]
 mod tests {

@@ -59,10 +59,13 @@ impl SparseCholesky {
         .map_err(memory)?;
 
         let mut values = Vec::new();
-        values.try_reserve_exact(symbolic.len_val()).map_err(|_| CholeskyError::OutOfMemory { unknowns })?;
+        values
+            .try_reserve_exact(symbolic.len_val())
+            .map_err(|_| CholeskyError::OutOfMemory { unknowns })?;
         values.resize(symbolic.len_val(), 0.0);
         let need = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
-        let mut buffer = MemBuffer::try_new(need).map_err(|_| CholeskyError::OutOfMemory { unknowns })?;
+        let mut buffer =
+            MemBuffer::try_new(need).map_err(|_| CholeskyError::OutOfMemory { unknowns })?;
         symbolic
             .factorize_numeric_llt(
                 &mut values,
@@ -131,8 +134,7 @@ mod tests {
 
     #[test]
     fn refuses_an_indefinite_matrix() {
-        let matrix =
-            LowerTriangle { column_start: vec![0, 1], rows: vec![0], values: vec![-1.0] };
+        let matrix = LowerTriangle { column_start: vec![0, 1], rows: vec![0], values: vec![-1.0] };
         assert!(SparseCholesky::factor(&matrix, &[0]).is_err());
     }
 }

@@ -49,8 +49,11 @@ mod tests {
     fn interpolation_repeats_a_cubic() {
         let points = [0.0, 0.3, 1.0, 1.7];
         let cubic = |x: f64| 1.0 + x * (2.0 - x * (0.5 + x));
-        let value: f64 =
-            points.iter().zip(interpolation_weights(&points, 2.1)).map(|(&p, w)| w * cubic(p)).sum();
+        let value: f64 = points
+            .iter()
+            .zip(interpolation_weights(&points, 2.1))
+            .map(|(&p, w)| w * cubic(p))
+            .sum();
         assert!((value - cubic(2.1)).abs() < 1e-13);
     }
 }

@@ -77,11 +77,7 @@ impl StencilMatrix {
     /// Visits the blocks of a node's row: `visit(column node, block)`.
     pub fn for_each_block(&self, node: usize, mut visit: impl FnMut(usize, &[f64])) {
         let [rx, ry, rz] = &self.reach;
-        let (i, j, k) = (
-            node % rx.len(),
-            node / rx.len() % ry.len(),
-            node / (rx.len() * ry.len()),
-        );
+        let (i, j, k) = (node % rx.len(), node / rx.len() % ry.len(), node / (rx.len() * ry.len()));
         let size = self.block[0] * self.block[1];
         let mut at = self.start[node];
         for c in rz.first[k]..=rz.last[k] {

@@ -36,9 +36,8 @@ impl Cache {
             return;
         }
         self.inputs = inputs.to_vec();
-        let loads = |body: &super::BodyModel| {
-            body.loads.assemble(&model.scene, inputs, body.solid.mesh())
-        };
+        let loads =
+            |body: &super::BodyModel| body.loads.assemble(&model.scene, inputs, body.solid.mesh());
         let fresh = |body| BodyCache { loads: loads(body), ..Default::default() };
         self.bodies = model.bodies.iter().map(fresh).collect();
     }

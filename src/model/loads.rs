@@ -114,13 +114,7 @@ impl BodyLoads {
     }
 
     /// The loads' nodal vectors, each with where it goes.
-    fn parts(
-        &self,
-        load: &Load,
-        places: &LoadInputs,
-        inputs: &[f64],
-        mesh: &Mesh,
-    ) -> Vec<Part> {
+    fn parts(&self, load: &Load, places: &LoadInputs, inputs: &[f64], mesh: &Mesh) -> Vec<Part> {
         let place = placement(load, places, inputs);
         let top = load.body_and_face().1 == FaceName::Top;
         let round = mesh.geometry == Geometry::Axisymmetric;

@@ -61,10 +61,20 @@ pub enum Causality {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Output {
     /// Index into the scene's probes.
-    Probe { probe: usize, component: Component },
+    Probe {
+        probe: usize,
+        component: Component,
+    },
     /// Index into the scene's fields and, from zero, into the grid.
-    Field { field: usize, component: Component, cell: [usize; 2] },
-    Body { body: String, total: BodyTotal },
+    Field {
+        field: usize,
+        component: Component,
+        cell: [usize; 2],
+    },
+    Body {
+        body: String,
+        total: BodyTotal,
+    },
 }
 
 /// A scalar at a point. Stress components stand in the order xx, yy, zz, xy, yz, xz.
@@ -144,12 +154,8 @@ impl Component {
 }
 
 impl BodyTotal {
-    pub const THERMAL: [BodyTotal; 4] = [
-        BodyTotal::MaxTemperature,
-        BodyTotal::HeatIn,
-        BodyTotal::HeatStored,
-        BodyTotal::HeatLost,
-    ];
+    pub const THERMAL: [BodyTotal; 4] =
+        [BodyTotal::MaxTemperature, BodyTotal::HeatIn, BodyTotal::HeatStored, BodyTotal::HeatLost];
     pub const MECHANICAL: [BodyTotal; 2] = [BodyTotal::MaxVonMises, BodyTotal::MaxPrincipal];
 
     fn key(self) -> &'static str {
@@ -336,11 +342,29 @@ fn inputs(scene: &Scene, list: &mut Vec<Variable>) {
 fn amounts(load: &Load, places: &super::LoadInputs, list: &mut Vec<Variable>) {
     let start = &load.start;
     let kinds: [(&str, &str, Quantity, &Option<Range<usize>>, &Option<CellValues>); 5] = [
-        ("heat_flux", "heat flux into the body", Quantity::HeatFlux, &places.heat_flux, &start.heat_flux),
-        ("pressure", "pressure that acts into the body", Quantity::Stress, &places.pressure, &start.pressure),
+        (
+            "heat_flux",
+            "heat flux into the body",
+            Quantity::HeatFlux,
+            &places.heat_flux,
+            &start.heat_flux,
+        ),
+        (
+            "pressure",
+            "pressure that acts into the body",
+            Quantity::Stress,
+            &places.pressure,
+            &start.pressure,
+        ),
         ("shear_x", "shear traction along x", Quantity::Stress, &places.shear_x, &start.shear_x),
         ("shear_y", "shear traction along y", Quantity::Stress, &places.shear_y, &start.shear_y),
-        ("shear_r", "radial shear traction, outward positive", Quantity::Stress, &places.shear_r, &start.shear_r),
+        (
+            "shear_r",
+            "radial shear traction, outward positive",
+            Quantity::Stress,
+            &places.shear_r,
+            &start.shear_r,
+        ),
     ];
     for (key, meaning, quantity, range, start) in kinds {
         let Some(range) = range else { continue };

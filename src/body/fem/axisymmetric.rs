@@ -69,8 +69,10 @@ impl QuadrilateralMatrices {
         let mut stiffness = DMatrix::zeros(2 * n, 2 * n);
         let mut thermal = DMatrix::zeros(2 * n, n);
         let points = gauss_legendre(order + 2);
-        let places: Vec<_> =
-            points.iter().flat_map(|&(eta, we)| points.iter().map(move |&(xi, wx)| (xi, eta, wx * we))).collect();
+        let places: Vec<_> = points
+            .iter()
+            .flat_map(|&(eta, we)| points.iter().map(move |&(xi, wx)| (xi, eta, wx * we)))
+            .collect();
         for &(xi, eta, w) in &places {
             let point = point_at(order, rectangle, xi, eta, w);
             let b = &point.strain;
@@ -207,9 +209,7 @@ mod tests {
     fn stretch(order: usize, rectangle: Rectangle, a: f64, b: f64) -> Vec<f64> {
         let n = order + 1;
         let at = |ends: [f64; 2], i: usize| ends[0] + (ends[1] - ends[0]) * i as f64 / order as f64;
-        (0..n * n)
-            .flat_map(|k| [a * at(rectangle.r, k % n), b * at(rectangle.z, k / n)])
-            .collect()
+        (0..n * n).flat_map(|k| [a * at(rectangle.r, k % n), b * at(rectangle.z, k / n)]).collect()
     }
 
     #[test]

@@ -129,7 +129,8 @@ impl ElasticProblem {
 
     fn make_factor(&self, parity: Parity) -> Result<Factor, CholeskyError> {
         let degrees = self.degrees();
-        let stiffness = assemble(&self.mesh, &self.law, [degrees; 2], Part::Stiffness, self.threads);
+        let stiffness =
+            assemble(&self.mesh, &self.law, [degrees; 2], Part::Stiffness, self.threads);
         let held = self.held(parity);
         let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
         let mut number = vec![usize::MAX; held.len()];
@@ -183,7 +184,9 @@ impl ElasticProblem {
         let counts = self.mesh.node_counts();
         let at = if face.high { counts[face.axis] - 1 } else { 0 };
         let strides = [1, counts[0], counts[0] * counts[1]];
-        (0..self.mesh.nodes()).filter(|n| n / strides[face.axis] % counts[face.axis] == at).collect()
+        (0..self.mesh.nodes())
+            .filter(|n| n / strides[face.axis] % counts[face.axis] == at)
+            .collect()
     }
 
     fn box_strains(&self, displacement: &[f64]) -> Strains {
@@ -214,8 +217,10 @@ impl ElasticProblem {
             for er in 0..radii.elements() {
                 let element = self.ring(er, ez);
                 let nodes = self.ring_nodes(er, ez);
-                let u: Vec<f64> =
-                    nodes.iter().flat_map(|&n| [displacement[2 * n], displacement[2 * n + 1]]).collect();
+                let u: Vec<f64> = nodes
+                    .iter()
+                    .flat_map(|&n| [displacement[2 * n], displacement[2 * n + 1]])
+                    .collect();
                 let value = |&n: &usize| temperature.get(n).copied().unwrap_or(0.0);
                 let t: Vec<f64> = nodes.iter().map(value).collect();
                 for jz in per_element * ez..per_element * (ez + 1) {
@@ -267,14 +272,7 @@ fn strain_at([x, y, z]: [&ShapeAt; 3], counts: [usize; 3], displacement: &[f64])
             }
         }
     }
-    [
-        g[0][0],
-        g[1][1],
-        g[2][2],
-        g[0][1] + g[1][0],
-        g[1][2] + g[2][1],
-        g[0][2] + g[2][0],
-    ]
+    [g[0][0], g[1][1], g[2][2], g[0][1] + g[1][0], g[1][2] + g[2][1], g[0][2] + g[2][0]]
 }
 
 /// Local coordinate of `x` in `[a, b]`.
@@ -336,11 +334,7 @@ fn assemble_box(
         });
         for (e, element) in slab.iter().enumerate() {
             let node = |a: usize| {
-                [
-                    e % nx * order + a % n,
-                    e / nx * order + a / n % n,
-                    ez * order + a / (n * n),
-                ]
+                [e % nx * order + a % n, e / nx * order + a / n % n, ez * order + a / (n * n)]
             };
             for a in 0..n * n * n {
                 for b in 0..n * n * n {

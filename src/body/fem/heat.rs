@@ -438,9 +438,7 @@ impl HeatClass {
         let mass = [0, 1, 2].map(|i| dot(&a[i], &multiply(&self.modes[i].mass, &b[i])));
         let stiffness = [0, 1, 2].map(|i| dot(&a[i], &multiply(&self.modes[i].stiffness, &b[i])));
         let product = mass.iter().product();
-        let sum = (0..3)
-            .map(|i| stiffness[i] * mass[(i + 1) % 3] * mass[(i + 2) % 3])
-            .sum();
+        let sum = (0..3).map(|i| stiffness[i] * mass[(i + 1) % 3] * mass[(i + 2) % 3]).sum();
         (product, sum)
     }
 
@@ -509,8 +507,14 @@ fn exponential_weights(z: f64) -> (f64, f64, f64) {
     let decay = (-z).exp();
     if z < 1e-2 {
         // Series of φ₁ and φ₂; the next terms are below 1e-17.
-        let first = 1.0 - z / 2.0 * (1.0 - z / 3.0 * (1.0 - z / 4.0 * (1.0 - z / 5.0 * (1.0 - z / 6.0 * (1.0 - z / 7.0)))));
-        let second = 0.5 * (1.0 - z / 3.0 * (1.0 - z / 4.0 * (1.0 - z / 5.0 * (1.0 - z / 6.0 * (1.0 - z / 7.0)))));
+        let first = 1.0
+            - z / 2.0
+                * (1.0
+                    - z / 3.0
+                        * (1.0 - z / 4.0 * (1.0 - z / 5.0 * (1.0 - z / 6.0 * (1.0 - z / 7.0)))));
+        let second = 0.5
+            * (1.0
+                - z / 3.0 * (1.0 - z / 4.0 * (1.0 - z / 5.0 * (1.0 - z / 6.0 * (1.0 - z / 7.0)))));
         return (decay, first, second);
     }
     let first = (1.0 - decay) / z;

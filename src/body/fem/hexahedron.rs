@@ -106,13 +106,7 @@ fn split(node: usize, n: usize) -> [usize; 3] {
 }
 
 /// `∫ ∂_i N_a ∂_j N_b dV`.
-fn derivative_product(
-    edges: &[Edge; 3],
-    a: [usize; 3],
-    b: [usize; 3],
-    i: usize,
-    j: usize,
-) -> f64 {
+fn derivative_product(edges: &[Edge; 3], a: [usize; 3], b: [usize; 3], i: usize, j: usize) -> f64 {
     (0..3)
         .map(|k| match (k == i, k == j) {
             (true, true) => edges[k].stiffness[a[k]][b[k]],
@@ -149,12 +143,7 @@ fn stiffness_block(
 }
 
 /// `β ∫ ∂_i N_a N_b dV`.
-fn thermal_block(
-    edges: &[Edge; 3],
-    a: [usize; 3],
-    b: [usize; 3],
-    law: &Thermoelastic,
-) -> [f64; 3] {
+fn thermal_block(edges: &[Edge; 3], a: [usize; 3], b: [usize; 3], law: &Thermoelastic) -> [f64; 3] {
     [0, 1, 2].map(|i| {
         law.thermal_modulus()
             * (0..3)
@@ -252,11 +241,8 @@ fn shapes_at(place: [f64; 3], size: [f64; 3]) -> ([f64; 8], [[f64; 3]; 8]) {
     for a in 0..8 {
         let [i, j, k] = split(a, 2);
         values[a] = n[0][i] * n[1][j] * n[2][k];
-        gradients[a] = [
-            d[0][i] * n[1][j] * n[2][k],
-            n[0][i] * d[1][j] * n[2][k],
-            n[0][i] * n[1][j] * d[2][k],
-        ];
+        gradients[a] =
+            [d[0][i] * n[1][j] * n[2][k], n[0][i] * d[1][j] * n[2][k], n[0][i] * n[1][j] * d[2][k]];
     }
     (values, gradients)
 }
@@ -364,7 +350,8 @@ mod tests {
             let internal = forces(&element, &linear_field(order, size, u));
             for (node, f) in internal.iter().enumerate() {
                 for i in 0..3 {
-                    let thermal: f64 = (0..internal.len()).map(|b| element.thermal(node, b)[i]).sum();
+                    let thermal: f64 =
+                        (0..internal.len()).map(|b| element.thermal(node, b)[i]).sum();
                     assert!((f[i] - thermal).abs() < 1e-12, "{} {}", f[i], thermal);
                 }
             }

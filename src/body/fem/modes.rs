@@ -41,9 +41,8 @@ impl AxisModes {
             }
         }
         let prescribed = ends.map(|end| end == EndCondition::Prescribed);
-        let free: Vec<usize> = (0..n)
-            .filter(|&i| !(i == 0 && prescribed[0] || i + 1 == n && prescribed[1]))
-            .collect();
+        let free: Vec<usize> =
+            (0..n).filter(|&i| !(i == 0 && prescribed[0] || i + 1 == n && prescribed[1])).collect();
         let insulated = ends == [EndCondition::Natural; 2];
         let (decay, shapes) = eigenpairs(axis, &ends, &mass, &stiffness, &free, insulated);
         Self { decay, shapes, mass, stiffness }
@@ -165,7 +164,9 @@ mod tests {
     fn decay_of_the_first_modes_converges_to_the_exact_spectrum() {
         let prescribed = [EndCondition::Prescribed; 2];
         for (order, rate) in [(1, 2.0), (2, 4.0)] {
-            let error = |n: usize| AxisModes::of(&line(n, order), prescribed).decay[1] / (4.0 * PI * PI) - 1.0;
+            let error = |n: usize| {
+                AxisModes::of(&line(n, order), prescribed).decay[1] / (4.0 * PI * PI) - 1.0
+            };
             let observed = (error(10) / error(20)).log2();
             assert!((observed - rate).abs() < 0.1, "order {order}: rate {observed}");
         }

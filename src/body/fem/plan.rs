@@ -1,10 +1,10 @@
 //! What will be modelled of a solid, decided before any heavy work: symmetry, mesh, physics.
 
 use super::axis::{Axis, Weight};
+use super::elastic::Support;
 use super::grading::{Fine, graded_ends};
 use super::heat::ThermalFace;
 use super::mesh::{Geometry, Mesh, MeshFace};
-use super::elastic::Support;
 use crate::material::{Material, Thermoelastic};
 use crate::scene::{Face, FaceName, Shape, Solid, Symmetry};
 
@@ -46,12 +46,7 @@ const THICKNESS_ELEMENTS: f64 = 6.0;
 
 impl Plan {
     /// Plans a solid under loads on `refinements`, run to `stop_time` [s].
-    pub fn new(
-        solid: &Solid,
-        mechanics: bool,
-        refinements: &[Refinement],
-        stop_time: f64,
-    ) -> Self {
+    pub fn new(solid: &Solid, mechanics: bool, refinements: &[Refinement], stop_time: f64) -> Self {
         let Material::Thermoelastic(law) = solid.material.clone();
         let mut notes = Vec::new();
         let mirrored = mirrored(solid, &mut notes);
@@ -132,10 +127,7 @@ fn mirrored(solid: &Solid, notes: &mut Vec<String>) -> [bool; 2] {
         notes.push("the whole box is meshed, as the scene asks".into());
         return [false; 2];
     }
-    let pairs = [
-        (FaceName::Left, FaceName::Right, "x"),
-        (FaceName::Front, FaceName::Back, "y"),
-    ];
+    let pairs = [(FaceName::Left, FaceName::Right, "x"), (FaceName::Front, FaceName::Back, "y")];
     pairs.map(|(low, high, axis)| {
         let alike = alike(&solid.face(low), &solid.face(high));
         notes.push(match alike {

@@ -61,7 +61,8 @@ mod tests {
     #[test]
     fn quadratics_are_recovered_everywhere() {
         for order in [1, 2] {
-            let axis = Axis::from_element_ends(&[0.0, 1.0, 1.8, 3.0, 3.5, 5.0], order, Weight::Uniform);
+            let axis =
+                Axis::from_element_ends(&[0.0, 1.0, 1.8, 3.0, 3.5, 5.0], order, Weight::Uniform);
             let matrix = recovery_matrix(&axis);
             let f = |x: f64| 1.0 - 2.0 * x + 0.3 * x * x;
             for (node, &x) in axis.nodes.iter().enumerate() {

@@ -172,8 +172,7 @@ impl SolidFem {
                         self.weighted(field, &weights, self.mesh.node_counts());
                     let r = point[0].hypot(point[1]);
                     let direction = |x: f64| if r > 0.0 { x / r } else { 0.0 };
-                    total =
-                        [radial * direction(point[0]), radial * direction(point[1]), axial];
+                    total = [radial * direction(point[0]), radial * direction(point[1]), axial];
                 }
             }
         }
