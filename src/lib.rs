@@ -24,3 +24,5 @@ pub mod coupling;
 pub mod model;
 
 pub mod output;
+
+pub mod fmi;

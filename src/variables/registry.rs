@@ -1,5 +1,6 @@
 use std::collections::HashMap;
 use std::ops::Range;
+use std::rc::Rc;
 
 use super::{FaceInputKind, InputLayout, MaterialConstant, Parameter, Quantity};
 use crate::scene::{
@@ -216,40 +217,77 @@ impl Registry {
     ///
     /// Heat takes time to move; prescribed temperatures and tractions act at once.
     pub fn dependencies(&self, scene: &Scene, output: &Output) -> Vec<usize> {
+        self.inputs_within(scene, &InputLayout::of(scene), Reach::of(scene, output))
+    }
+
+    /// Every output with its [`dependencies`](Self::dependencies); outputs that follow the same
+    /// inputs share one list.
+    pub fn all_dependencies(&self, scene: &Scene) -> Vec<(usize, Rc<[usize]>)> {
         let layout = InputLayout::of(scene);
-        let direct = direct_inputs(scene, &layout, output);
+        let mut lists: HashMap<Reach, Rc<[usize]>> = HashMap::new();
+        let outputs = self.variables.iter().enumerate().filter_map(|(i, variable)| {
+            let Slot::Output(output) = &variable.slot else { return None };
+            let reach = Reach::of(scene, output);
+            let list = lists
+                .entry(reach)
+                .or_insert_with(|| self.inputs_within(scene, &layout, reach).into());
+            Some((i, Rc::clone(list)))
+        });
+        outputs.collect()
+    }
+
+    fn inputs_within(&self, scene: &Scene, layout: &InputLayout, reach: Reach) -> Vec<usize> {
+        let direct = direct_inputs(scene, layout, reach);
         self.of_causality(Causality::Input)
             .filter(|&i| matches!(self.variables[i].slot, Slot::Input(at) if direct[at]))
             .collect()
     }
 }
 
-fn direct_inputs(scene: &Scene, layout: &InputLayout, output: &Output) -> Vec<bool> {
+/// All that decides which inputs an output follows without delay.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+struct Reach<'a> {
+    body: &'a str,
+    mechanical: bool,
+    /// Summed up over the steps, so that no input acts at once.
+    accumulated: bool,
+}
+
+impl<'a> Reach<'a> {
+    fn of(scene: &'a Scene, output: &'a Output) -> Self {
+        let (body, mechanical, accumulated) = match output {
+            Output::Probe { probe, component } => {
+                (scene.probe[*probe].body.as_str(), component.needs_mechanics(), false)
+            }
+            Output::Field { field, component, .. } => {
+                (scene.field[*field].body_and_place().0, component.needs_mechanics(), false)
+            }
+            Output::Body { body, total } => (
+                body.as_str(),
+                BodyTotal::MECHANICAL.contains(total),
+                matches!(
+                    total,
+                    BodyTotal::HeatIn | BodyTotal::HeatStored | BodyTotal::HeatLost
+                ),
+            ),
+        };
+        Self { body, mechanical, accumulated }
+    }
+}
+
+fn direct_inputs(scene: &Scene, layout: &InputLayout, reach: Reach) -> Vec<bool> {
     let mut direct = vec![false; layout.len];
-    let (body, mechanical, accumulated) = match output {
-        Output::Probe { probe, component } => {
-            (scene.probe[*probe].body.as_str(), component.needs_mechanics(), false)
-        }
-        Output::Field { field, component, .. } => {
-            (scene.field[*field].body_and_place().0, component.needs_mechanics(), false)
-        }
-        Output::Body { body, total } => (
-            body.as_str(),
-            BodyTotal::MECHANICAL.contains(total),
-            matches!(total, BodyTotal::HeatIn | BodyTotal::HeatLost),
-        ),
-    };
-    if accumulated {
+    if reach.accumulated {
         return direct;
     }
     for face in &layout.faces {
-        if face.body == body && face.kind == FaceInputKind::Temperature {
+        if face.body == reach.body && face.kind == FaceInputKind::Temperature {
             direct[face.index] = true;
         }
     }
-    if mechanical {
+    if reach.mechanical {
         for (load, inputs) in scene.load.iter().zip(&layout.loads) {
-            if load.body_and_face().0 == body {
+            if load.body_and_face().0 == reach.body {
                 mark_traction(inputs, &mut direct);
             }
         }
@@ -341,7 +379,8 @@ fn inputs(scene: &Scene, list: &mut Vec<Variable>) {
 
 fn amounts(load: &Load, places: &super::LoadInputs, list: &mut Vec<Variable>) {
     let start = &load.start;
-    let kinds: [(&str, &str, Quantity, &Option<Range<usize>>, &Option<CellValues>); 5] = [
+    type Kind<'a> = (&'a str, &'a str, Quantity, &'a Option<Range<usize>>, &'a Option<CellValues>);
+    let kinds: [Kind; 5] = [
         (
             "heat_flux",
             "heat flux into the body",

@@ -1,0 +1,63 @@
+//! The prebuilt library that serves every scene.
+
+use std::env::{self, consts};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// FMI's name of this platform.
+const PLATFORM: &str = if cfg!(target_os = "windows") {
+    "win64"
+} else if cfg!(target_os = "macos") {
+    "darwin64"
+} else {
+    "linux64"
+};
+
+/// Path of the library inside the unit of a model.
+pub fn entry(model: &str) -> String {
+    format!("binaries/{PLATFORM}/{model}{}", consts::DLL_SUFFIX)
+}
+
+/// Reads the library at `path`, or the one beside this program.
+pub fn read(path: Option<&Path>) -> Result<Vec<u8>, String> {
+    let path = path.map_or_else(beside_this_program, |path| Ok(path.to_owned()))?;
+    let bytes = fs::read(&path).map_err(|error| {
+        format!(
+            "cannot read the library {}: {error}\n\
+             Build it with `cargo build --release`, or name one with --library PATH.",
+            path.display()
+        )
+    })?;
+    if !bytes.windows(MARK.len()).any(|window| window == MARK) {
+        return Err(format!(
+            "{} is no library of impinge: it does not export fmi2DoStep",
+            path.display()
+        ));
+    }
+    Ok(bytes)
+}
+
+const MARK: &[u8] = b"fmi2DoStep";
+
+fn beside_this_program() -> Result<PathBuf, String> {
+    let program =
+        env::current_exe().map_err(|error| format!("cannot find this program: {error}"))?;
+    Ok(program.with_file_name(format!("{}impinge{}", consts::DLL_PREFIX, consts::DLL_SUFFIX)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_library_is_refused_with_the_way_to_build_it() {
+        let message = read(Some(Path::new("/nowhere/libimpinge.so"))).unwrap_err();
+        assert!(message.contains("/nowhere/libimpinge.so") && message.contains("cargo build"));
+    }
+
+    #[test]
+    fn another_file_is_no_library() {
+        let message = read(Some(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"))));
+        assert!(message.unwrap_err().contains("is no library of impinge"));
+    }
+}

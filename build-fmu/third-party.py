@@ -1,0 +1,48 @@
+"""Writes THIRD-PARTY.md: the crates linked into the library, with version and licence.
+
+Run it at the repository root after a change of dependencies: python build-fmu/third-party.py
+"""
+
+import json
+import pathlib
+import subprocess
+
+HEAD = """# Third-party software
+
+The library in a unit is linked with these crates, under the licences they declare.
+Made by `build-fmu/third-party.py` from the locked dependencies.
+
+| crate | version | licence | source |
+|---|---|---|---|
+"""
+
+
+def linked(metadata):
+    """Ids of all packages that the package `impinge` depends on outside of builds and tests."""
+    nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
+    packages = {package["id"]: package for package in metadata["packages"]}
+    start = next(i for i, package in packages.items() if package["name"] == "impinge")
+    found, left = set(), [start]
+    while left:
+        for dependency in nodes[left.pop()]["deps"]:
+            normal = any(kind["kind"] is None for kind in dependency["dep_kinds"])
+            targets = {kind for target in packages[dependency["pkg"]]["targets"] for kind in target["kind"]}
+            if normal and "proc-macro" not in targets and dependency["pkg"] not in found:
+                found.add(dependency["pkg"])
+                left.append(dependency["pkg"])
+    return sorted((packages[i] for i in found), key=lambda package: (package["name"], package["version"]))
+
+
+def main():
+    root = pathlib.Path(__file__).parent.parent
+    command = ["cargo", "metadata", "--locked", "--format-version", "1", "--filter-platform", "x86_64-unknown-linux-gnu"]
+    metadata = json.loads(subprocess.run(command, cwd=root, check=True, capture_output=True).stdout)
+    rows = [
+        f"| {p['name']} | {p['version']} | {p['license'] or p['license_file']} | {p['repository'] or ''} |\n"
+        for p in linked(metadata)
+    ]
+    (root / "THIRD-PARTY.md").write_text(HEAD + "".join(rows))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,160 @@
+//! Messages to the master's logger callback.
+
+use std::collections::BTreeSet;
+use std::ffi::{CStr, CString};
+
+use super::types::{Callbacks, Environment, Logger, Status};
+
+/// Longest message in bytes; masters have been seen to format into fixed buffers of 1024.
+const LONGEST: usize = 1000;
+
+/// Log categories, as the XML declares them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Category {
+    Warning,
+    Discard,
+    Error,
+    Fatal,
+    Model,
+    All,
+}
+
+impl Category {
+    pub const ALL: [Category; 6] = [
+        Category::Warning,
+        Category::Discard,
+        Category::Error,
+        Category::Fatal,
+        Category::Model,
+        Category::All,
+    ];
+
+    pub fn name(self) -> &'static str {
+        self.c_name().to_str().unwrap_or_default()
+    }
+
+    fn c_name(self) -> &'static CStr {
+        match self {
+            Category::Warning => c"logStatusWarning",
+            Category::Discard => c"logStatusDiscard",
+            Category::Error => c"logStatusError",
+            Category::Fatal => c"logStatusFatal",
+            Category::Model => c"model",
+            Category::All => c"logAll",
+        }
+    }
+
+    pub fn description(self) -> &'static str {
+        match self {
+            Category::Warning => "Done, but something beside the computation failed",
+            Category::Discard => "A question that this unit has no answer to",
+            Category::Error => "Why a call was refused",
+            Category::Fatal => "Why the instance can no longer be used",
+            Category::Model => "What is modelled, and what was left out and why",
+            Category::All => "All messages",
+        }
+    }
+
+    fn of(status: Status) -> Self {
+        match status {
+            Status::Ok => Category::Model,
+            Status::Warning => Category::Warning,
+            Status::Discard => Category::Discard,
+            Status::Error => Category::Error,
+            Status::Fatal => Category::Fatal,
+        }
+    }
+
+    fn find(name: &str) -> Option<Self> {
+        Category::ALL.into_iter().find(|category| category.name() == name)
+    }
+}
+
+/// Where messages go, and which of them.
+pub struct Log {
+    instance: CString,
+    logger: Option<Logger>,
+    environment: Environment,
+    on: bool,
+    wanted: BTreeSet<Category>,
+}
+
+impl Log {
+    /// All categories are wanted until a master chooses.
+    pub fn new(instance: &CStr, callbacks: &Callbacks, on: bool) -> Self {
+        Self {
+            instance: instance.to_owned(),
+            logger: callbacks.logger,
+            environment: callbacks.environment,
+            on,
+            wanted: BTreeSet::from([Category::All]),
+        }
+    }
+
+    /// Switches logging; no names stand for all categories. An unknown name changes nothing.
+    pub fn configure(&mut self, on: bool, names: &[String]) -> Result<(), String> {
+        let wanted: Result<BTreeSet<_>, String> = names
+            .iter()
+            .map(|name| {
+                let known = Category::ALL.map(Category::name).join(", ");
+                let unknown = || format!("log category {name:?} is unknown; known are {known}");
+                Category::find(name).ok_or_else(unknown)
+            })
+            .collect();
+        let wanted = wanted?;
+        self.on = on;
+        self.wanted = if wanted.is_empty() { BTreeSet::from([Category::All]) } else { wanted };
+        Ok(())
+    }
+
+    /// Sends one message, if wanted. Errors are not debug logging: a master that has switched that
+    /// off is still told why a call was refused.
+    pub fn send(&self, status: Status, message: &str) {
+        let category = Category::of(status);
+        let wanted = if self.on {
+            self.wanted.contains(&Category::All) || self.wanted.contains(&category)
+        } else {
+            status >= Status::Error
+        };
+        let (true, Some(logger)) = (wanted, self.logger) else { return };
+        let format = as_format(message);
+        let (instance, category) = (self.instance.as_ptr(), category.c_name().as_ptr());
+        // SAFETY: the callback came with fmi2Instantiate and has this signature; the strings live
+        // through the call and the format takes no further arguments.
+        unsafe { logger(self.environment, instance, status, category, format.as_ptr()) };
+    }
+}
+
+/// The text as a `printf` format that prints it. Many masters print the format as it is and ignore
+/// further arguments, so `"%s"` with the text behind it would show nothing there.
+fn as_format(message: &str) -> CString {
+    let mut format = String::with_capacity(message.len());
+    for character in message.chars() {
+        match character {
+            '%' => format.push_str("%%"),
+            '\0' => format.push(' '),
+            other => format.push(other),
+        }
+        if format.len() > LONGEST {
+            format.push('…');
+            break;
+        }
+    }
+    CString::new(format).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percent_signs_are_escaped_and_nul_bytes_removed() {
+        assert_eq!(as_format("100 %s\0!").as_c_str(), c"100 %%s !");
+    }
+
+    #[test]
+    fn long_messages_are_cut_between_characters() {
+        let format = as_format(&"%µ".repeat(2000)).into_string().unwrap();
+        assert!(format.len() < 1024 && format.ends_with('…'));
+    }
+}

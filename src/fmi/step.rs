@@ -1,0 +1,113 @@
+//! FMI functions of co-simulation, section 4.2 of the standard.
+//!
+//! A step is done when fmi2DoStep returns, so there is no pending status to ask for.
+
+use std::ffi::c_int;
+
+use super::instance::{call, write};
+use super::legality::Function;
+use super::refused::{Reason, refused};
+use super::types::{
+    Answer, Boolean, Handle, Integer, LAST_SUCCESSFUL_TIME, Real, Reference, Refusal, Status, Text,
+};
+
+/// A refused step leaves the unit as it was: the master may correct inputs or times and try again.
+///
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DoStep(
+    component: Handle,
+    point: Real,
+    step: Real,
+    _no_set_state_prior_to_current_point: Boolean,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { call(component, Function::DoStep, |unit| unit.step(point, step)) }
+}
+
+/// # Safety
+/// Pointers are null or as the standard asks.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealStatus(
+    component: Handle,
+    kind: c_int,
+    value: *mut Real,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe {
+        call(component, Function::GetRealStatus, |unit| match kind {
+            LAST_SUCCESSFUL_TIME => write(value, &[unit.time()], "value"),
+            _ => no_status(kind),
+        })
+    }
+}
+
+/// # Safety
+/// Pointers are null or as the standard asks.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStatus(
+    component: Handle,
+    kind: c_int,
+    _value: *mut Status,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { call(component, Function::GetStatus, |_| no_status(kind)) }
+}
+
+/// # Safety
+/// Pointers are null or as the standard asks.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetIntegerStatus(
+    component: Handle,
+    kind: c_int,
+    _value: *mut Integer,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { call(component, Function::GetIntegerStatus, |_| no_status(kind)) }
+}
+
+/// # Safety
+/// Pointers are null or as the standard asks.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBooleanStatus(
+    component: Handle,
+    kind: c_int,
+    _value: *mut Boolean,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { call(component, Function::GetBooleanStatus, |_| no_status(kind)) }
+}
+
+/// # Safety
+/// Pointers are null or as the standard asks.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStringStatus(
+    component: Handle,
+    kind: c_int,
+    _value: *mut Text,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { call(component, Function::GetStringStatus, |_| no_status(kind)) }
+}
+
+fn no_status(kind: c_int) -> Answer {
+    let names =
+        ["fmi2DoStepStatus", "fmi2PendingStatus", "fmi2LastSuccessfulTime", "fmi2Terminated"];
+    let name = usize::try_from(kind).ok().and_then(|kind| names.get(kind));
+    Err(Refusal::discard(match name {
+        Some(name) => format!("no answer to {name}: steps are done when fmi2DoStep returns"),
+        None => format!("status kind {kind} is unknown"),
+    }))
+}
+
+refused! { Reason::NothingPending;
+    fn fmi2CancelStep: CancelStep();
+}
+
+refused! { Reason::NotOffered;
+    fn fmi2SetRealInputDerivatives:
+        SetRealInputDerivatives(*const Reference, usize, *const Integer, *const Real);
+    fn fmi2GetRealOutputDerivatives:
+        GetRealOutputDerivatives(*const Reference, usize, *const Integer, *mut Real);
+}

@@ -1,0 +1,181 @@
+//! Getting and setting variables by reference, in safe Rust.
+//!
+//! A set is all or nothing: every reference and value is checked before the first one is taken over.
+
+use std::ffi::CString;
+use std::sync::Arc;
+
+use super::legality::Phase;
+use super::types::{Answer, Reference, Refusal, Status};
+use super::unit::{Unit, explain};
+use crate::variables::{Causality, Registry, Slot, Variable};
+
+/// The FMI types of variables in use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Real,
+    Integer,
+    String,
+}
+
+impl Kind {
+    fn of(variable: &Variable) -> Self {
+        match variable.slot {
+            Slot::Threads => Kind::Integer,
+            Slot::OutputDirectory => Kind::String,
+            Slot::Parameter(_) | Slot::Input(_) | Slot::Output(_) => Kind::Real,
+        }
+    }
+}
+
+impl Unit {
+    pub fn reals(&mut self, references: &[Reference]) -> Answer<Vec<f64>> {
+        let registry = Arc::clone(&self.registry);
+        let variables = find(&registry, references, Kind::Real)?;
+        variables.into_iter().map(|variable| self.real(&registry, variable)).collect()
+    }
+
+    fn real(&mut self, registry: &Registry, variable: &Variable) -> Answer<f64> {
+        match &variable.slot {
+            Slot::Parameter(parameter) => Ok(parameter.get(&self.scene)),
+            Slot::Input(index) => Ok(self.inputs()[*index]),
+            Slot::Output(output) => {
+                let run = self.run()?;
+                let value = run.model.output(&run.state, &mut run.cache, output);
+                value.map_err(|error| {
+                    let reason = explain(registry, error).message;
+                    Refusal::error(format!("no value of {}: {reason}", variable.name))
+                })
+            }
+            Slot::Threads | Slot::OutputDirectory => Err(wrong_kind(variable, Kind::Real)),
+        }
+    }
+
+    pub fn integers(&self, references: &[Reference]) -> Answer<Vec<i32>> {
+        let variables = find(&self.registry, references, Kind::Integer)?;
+        let threads = i32::try_from(self.scene.solver.threads).unwrap_or(i32::MAX);
+        Ok(vec![threads; variables.len()])
+    }
+
+    /// Texts, kept by the unit until the next call.
+    pub fn texts(&mut self, references: &[Reference]) -> Answer<&[CString]> {
+        let variables = find(&self.registry, references, Kind::String)?;
+        let text = CString::new(self.directory.as_str()).unwrap_or_default();
+        self.texts = vec![text; variables.len()];
+        Ok(&self.texts)
+    }
+
+    /// There are no Booleans in a unit.
+    pub fn check_booleans(&self, references: &[Reference]) -> Answer {
+        match references.first() {
+            None => Ok(Status::Ok),
+            Some(&reference) => {
+                let variable = variable(&self.registry, reference)?;
+                let kind = Kind::of(variable);
+                Err(Refusal::error(format!("{} is no Boolean but a {kind:?}", variable.name)))
+            }
+        }
+    }
+
+    pub fn set_reals(&mut self, references: &[Reference], values: &[f64]) -> Answer {
+        let registry = Arc::clone(&self.registry);
+        let variables = find(&registry, references, Kind::Real)?;
+        for (variable, &value) in variables.iter().zip(values) {
+            self.check_settable(variable)?;
+            check_bounds(variable, value)?;
+        }
+        let mut scene = None;
+        for (variable, &value) in variables.iter().zip(values) {
+            match &variable.slot {
+                Slot::Parameter(parameter) => {
+                    parameter.set(scene.get_or_insert_with(|| self.scene.clone()), value);
+                }
+                Slot::Input(index) => self.set_input(*index, value),
+                Slot::Threads | Slot::OutputDirectory | Slot::Output(_) => {}
+            }
+        }
+        if let Some(scene) = scene {
+            self.set_scene(scene);
+        }
+        Ok(Status::Ok)
+    }
+
+    pub fn set_integers(&mut self, references: &[Reference], values: &[i32]) -> Answer {
+        let registry = Arc::clone(&self.registry);
+        let variables = find(&registry, references, Kind::Integer)?;
+        for (variable, &value) in variables.iter().zip(values) {
+            self.check_settable(variable)?;
+            check_bounds(variable, f64::from(value))?;
+        }
+        // `solver.threads` is the only Integer; the last value counts.
+        if let Some(threads) = values.last().and_then(|&value| usize::try_from(value).ok()) {
+            let mut scene = self.scene.clone();
+            scene.solver.threads = threads;
+            self.set_scene(scene);
+        }
+        Ok(Status::Ok)
+    }
+
+    pub fn set_texts(&mut self, references: &[Reference], values: Vec<String>) -> Answer {
+        let registry = Arc::clone(&self.registry);
+        for variable in find(&registry, references, Kind::String)? {
+            self.check_settable(variable)?;
+        }
+        // `output.directory` is the only String; the last value counts.
+        if let Some(directory) = values.into_iter().last() {
+            self.directory = directory;
+        }
+        Ok(Status::Ok)
+    }
+
+    fn check_settable(&self, variable: &Variable) -> Answer<()> {
+        let name = &variable.name;
+        match variable.causality() {
+            Causality::Output => Err(Refusal::error(format!("{name} is an output"))),
+            Causality::Parameter if self.phase == Phase::StepComplete => Err(Refusal::error(
+                format!("{name} is a fixed parameter: it may be set until initialisation ends"),
+            )),
+            Causality::Parameter | Causality::Input => Ok(()),
+        }
+    }
+}
+
+fn variable(registry: &Registry, reference: Reference) -> Answer<&Variable> {
+    registry.variables.get(reference as usize).ok_or_else(|| {
+        let last = registry.variables.len().saturating_sub(1);
+        Refusal::error(format!("value reference {reference} is unknown; there are 0 to {last}"))
+    })
+}
+
+/// The variables of these references, all of one kind.
+fn find<'a>(
+    registry: &'a Registry,
+    references: &[Reference],
+    kind: Kind,
+) -> Answer<Vec<&'a Variable>> {
+    let of_kind = |&reference: &Reference| {
+        let variable = variable(registry, reference)?;
+        if Kind::of(variable) == kind { Ok(variable) } else { Err(wrong_kind(variable, kind)) }
+    };
+    references.iter().map(of_kind).collect()
+}
+
+fn wrong_kind(variable: &Variable, wanted: Kind) -> Refusal {
+    let kind = Kind::of(variable);
+    Refusal::error(format!("{} is no {wanted:?} but a {kind:?}", variable.name))
+}
+
+fn check_bounds(variable: &Variable, value: f64) -> Answer<()> {
+    let name = &variable.name;
+    if !value.is_finite() {
+        return Err(Refusal::error(format!("{name} = {value}: must be finite")));
+    }
+    let refuse = |side: &str, bound: f64| {
+        Err(Refusal::error(format!("{name} = {value:?}: must be at {side} {bound:?}")))
+    };
+    match (variable.min, variable.max) {
+        (Some(min), _) if value < min => refuse("least", min),
+        (_, Some(max)) if value > max => refuse("most", max),
+        _ => Ok(()),
+    }
+}

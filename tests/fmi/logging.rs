@@ -1,0 +1,164 @@
+//! Who is told what.
+
+use std::ffi::{CString, c_char, c_int, c_void};
+use std::ptr::{null, null_mut};
+use std::sync::atomic::{AtomicI32, AtomicPtr, Ordering};
+
+use crate::master::{
+    Arguments, Callbacks, ERROR, Folder, Handle, OK, SCENE, Unit, call, free, library,
+};
+
+fn configure(unit: &Unit, on: bool, names: &[&str]) -> c_int {
+    let names: Vec<CString> = names.iter().map(|name| CString::new(*name).unwrap()).collect();
+    let pointers: Vec<*const c_char> = names.iter().map(|name| name.as_ptr()).collect();
+    call!("fmi2SetDebugLogging", unit.handle => Handle, on.into() => c_int,
+        pointers.len() => usize, pointers.as_ptr() => *const *const c_char)
+}
+
+#[test]
+fn messages_carry_instance_and_category() {
+    let unit = Unit::running();
+    assert_eq!(unit.step(5.0, 1.0), ERROR);
+    let messages = unit.messages.take();
+    assert_eq!((messages.len(), messages[0].instance.as_str()), (1, "unit"));
+    assert_eq!(messages[0].category, "logStatusError");
+}
+
+#[test]
+fn only_the_wanted_categories_come() {
+    let unit = Unit::initializing();
+    assert_eq!(configure(&unit, true, &["logStatusError"]), OK);
+    assert_eq!(unit.exit(), OK);
+    assert_eq!(unit.messages.take(), []);
+    assert_eq!(unit.step(5.0, 1.0), ERROR);
+    unit.expect_message(ERROR, &["communication point"]);
+    assert_eq!(configure(&unit, true, &["logStatusWarning", "model"]), OK);
+    assert_eq!(unit.step(5.0, 1.0), ERROR);
+    assert_eq!(unit.messages.take(), []);
+    for all in [&["logAll"][..], &[]] {
+        assert_eq!(configure(&unit, true, all), OK);
+        assert_eq!(unit.step(5.0, 1.0), ERROR);
+        unit.expect_message(ERROR, &["communication point"]);
+    }
+}
+
+#[test]
+fn notes_on_the_model_come_when_it_is_built() {
+    let unit = Unit::initializing();
+    assert_eq!(unit.exit(), OK);
+    let messages = unit.messages.take();
+    assert!(messages.iter().any(|m| m.category == "model" && m.status == OK), "{messages:?}");
+}
+
+#[test]
+fn without_debug_logging_only_errors_come() {
+    let folder = Folder::with_scene("quiet", SCENE);
+    let unit = Unit::initializing();
+    assert_eq!(configure(&unit, false, &[]), OK);
+    assert_eq!(unit.set_directory(&folder.0.join("scene.toml")), OK);
+    unit.exit();
+    assert_eq!(unit.messages.take(), []);
+    assert_eq!(unit.step(5.0, 1.0), ERROR);
+    unit.expect_message(ERROR, &["communication point"]);
+}
+
+#[test]
+fn unknown_categories_are_refused_and_change_nothing() {
+    let unit = Unit::running();
+    assert_eq!(configure(&unit, true, &["logStatusWarning"]), OK);
+    assert_eq!(configure(&unit, false, &["logAll", "gossip"]), ERROR);
+    assert_eq!(unit.step(5.0, 1.0), ERROR);
+    assert_eq!(unit.messages.take(), []);
+    assert_eq!(configure(&unit, true, &[]), OK);
+    assert_eq!(configure(&unit, false, &["gossip"]), ERROR);
+    unit.expect_message(ERROR, &["\"gossip\" is unknown", "logStatusError", "logAll"]);
+    let status = call!("fmi2SetDebugLogging", unit.handle => Handle, 1 => c_int, 1 => usize,
+        null() => *const *const c_char);
+    assert_eq!(status, ERROR);
+    unit.expect_message(ERROR, &["categories is a null pointer"]);
+}
+
+#[test]
+fn percent_signs_in_messages_are_no_formats() {
+    let folder = Folder::with_scene("taken", SCENE);
+    let unit = Unit::initializing();
+    unit.messages.take();
+    let path = folder.0.join("scene.toml").join("100%s%n%d");
+    assert_eq!(unit.set_directory(&path), OK);
+    unit.exit();
+    let messages = unit.messages.take();
+    assert!(messages.iter().any(|m| m.text.contains("100%s%n%d")), "{messages:?}");
+}
+
+static INSTANCE: AtomicPtr<c_void> = AtomicPtr::new(null_mut());
+static STATUS: AtomicI32 = AtomicI32::new(-1);
+
+/// Calls back into the unit that is just speaking.
+unsafe extern "C" fn nosy_logger(
+    _: *mut c_void,
+    _: *const c_char,
+    _: c_int,
+    _: *const c_char,
+    _: *const c_char,
+) {
+    let handle = INSTANCE.load(Ordering::SeqCst);
+    STATUS.store(call!("fmi2Reset", handle => Handle), Ordering::SeqCst);
+    free(handle);
+}
+
+#[test]
+fn a_call_from_within_the_logger_is_refused() {
+    let folder = Folder::with_scene("nosy", SCENE);
+    let callbacks = Callbacks {
+        logger: Some(nosy_logger),
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        environment: null_mut(),
+    };
+    let handle = Arguments::good(&folder).instantiate_with(&callbacks);
+    INSTANCE.store(handle, Ordering::SeqCst);
+    assert_eq!(call!("fmi2Terminate", handle => Handle), ERROR);
+    assert_eq!(STATUS.load(Ordering::SeqCst), ERROR);
+    assert_eq!(call!("fmi2EnterInitializationMode", handle => Handle), OK);
+    free(handle);
+}
+
+/// Runs alone in a process of its own; see below.
+#[cfg(unix)]
+#[test]
+#[ignore = "is run by nothing_is_written_to_the_hosts_terminal"]
+fn whole_run_with_the_terminal_caught() {
+    let file = Folder::new("terminal");
+    let path = CString::new(file.0.join("out").to_str().unwrap()).unwrap();
+    // SAFETY: plain POSIX calls on descriptors of this process.
+    unsafe {
+        let caught = libc::open(path.as_ptr(), libc::O_CREAT | libc::O_WRONLY, 0o600);
+        let kept = [1, 2].map(|descriptor| libc::dup(descriptor));
+        for descriptor in [1, 2] {
+            libc::dup2(caught, descriptor);
+        }
+        let unit = Unit::running();
+        unit.step(0.0, 1e-8);
+        unit.step(0.0, f64::NAN);
+        unit.snapshot();
+        unit.terminate();
+        drop(unit);
+        for (kept, descriptor) in kept.into_iter().zip([1, 2]) {
+            libc::dup2(kept, descriptor);
+        }
+    }
+    assert_eq!(std::fs::read_to_string(file.0.join("out")).unwrap(), "");
+}
+
+#[cfg(unix)]
+#[test]
+fn nothing_is_written_to_the_hosts_terminal() {
+    library();
+    let output = std::process::Command::new(std::env::current_exe().unwrap())
+        .args(["--ignored", "--exact", "logging::whole_run_with_the_terminal_caught"])
+        .output()
+        .unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(output.status.success() && text.contains("1 passed"), "{text}");
+}

@@ -1,0 +1,87 @@
+//! The generated modelDescription.xml.
+
+use std::fs;
+use std::path::Path;
+
+use impinge::fmi::xml::model_description;
+use impinge::scene;
+
+use crate::master::{SCENE, own_guid, registry};
+
+fn xml() -> String {
+    model_description(&scene::parse(SCENE, "scene.toml").unwrap(), SCENE)
+}
+
+/// The elements of the root in the order of the schema.
+#[test]
+fn elements_stand_in_the_order_of_the_schema() {
+    let xml = xml();
+    let places: Vec<usize> = [
+        "<fmiModelDescription ",
+        "<CoSimulation ",
+        "<UnitDefinitions>",
+        "<TypeDefinitions>",
+        "<LogCategories>",
+        "<DefaultExperiment ",
+        "<ModelVariables>",
+        "<ModelStructure>",
+        "<Outputs>",
+        "<InitialUnknowns>",
+    ]
+    .map(|element| xml.find(element).unwrap_or_else(|| panic!("no {element}")))
+    .into();
+    assert!(places.is_sorted(), "{places:?}");
+}
+
+#[test]
+fn texts_are_escaped_and_the_guid_is_the_units() {
+    let xml = xml();
+    assert!(xml.contains("hot spot &amp; a 2 × 3 patch"));
+    assert!(xml.contains(&format!("guid=\"{}\"", own_guid())));
+}
+
+#[test]
+fn every_variable_is_there_once_with_its_reference() {
+    let xml = xml();
+    for (reference, variable) in registry().variables.iter().enumerate() {
+        let start =
+            format!("<ScalarVariable name=\"{}\" valueReference=\"{reference}\" ", variable.name);
+        assert_eq!(xml.matches(&start).count(), 1, "{start}");
+    }
+}
+
+#[test]
+fn outputs_name_the_inputs_that_they_follow_at_once() {
+    let (xml, registry) = (xml(), registry());
+    let index = |name: &str| registry.find(name).unwrap() + 1;
+    let unknown = |name: &str| {
+        let start = format!("<Unknown index=\"{}\" dependencies=\"", index(name));
+        let rest = xml.split_once(&start).unwrap_or_else(|| panic!("no {start}")).1;
+        rest.split_once('"').unwrap().0.to_owned()
+    };
+    assert_eq!(unknown("centre.temperature"), "");
+    let traction = unknown("centre.stress_xx");
+    let names: Vec<String> = traction.split(' ').map(str::to_owned).collect();
+    assert!(names.contains(&index("spot.pressure").to_string()), "{traction}");
+    assert!(!names.contains(&index("spot.heat_flux").to_string()), "{traction}");
+}
+
+/// The copies under modelDescription are what `build-fmu SCENE --xml FILE` writes now.
+#[test]
+fn checked_in_copies_of_the_examples_are_up_to_date() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let Ok(folders) = fs::read_dir(root.join("examples")) else { return };
+    let scenes: Vec<_> = folders
+        .map(|folder| folder.unwrap().path().join("scene.toml"))
+        .filter(|path| path.exists())
+        .collect();
+    assert!(!scenes.is_empty(), "examples holds no scene");
+    for path in scenes {
+        let text = fs::read_to_string(&path).unwrap();
+        let scene = scene::parse(&text, &path.display().to_string()).unwrap();
+        let copy = root.join("modelDescription").join(format!("{}.xml", scene.name));
+        let found = fs::read_to_string(&copy).unwrap_or_default();
+        let remedy = format!("build-fmu {} --xml {}", path.display(), copy.display());
+        assert!(found == model_description(&scene, &text), "out of date; run: {remedy}");
+    }
+}

@@ -1,0 +1,42 @@
+//! Many instances in one process, on many threads.
+
+use std::thread;
+
+use crate::master::{OK, Unit};
+
+fn run(flux: f64) -> (Vec<u64>, i32, String) {
+    let unit = Unit::initializing();
+    assert_eq!(unit.set("spot.heat_flux", flux), OK);
+    assert_eq!(unit.exit(), OK);
+    for k in 0..5 {
+        assert_eq!(unit.step(f64::from(k) * 1e-8, 1e-8), OK);
+    }
+    unit.snapshot()
+}
+
+#[test]
+fn instances_on_threads_do_not_know_of_each_other() {
+    let fluxes: Vec<f64> = (1..=16).map(|k| f64::from(k) * 1e6).collect();
+    let alone: Vec<_> = fluxes.iter().map(|&flux| run(flux)).collect();
+    let together: Vec<_> = thread::scope(|scope| {
+        let started: Vec<_> = fluxes.iter().map(|&flux| scope.spawn(move || run(flux))).collect();
+        started.into_iter().map(|thread| thread.join().unwrap()).collect()
+    });
+    assert_eq!(alone, together);
+    assert_ne!(alone[0], alone[1]);
+}
+
+#[test]
+fn an_instance_may_move_between_threads() {
+    struct Sendable(Unit);
+    // SAFETY: FMI asks only that calls on an instance do not overlap.
+    unsafe impl Send for Sendable {}
+    let unit = Sendable(Unit::running());
+    let back = thread::spawn(move || {
+        let unit = unit;
+        assert_eq!(unit.0.step(0.0, 1e-8), OK);
+        unit
+    });
+    let unit = back.join().unwrap().0;
+    assert_eq!(unit.step(1e-8, 1e-8), OK);
+}
