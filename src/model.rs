@@ -23,6 +23,7 @@ pub struct Model {
     /// In the order of the scene's bodies.
     bodies: Vec<BodyModel>,
     grids: Vec<Grid>,
+    threads: usize,
 }
 
 /// One body and what of the scene concerns it.
@@ -91,9 +92,12 @@ impl Model {
     pub fn build(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
         let layout = InputLayout::of(scene);
         let mut bodies = Vec::new();
+        let mut most_threads = 1;
         for name in scene.body.keys() {
             let plan = plan(scene, name);
-            let solid = SolidFem::new(&plan, resolve_threads(threads, plan.mesh.nodes()))?;
+            let threads = resolve_threads(threads, plan.mesh.nodes());
+            most_threads = most_threads.max(threads);
+            let solid = SolidFem::new(&plan, threads)?;
             let loads = BodyLoads::of(scene, &layout, name, &plan);
             bodies.push(BodyModel { name: name.clone(), plan, solid, loads });
         }
@@ -102,7 +106,8 @@ impl Model {
             let Body::Solid(solid) = &scene.body[body];
             Grid::of(field, solid)
         });
-        Ok(Self { scene: scene.clone(), layout, bodies, grids: grids.collect() })
+        let grids = grids.collect();
+        Ok(Self { scene: scene.clone(), layout, bodies, grids, threads: most_threads })
     }
 
     pub fn scene(&self) -> &Scene {
@@ -194,6 +199,11 @@ impl Model {
     /// Whether a body is a meridian section.
     pub fn is_axisymmetric(&self, body: &str) -> bool {
         self.bodies[self.place(body)].plan.mesh.geometry == Geometry::Axisymmetric
+    }
+
+    /// Most threads that any body may use.
+    pub fn threads(&self) -> usize {
+        self.threads
     }
 
     /// Stored entries of all factorisations made so far.

@@ -1,7 +1,7 @@
 //! Nodal vectors of loads on a face: `∫ N f dA` over a footprint, whatever the mesh.
 //!
 //! Integrals are exact to rounding, so the nodal values sum to the total heat or force; those of
-//! tractions away from a centre, where the direction is singular, to about 1e-5 of it.
+//! tractions away from a centre, where the direction is singular, to about 1e-7 of it.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -114,14 +114,22 @@ fn disc([x, y]: [&Axis; 2], place: &Placement, radius: f64, pattern: Pattern) ->
                 let distance = offset[0].hypot(offset[1]);
                 if distance > 0.0 { offset[axis] / distance } else { 0.0 }
             };
-            // Split at the centre, where the direction turns.
-            let middle = place.x.clamp(from, to);
-            let mut sum = x.integrate(from, middle, direction);
-            add_scaled(&mut sum, &x.integrate(middle, to, direction), 1.0);
+            // The direction turns within a distance of about the chord's from the centre.
+            let turn = (height - place.y).abs();
+            let mut ends = vec![from, place.x, to];
+            for steps in TURN_STEPS {
+                ends.extend([place.x - steps * turn, place.x + steps * turn]);
+            }
+            ends.retain(|end| (from..=to).contains(end));
+            ends.sort_by(f64::total_cmp);
+            let mut sum = vec![0.0; x.len()];
+            for piece in ends.windows(2) {
+                add_scaled(&mut sum, &x.integrate(piece[0], piece[1], direction), 1.0);
+            }
             sum
         }
     };
-    for piece in chord_angles([x, y], place, radius).windows(2) {
+    for piece in chord_angles([x, y], place, radius, pattern).windows(2) {
         for (angle, w) in gauss_on(GAUSS_OVER_ANGLE, piece[0], piece[1]) {
             let height = place.y + radius * angle.sin();
             if height < y.start() || height > y.end() {
@@ -143,10 +151,13 @@ fn disc([x, y]: [&Axis; 2], place: &Placement, radius: f64, pattern: Pattern) ->
     out
 }
 
+/// Where pieces of a quadrature end that must resolve a turn of unit width.
+const TURN_STEPS: [f64; 5] = [1.0, 4.0, 16.0, 64.0, 256.0];
+
 const GAUSS_OVER_ANGLE: usize = 8;
 
 /// Ascending angles between which chords of the disc meet no new node.
-fn chord_angles([x, y]: [&Axis; 2], place: &Placement, radius: f64) -> Vec<f64> {
+fn chord_angles([x, y]: [&Axis; 2], place: &Placement, radius: f64, pattern: Pattern) -> Vec<f64> {
     let mut angles = vec![-FRAC_PI_2, FRAC_PI_2];
     let ends = |axis: &Axis| (0..=axis.elements()).map(|e| axis.nodes[e * axis.order]).collect();
     let (columns, rows): (Vec<f64>, Vec<f64>) = (ends(x), ends(y));
@@ -162,8 +173,13 @@ fn chord_angles([x, y]: [&Axis; 2], place: &Placement, radius: f64) -> Vec<f64> 
             angles.extend([cosine.acos(), -cosine.acos()]);
         }
     }
-    // The centre line, where a direction away from the centre turns.
-    angles.push(0.0);
+    if pattern != Pattern::Scalar {
+        // Chords near the centre, where the direction turns ever faster.
+        angles.push(0.0);
+        for steps in TURN_STEPS {
+            angles.extend([1e-3 * steps, -1e-3 * steps]);
+        }
+    }
     angles.sort_by(f64::total_cmp);
     angles.dedup();
     angles
@@ -394,7 +410,7 @@ mod tests {
         let rings = Footprint::Rings { count: 2, radius: 0.4 };
         let v = Pattern::Outward(0).on_plane([&x, &x], &rings, &place, &[1.0, 1.0], NO_IMAGE);
         // ∫ cos θ · r cos θ dA = π R³/3.
-        assert!(total(&v).abs() < 1e-5, "{}", total(&v));
+        assert!(total(&v).abs() < 1e-7, "{}", total(&v));
         assert!((first_moment(&v, &x) - PI * 0.064 / 3.0).abs() < 1e-7);
     }
 }

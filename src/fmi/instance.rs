@@ -125,3 +125,30 @@ pub unsafe fn write<T: Copy>(pointer: *mut T, values: &[T], name: &str) -> Answe
 fn null(name: &str) -> Refusal {
     Refusal::error(format!("{name} is a null pointer"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_leaves_a_unit_that_can_be_reset() {
+        let mut unit = Unit::for_tests();
+        let status = run(&mut unit, Function::SetupExperiment, |_| panic!("a bug"));
+        assert_eq!((status, unit.phase), (Status::Error, Phase::Error));
+        assert_eq!(
+            run(&mut unit, Function::EnterInitializationMode, |_| Ok(Status::Ok)),
+            Status::Error
+        );
+        assert_eq!(run(&mut unit, Function::Reset, Unit::reset), Status::Ok);
+        assert_eq!(unit.phase, Phase::Instantiated);
+    }
+
+    #[test]
+    fn a_second_panic_is_final() {
+        let mut unit = Unit::for_tests();
+        run(&mut unit, Function::Reset, |_| panic!("a bug"));
+        let status = run(&mut unit, Function::Reset, |_| panic!("another bug"));
+        assert_eq!((status, unit.phase), (Status::Fatal, Phase::Fatal));
+        assert_eq!(run(&mut unit, Function::Reset, Unit::reset), Status::Error);
+    }
+}

@@ -4,6 +4,9 @@ use std::any::Any;
 use std::cell::{Cell, RefCell};
 use std::panic::{self, AssertUnwindSafe};
 use std::sync::Once;
+use std::thread;
+
+use crate::math::parallel::WORKER;
 
 thread_local! {
     /// Whether this thread runs a call of the ABI.
@@ -30,7 +33,7 @@ fn install_hook() {
         panic::set_hook(Box::new(move |info| {
             if INSIDE.get() {
                 SEEN.set(Some(info.to_string().replace('\n', " ")));
-            } else if rayon::current_thread_index().is_none() {
+            } else if thread::current().name() != Some(WORKER) {
                 previous(info);
             } // A panic in a worker thread is passed on to the thread that waits for it.
         }));
@@ -48,7 +51,7 @@ fn text_of(payload: &(dyn Any + Send)) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rayon::prelude::*;
+    use crate::math::parallel;
 
     #[test]
     fn a_panic_becomes_its_message_and_place() {
@@ -59,7 +62,7 @@ mod tests {
 
     #[test]
     fn a_panic_of_a_worker_thread_becomes_its_message() {
-        let work = || (0..64).into_par_iter().for_each(|i| assert!(i < 0, "worker {}", "gave up"));
-        assert!(caught(work).unwrap_err().contains("worker gave up"));
+        let give_up = |i: usize| assert!(i > 64, "worker {}", "gave up");
+        assert!(caught(|| parallel::map(2, 64, give_up)).unwrap_err().contains("worker gave up"));
     }
 }

@@ -56,10 +56,17 @@ pub(super) struct Run {
     checked: bool,
 }
 
-/// What a unit's resources hold.
+/// What a unit's resources hold, and what follows from it.
 pub struct Packed {
     scene: Scene,
     registry: Registry,
+    inputs: Vec<f64>,
+}
+
+impl Packed {
+    fn of(scene: Scene) -> Self {
+        Self { registry: Registry::of(&scene), inputs: initial_inputs(&scene), scene }
+    }
 }
 
 /// Reads the scene of a unit and compares the GUID. Nothing heavy: parameters may still change.
@@ -69,8 +76,8 @@ pub fn read(resources: &str, guid: &str) -> Result<Packed, String> {
     let text = std::fs::read_to_string(&path)
         .map_err(|error| format!("cannot read the unit's scene {file}: {error}"))?;
     let scene = scene::parse(&text, &file).map_err(|error| error.to_string())?;
-    let registry = Registry::of(&scene);
-    let own = guid::guid(&text, &registry);
+    let packed = Packed::of(scene);
+    let own = guid::guid(&text, &packed.registry);
     if guid != own {
         return Err(format!(
             "the master's GUID {guid} is not {own}, which belongs to {file} and impinge {}: \
@@ -78,18 +85,18 @@ pub fn read(resources: &str, guid: &str) -> Result<Packed, String> {
             env!("CARGO_PKG_VERSION")
         ));
     }
-    Ok(Packed { scene, registry })
+    Ok(packed)
 }
 
 impl Unit {
     pub fn new(packed: Packed, log: Log) -> Self {
-        let Packed { scene, registry } = packed;
+        let Packed { scene, registry, inputs } = packed;
         Self {
             log,
             phase: Phase::Instantiated,
             texts: Vec::new(),
             registry: Arc::new(registry),
-            inputs: initial_inputs(&scene),
+            inputs,
             packed: scene.clone(),
             scene,
             directory: String::new(),
@@ -165,9 +172,10 @@ impl Unit {
         self.check_step(point, step)?;
         let registry = Arc::clone(&self.registry);
         let run = self.run()?;
-        run.model.step(&mut run.state, step).map_err(|error| explain(&registry, error))?;
+        run.model
+            .step(&mut run.state, &mut run.cache, step)
+            .map_err(|error| explain(&registry, error))?;
         run.state.time = point + step;
-        run.cache.clear();
         Ok(self.write_fields())
     }
 
@@ -214,7 +222,7 @@ impl Unit {
         scene::check(&self.scene).map_err(|error| Refusal::error(error.to_string()))?;
         let model = Model::shared(&self.scene, self.scene.solver.threads)
             .map_err(|error| explain(&self.registry, error))?;
-        if self.scene.solver.threads != 1 {
+        if model.threads() > 1 {
             pin::keep_loaded();
         }
         for note in model.notes() {
@@ -294,4 +302,21 @@ pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
         Some(variable) => format!("{}: {message}", variable.name),
         None => message,
     })
+}
+
+#[cfg(test)]
+impl Unit {
+    /// A unit of the scene that the tests of the C ABI use, without logger.
+    pub fn for_tests() -> Self {
+        let callbacks = super::types::Callbacks {
+            logger: None,
+            allocate_memory: None,
+            free_memory: None,
+            step_finished: None,
+            environment: std::ptr::null_mut(),
+        };
+        let text = include_str!("../../tests/fmi/scene.toml");
+        let scene = scene::parse(text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
+        Self::new(Packed::of(scene), Log::new(c"unit", &callbacks, true))
+    }
 }

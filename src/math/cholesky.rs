@@ -34,9 +34,14 @@ pub enum CholeskyError {
 impl SparseCholesky {
     /// Factors `matrix`, eliminating unknowns in the given order (`order[k]` is eliminated k-th).
     ///
-    /// The numerical work is sequential, so that the result does not depend on the machine.
-    pub fn factor(matrix: &LowerTriangle, order: &[usize]) -> Result<Self, CholeskyError> {
+    /// The factor is the same to the bit on any number of threads.
+    pub fn factor(
+        matrix: &LowerTriangle,
+        order: &[usize],
+        threads: usize,
+    ) -> Result<Self, CholeskyError> {
         let unknowns = order.len();
+        let parallel = if threads > 1 { Par::rayon(threads) } else { Par::Seq };
         let mut place = vec![0; unknowns];
         for (k, &i) in order.iter().enumerate() {
             place[i] = k;
@@ -63,7 +68,7 @@ impl SparseCholesky {
             .try_reserve_exact(symbolic.len_val())
             .map_err(|_| CholeskyError::OutOfMemory { unknowns })?;
         values.resize(symbolic.len_val(), 0.0);
-        let need = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+        let need = symbolic.factorize_numeric_llt_scratch::<f64>(parallel, Default::default());
         let mut buffer =
             MemBuffer::try_new(need).map_err(|_| CholeskyError::OutOfMemory { unknowns })?;
         symbolic
@@ -72,7 +77,7 @@ impl SparseCholesky {
                 SparseColMatRef::new(pattern, &matrix.values),
                 Side::Lower,
                 Default::default(),
-                Par::Seq,
+                parallel,
                 MemStack::new(&mut buffer),
                 Default::default(),
             )
@@ -121,7 +126,7 @@ mod tests {
             }
         }
         matrix.column_start.push(matrix.rows.len());
-        let factor = SparseCholesky::factor(&matrix, &[0, 2, 4, 6, 1, 5, 3]).unwrap();
+        let factor = SparseCholesky::factor(&matrix, &[0, 2, 4, 6, 1, 5, 3], 1).unwrap();
         let exact: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
         let at = |i: isize| exact.get(i as usize).copied().unwrap_or(0.0);
         let mut b: Vec<f64> =
@@ -132,9 +137,47 @@ mod tests {
         }
     }
 
+    /// Second differences on a cube of nodes that all couple within a cell.
+    fn cube(n: usize) -> LowerTriangle {
+        let mut matrix = LowerTriangle { column_start: vec![0], ..Default::default() };
+        let around = |i: usize| i.saturating_sub(1)..(i + 2).min(n);
+        for node in 0..n * n * n {
+            let (i, j, k) = (node % n, node / n % n, node / (n * n));
+            for c in around(k) {
+                for b in around(j) {
+                    for a in around(i) {
+                        let other = a + n * (b + n * c);
+                        if other >= node {
+                            matrix.rows.push(other);
+                            matrix.values.push(if other == node { 27.0 } else { -1.0 });
+                        }
+                    }
+                }
+            }
+            matrix.column_start.push(matrix.rows.len());
+        }
+        matrix
+    }
+
+    #[test]
+    fn the_solution_is_the_same_to_the_bit_on_any_number_of_threads() {
+        let n = 24;
+        let matrix = cube(n);
+        let order = crate::math::nested_dissection::nested_dissection([n - 1; 3], 1);
+        let solve = |threads| {
+            let mut b: Vec<f64> = (0..n * n * n).map(|i| (i as f64).sin()).collect();
+            SparseCholesky::factor(&matrix, &order, threads).unwrap().solve_in_place(&mut b);
+            b
+        };
+        let sequential = solve(1);
+        for threads in [2, 3, 7] {
+            assert!(sequential == solve(threads), "{threads} threads");
+        }
+    }
+
     #[test]
     fn refuses_an_indefinite_matrix() {
         let matrix = LowerTriangle { column_start: vec![0, 1], rows: vec![0], values: vec![-1.0] };
-        assert!(SparseCholesky::factor(&matrix, &[0]).is_err());
+        assert!(SparseCholesky::factor(&matrix, &[0], 1).is_err());
     }
 }

@@ -5,6 +5,9 @@
 
 use std::thread;
 
+/// Name of the threads of these loops.
+pub const WORKER: &str = "impinge worker";
+
 /// `[f(0), …, f(count − 1)]`, in equal shares on at most `threads` threads.
 pub fn map<T: Send>(threads: usize, count: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
     let threads = threads.clamp(1, count.max(1));
@@ -17,7 +20,9 @@ pub fn map<T: Send>(threads: usize, count: usize, f: impl Fn(usize) -> T + Sync)
         let workers: Vec<_> = (0..threads)
             .map(|t| {
                 let range = t * share..((t + 1) * share).min(count);
-                scope.spawn(move || range.map(f).collect::<Vec<T>>())
+                let share = move || range.map(f).collect::<Vec<T>>();
+                let worker = thread::Builder::new().name(WORKER.into());
+                worker.spawn_scoped(scope, share).expect("the system starts a thread")
             })
             .collect();
         let joined = workers.into_iter().map(|worker| match worker.join() {

@@ -265,10 +265,7 @@ impl<'a> Reach<'a> {
             Output::Body { body, total } => (
                 body.as_str(),
                 BodyTotal::MECHANICAL.contains(total),
-                matches!(
-                    total,
-                    BodyTotal::HeatIn | BodyTotal::HeatStored | BodyTotal::HeatLost
-                ),
+                matches!(total, BodyTotal::HeatIn | BodyTotal::HeatStored | BodyTotal::HeatLost),
             ),
         };
         Self { body, mechanical, accumulated }

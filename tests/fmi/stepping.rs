@@ -107,7 +107,6 @@ fn inputs_and_parameters_reach_the_model() {
 }
 
 #[test]
-#[ignore = "PLACEHOLDER model: it does not look at the places of footprints"]
 fn a_footprint_off_its_face_is_refused_by_name_until_it_is_put_back() {
     let unit = Unit::running();
     assert_eq!(unit.step(0.0, 1e-8), OK);

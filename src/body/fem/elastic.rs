@@ -144,7 +144,7 @@ impl ElasticProblem {
             .collect();
         let triangle = lower_triangle(&stiffness, degrees, &number);
         drop(stiffness);
-        let cholesky = SparseCholesky::factor(&triangle, &order)?;
+        let cholesky = SparseCholesky::factor(&triangle, &order, self.threads)?;
         Ok(Factor { free, cholesky })
     }
 
