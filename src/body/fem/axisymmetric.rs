@@ -3,11 +3,12 @@
 //! Strains are rr, tt (hoop), zz and rz (engineering shear); each node has the displacements along
 //! r and z, and integrals go over the whole circle. The linear element carries enhanced assumed
 //! strains whose mean over the ring vanishes, so that it repeats uniform stress (J. C. Simo and
-//! M. S. Rifai 1990, doi 10.1002/nme.1620290802).
+//! M. S. Rifai 1990, doi 10.1002/nme.1620290802). The quadratic element projects its dilatation on
+//! linear polynomials, as [`super::dilatation`] does.
 
 use std::f64::consts::TAU;
 
-use nalgebra::{DMatrix, Matrix4, Vector4};
+use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 
 use crate::material::Thermoelastic;
 use crate::math::gauss::gauss_legendre;
@@ -28,7 +29,20 @@ pub struct QuadrilateralMatrices {
     pub stiffness: DMatrix<f64>,
     /// `2 n × n` thermal force [N/K]
     pub thermal: DMatrix<f64>,
-    enhanced: Option<Enhanced>,
+    remedy: Remedy,
+}
+
+/// What keeps the element from locking.
+enum Remedy {
+    Enhanced(Enhanced),
+    Projected(Projected),
+}
+
+/// The projection of the dilatation: coefficients of `1, ξ, η` per displacement and per degree.
+struct Projected {
+    by_displacement: DMatrix<f64>,
+    by_temperature: DMatrix<f64>,
+    expansion: f64,
 }
 
 /// The condensed strain modes: their amplitudes follow from displacements and temperatures.
@@ -55,104 +69,176 @@ const ENHANCED: [(usize, fn(f64, f64) -> f64); MODES] = [
 
 /// Values at one quadrature or sampling point.
 struct Point {
+    place: [f64; 2],
     weight: f64,
-    values: Vec<f64>,
+    values: DVector<f64>,
     /// `4 × 2 n`
     strain: DMatrix<f64>,
 }
 
 impl QuadrilateralMatrices {
     pub fn new(order: usize, rectangle: Rectangle, law: &Thermoelastic) -> Self {
+        // The quadratic element takes its volume stress from the projection alone.
+        let lambda = if order == 1 { law.lame_first() } else { 0.0 };
+        let elastic = elasticity(lambda, law.shear_modulus());
+        let modulus = (3.0 * lambda + 2.0 * law.shear_modulus()) * law.expansion;
+        let points = quadrature(order, rectangle);
         let n = (order + 1) * (order + 1);
-        let elastic = elasticity(law);
-        let expansion = Vector4::new(1.0, 1.0, 1.0, 0.0) * law.thermal_modulus();
         let mut stiffness = DMatrix::zeros(2 * n, 2 * n);
         let mut thermal = DMatrix::zeros(2 * n, n);
-        let points = gauss_legendre(order + 2);
-        let places: Vec<_> = points
-            .iter()
-            .flat_map(|&(eta, we)| points.iter().map(move |&(xi, wx)| (xi, eta, wx * we)))
-            .collect();
-        for &(xi, eta, w) in &places {
-            let point = point_at(order, rectangle, xi, eta, w);
+        for point in &points {
             let b = &point.strain;
             stiffness += b.transpose() * elastic * b * point.weight;
-            let forces = b.transpose() * expansion * point.weight;
-            for (a, value) in point.values.iter().enumerate() {
-                let column = thermal.column(a) + &forces * *value;
-                thermal.set_column(a, &column);
-            }
+            let forces = b.transpose() * volume() * (modulus * point.weight);
+            thermal += forces * point.values.transpose();
         }
-        let mut element = Self { order, rectangle, stiffness, thermal, enhanced: None };
-        if order == 1 {
-            element.enhance(&places, &elastic, law);
-        }
+        let remedy = match order {
+            1 => Remedy::Enhanced(Enhanced::new(&points, &elastic, modulus)),
+            _ => Remedy::Projected(Projected::new(&points, law)),
+        };
+        let mut element = Self { order, rectangle, stiffness, thermal, remedy };
+        element.apply_remedy(&points, &elastic, law);
         element
     }
 
-    /// Strains rr, tt, zz and rz at a local place, enhanced modes included.
+    /// Strains rr, tt, zz and rz at a local place, as the element's stress follows from them.
     pub fn strain(&self, xi: f64, eta: f64, displacement: &[f64], temperature: &[f64]) -> [f64; 4] {
         let point = point_at(self.order, self.rectangle, xi, eta, 0.0);
-        let u = DMatrix::from_column_slice(displacement.len(), 1, displacement);
+        let u = DVector::from_column_slice(displacement);
+        let t = DVector::from_column_slice(temperature);
         let compatible = &point.strain * &u;
         let mut strain = [0, 1, 2, 3].map(|i| compatible[i]);
-        if let Some(enhanced) = &self.enhanced {
-            let t = DMatrix::from_column_slice(temperature.len(), 1, temperature);
-            let amplitudes = &enhanced.by_displacement * u + &enhanced.by_temperature * t;
-            for (m, (component, f)) in ENHANCED.iter().enumerate() {
-                strain[*component] += amplitudes[m] * (f(xi, eta) - enhanced.means[m]);
+        match &self.remedy {
+            Remedy::Enhanced(enhanced) => {
+                let amplitudes = &enhanced.by_displacement * u + &enhanced.by_temperature * t;
+                for (m, (component, f)) in ENHANCED.iter().enumerate() {
+                    strain[*component] += amplitudes[m] * (f(xi, eta) - enhanced.means[m]);
+                }
+            }
+            Remedy::Projected(projected) => {
+                let c = &projected.by_displacement * u + &projected.by_temperature * &t;
+                let thermal = 3.0 * projected.expansion * point.values.dot(&t);
+                let wanted = c[0] + c[1] * xi + c[2] * eta + thermal;
+                let change = (wanted - strain[0] - strain[1] - strain[2]) / 3.0;
+                strain[..3].iter_mut().for_each(|e| *e += change);
             }
         }
         strain
     }
 
-    fn enhance(&mut self, places: &[(f64, f64, f64)], elastic: &Matrix4<f64>, law: &Thermoelastic) {
-        let means = self.mode_means(places);
-        let mut own = DMatrix::<f64>::zeros(MODES, MODES);
-        let mut coupling = DMatrix::<f64>::zeros(MODES, 8);
-        let mut load = DMatrix::<f64>::zeros(MODES, 4);
-        for &(xi, eta, w) in places {
-            let point = point_at(1, self.rectangle, xi, eta, w);
-            let mut modes = DMatrix::<f64>::zeros(4, MODES);
-            for (m, (component, f)) in ENHANCED.iter().enumerate() {
-                modes[(*component, m)] = f(xi, eta) - means[m];
+    fn apply_remedy(&mut self, points: &[Point], elastic: &Matrix4<f64>, law: &Thermoelastic) {
+        match &self.remedy {
+            Remedy::Enhanced(enhanced) => {
+                // Condensation: K + K_uaᵀ a_u and C − K_uaᵀ a_T with the amplitudes a.
+                let coupling = enhanced.coupling(points, elastic).transpose();
+                self.stiffness += &coupling * &enhanced.by_displacement;
+                self.thermal -= &coupling * &enhanced.by_temperature;
             }
-            let stress = modes.transpose() * elastic * point.weight;
-            own += &stress * &modes;
-            coupling += &stress * &point.strain;
-            let forces = modes.transpose()
-                * Vector4::new(1.0, 1.0, 1.0, 0.0)
-                * (law.thermal_modulus() * point.weight);
-            for (a, value) in point.values.iter().enumerate() {
-                let column = load.column(a) + &forces * *value;
-                load.set_column(a, &column);
+            Remedy::Projected(projected) => {
+                let moments = Projected::dilatation_moments(points).transpose() * law.lame_first();
+                self.stiffness += &moments * &projected.by_displacement;
+                self.thermal -= &moments * &projected.by_temperature;
             }
         }
-        let inverse = own.cholesky().expect("enhanced modes are independent").inverse();
-        let by_displacement = -(&inverse * &coupling);
-        let by_temperature = inverse * load;
-        self.stiffness += coupling.transpose() * &by_displacement;
-        self.thermal -= coupling.transpose() * &by_temperature;
-        self.enhanced = Some(Enhanced { means, by_displacement, by_temperature });
-    }
-
-    fn mode_means(&self, places: &[(f64, f64, f64)]) -> [f64; MODES] {
-        let mut sums = [0.0; MODES];
-        let mut volume = 0.0;
-        for &(xi, eta, w) in places {
-            let weight = point_at(1, self.rectangle, xi, eta, w).weight;
-            volume += weight;
-            for (sum, (_, f)) in sums.iter_mut().zip(&ENHANCED) {
-                *sum += weight * f(xi, eta);
-            }
-        }
-        sums.map(|sum| sum / volume)
     }
 }
 
+impl Projected {
+    fn new(points: &[Point], law: &Thermoelastic) -> Self {
+        let mut gram = DMatrix::<f64>::zeros(3, 3);
+        let mut values = DMatrix::<f64>::zeros(3, points[0].values.len());
+        for point in points {
+            let psi = DVector::from_column_slice(&[1.0, point.place[0], point.place[1]]);
+            gram += &psi * psi.transpose() * point.weight;
+            values += psi * point.values.transpose() * point.weight;
+        }
+        let inverse = gram.cholesky().expect("linear polynomials are independent").inverse();
+        Self {
+            by_displacement: &inverse * Self::dilatation_moments(points),
+            by_temperature: inverse * values * (-3.0 * law.expansion),
+            expansion: law.expansion,
+        }
+    }
+
+    /// `∫ ψ_m tr ε dV` per displacement.
+    fn dilatation_moments(points: &[Point]) -> DMatrix<f64> {
+        let mut moments = DMatrix::zeros(3, points[0].strain.ncols());
+        for point in points {
+            let psi = DVector::from_column_slice(&[1.0, point.place[0], point.place[1]]);
+            let dilatation = volume().transpose() * &point.strain;
+            moments += psi * dilatation * point.weight;
+        }
+        moments
+    }
+}
+
+impl Enhanced {
+    fn new(points: &[Point], elastic: &Matrix4<f64>, thermal_modulus: f64) -> Self {
+        let mut element = Self {
+            means: mode_means(points),
+            by_displacement: DMatrix::zeros(0, 0),
+            by_temperature: DMatrix::zeros(0, 0),
+        };
+        let mut own = DMatrix::<f64>::zeros(MODES, MODES);
+        let mut load = DMatrix::<f64>::zeros(MODES, points[0].values.len());
+        for point in points {
+            let modes = element.modes(point);
+            own += modes.transpose() * elastic * &modes * point.weight;
+            let forces = modes.transpose() * volume() * (thermal_modulus * point.weight);
+            load += forces * point.values.transpose();
+        }
+        let inverse = own.cholesky().expect("enhanced modes are independent").inverse();
+        element.by_displacement = -(&inverse * element.coupling(points, elastic));
+        element.by_temperature = inverse * load;
+        element
+    }
+
+    /// `∫ Eᵀ D B dV` of the modes E.
+    fn coupling(&self, points: &[Point], elastic: &Matrix4<f64>) -> DMatrix<f64> {
+        let mut coupling = DMatrix::<f64>::zeros(MODES, points[0].strain.ncols());
+        for point in points {
+            coupling += self.modes(point).transpose() * elastic * &point.strain * point.weight;
+        }
+        coupling
+    }
+
+    fn modes(&self, point: &Point) -> DMatrix<f64> {
+        let [xi, eta] = point.place;
+        let mut modes = DMatrix::<f64>::zeros(4, MODES);
+        for (m, (component, f)) in ENHANCED.iter().enumerate() {
+            modes[(*component, m)] = f(xi, eta) - self.means[m];
+        }
+        modes
+    }
+}
+
+fn mode_means(points: &[Point]) -> [f64; MODES] {
+    let volume: f64 = points.iter().map(|point| point.weight).sum();
+    ENHANCED.map(|(_, f)| {
+        let sum: f64 = points.iter().map(|p| p.weight * f(p.place[0], p.place[1])).sum();
+        sum / volume
+    })
+}
+
+/// Gauss points of the element; one more each way than a brick needs, for the weight r.
+fn quadrature(order: usize, rectangle: Rectangle) -> Vec<Point> {
+    let points = gauss_legendre(order + 2);
+    let mut out = Vec::with_capacity(points.len() * points.len());
+    for &(eta, we) in &points {
+        for &(xi, wx) in &points {
+            out.push(point_at(order, rectangle, xi, eta, wx * we));
+        }
+    }
+    out
+}
+
+/// The strain of a unit expansion.
+fn volume() -> Vector4<f64> {
+    Vector4::new(1.0, 1.0, 1.0, 0.0)
+}
+
 /// Isotropic elasticity for rr, tt, zz and rz.
-fn elasticity(law: &Thermoelastic) -> Matrix4<f64> {
-    let (lambda, shear) = (law.lame_first(), law.shear_modulus());
+fn elasticity(lambda: f64, shear: f64) -> Matrix4<f64> {
     let mut d = Matrix4::zeros();
     for i in 0..3 {
         for j in 0..3 {
@@ -174,7 +260,7 @@ fn point_at(order: usize, rectangle: Rectangle, xi: f64, eta: f64, w: f64) -> Po
     let dr = slope(order, xi).map(|s| 2.0 * s / width);
     let dz = slope(order, eta).map(|s| 2.0 * s / height);
     let mut strain = DMatrix::zeros(4, 2 * n * n);
-    let mut values = vec![0.0; n * n];
+    let mut values = DVector::zeros(n * n);
     for j in 0..n {
         for i in 0..n {
             let a = i + n * j;
@@ -187,7 +273,7 @@ fn point_at(order: usize, rectangle: Rectangle, xi: f64, eta: f64, w: f64) -> Po
             strain[(3, 2 * a + 1)] = dr[i] * nz[j];
         }
     }
-    Point { weight: w * TAU * r * width * height / 4.0, values, strain }
+    Point { place: [xi, eta], weight: w * TAU * r * width * height / 4.0, values, strain }
 }
 
 #[cfg(test)]

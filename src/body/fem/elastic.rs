@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use super::axis::ShapeAt;
 use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
+use super::dilatation::{DilatationProjection, POLYNOMIALS, evaluate};
 use super::hexahedron::HexahedronMatrices;
 use super::mesh::{Geometry, Mesh, MeshFace, Parity};
 use super::recovery::sampling_places;
@@ -117,7 +118,7 @@ impl ElasticProblem {
     /// Strains of a class at the sampling points, which run like nodes, x fastest.
     pub fn strains(&self, displacement: &[f64], temperature: &[f64]) -> Strains {
         match self.mesh.geometry {
-            Geometry::Box => self.box_strains(displacement),
+            Geometry::Box => self.box_strains(displacement, temperature),
             Geometry::Axisymmetric => self.ring_strains(displacement, temperature),
         }
     }
@@ -189,23 +190,64 @@ impl ElasticProblem {
             .collect()
     }
 
-    fn box_strains(&self, displacement: &[f64]) -> Strains {
-        let places = self.mesh.axes.each_ref().map(|axis| {
-            let shapes = sampling_places(axis).into_iter();
-            shapes.map(|(element, x)| axis.shape_in(element, x)).collect::<Vec<_>>()
-        });
+    fn box_strains(&self, displacement: &[f64], temperature: &[f64]) -> Strains {
+        let places = self.mesh.axes.each_ref().map(sampling_places);
         let counts = self.mesh.node_counts();
+        let expansion = 3.0 * self.law.expansion;
+        let dilatations =
+            (self.mesh.order() > 1).then(|| self.projected_dilatations(displacement, temperature));
+        let [nx, ny, _] = self.mesh.element_counts();
         let slabs = parallel::map(self.threads, places[2].len(), |k| {
-            let z = &places[2][k];
             let mut slab = Vec::with_capacity(places[0].len() * places[1].len() * 6);
-            for y in &places[1] {
-                for x in &places[0] {
-                    slab.extend(strain_at([x, y, z], counts, displacement));
+            for &y in &places[1] {
+                for &x in &places[0] {
+                    let place = [x, y, places[2][k]];
+                    let shapes =
+                        [0, 1, 2].map(|a| self.mesh.axes[a].shape_in(place[a].0, place[a].1));
+                    let mut strain = strain_at(&shapes, counts, displacement);
+                    if let Some(dilatations) = &dilatations {
+                        let element = place[0].0 + nx * (place[1].0 + ny * place[2].0);
+                        let at = [0, 1, 2]
+                            .map(|a| local(self.mesh.axes[a].bounds(place[a].0), place[a].1));
+                        let thermal = expansion * value_at(&shapes, counts, temperature);
+                        let wanted = evaluate(&dilatations[element], at) + thermal;
+                        let change = (wanted - strain[0] - strain[1] - strain[2]) / 3.0;
+                        strain[..3].iter_mut().for_each(|e| *e += change);
+                    }
+                    slab.extend(strain);
                 }
             }
             slab
         });
         slabs.concat()
+    }
+
+    /// Coefficients of the projected `tr ε − 3 α ΔT` of every element.
+    fn projected_dilatations(
+        &self,
+        displacement: &[f64],
+        temperature: &[f64],
+    ) -> Vec<[f64; POLYNOMIALS]> {
+        let [nx, ny, nz] = self.mesh.element_counts();
+        let [columns, rows, _] = self.mesh.node_counts();
+        let order = self.mesh.order();
+        let n = order + 1;
+        parallel::map(self.threads, nx * ny * nz, |e| {
+            let element = [e % nx, e / nx % ny, e / (nx * ny)];
+            let size = [0, 1, 2].map(|a| {
+                let [low, high] = self.mesh.axes[a].bounds(element[a]);
+                high - low
+            });
+            let nodes = (0..n * n * n).map(|a| {
+                let at = [a % n, a / n % n, a / (n * n)];
+                let [i, j, k] = [0, 1, 2].map(|axis| element[axis] * order + at[axis]);
+                let node = i + columns * (j + rows * k);
+                let u = &displacement[3 * node..][..3];
+                let rise = temperature.get(node).copied().unwrap_or(0.0);
+                ([u[0], u[1], u[2]], 3.0 * self.law.expansion * rise)
+            });
+            DilatationProjection::new(order, size).coefficients(nodes)
+        })
     }
 
     fn ring_strains(&self, displacement: &[f64], temperature: &[f64]) -> Strains {
@@ -252,7 +294,7 @@ impl ElasticProblem {
 }
 
 /// Strain xx, yy, zz, xy, yz, xz at a point with the given shape functions along the axes.
-fn strain_at([x, y, z]: [&ShapeAt; 3], counts: [usize; 3], displacement: &[f64]) -> [f64; 6] {
+fn strain_at([x, y, z]: &[ShapeAt; 3], counts: [usize; 3], displacement: &[f64]) -> [f64; 6] {
     let mut g = [[0.0; 3]; 3];
     for c in 0..z.count {
         for b in 0..y.count {
@@ -273,6 +315,22 @@ fn strain_at([x, y, z]: [&ShapeAt; 3], counts: [usize; 3], displacement: &[f64])
         }
     }
     [g[0][0], g[1][1], g[2][2], g[0][1] + g[1][0], g[1][2] + g[2][1], g[0][2] + g[2][0]]
+}
+
+/// A nodal scalar at a point; zero for an empty field.
+fn value_at([x, y, z]: &[ShapeAt; 3], counts: [usize; 3], field: &[f64]) -> f64 {
+    if field.is_empty() {
+        return 0.0;
+    }
+    let mut sum = 0.0;
+    for c in 0..z.count {
+        for b in 0..y.count {
+            let row = counts[0] * (y.first + b + counts[1] * (z.first + c)) + x.first;
+            let weight = y.values[b] * z.values[c];
+            sum += weight * (0..x.count).map(|a| x.values[a] * field[row + a]).sum::<f64>();
+        }
+    }
+    sum
 }
 
 /// Local coordinate of `x` in `[a, b]`.

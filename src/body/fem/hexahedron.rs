@@ -5,10 +5,12 @@
 //! and M. S. Rifai 1990 (doi 10.1002/nme.1620290802) with the 15 modes that U. Andelfinger and
 //! E. Ramm 1993 (doi 10.1002/nme.1620360805) found to remove both shear and volumetric locking:
 //! the linear one of each normal strain, the bilinear ones of the normal strains, and the linear
-//! ones of the shear strains. The modes are condensed inside the element.
+//! ones of the shear strains. The modes are condensed inside the element. The quadratic element
+//! projects its dilatation (see [`super::dilatation`]).
 
 use nalgebra::SMatrix;
 
+use super::dilatation::{DilatationProjection, POLYNOMIALS};
 use crate::material::Thermoelastic;
 use crate::math::gauss::gauss_legendre;
 use crate::math::lagrange::{shape, slope};
@@ -55,18 +57,24 @@ impl HexahedronMatrices {
         let edges = size.map(|length| Edge::new(order, length));
         let n = order + 1;
         let nodes = n * n * n;
+        // The quadratic element takes its volume stress from the projection alone.
+        let (lambda, thermal_modulus) = match order {
+            1 => (law.lame_first(), law.thermal_modulus()),
+            _ => (0.0, 2.0 * law.shear_modulus() * law.expansion),
+        };
         let mut stiffness = Vec::with_capacity(nodes * nodes);
         let mut thermal = Vec::with_capacity(nodes * nodes);
         for a in 0..nodes {
             for b in 0..nodes {
                 let (a, b) = (split(a, n), split(b, n));
-                stiffness.push(stiffness_block(&edges, a, b, law));
-                thermal.push(thermal_block(&edges, a, b, law));
+                stiffness.push(stiffness_block(&edges, a, b, lambda, law.shear_modulus()));
+                thermal.push(thermal_block(&edges, a, b, thermal_modulus));
             }
         }
         let mut element = Self { nodes, stiffness, thermal };
-        if order == 1 {
-            element.enhance(size, law);
+        match order {
+            1 => element.enhance(size, law),
+            _ => element.add_dilatation(&DilatationProjection::new(order, size), law),
         }
         element
     }
@@ -79,6 +87,27 @@ impl HexahedronMatrices {
     /// Thermal force at node `a` per degree at node `b` [N/K].
     pub fn thermal(&self, a: usize, b: usize) -> &[f64; 3] {
         &self.thermal[a * self.nodes + b]
+    }
+
+    /// Adds `λ ∫ P(tr ε − 3 α ΔT) P(δ tr ε) dV` with the projection P.
+    fn add_dilatation(&mut self, projection: &DilatationProjection, law: &Thermoelastic) {
+        let lambda = law.lame_first();
+        let overlap = |a: &[f64; POLYNOMIALS], b: &[f64; POLYNOMIALS]| -> f64 {
+            (0..POLYNOMIALS).map(|m| a[m] * b[m] / projection.norm[m]).sum()
+        };
+        for a in 0..self.nodes {
+            for b in 0..self.nodes {
+                for i in 0..3 {
+                    let from = &projection.gradient[a][i];
+                    for j in 0..3 {
+                        self.stiffness[a * self.nodes + b][3 * i + j] +=
+                            lambda * overlap(from, &projection.gradient[b][j]);
+                    }
+                    self.thermal[a * self.nodes + b][i] +=
+                        3.0 * law.expansion * lambda * overlap(from, &projection.value[b]);
+                }
+            }
+        }
     }
 
     /// Condenses the enhanced strain modes of the linear element.
@@ -122,9 +151,9 @@ fn stiffness_block(
     edges: &[Edge; 3],
     a: [usize; 3],
     b: [usize; 3],
-    law: &Thermoelastic,
+    lambda: f64,
+    shear: f64,
 ) -> [f64; 9] {
-    let (lambda, shear) = (law.lame_first(), law.shear_modulus());
     let mut g = [[0.0; 3]; 3];
     for (i, row) in g.iter_mut().enumerate() {
         for (j, value) in row.iter_mut().enumerate() {
@@ -143,9 +172,14 @@ fn stiffness_block(
 }
 
 /// `β ∫ ∂_i N_a N_b dV`.
-fn thermal_block(edges: &[Edge; 3], a: [usize; 3], b: [usize; 3], law: &Thermoelastic) -> [f64; 3] {
+fn thermal_block(
+    edges: &[Edge; 3],
+    a: [usize; 3],
+    b: [usize; 3],
+    thermal_modulus: f64,
+) -> [f64; 3] {
     [0, 1, 2].map(|i| {
-        law.thermal_modulus()
+        thermal_modulus
             * (0..3)
                 .map(|k| {
                     let edge = &edges[k];

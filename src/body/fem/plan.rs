@@ -40,7 +40,7 @@ const NODES_PER_FEATURE: f64 = 10.0;
 const NODES_PER_DIFFUSION_LENGTH: f64 = 5.0;
 const DEFAULT_GROWTH: f64 = 1.2;
 const DEFAULT_ORDER: usize = 2;
-/// Fewest elements along a lateral axis and through the thickness.
+/// Fewest elements from the centre to a side and through the thickness.
 const LATERAL_ELEMENTS: f64 = 12.0;
 const THICKNESS_ELEMENTS: f64 = 6.0;
 
@@ -176,7 +176,7 @@ fn build_mesh(
                 Fine { from: from - margin, to: to + margin, size: element * sizes.lateral }
             })
             .collect();
-        let coarsest = (end - start) / LATERAL_ELEMENTS;
+        let coarsest = end / LATERAL_ELEMENTS;
         graded_ends(start, end, &fine, sizes.growth, coarsest)
     };
     let height = {
