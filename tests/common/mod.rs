@@ -35,6 +35,12 @@ impl Trial {
         self.model.step(&mut self.state, &mut self.cache, dt).unwrap();
     }
 
+    /// Puts a saved state back.
+    pub fn restart(&mut self, state: &State) {
+        self.state = state.clone();
+        self.cache.clear();
+    }
+
     pub fn get(&mut self, name: &str) -> f64 {
         match self.slot(name) {
             Slot::Output(output) => {
