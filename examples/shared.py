@@ -95,7 +95,7 @@ def print_table(head: list[str], rows: list[list[str]]):
         print("  ".join(text.rjust(width) for text, width in zip(row, widths, strict=True)))
 
 
-def new_figure(rows: int, columns: int, **options):
+def new_figure(rows: int, columns: int, height: float = 7.5, **options):
     """A figure in the format of a slide, in the style of all examples."""
     plt.rcParams.update(
         {
@@ -110,26 +110,32 @@ def new_figure(rows: int, columns: int, **options):
             "legend.frameon": False,
         }
     )
-    figure, axes = plt.subplots(rows, columns, figsize=(13.3, 7.5), layout="constrained", **options)
+    figure, axes = plt.subplots(
+        rows, columns, figsize=(13.3, height), layout="constrained", **options
+    )
     figure.get_layout_engine().set(w_pad=0.1, h_pad=0.08)
     return figure, axes
 
 
-def show_field(figure, axes, values: np.ndarray, size: tuple[float, float], label: str, **options):
-    """Draws a field sampled on a centred grid over `size` [µm or mm], with its colour bar."""
+def show_field(axes, values: np.ndarray, size: tuple[float, float], **options):
+    """Draws a field sampled on a centred grid over `size` [µm or mm]."""
     x, y = (extent / 2 for extent in size)
-    image = axes.imshow(
+    axes.spines[:].set_visible(True)
+    return axes.imshow(
         values.T, origin="lower", extent=(-x, x, -y, y), interpolation="bicubic", **options
     )
-    axes.spines[:].set_visible(True)
-    figure.colorbar(image, ax=axes, label=label, shrink=0.9)
-    return image
+
+
+def add_colour_bar(image, label: str):
+    """A colour bar as high as the field."""
+    axes = image.axes
+    axes.figure.colorbar(image, cax=axes.inset_axes([1.03, 0, 0.04, 1]), label=label)
 
 
 def save(figure, folder: Path, name: str) -> Path:
     """Writes the picture and says where it is."""
     path = folder / f"{name}.png"
-    figure.savefig(path, dpi=120)
+    figure.savefig(path, dpi=110)
     plt.close(figure)
     print(f"picture: {path}")
     return path

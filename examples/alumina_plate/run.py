@@ -115,16 +115,16 @@ def report(result: Result):
         t, temperature = result.times[step - 1], result.temperatures[step - 1, 0]
         exact, stress = exact_temperature(0.0, t), result.stresses[step - 1, 0]
         values = [temperature, exact, temperature - exact, stress / 1e6, exact_stress(0.0, t) / 1e6]
-        rows.append([str(step), f"{t * 1e6:.4f}"] + [f"{v:.3f}" for v in values])
+        rows.append([str(step), f"{t * 1e9:.3g}"] + [f"{v:.3f}" for v in values])
     print("Centre of the surface")
-    shared.print_table(["step", "t/µs", "T/°C", "closed", "error/K", "σ_xx/MPa", "closed"], rows)
+    shared.print_table(["step", "t/ns", "T/°C", "closed", "error/K", "σ_xx/MPa", "closed"], rows)
     print(f"σ_zz at the end {result.normal_stress[-1] / 1e6:.3f} MPa,", end=" ")
     print(f"pressure {pressure(STOP) / 1e6:.3f} MPa; heat balance to {result.heat_balance:.0e}")
 
 
 def draw(result: Result, folder: Path) -> Path:
     figure, axes = shared.new_figure(2, 3)
-    draw_fields(figure, axes[:, 0], result)
+    draw_fields(axes[:, 0], result)
     draw_histories(axes[:, 1], result)
     draw_profiles(axes[:, 2], result)
     figure.suptitle(
@@ -134,11 +134,12 @@ def draw(result: Result, folder: Path) -> Path:
     return shared.save(figure, folder, NAME)
 
 
-def draw_fields(figure, axes, result: Result):
+def draw_fields(axes, result: Result):
     temperature, stress = result.surface_temperature, result.surface_von_mises / 1e6
-    size = (SIZE, SIZE)
-    shared.show_field(figure, axes[0], temperature, size, "°C", cmap="inferno")
-    shared.show_field(figure, axes[1], stress, size, "MPa", cmap="viridis")
+    image = shared.show_field(axes[0], temperature, (SIZE, SIZE), cmap="inferno")
+    shared.add_colour_bar(image, "°C")
+    image = shared.show_field(axes[1], stress, (SIZE, SIZE), cmap="viridis")
+    shared.add_colour_bar(image, "MPa")
     axes[0].set_title(f"Temperature after {STOP * 1e6:.1f} µs")
     axes[1].set_title(f"Von Mises stress after {STOP * 1e6:.1f} µs")
     for plot in axes:

@@ -111,8 +111,55 @@ def report(result: Result):
 
 
 def draw(result: Result, folder: Path) -> Path:
-    figure, axes = shared.new_figure(2, 2)
+    figure, axes = shared.new_figure(2, 2, sharex="col")
+    for plot in axes.flat:
+        plot.axvspan(*FAN_ON, color="#dbe9f6", zorder=0, linewidth=0)
+    draw_temperatures(axes[0], result)
+    draw_power(axes[1, 0], result)
+    draw_heat(axes[1, 1], result)
+    figure.suptitle(
+        "A controller holds a steel bed of 80 mm at 60 °C: a fan on its thermocouple makes "
+        "the rest too warm"
+    )
     return shared.save(figure, folder, NAME)
+
+
+def draw_temperatures(axes, result: Result):
+    names = ["thermocouple, centre", "20 mm from the centre", "rim"]
+    for plot in axes:
+        for values, name in zip(result.temperatures.T, names, strict=True):
+            plot.plot(result.times, values, label=name)
+        plot.axhline(SET_POINT, **shared.CLOSED_FORM, label="set point")
+        plot.set(ylabel="temperature / °C")
+    axes[0].text(sum(FAN_ON) / 2, 46, "fan on the centre", ha="center", color="#3a6ea5")
+    axes[0].set_title("Warm in a minute, no wind-up")
+    axes[0].legend(loc="lower right")
+    axes[1].set(ylim=(57.5, 63.5))
+    middle = result.temperatures[round(FAN_ON[1] / STEP) - 1, 1]
+    axes[1].set_title(f"Held at the centre, {middle - SET_POINT:.1f} K too warm beside it")
+
+
+def draw_power(plot, result: Result):
+    lost = np.diff(result.heat[:, 2], prepend=0.0) / STEP
+    plot.plot(result.times, result.powers, label="heater")
+    plot.plot(result.times, lost, label="lost to the room", color=shared.COLOURS[3])
+    plot.axhline(HEATER_POWER, color="0.7", linewidth=1)
+    plot.text(STOP, HEATER_POWER - 1.5, "limit", color="0.5", ha="right", va="top")
+    plot.set(xlabel="time / s", ylabel="power / W", xlim=(0, STOP))
+    plot.set_title("The heater makes up for fan and room")
+    plot.legend(loc="center right", bbox_to_anchor=(1, 0.6))
+
+
+def draw_heat(plot, result: Result):
+    brought, stored, lost = result.heat.T / 1e3
+    plot.fill_between(result.times, stored, color="#f0b878", linewidth=0, label="stored in the bed")
+    plot.fill_between(
+        result.times, stored, stored + lost, color="#9fcfc8", linewidth=0, label="lost to the room"
+    )
+    plot.plot(result.times, brought, label="brought in, less the fan's")
+    plot.set(xlabel="time / s", ylabel="heat / kJ", xlim=(0, STOP), ylim=(0, None))
+    plot.set_title(f"Stored + lost = brought in, to {result.heat_balance:.0e}")
+    plot.legend(loc="upper left")
 
 
 def main(given: list[str] | None = None) -> Result:
