@@ -43,7 +43,8 @@ struct Factor {
     cholesky: SparseCholesky,
 }
 
-/// Strains at the sampling points of one class, [`ElasticProblem::strain_count`] a point.
+/// Strains at the sampling points of one class: 6 a point in a box, 4 (rr, tt, zz, rz) in
+/// axisymmetry.
 pub type Strains = Vec<f64>;
 
 impl ElasticProblem {
@@ -61,11 +62,6 @@ impl ElasticProblem {
     /// Displacements a node: 3 in a box, 2 (r, z) in axisymmetry.
     pub fn degrees(&self) -> usize {
         degrees(self.mesh.geometry)
-    }
-
-    /// Strains a point: 6 in a box, 4 (rr, tt, zz, rz) in axisymmetry.
-    pub fn strain_count(&self) -> usize {
-        2 * self.degrees()
     }
 
     /// Factors the even class, so that the first step is no slower than the others.
