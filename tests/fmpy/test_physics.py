@@ -213,16 +213,12 @@ def test_a_mirrored_load_mirrors_the_fields(pack, symmetry):
 
 @pytest.mark.parametrize("order", [1, 2])
 def test_symmetry_neglects_nothing(pack, order):
-    edits = {
-        "order = 1": f"order = {order}",
-        "[-1.8e-4, 1.8e-4], y = [-1.2e-4, 1.2e-4]": "[-1.8e-4, 1.8e-4], y = [-1.2e-4, 1.2e-4]",
-    }
+    """The coarse mesh of the whole body is the mirrored one of its quarter."""
+    edits = {"order = 1": f"order = {order}"}
+    quarter = pack("plate", edits)
     whole = pack("plate", {**edits, 'symmetry = "auto"': 'symmetry = "none"'})
-    inputs = {**SPOT, **ASIDE}
-    a, b = (linear(run(file, inputs, steps=[5e-5])) for file in (pack("plate", edits), whole))
-    smooth = [name for name in a if unit_of(name) != "Pa"]
-    assert_close({n: a[n] for n in smooth}, {n: b[n] for n in smooth}, 1e-9)
-    assert_close(a, b, 1e-6)
+    a, b = (linear(run(file, {**SPOT, **ASIDE}, steps=[5e-5])) for file in (quarter, whole))
+    assert_close(a, b, 1e-8)
 
 
 def tile_inputs(value, count):
