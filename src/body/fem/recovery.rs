@@ -4,7 +4,11 @@
 //! each axis (J. Barlow 1976, doi 10.1002/nme.1620100202). On a structured mesh these form a grid of
 //! their own. The value at a node is the polynomial through the nearest sampling points along each
 //! axis, and values between nodes follow the shape functions, so the field is continuous
-//! (cf. O. C. Zienkiewicz and J. Z. Zhu 1992, doi 10.1002/nme.1620330702). A plane of symmetry is no
+//! (cf. O. C. Zienkiewicz and J. Z. Zhu 1992, doi 10.1002/nme.1620330702).
+//!
+//! Where heat has come only little way, temperature and the strain along z vary much from one
+//! sampling point to the next and nearly cancel in σ_zz. So the strain that a heated layer would have
+//! by itself is taken off before and put back, with the temperature of the place, afterwards. A plane of symmetry is no
 //! end: the sampling points go on behind it as images, so half a body recovers what the whole does.
 
 use faer::Mat;

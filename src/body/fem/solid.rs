@@ -207,7 +207,7 @@ impl SolidFem {
                 strain[slot] += parity.tensor_sign(image, slot) * value;
             }
         }
-        let stress = self.law.stress(strain, self.rise_from(temperatures, point));
+        let stress = self.stress_of(strain, self.rise_from(temperatures, point));
         match self.mesh.geometry {
             Geometry::Box => stress,
             Geometry::Axisymmetric => {
@@ -372,7 +372,13 @@ impl SolidFem {
                 }
             }
         }
-        strain.into_iter().zip(rise).map(|(e, rise)| self.law.stress(e, rise)).collect()
+        strain.into_iter().zip(rise).map(|(e, rise)| self.stress_of(e, rise)).collect()
+    }
+
+    /// Stress of a recovered strain, from which the strain of a heated layer was left out.
+    fn stress_of(&self, mut strain: [f64; 6], rise: f64) -> [f64; 6] {
+        strain[2] += self.law.layer_strain() * rise;
+        self.law.stress(strain, rise)
     }
 
     fn rise_from(&self, temperatures: &Temperatures, point: [f64; 3]) -> f64 {
