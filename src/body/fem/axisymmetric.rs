@@ -56,8 +56,11 @@ struct Enhanced {
 
 const MODES: usize = 7;
 
-/// Strain component (rr, tt, zz, rz) and local polynomial of each enhanced mode.
-const ENHANCED: [(usize, fn(f64, f64) -> f64); MODES] = [
+/// Strain component (rr, tt, zz, rz) and local polynomial.
+type Mode = (usize, fn(f64, f64) -> f64);
+
+/// The enhanced modes.
+const ENHANCED: [Mode; MODES] = [
     (0, |xi, _| xi),
     (0, |xi, eta| xi * eta),
     (1, |xi, eta| xi * eta),

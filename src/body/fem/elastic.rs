@@ -43,7 +43,8 @@ struct Factor {
     cholesky: SparseCholesky,
 }
 
-/// Strains at the sampling points of one class, [`ElasticProblem::strain_count`] a point.
+/// What [`ElasticProblem::strains`] gives of one class: 6 a point in a box, 4 (rr, tt, zz, rz) in
+/// axisymmetry.
 pub type Strains = Vec<f64>;
 
 impl ElasticProblem {
@@ -61,11 +62,6 @@ impl ElasticProblem {
     /// Displacements a node: 3 in a box, 2 (r, z) in axisymmetry.
     pub fn degrees(&self) -> usize {
         degrees(self.mesh.geometry)
-    }
-
-    /// Strains a point: 6 in a box, 4 (rr, tt, zz, rz) in axisymmetry.
-    pub fn strain_count(&self) -> usize {
-        2 * self.degrees()
     }
 
     /// Factors the even class, so that the first step is no slower than the others.
@@ -115,7 +111,9 @@ impl ElasticProblem {
         Ok(load)
     }
 
-    /// Strains of a class at the sampling points, which run like nodes, x fastest.
+    /// Strains of a class at the sampling points, which run like nodes, x fastest; of the strain
+    /// along z, what a heated layer would have by itself ([`Thermoelastic::layer_strain`]) is left
+    /// out, so that all of them vary slowly through the depth.
     pub fn strains(&self, displacement: &[f64], temperature: &[f64]) -> Strains {
         match self.mesh.geometry {
             Geometry::Box => self.box_strains(displacement, temperature),
@@ -194,6 +192,7 @@ impl ElasticProblem {
         let places = self.mesh.axes.each_ref().map(sampling_places);
         let counts = self.mesh.node_counts();
         let expansion = 3.0 * self.law.expansion;
+        let layer = self.law.layer_strain();
         let dilatations =
             (self.mesh.order() > 1).then(|| self.projected_dilatations(displacement, temperature));
         let [nx, ny, _] = self.mesh.element_counts();
@@ -205,15 +204,16 @@ impl ElasticProblem {
                     let shapes =
                         [0, 1, 2].map(|a| self.mesh.axes[a].shape_in(place[a].0, place[a].1));
                     let mut strain = strain_at(&shapes, counts, displacement);
+                    let rise = value_at(&shapes, counts, temperature);
                     if let Some(dilatations) = &dilatations {
                         let element = place[0].0 + nx * (place[1].0 + ny * place[2].0);
                         let at = [0, 1, 2]
                             .map(|a| local(self.mesh.axes[a].bounds(place[a].0), place[a].1));
-                        let thermal = expansion * value_at(&shapes, counts, temperature);
-                        let wanted = evaluate(&dilatations[element], at) + thermal;
+                        let wanted = evaluate(&dilatations[element], at) + expansion * rise;
                         let change = (wanted - strain[0] - strain[1] - strain[2]) / 3.0;
                         strain[..3].iter_mut().for_each(|e| *e += change);
                     }
+                    strain[2] -= layer * rise;
                     slab.extend(strain);
                 }
             }
@@ -254,6 +254,8 @@ impl ElasticProblem {
         let [radii, _, heights] = &self.mesh.axes;
         let (places_r, places_z) = (sampling_places(radii), sampling_places(heights));
         let per_element = places_r.len() / radii.elements();
+        let counts = self.mesh.node_counts();
+        let layer = self.law.layer_strain();
         let mut out = vec![0.0; places_r.len() * places_z.len() * 4];
         for ez in 0..heights.elements() {
             for er in 0..radii.elements() {
@@ -269,8 +271,14 @@ impl ElasticProblem {
                     for jr in per_element * er..per_element * (er + 1) {
                         let xi = local(radii.bounds(er), places_r[jr].1);
                         let eta = local(heights.bounds(ez), places_z[jz].1);
-                        out[4 * (jr + places_r.len() * jz)..][..4]
-                            .copy_from_slice(&element.strain(xi, eta, &u, &t));
+                        let shapes = [
+                            radii.shape_in(er, places_r[jr].1),
+                            self.mesh.axes[1].shape_at(0.0),
+                            heights.shape_in(ez, places_z[jz].1),
+                        ];
+                        let mut strain = element.strain(xi, eta, &u, &t);
+                        strain[2] -= layer * value_at(&shapes, counts, temperature);
+                        out[4 * (jr + places_r.len() * jz)..][..4].copy_from_slice(&strain);
                     }
                 }
             }

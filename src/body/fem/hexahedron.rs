@@ -191,8 +191,11 @@ fn thermal_block(
 
 const MODES: usize = 15;
 
-/// Strain component (xx, yy, zz, xy, yz, xz) and local polynomial of each enhanced mode.
-const ENHANCED: [(usize, fn([f64; 3]) -> f64); MODES] = [
+/// Strain component (xx, yy, zz, xy, yz, xz) and local polynomial.
+type Mode = (usize, fn([f64; 3]) -> f64);
+
+/// The enhanced modes.
+const ENHANCED: [Mode; MODES] = [
     (0, |p| p[0]),
     (0, |p| p[0] * p[1]),
     (0, |p| p[0] * p[2]),
@@ -383,10 +386,10 @@ mod tests {
             let element = HexahedronMatrices::new(order, size, &law());
             let internal = forces(&element, &linear_field(order, size, u));
             for (node, f) in internal.iter().enumerate() {
-                for i in 0..3 {
+                for (i, f) in f.iter().enumerate() {
                     let thermal: f64 =
                         (0..internal.len()).map(|b| element.thermal(node, b)[i]).sum();
-                    assert!((f[i] - thermal).abs() < 1e-12, "{} {}", f[i], thermal);
+                    assert!((f - thermal).abs() < 1e-12, "{f} {thermal}");
                 }
             }
         }

@@ -7,7 +7,7 @@ use super::elastic::{ElasticProblem, Strains};
 use super::heat::{HeatLoads, HeatProblem, HeatTotals};
 use super::mesh::{Geometry, Mesh, Parity};
 use super::plan::Plan;
-use super::recovery::recovery_matrix;
+use super::recovery::{Beyond, recovery_matrix};
 use crate::material::Thermoelastic;
 use crate::material::stress::{from_cylindrical, max_principal, von_mises};
 use crate::math::cholesky::CholeskyError;
@@ -20,7 +20,8 @@ pub struct SolidFem {
     initial_temperature: f64,
     heat: HeatProblem,
     elastic: Option<ElasticProblem>,
-    recovery: [Mat<f64>; 3],
+    /// From strain sampling points to nodes along each axis, of even and of odd components.
+    recovery: [[Mat<f64>; 2]; 3],
     parities: Vec<Parity>,
 }
 
@@ -84,7 +85,13 @@ impl SolidFem {
         if let Some(elastic) = &elastic {
             elastic.prepare()?;
         }
-        let recovery = mesh.axes.each_ref().map(recovery_matrix);
+        let recovery = [0, 1, 2].map(|a| {
+            let beyond = match continues(&mesh, a) {
+                true => [Beyond::Even, Beyond::Odd],
+                false => [Beyond::Nothing; 2],
+            };
+            beyond.map(|beyond| recovery_matrix(&mesh.axes[a], beyond))
+        });
         let parities = mesh.parities();
         let initial_temperature = plan.initial_temperature;
         Ok(Self { mesh, law, initial_temperature, heat, elastic, recovery, parities })
@@ -158,18 +165,19 @@ impl SolidFem {
     pub fn displacement_at(&self, deformation: &Deformation, point: [f64; 3]) -> [f64; 3] {
         let (place, image) = self.mesh.locate(point);
         let weights = self.node_weights(place);
+        let counts = self.mesh.node_counts();
         let mut total = [0.0; 3];
         for (parity, field) in self.parities.iter().zip(&deformation.displacement) {
             match self.mesh.geometry {
                 Geometry::Box => {
-                    let u: [f64; 3] = self.weighted(field, &weights, self.mesh.node_counts());
-                    for i in 0..3 {
-                        total[i] += parity.vector_sign(image, i) * u[i];
+                    for (i, sum) in total.iter_mut().enumerate() {
+                        let u = weighted(field, weights.each_ref(), counts, (i, 3));
+                        *sum += parity.vector_sign(image, i) * u;
                     }
                 }
                 Geometry::Axisymmetric => {
-                    let [radial, axial]: [f64; 2] =
-                        self.weighted(field, &weights, self.mesh.node_counts());
+                    let [radial, axial] =
+                        [0, 1].map(|i| weighted(field, weights.each_ref(), counts, (i, 2)));
                     let r = point[0].hypot(point[1]);
                     let direction = |x: f64| if r > 0.0 { x / r } else { 0.0 };
                     total = [radial * direction(point[0]), radial * direction(point[1]), axial];
@@ -188,23 +196,18 @@ impl SolidFem {
     ) -> [f64; 6] {
         let (place, image) = self.mesh.locate(point);
         let weights = self.sample_weights(place);
-        let counts = self.recovery.each_ref().map(Mat::ncols);
+        let counts = self.recovery.each_ref().map(|[even, _]| even.ncols());
+        let slots = strain_slots(self.mesh.geometry);
         let mut strain = [0.0; 6];
-        for (parity, field) in self.parities.iter().zip(&deformation.strains) {
-            match self.mesh.geometry {
-                Geometry::Box => {
-                    let e: [f64; 6] = self.weighted(field, &weights, counts);
-                    for i in 0..6 {
-                        strain[i] += parity.tensor_sign(image, i) * e[i];
-                    }
-                }
-                Geometry::Axisymmetric => {
-                    let [rr, tt, zz, rz] = self.weighted(field, &weights, counts);
-                    strain = [rr, tt, zz, 0.0, 0.0, rz];
-                }
+        for (&parity, field) in self.parities.iter().zip(&deformation.strains) {
+            for (component, &slot) in slots.iter().enumerate() {
+                let odd = odd_along(parity, slot);
+                let weights = [0, 1, 2].map(|a| &weights[a][odd[a]]);
+                let value = weighted(field, weights, counts, (component, slots.len()));
+                strain[slot] += parity.tensor_sign(image, slot) * value;
             }
         }
-        let stress = self.law.stress(strain, self.rise_from(temperatures, point));
+        let stress = self.stress_of(strain, self.rise_from(temperatures, point));
         match self.mesh.geometry {
             Geometry::Box => stress,
             Geometry::Axisymmetric => {
@@ -332,21 +335,24 @@ impl SolidFem {
 
     /// Recovered strains at the nodes: class, component, node.
     fn nodal_strains(&self, deformation: &Deformation) -> Vec<Vec<Vec<f64>>> {
-        let matrices = self.recovery.each_ref();
-        let count = self.elastic.as_ref().map_or(0, ElasticProblem::strain_count);
-        let recover = |strains: &Strains| {
+        let slots = strain_slots(self.mesh.geometry);
+        let recover = |(&parity, strains): (&Parity, &Strains)| {
             if strains.is_empty() {
                 return Vec::new();
             }
-            (0..count)
-                .map(|c| {
+            slots
+                .iter()
+                .enumerate()
+                .map(|(c, &slot)| {
+                    let odd = odd_along(parity, slot);
+                    let matrices = [0, 1, 2].map(|a| &self.recovery[a][odd[a]]);
                     let component: Vec<f64> =
-                        strains.iter().skip(c).step_by(count).copied().collect();
+                        strains.iter().skip(c).step_by(slots.len()).copied().collect();
                     transform(&component, matrices, Side::Direct)
                 })
                 .collect()
         };
-        deformation.strains.iter().map(recover).collect()
+        self.parities.iter().zip(&deformation.strains).map(recover).collect()
     }
 
     fn stress_of_image(
@@ -357,11 +363,7 @@ impl SolidFem {
     ) -> Vec<[f64; 6]> {
         let rise = self.rise_of_image(temperatures, image);
         let mut strain = vec![[0.0; 6]; rise.len()];
-        // Where each stored component stands among xx, yy, zz, xy, yz, xz.
-        let slots: &[usize] = match self.mesh.geometry {
-            Geometry::Box => &[0, 1, 2, 3, 4, 5],
-            Geometry::Axisymmetric => &[0, 1, 2, 5],
-        };
+        let slots = strain_slots(self.mesh.geometry);
         for (parity, components) in self.parities.iter().zip(nodal_strains) {
             for (component, &slot) in components.iter().zip(slots) {
                 let sign = parity.tensor_sign(image, slot);
@@ -370,16 +372,20 @@ impl SolidFem {
                 }
             }
         }
-        strain.into_iter().zip(rise).map(|(e, rise)| self.law.stress(e, rise)).collect()
+        strain.into_iter().zip(rise).map(|(e, rise)| self.stress_of(e, rise)).collect()
+    }
+
+    /// Stress of a recovered strain, from which the strain of a heated layer was left out.
+    fn stress_of(&self, mut strain: [f64; 6], rise: f64) -> [f64; 6] {
+        strain[2] += self.law.layer_strain() * rise;
+        self.law.stress(strain, rise)
     }
 
     fn rise_from(&self, temperatures: &Temperatures, point: [f64; 3]) -> f64 {
         let (place, image) = self.mesh.locate(point);
         let weights = self.node_weights(place);
-        let value = |field: &Vec<f64>| {
-            let [value]: [f64; 1] = self.weighted(field, &weights, self.mesh.node_counts());
-            value
-        };
+        let counts = self.mesh.node_counts();
+        let value = |field: &Vec<f64>| weighted(field, weights.each_ref(), counts, (0, 1));
         let parts = self.parities.iter().zip(temperatures);
         parts.map(|(parity, field)| parity.sign(image) * value(field)).sum()
     }
@@ -391,47 +397,69 @@ impl SolidFem {
         })
     }
 
-    /// Weights of the strain sampling points: recovery to the nodes around, then shape functions.
-    fn sample_weights(&self, place: [f64; 3]) -> [Weights; 3] {
+    /// Weights of the strain sampling points along each axis, of even and of odd components:
+    /// recovery to the nodes around, then shape functions.
+    fn sample_weights(&self, place: [f64; 3]) -> [[Weights; 2]; 3] {
         [0, 1, 2].map(|a| {
             let shape = self.mesh.axes[a].shape_at(place[a]);
-            let matrix = &self.recovery[a];
-            let mut all = vec![0.0; matrix.ncols()];
-            for (i, value) in shape.values[..shape.count].iter().enumerate() {
-                for (j, weight) in all.iter_mut().enumerate() {
-                    *weight += value * matrix[(shape.first + i, j)];
-                }
-            }
-            let first = all.iter().position(|&w| w != 0.0).unwrap_or(0);
-            let last = all.iter().rposition(|&w| w != 0.0).unwrap_or(0);
-            Weights { first, values: all[first..=last].to_vec() }
-        })
-    }
-
-    /// Weighted sum of `N` values a point of a grid; zero for an empty field.
-    fn weighted<const N: usize>(
-        &self,
-        field: &[f64],
-        [x, y, z]: &[Weights; 3],
-        counts: [usize; 3],
-    ) -> [f64; N] {
-        let mut sum = [0.0; N];
-        if field.is_empty() {
-            return sum;
-        }
-        for (c, wz) in z.values.iter().enumerate() {
-            for (b, wy) in y.values.iter().enumerate() {
-                let row = counts[0] * (y.first + b + counts[1] * (z.first + c)) + x.first;
-                for (a, wx) in x.values.iter().enumerate() {
-                    let w = wx * wy * wz;
-                    for (s, v) in sum.iter_mut().zip(&field[N * (row + a)..][..N]) {
-                        *s += w * v;
+            self.recovery[a].each_ref().map(|matrix| {
+                let mut all = vec![0.0; matrix.ncols()];
+                for (i, value) in shape.values[..shape.count].iter().enumerate() {
+                    for (j, weight) in all.iter_mut().enumerate() {
+                        *weight += value * matrix[(shape.first + i, j)];
                     }
                 }
+                let first = all.iter().position(|&w| w != 0.0).unwrap_or(0);
+                let last = all.iter().rposition(|&w| w != 0.0).unwrap_or(0);
+                Weights { first, values: all[first..=last].to_vec() }
+            })
+        })
+    }
+}
+
+/// Weighted sum over a grid of one component of `(component, of how many a point)`; zero for an
+/// empty field.
+fn weighted(
+    field: &[f64],
+    [x, y, z]: [&Weights; 3],
+    counts: [usize; 3],
+    (component, stride): (usize, usize),
+) -> f64 {
+    let mut sum = 0.0;
+    if field.is_empty() {
+        return sum;
+    }
+    for (c, wz) in z.values.iter().enumerate() {
+        for (b, wy) in y.values.iter().enumerate() {
+            let row = counts[0] * (y.first + b + counts[1] * (z.first + c)) + x.first;
+            for (a, wx) in x.values.iter().enumerate() {
+                sum += wx * wy * wz * field[stride * (row + a) + component];
             }
         }
-        sum
     }
+    sum
+}
+
+/// Where each stored strain stands among xx, yy, zz, xy, yz, xz.
+fn strain_slots(geometry: Geometry) -> &'static [usize] {
+    match geometry {
+        Geometry::Box => &[0, 1, 2, 3, 4, 5],
+        Geometry::Axisymmetric => &[0, 1, 2, 5],
+    }
+}
+
+/// Whether the body goes on, as a mirror image, below the low end of an axis of the mesh.
+fn continues(mesh: &Mesh, axis: usize) -> bool {
+    match mesh.geometry {
+        Geometry::Box => axis < 2 && mesh.mirrored[axis],
+        Geometry::Axisymmetric => axis == 0,
+    }
+}
+
+/// Whether a tensor component of a class is odd (1) or even (0) along each axis.
+fn odd_along(parity: Parity, slot: usize) -> [usize; 3] {
+    let odd = |image| usize::from(parity.tensor_sign(image, slot) < 0.0);
+    [odd([true, false]), odd([false, true]), 0]
 }
 
 /// Nodes of an axis over the whole body, `(node, is it the image)`, coordinates ascending.

@@ -1,0 +1,72 @@
+# Every target does its own set-up; it needs cargo, a C linker and Python 3.11 or later.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+NAMES := $(sort $(patsubst examples/%/scene.toml,%,$(wildcard examples/*/scene.toml)))
+RELEASE := target/release
+PY_FILES := $(wildcard python tests/fmpy tests/verification benches examples)
+
+.DEFAULT_GOAL := help
+.PHONY: help demo units examples test rust-test python-test verify bench build clean
+
+help: ## say what there is
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
+
+demo: build $(VENV)/ready ## pack the alumina plate, run it and draw pictures
+	@mkdir -p out
+	$(RELEASE)/build-fmu examples/alumina_plate/scene.toml -o out/alumina_plate.fmu
+	$(BIN)/python examples/alumina_plate/run.py
+	@echo "Pictures:"; find out/alumina_plate -name '*.png' -o -name '*.gif' | sort | sed 's/^/  /'
+
+units: build ## pack every example scene into out/
+	@mkdir -p out
+	@set -e; for name in $(NAMES); do $(RELEASE)/build-fmu examples/$$name/scene.toml -o out/$$name.fmu; done
+
+examples: units $(VENV)/ready ## run every example
+	@set -e; for name in $(NAMES); do echo "== $$name"; $(BIN)/python examples/$$name/run.py; done
+
+test: rust-test python-test ## everything that is fast
+
+rust-test:
+	cargo fmt --all --check
+	cargo clippy --workspace --all-targets -- -D warnings
+	cargo test --workspace
+
+python-test: build $(VENV)/ready
+	$(BIN)/ruff check $(PY_FILES)
+	$(BIN)/ruff format --check $(PY_FILES)
+	$(BIN)/python -m pytest tests/fmpy
+
+verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent finite-element code
+	cargo test --release --test verification -- --include-ignored --nocapture
+	$(BIN)/python tests/verification/independent_code.py
+
+bench: build $(VENV)/ready-verify ## time against an independent finite-element code
+	$(BIN)/python benches/alumina_plate.py
+
+build:
+	cargo build --release --workspace
+
+# Debian ships `venv` apart from Python; it is installed only if it is missing.
+$(VENV)/bin/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' \
+		|| { echo "Python 3.11 or later is needed; set PYTHON=…" >&2; exit 1; }
+	@$(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); \
+		command -v apt-get > /dev/null || exit 1; \
+		sudo=; [ "$$(id -u)" = 0 ] || sudo=sudo; \
+		$$sudo apt-get update && $$sudo apt-get install -y --no-install-recommends python3-venv \
+		&& $(PYTHON) -m venv $(VENV); }
+
+$(VENV)/ready: python/requirements.txt | $(VENV)/bin/python
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r python/requirements.txt
+	@touch $@
+
+$(VENV)/ready-verify: python/requirements-verify.txt $(VENV)/ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r python/requirements-verify.txt
+	@touch $@
+
+clean: ## remove everything that was built
+	cargo clean
+	rm -rf $(VENV) out .pytest_cache .ruff_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -1,0 +1,147 @@
+"""What other tools say about the units, and whether they run in them."""
+
+import ctypes
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import EXAMPLES, SCENES, build
+from fmpy import read_model_description, simulate_fmu
+from fmpy.validation import validate_fmu
+from master import Unit
+
+ALL = [*EXAMPLES, *sorted(SCENES.glob("*.toml"))]
+
+
+def name_of(path):
+    return path.parent.name if path.name == "scene.toml" else path.stem
+
+
+every_scene = pytest.mark.parametrize("scene", ALL, ids=name_of)
+
+
+@every_scene
+def test_fmpy_finds_no_fault(pack, scene):
+    assert validate_fmu(str(pack(scene))) == []
+
+
+@every_scene
+def test_fmu_manipulation_toolbox_finds_no_fault(pack, scene):
+    tool = Path(sys.executable).parent / "fmutool"
+    check = subprocess.run(
+        [tool, "-input", pack(scene), "-check"], capture_output=True, text=True, check=False
+    )
+    said = check.stdout + check.stderr
+    assert check.returncode == 0, said
+    assert "seems to be compliant with FMI-2.0" in said
+    assert "No semantic error" in said
+    assert "WARNING" not in said and "ERROR" not in said, said
+
+
+@every_scene
+def test_the_unit_runs(pack, scene):
+    unit = str(pack(scene))
+    experiment = read_model_description(unit).defaultExperiment
+    result = simulate_fmu(unit, stop_time=5 * float(experiment.stepSize))
+    assert len(result) == 6
+    for name in result.dtype.names:
+        assert np.isfinite(result[name]).all(), name
+
+
+STEP, STEPS = 1e-5, 12
+WATCHED = ["centre.temperature", "centre.stress_xx", "right.displacement_z", "plate.heat_stored"]
+
+
+def spot(t):
+    """Inputs over time: all of them jump in the middle of the run."""
+    late = t > 5.5 * STEP
+    return {
+        "spot.heat_flux": 2e8 if late else 5e7,
+        "spot.pressure": 1e6 if late else 25e6,
+        "spot.x": 5e-5 if late else -3e-5,
+    }
+
+
+@pytest.fixture(scope="module")
+def trajectory(pack):
+    """From a master of our own, with inputs held over each step."""
+    rows = []
+    with Unit(pack("plate"), {"plate.conductivity": 12.0}) as unit:
+        for i in range(STEPS):
+            unit.set(spot(i * STEP))
+            unit.step(STEP)
+            rows.append(unit.read(WATCHED))
+    return np.array(rows)
+
+
+def test_fmpy_simulation_gives_the_same_trajectory(pack, trajectory):
+    first = spot(0.0)
+    times = [i * STEP for i in range(STEPS)]
+    kinds = [("time", float), *((name, float) for name in first)]
+    inputs = np.array([(t, *spot(t).values()) for t in times], kinds)
+    result = simulate_fmu(
+        str(pack("plate")),
+        start_values={"plate.conductivity": 12.0, **first},
+        stop_time=STEPS * STEP,
+        output_interval=STEP,
+        input=inputs,
+        output=WATCHED,
+    )
+    # FMPy's times differ from whole multiples by rounding, and so do the inputs it interpolates.
+    for column, name in enumerate(WATCHED):
+        assert result[name][1:] == pytest.approx(trajectory[:, column], rel=1e-9), name
+
+
+ECOS = """
+import ctypes, json, sys
+tbb, unit, step, steps, inputs, watched = json.loads(sys.argv[1])
+# ecospy loads libtbb.so.12 but does not bring it.
+ctypes.CDLL(tbb, mode=ctypes.RTLD_GLOBAL)
+from ecospy import EcosSimulation, EcosSimulationStructure
+with EcosSimulationStructure() as structure:
+    structure.add_model("unit", unit)
+    structure.add_parameter_set("start", {"unit::plate.conductivity": 12.0})
+    with EcosSimulation(step, structure=structure) as simulation:
+        assert simulation.init(0, "start")
+        rows = []
+        for i in range(steps):
+            for name, value in inputs[i].items():
+                simulation.set_real(f"unit::{name}", value)
+            simulation.step()
+            rows.append([simulation.get_real(f"unit::{name}") for name in watched])
+        simulation.terminate()
+print("rows", json.dumps(rows))
+"""
+
+
+def test_ecos_gives_the_same_trajectory(pack, trajectory):
+    tbb = Path(sys.prefix) / "lib/libtbb.so.12"
+    ctypes.CDLL(str(tbb))
+    inputs = [spot(i * STEP) for i in range(STEPS)]
+    job = json.dumps([str(tbb), str(pack("plate")), STEP, STEPS, inputs, WATCHED])
+    ran = subprocess.run(
+        [sys.executable, "-c", ECOS, job], capture_output=True, text=True, check=False
+    )
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    rows = next(line for line in ran.stdout.splitlines() if line.startswith("rows "))
+    # Ecos sums its times up, ours does too: the same bits.
+    assert np.array_equal(np.array(json.loads(rows[5:])), trajectory)
+
+
+def test_paths_with_spaces_and_unicode(programs, pack, tmp_path):
+    folder = tmp_path / "Plättchen 板 50% #1"
+    folder.mkdir()
+    file = folder / "Ein Heft.fmu"
+    build(programs, SCENES / "plate.toml", file)
+    fields = folder / "Felder ∇T"
+    flux = {"spot.heat_flux": 1e8}
+    with Unit(pack("plate"), flux) as plain:
+        plain.step(STEP)
+        expected = plain.all_outputs()
+    with Unit(file, {**flux, "output.directory": str(fields)}, folder=folder / "ausgepackt ü") as u:
+        u.step(STEP)
+        assert np.array_equal(u.all_outputs(), expected)
+    assert list(fields.glob("*.pvd"))
