@@ -39,7 +39,7 @@ python-test: build $(VENV)/ready
 	$(BIN)/python -m pytest tests/fmpy
 
 verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent finite-element code
-	cargo test --release --test verification -- --include-ignored --nocapture
+	cargo test --release --features verification --test verification -- --nocapture --test-threads 1
 	$(BIN)/python tests/verification/independent_code.py
 
 bench: build $(VENV)/ready-verify ## time against an independent finite-element code

@@ -294,12 +294,12 @@ pub fn forecast(scene: &Scene) -> Forecast {
 
 /// Entries of the factor of a solid mesh per unknown^(4/3), and of a meridian section per
 /// unknown · log₂(unknowns), measured on the example scenes.
-const ENTRIES_3D: f64 = 12.5;
+const ENTRIES_3D: f64 = 21.0;
 const ENTRIES_2D: f64 = 3.1;
 /// Rates of this kind of machine: entries a second when solving, operations a second when
 /// factoring.
-const SOLVE_RATE: f64 = 4e8;
-const FACTOR_RATE: f64 = 1.5e10;
+const SOLVE_RATE: f64 = 1.2e9;
+const FACTOR_RATE: f64 = 2.5e10;
 
 fn forecast_body(scene: &Scene, name: &str) -> BodyForecast {
     let plan = plan(scene, name);
@@ -321,7 +321,7 @@ fn forecast_body(scene: &Scene, name: &str) -> BodyForecast {
         unknowns,
         spacing,
         order: plan.mesh.order(),
-        memory: 8.0 * (entries + 60.0 * n + 20.0 * unknowns[0] as f64),
+        memory: 8.0 * (1.2 * entries + 60.0 * n + 20.0 * unknowns[0] as f64),
         build_time: operations / FACTOR_RATE + 2e-5 * n,
         step_time: entries / SOLVE_RATE + 5e-7 * n + 1e-7 * unknowns[0] as f64,
         notes: plan.notes,

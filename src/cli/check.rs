@@ -2,7 +2,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use impinge::model::Model;
+use impinge::model::forecast;
 use impinge::scene::{self, Body, Face, Field, Footprint, Load, Probe, Scene, Shape, Solid};
 use impinge::variables::{Causality, Registry, Value, Variable};
 use serde::Serialize;
@@ -24,14 +24,13 @@ impl Check {
     /// Reports on the scene.
     pub fn execute(&self) -> Result<String, CliError> {
         let scene = scene::read(&self.scene)?;
-        let notes = notes(&scene)?;
         let sections = [
             ("Bodies", bodies(&scene)),
             ("Faces", faces(&scene)),
             ("Loads", loads(&scene)),
             ("Probes", probes(&scene)),
             ("Fields", fields(&scene)),
-            ("Model", notes),
+            ("Model", notes(&scene)),
         ];
         let mut text = head(&scene);
         for (title, body) in sections.iter().filter(|(_, body)| !body.is_empty()) {
@@ -42,11 +41,36 @@ impl Check {
     }
 }
 
-/// What the model says about itself, a sentence a line.
-fn notes(scene: &Scene) -> Result<String, CliError> {
-    let model = Model::build(scene, scene.solver.threads)
-        .map_err(|error| CliError::from_model(error, scene))?;
-    Ok(model.notes().iter().map(|note| format!("  {note}\n")).collect())
+/// What the model will cost and what was chosen, without building it.
+fn notes(scene: &Scene) -> String {
+    let mut text = String::new();
+    for body in forecast(scene).bodies {
+        let [columns, rows, layers] = body.nodes;
+        let [heat, mechanics] = body.unknowns;
+        let _ = writeln!(
+            text,
+            "  {}: {columns} × {rows} × {layers} nodes of order {}, unknowns: heat {heat}, \
+             displacement {mechanics}",
+            body.name, body.order
+        );
+        for (axis, [least, most]) in ["x", "y", "z"].iter().zip(body.spacing) {
+            if most > 0.0 {
+                let (least, most) = (metres(least), metres(most));
+                let _ = writeln!(text, "    nodes along {axis}: {least} to {most} apart");
+            }
+        }
+        let _ = writeln!(
+            text,
+            "    about {:.0} MB, {} to build, {} a step whose stresses are read",
+            body.memory / 1e6,
+            engineering(body.build_time, "s"),
+            engineering(body.step_time, "s")
+        );
+        for note in &body.notes {
+            let _ = writeln!(text, "    - {note}");
+        }
+    }
+    text
 }
 
 fn head(scene: &Scene) -> String {
