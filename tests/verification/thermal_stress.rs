@@ -19,7 +19,7 @@ fn step_heating_of_a_laterally_held_surface() {
     };
     let wanted: Vec<f64> = points.iter().map(stress).collect();
     assert!((wanted[0] + 50.75e6).abs() < 0.005e6);
-    for (order, least) in [(1, 1.9), (2, 2.4)] {
+    for (order, least) in [(1, 1.9), (2, 2.8)] {
         let mut study = Study::new(
             &format!("Step heating of a laterally held half space, 10 µs, order {order}"),
             &[
@@ -47,6 +47,8 @@ fn step_heating_of_a_laterally_held_surface() {
             study.add(&format!("h = {:.1} µm", spacing * 1e6), spacing, errors);
         }
         study.print();
-        study.require(&[0, 1, 2], least, 5e-3);
+        study.require(&[1], least, 5e-3);
+        // The recovery repeats a heated layer, so the surface is right on every mesh.
+        assert!(study.finest(0) < 1e-10 && study.finest(2) < 1e-10);
     }
 }
