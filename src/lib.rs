@@ -13,6 +13,8 @@ pub mod math;
 
 pub mod material;
 
+pub mod kernel;
+
 pub mod scene;
 
 pub mod variables;

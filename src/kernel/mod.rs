@@ -1,0 +1,199 @@
+//! Smoothing kernels of particle methods, one a file.
+//!
+//! One convention everywhere: the smoothing length *H is the support radius*, q = r/H, and
+//! `W(r, H) = σ_d / H^d · w(q)` with w(q) = 0 for q ≥ 1 and ∫ W dV = 1 in d dimensions.
+
+mod cubic_spline;
+mod quintic_spline;
+mod wendland_c2;
+mod wendland_c4;
+
+use num_traits::Float;
+use serde::{Deserialize, Serialize};
+
+pub use cubic_spline::CubicSpline;
+pub use quintic_spline::QuinticSpline;
+pub use wendland_c2::WendlandC2;
+pub use wendland_c4::WendlandC4;
+
+/// The dimensionless shape of a kernel. All formulas are free of branches, so that loops over many
+/// pairs are made of vector instructions.
+pub trait Shape {
+    /// w(q), zero for q ≥ 1.
+    fn value<R: Float>(q: R) -> R;
+
+    /// w′(q)/q: zero for q ≥ 1; smooth kernels have a finite limit at q = 0.
+    fn slope_over_q<R: Float>(q: R) -> R;
+
+    /// σ_d for d = 1, 2, 3.
+    const NORMALISATION: [f64; 3];
+}
+
+/// A kernel by name.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kernel {
+    /// Also called Wendland's quintic: smooth, cheap and without clumping.
+    #[default]
+    WendlandC2,
+    WendlandC4,
+    CubicSpline,
+    QuinticSpline,
+}
+
+/// Calls a generic function with the shape of a kernel.
+#[macro_export]
+macro_rules! with_kernel_shape {
+    ($kernel:expr, $shape:ident => $call:expr) => {
+        match $kernel {
+            $crate::kernel::Kernel::WendlandC2 => {
+                type $shape = $crate::kernel::WendlandC2;
+                $call
+            }
+            $crate::kernel::Kernel::WendlandC4 => {
+                type $shape = $crate::kernel::WendlandC4;
+                $call
+            }
+            $crate::kernel::Kernel::CubicSpline => {
+                type $shape = $crate::kernel::CubicSpline;
+                $call
+            }
+            $crate::kernel::Kernel::QuinticSpline => {
+                type $shape = $crate::kernel::QuinticSpline;
+                $call
+            }
+        }
+    };
+}
+
+impl Kernel {
+    pub const ALL: [Kernel; 4] =
+        [Kernel::WendlandC2, Kernel::WendlandC4, Kernel::CubicSpline, Kernel::QuinticSpline];
+
+    /// W(r, H) [1/m^d].
+    pub fn value(self, r: f64, support: f64, dimension: usize) -> f64 {
+        with_kernel_shape!(self, S => self.scale(support, dimension) * S::value(r / support))
+    }
+
+    /// The factor F of ∇W = F · (r_i − r_j), i.e. (1/r) ∂W/∂r [1/m^(d+2)]; never positive.
+    pub fn gradient_factor(self, r: f64, support: f64, dimension: usize) -> f64 {
+        let slope = with_kernel_shape!(self, S => S::slope_over_q(r / support));
+        self.scale(support, dimension) * slope / (support * support)
+    }
+
+    /// σ_d / H^d [1/m^d].
+    pub fn scale(self, support: f64, dimension: usize) -> f64 {
+        with_kernel_shape!(self, S => S::NORMALISATION[dimension - 1] / support.powi(dimension as i32))
+    }
+}
+
+/// A constant in the precision at hand.
+#[inline(always)]
+fn real<R: Float>(value: f64) -> R {
+    R::from(value).expect("constants fit every floating-point type")
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+    use crate::math::gauss::gauss_on;
+
+    const SUPPORT: f64 = 0.7;
+
+    /// Surface of the unit sphere in d dimensions.
+    fn sphere(dimension: usize) -> f64 {
+        [2.0, 2.0 * PI, 4.0 * PI][dimension - 1]
+    }
+
+    /// ∫ f(r) dV by Gauss quadrature, exact for these piecewise polynomials.
+    fn integral(dimension: usize, f: impl Fn(f64) -> f64) -> f64 {
+        let pieces = 6; // Knots of the splines lie at multiples of H/6.
+        let mut sum = 0.0;
+        for piece in 0..pieces {
+            let [a, b] = [piece, piece + 1].map(|knot| SUPPORT * knot as f64 / pieces as f64);
+            for (r, weight) in gauss_on(8, a, b) {
+                sum += weight * sphere(dimension) * r.powi(dimension as i32 - 1) * f(r);
+            }
+        }
+        sum
+    }
+
+    fn for_all(test: impl Fn(Kernel, usize)) {
+        for kernel in Kernel::ALL {
+            (1..=3).for_each(|dimension| test(kernel, dimension));
+        }
+    }
+
+    #[test]
+    fn the_integral_is_one() {
+        for_all(|kernel, d| {
+            let sum = integral(d, |r| kernel.value(r, SUPPORT, d));
+            assert!((sum - 1.0).abs() < 1e-13, "{kernel:?} {d}-D: {sum}");
+        });
+    }
+
+    #[test]
+    fn the_gradient_is_the_slope_of_the_value() {
+        for_all(|kernel, d| {
+            for q in [0.05, 0.2, 0.4, 0.6, 0.75, 0.95] {
+                let (r, step) = (q * SUPPORT, 1e-5);
+                let ahead = kernel.value(r + step, SUPPORT, d);
+                let behind = kernel.value(r - step, SUPPORT, d);
+                let slope = (ahead - behind) / (2.0 * step);
+                let factor = kernel.gradient_factor(r, SUPPORT, d);
+                let scale = kernel.value(0.0, SUPPORT, d) / SUPPORT;
+                assert!((slope - factor * r).abs() < 1e-7 * scale, "{kernel:?} {d}-D at {q}");
+                assert!(factor < 0.0, "{kernel:?} {d}-D at {q}");
+            }
+        });
+    }
+
+    #[test]
+    fn the_first_moment_of_the_gradient_is_minus_one() {
+        // ∫ r ⊗ ∇W dV = −1, one diagonal entry: ∫ F r² dV / d = −1.
+        for_all(|kernel, d| {
+            let factor = |r| kernel.gradient_factor(r, SUPPORT, d) * r * r;
+            let moment = integral(d, factor) / d as f64;
+            assert!((moment + 1.0).abs() < 1e-13, "{kernel:?} {d}-D: {moment}");
+        });
+    }
+
+    #[test]
+    fn nothing_reaches_beyond_the_support() {
+        for_all(|kernel, d| {
+            for q in [1.0, 1.0 + 1e-12, 1.5, 30.0] {
+                assert_eq!(kernel.value(q * SUPPORT, SUPPORT, d), 0.0);
+                assert_eq!(kernel.gradient_factor(q * SUPPORT, SUPPORT, d), 0.0);
+            }
+        });
+    }
+
+    #[test]
+    fn the_value_falls_monotonically() {
+        for_all(|kernel, d| {
+            let values: Vec<f64> = (0..=100)
+                .map(|i| kernel.value(0.01 * f64::from(i) * SUPPORT, SUPPORT, d))
+                .collect();
+            assert!(values.windows(2).all(|pair| pair[1] < pair[0]), "{kernel:?} {d}-D");
+        });
+    }
+
+    #[test]
+    fn single_precision_agrees_with_double() {
+        for i in 0..=120 {
+            let q = 0.01 * f64::from(i);
+            let check = |single: f32, double: f64, scale: f64| {
+                assert!((f64::from(single) - double).abs() < 2e-6 * scale, "{q}");
+            };
+            for kernel in Kernel::ALL {
+                with_kernel_shape!(kernel, S => {
+                    check(S::value(q as f32), S::value(q), S::value(0.0f64));
+                    let near = S::slope_over_q(0.01f64).abs();
+                    check(S::slope_over_q(q as f32), S::slope_over_q(q), near);
+                });
+            }
+        }
+    }
+}
