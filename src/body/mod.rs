@@ -1,3 +1,5 @@
 //! Bodies: one discretisation a folder.
 
 pub mod fem;
+
+pub mod sph;

@@ -1,0 +1,79 @@
+//! What a model of droplets is made from.
+
+use serde::{Deserialize, Serialize};
+
+use super::wall::WallCells;
+use crate::kernel::Kernel;
+
+/// Droplets of one fluid above one wall.
+#[derive(Debug, Clone, PartialEq)]
+pub struct DropletPlan {
+    /// 3, or 2 for a plane model in x and z.
+    pub dimension: usize,
+    /// Distance of particles Δx [m].
+    pub spacing: f64,
+    /// Support radius of the kernel over the distance of particles, H/Δx.
+    pub support: f64,
+    pub kernel: Kernel,
+    pub fluid: Fluid,
+    pub placement: Placement,
+    /// Body force a mass [m/s²].
+    pub gravity: [f64; 3],
+    /// The planes x = 0 and y = 0 mirror the model, which then holds only x ≥ 0 (y ≥ 0).
+    pub mirrors: [bool; 2],
+    /// In the order of their times.
+    pub releases: Vec<Release>,
+    /// Nothing for a droplet in free space.
+    pub wall: Option<Wall>,
+}
+
+/// A Newtonian fluid that conducts heat.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fluid {
+    /// At rest ρ₀ [kg/m³].
+    pub density: f64,
+    /// Dynamic viscosity µ [Pa s].
+    pub viscosity: f64,
+    /// [J/(kg K)]
+    pub specific_heat: f64,
+    /// [W/(m K)]
+    pub conductivity: f64,
+    /// [N/m]
+    #[serde(default)]
+    pub surface_tension: f64,
+    /// Speed of sound c₀ of the model [m/s]: at least ten times the fastest flow keeps the density
+    /// within 1 %.
+    pub sound_speed: f64,
+}
+
+/// How particles are laid out at first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Placement {
+    /// On a cubic lattice.
+    #[default]
+    Lattice,
+    /// At random with a smallest distance (Poisson disk).
+    BlueNoise,
+}
+
+/// One round droplet that starts to move at a time.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Release {
+    /// [s]
+    pub time: f64,
+    pub centre: [f64; 3],
+    pub diameter: f64,
+    /// [m/s]
+    pub velocity: [f64; 3],
+    /// [K]
+    pub temperature: f64,
+}
+
+/// The rigid plane z = 0, to which the fluid sticks.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wall {
+    /// Where temperatures come from and heat and impulse go to.
+    pub cells: WallCells,
+}
