@@ -1,27 +1,38 @@
 //! From scene to [`Model`] (what is known before time starts) and [`State`] (all that changes).
 
 mod cache;
+mod contact;
+mod droplet_forecast;
+mod droplets;
+mod exchange;
 mod loads;
 mod sharing;
 
 use std::ops::Range;
 
 pub use cache::Cache;
+use contact::Contact;
+pub use droplet_forecast::DropletForecast;
+use droplets::DropletModel;
 use loads::BodyLoads;
 
 pub use crate::body::fem::NodalFields;
 use crate::body::fem::{Geometry, Plan, Refinement, SolidFem};
+pub use crate::body::sph::ParticleFields;
+use crate::body::sph::{DropletSph, Failure};
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::cholesky::CholeskyError;
-use crate::scene::{Body, FaceName, Footprint, Grid, Load, Scene, SceneError};
+use crate::scene::{Droplet, FaceName, Footprint, Grid, Load, Scene, SceneError, Solid};
 use crate::variables::{BodyTotal, Component, InputLayout, Output, Registry, Slot};
 
 /// Everything known before time starts: meshes, modes, factorisations, places of outputs.
 pub struct Model {
     scene: Scene,
     layout: InputLayout,
-    /// In the order of the scene's bodies.
+    /// The solids, in the order of their names.
     bodies: Vec<BodyModel>,
+    /// In the order of their names.
+    droplets: Vec<DropletModel>,
     grids: Vec<Grid>,
     threads: usize,
 }
@@ -41,7 +52,8 @@ pub struct State {
     pub time: f64,
     /// Values of the inputs, in the order of the [`InputLayout`].
     pub inputs: Vec<f64>,
-    /// Unknowns of each body, in the order of the scene's bodies.
+    /// Unknowns of each body: solids, then droplets, each in the order of their names. Those of a
+    /// droplet grow in number when a drop is released.
     pub bodies: Vec<Vec<f64>>,
 }
 
@@ -54,12 +66,17 @@ pub enum ModelError {
     Scene(#[from] SceneError),
     #[error("{0}")]
     Solver(#[from] CholeskyError),
+    /// A step of a droplet has no physical meaning.
+    #[error("{name}: {failure}")]
+    Droplet { name: String, failure: Failure },
 }
 
 /// What a scene will cost, estimated before it is built.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Forecast {
+    /// Of the solids.
     pub bodies: Vec<BodyForecast>,
+    pub droplets: Vec<DropletForecast>,
     /// Communication steps of the default experiment.
     pub steps: f64,
 }
@@ -84,7 +101,7 @@ pub struct BodyForecast {
     pub notes: Vec<String>,
 }
 
-/// Models with fewer nodes than this are quicker on one thread.
+/// Models with fewer nodes or particles than this are quicker on one thread.
 const NODES_WORTH_THREADS: usize = 20_000;
 
 impl Model {
@@ -93,21 +110,29 @@ impl Model {
         let layout = InputLayout::of(scene);
         let mut bodies = Vec::new();
         let mut most_threads = 1;
-        for name in scene.body.keys() {
-            let plan = plan(scene, name);
+        for (name, body) in scene.solids() {
+            let plan = plan(scene, name, body);
             let threads = resolve_threads(threads, plan.mesh.nodes());
             most_threads = most_threads.max(threads);
             let solid = SolidFem::new(&plan, threads)?;
-            let loads = BodyLoads::of(scene, &layout, name, &plan);
-            bodies.push(BodyModel { name: name.clone(), plan, solid, loads });
+            let loads = BodyLoads::of(scene, &layout, (name, body.shape), &plan);
+            bodies.push(BodyModel { name: name.into(), plan, solid, loads });
+        }
+        let mut droplets = Vec::new();
+        for (name, droplet) in scene.droplets() {
+            let (particles, time_step) = DropletSph::forecast(&droplets::plan_of(droplet, None));
+            let threads = resolve_threads(threads, particles);
+            most_threads = most_threads.max(threads);
+            let contact = contact_of(scene, (name, droplet), &bodies, time_step);
+            droplets.push(DropletModel::new(scene, &layout, name, contact, threads));
         }
         let grids = scene.field.iter().map(|field| {
             let (body, _) = field.body_and_place();
-            let Body::Solid(solid) = &scene.body[body];
-            Grid::of(field, solid)
+            Grid::of(field, scene.solid(body).expect("a checked field lies in a solid"))
         });
         let grids = grids.collect();
-        Ok(Self { scene: scene.clone(), layout, bodies, grids, threads: most_threads })
+        let scene = scene.clone();
+        Ok(Self { scene, layout, bodies, droplets, grids, threads: most_threads })
     }
 
     pub fn scene(&self) -> &Scene {
@@ -120,10 +145,12 @@ impl Model {
 
     /// Time zero, inputs at their start values.
     pub fn initial_state(&self) -> State {
+        let solids = self.bodies.iter().map(|body| vec![0.0; body.solid.state_len()]);
+        let droplets = self.droplets.iter().map(|body| body.droplet.initial_state());
         State {
             time: 0.0,
             inputs: initial_inputs(&self.scene),
-            bodies: self.bodies.iter().map(|b| vec![0.0; b.solid.state_len()]).collect(),
+            bodies: solids.chain(droplets).collect(),
         }
     }
 
@@ -137,15 +164,19 @@ impl Model {
         for body in &self.bodies {
             body.loads.check(&self.scene, inputs)?;
         }
-        Ok(())
+        self.droplets.iter().try_for_each(|body| body.check(inputs))
     }
 
     /// Advances by `dt` [s] under the state's inputs, held constant. A refusal changes nothing.
     pub fn step(&self, state: &mut State, cache: &mut Cache, dt: f64) -> Result<(), ModelError> {
         self.check_inputs(&state.inputs)?;
-        cache.meet(self, &state.inputs);
-        for (index, body) in self.bodies.iter().enumerate() {
-            body.solid.advance(&mut state.bodies[index], cache.loads(index), dt);
+        if self.droplets.is_empty() {
+            cache.meet(self, state);
+            for (index, body) in self.bodies.iter().enumerate() {
+                body.solid.advance(&mut state.bodies[index], cache.loads(index), dt);
+            }
+        } else {
+            state.bodies = self.advanced(state, dt)?;
         }
         state.time += dt;
         cache.clear();
@@ -160,8 +191,18 @@ impl Model {
         output: &Output,
     ) -> Result<f64, ModelError> {
         self.check_inputs(&state.inputs)?;
-        cache.meet(self, &state.inputs);
+        cache.meet(self, state);
         match output {
+            Output::Droplet { body, total } => {
+                let index = self.droplet_place(body);
+                let unknowns = &state.bodies[self.bodies.len() + index];
+                Ok(self.droplets[index].total(unknowns, cache.droplet(index), *total))
+            }
+            Output::Wall { wall, output } => {
+                let index = self.droplet_place(&self.scene.wall[*wall].under);
+                let unknowns = &state.bodies[self.bodies.len() + index];
+                Ok(self.droplets[index].wall_output(unknowns, cache.droplet(index), *output))
+            }
             Output::Body { body, total } => self.body_total(state, cache, self.place(body), *total),
             Output::Probe { probe, component } => {
                 let probe = &self.scene.probe[*probe];
@@ -181,7 +222,13 @@ impl Model {
         }
     }
 
-    /// Values at all nodes of a body.
+    /// All particles of a droplet, images at mirrors included.
+    pub fn particle_fields(&self, state: &State, body: &str) -> ParticleFields {
+        let index = self.droplet_place(body);
+        self.droplets[index].particles(&state.bodies[self.bodies.len() + index])
+    }
+
+    /// Values at all nodes of a solid.
     pub fn nodal_fields(
         &self,
         state: &State,
@@ -189,14 +236,14 @@ impl Model {
         body: &str,
     ) -> Result<NodalFields, ModelError> {
         self.check_inputs(&state.inputs)?;
-        cache.meet(self, &state.inputs);
+        cache.meet(self, state);
         let index = self.place(body);
         cache.solve(self, state, index)?;
         let solid = &self.bodies[index].solid;
         Ok(solid.fields(cache.temperatures(index), cache.deformation(index)))
     }
 
-    /// Whether a body is a meridian section.
+    /// Whether a solid is a meridian section.
     pub fn is_axisymmetric(&self, body: &str) -> bool {
         self.bodies[self.place(body)].plan.mesh.geometry == Geometry::Axisymmetric
     }
@@ -213,14 +260,20 @@ impl Model {
 
     /// What was chosen or left out, and why: a sentence each.
     pub fn notes(&self) -> Vec<String> {
-        let notes = |b: &BodyModel| {
-            b.plan.notes.iter().map(|note| format!("{}: {note}", b.name)).collect::<Vec<_>>()
-        };
-        self.bodies.iter().flat_map(notes).collect()
+        let solids = self.bodies.iter().map(|body| (&body.name, &body.plan.notes));
+        let droplets = self.droplets.iter().map(|body| (&body.name, &body.notes));
+        let all = solids.chain(droplets);
+        all.flat_map(|(name, notes)| notes.iter().map(move |note| format!("{name}: {note}")))
+            .collect()
     }
 
     fn place(&self, body: &str) -> usize {
         let known = self.bodies.iter().position(|b| b.name == body);
+        known.expect("outputs are registered for bodies of the scene")
+    }
+
+    fn droplet_place(&self, body: &str) -> usize {
+        let known = self.droplets.iter().position(|b| b.name == body);
         known.expect("outputs are registered for bodies of the scene")
     }
 
@@ -288,8 +341,11 @@ pub fn initial_inputs(scene: &Scene) -> Vec<f64> {
 
 /// What a scene will cost, without building it.
 pub fn forecast(scene: &Scene) -> Forecast {
-    let bodies = scene.body.keys().map(|name| forecast_body(scene, name)).collect();
-    Forecast { bodies, steps: (scene.stop_time / scene.step).ceil() }
+    let solids = scene.solids().map(|(name, solid)| forecast_body(scene, name, solid));
+    let droplets =
+        scene.droplets().map(|(name, droplet)| DropletForecast::of(scene, name, droplet));
+    let steps = (scene.stop_time / scene.step).ceil();
+    Forecast { bodies: solids.collect(), droplets: droplets.collect(), steps }
 }
 
 /// Entries of the factor of a solid mesh per unknown^(4/3), and of a meridian section per
@@ -301,8 +357,8 @@ const ENTRIES_2D: f64 = 3.1;
 const SOLVE_RATE: f64 = 1.2e9;
 const FACTOR_RATE: f64 = 2.5e10;
 
-fn forecast_body(scene: &Scene, name: &str) -> BodyForecast {
-    let plan = plan(scene, name);
+fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
+    let plan = plan(scene, name, solid);
     let unknowns = plan.unknowns();
     let n = unknowns[1] as f64;
     let flat = plan.mesh.geometry == Geometry::Axisymmetric;
@@ -328,10 +384,26 @@ fn forecast_body(scene: &Scene, name: &str) -> BodyForecast {
     }
 }
 
-fn plan(scene: &Scene, name: &str) -> Plan {
-    let Body::Solid(solid) = &scene.body[name];
+/// The contact of a droplet with the solid that the scene couples it to.
+fn contact_of(
+    scene: &Scene,
+    (name, droplet): (&str, &Droplet),
+    bodies: &[BodyModel],
+    time_step: f64,
+) -> Option<Contact> {
+    let coupling = &scene.coupling[scene.coupling_from(name)?];
+    let solid = bodies.iter().position(|body| Some(body.name.as_str()) == coupling.solid())?;
+    Some(Contact::of(coupling, droplet, (solid, &bodies[solid].plan), time_step))
+}
+
+fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     let on_body = scene.load.iter().filter(|load| load.body_and_face().0 == name);
-    let refinements: Vec<Refinement> = on_body.map(refinement).collect();
+    let mut refinements: Vec<Refinement> = on_body.map(refinement).collect();
+    if let Some(coupling) = scene.coupling_to(name)
+        && let Some(droplet) = scene.droplet(&coupling.from)
+    {
+        refinements.extend(contact::refinements(coupling, droplet, scene.stop_time));
+    }
     Plan::new(solid, scene.asks_mechanics(name), &refinements, scene.stop_time)
 }
 

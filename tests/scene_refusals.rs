@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use impinge::scene::{Body, Carries, CellValues, FaceName, Grid, Place, Scene, parse, read};
+use impinge::scene::{Carries, CellValues, FaceName, Grid, Place, Scene, parse, read};
 use serde::Deserialize;
 
 const PLATE: &str = include_str!("scenes/plate.toml");
@@ -120,7 +120,7 @@ fn what_is_read_is_what_stands_in_the_scene() {
     assert_eq!(load.carries, [Carries::HeatFlux, Carries::Shear]);
     let rows = vec![vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 6.0]];
     assert_eq!(load.start.heat_flux, Some(CellValues::Tiles(rows)));
-    let Body::Solid(block) = &scene.body["block"];
+    let block = scene.solid("block").unwrap();
     assert_eq!(block.face(FaceName::Front).flux, Some(-10.0));
     let (body, place) = scene.field[0].body_and_place();
     assert_eq!((body, place), ("block", Place::Face(FaceName::Left)));

@@ -3,7 +3,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 use impinge::model::forecast;
-use impinge::scene::{self, Body, Face, Field, Footprint, Load, Probe, Scene, Shape, Solid};
+use impinge::scene::{
+    self, Coupling, Face, Field, Footprint, Load, Probe, Scene, Shape, Solid, Wall,
+};
 use impinge::variables::{Causality, Registry, Value, Variable};
 use serde::Serialize;
 
@@ -26,10 +28,13 @@ impl Check {
         let scene = scene::read(&self.scene)?;
         let sections = [
             ("Bodies", bodies(&scene)),
+            ("Droplets", droplets(&scene)),
             ("Faces", faces(&scene)),
             ("Loads", loads(&scene)),
             ("Probes", probes(&scene)),
             ("Fields", fields(&scene)),
+            ("Walls", walls(&scene)),
+            ("Couplings", couplings(&scene)),
             ("Model", notes(&scene)),
         ];
         let mut text = head(&scene);
@@ -44,7 +49,8 @@ impl Check {
 /// What the model will cost and what was chosen, without building it.
 fn notes(scene: &Scene) -> String {
     let mut text = String::new();
-    for body in forecast(scene).bodies {
+    let forecast = forecast(scene);
+    for body in forecast.bodies {
         let [columns, rows, layers] = body.nodes;
         let [heat, mechanics] = body.unknowns;
         let _ = writeln!(
@@ -65,6 +71,25 @@ fn notes(scene: &Scene) -> String {
             body.memory / 1e6,
             engineering(body.build_time, "s"),
             engineering(body.step_time, "s")
+        );
+        for note in &body.notes {
+            let _ = writeln!(text, "    - {note}");
+        }
+    }
+    for body in forecast.droplets {
+        let _ = writeln!(
+            text,
+            "  {}: {} particles, about {:.0} time steps of {} and shorter",
+            body.name,
+            body.particles,
+            body.steps,
+            engineering(body.time_step, "s")
+        );
+        let _ = writeln!(
+            text,
+            "    about {:.0} MB, {} for the whole run",
+            body.memory / 1e6,
+            engineering(body.run_time, "s")
         );
         for note in &body.notes {
             let _ = writeln!(text, "    - {note}");
@@ -92,11 +117,10 @@ fn head(scene: &Scene) -> String {
 
 fn bodies(scene: &Scene) -> String {
     let rows: Vec<_> = scene
-        .body
-        .iter()
-        .map(|(name, Body::Solid(solid))| {
+        .solids()
+        .map(|(name, solid)| {
             [
-                name.clone(),
+                name.to_owned(),
                 shape(&solid.shape),
                 law(solid),
                 kelvin(solid.initial_temperature),
@@ -108,9 +132,48 @@ fn bodies(scene: &Scene) -> String {
     table(["body", "shape", "material", "initially", "heat", "symmetry"], &rows)
 }
 
+fn droplets(scene: &Scene) -> String {
+    let rows: Vec<_> = scene
+        .droplets()
+        .map(|(name, droplet)| {
+            let drops = match droplet.arrivals.len() {
+                1 => metres(droplet.diameter),
+                count => format!("{count} of {}", metres(droplet.diameter)),
+            };
+            [
+                name.to_owned(),
+                drops,
+                engineering(droplet.impact_velocity, "m/s"),
+                kelvin(droplet.initial_temperature),
+                key(&droplet.method),
+                metres(droplet.spacing),
+                key(&droplet.kernel),
+            ]
+        })
+        .collect();
+    let heading =
+        ["droplet", "diameter", "speed", "initially", "method", "distance of particles", "kernel"];
+    table(heading, &rows)
+}
+
+fn walls(scene: &Scene) -> String {
+    let row = |wall: &Wall| [wall.name.clone(), wall.under.clone(), footprint(&wall.footprint)];
+    let rows: Vec<_> = scene.wall.iter().map(row).collect();
+    table(["wall", "under", "cells"], &rows)
+}
+
+fn couplings(scene: &Scene) -> String {
+    let row = |coupling: &Coupling| {
+        let carried = if coupling.traction { "heat, pressure, shear" } else { "heat" };
+        [coupling.from.clone(), coupling.to.clone(), carried.to_owned()]
+    };
+    let rows: Vec<_> = scene.coupling.iter().map(row).collect();
+    table(["from", "to", "carries"], &rows)
+}
+
 fn faces(scene: &Scene) -> String {
     let mut rows = Vec::new();
-    for (body, Body::Solid(solid)) in &scene.body {
+    for (body, solid) in scene.solids() {
         for (face, condition) in &solid.faces {
             let name = format!("{body}.{}", key(face));
             rows.push([name, thermal(condition), mechanical(condition).into()]);

@@ -48,18 +48,18 @@ impl Balance {
     }
 }
 
-/// The heat balance of each body at `state`.
+/// The heat balance of each solid at `state`.
 pub fn balances(
     model: &Model,
     state: &State,
     cache: &mut Cache,
 ) -> Result<Vec<Balance>, ModelError> {
     let mut list = Vec::new();
-    for body in model.scene().body.keys() {
+    for (body, _) in model.scene().solids() {
         let mut heat =
-            |total| model.output(state, cache, &Output::Body { body: body.clone(), total });
+            |total| model.output(state, cache, &Output::Body { body: body.to_owned(), total });
         list.push(Balance {
-            body: body.clone(),
+            body: body.to_owned(),
             heat_in: heat(BodyTotal::HeatIn)?,
             stored: heat(BodyTotal::HeatStored)?,
             lost: heat(BodyTotal::HeatLost)?,
@@ -74,7 +74,7 @@ pub fn balance_table(balances: &[Balance]) -> String {
     table(["body", "heat in", "stored", "lost", "residual"], &rows)
 }
 
-/// The extremes of each body at `state` as a table.
+/// The extremes of each solid and the totals of each droplet at `state` as a table.
 pub fn extremes_table(
     model: &Model,
     state: &State,
@@ -82,13 +82,22 @@ pub fn extremes_table(
 ) -> Result<String, ModelError> {
     let mut rows = Vec::new();
     for variable in Registry::of(model.scene()).variables {
-        let Slot::Output(output @ Output::Body { .. }) = &variable.slot else { continue };
-        let show: fn(f64) -> String = match variable.quantity {
-            Some(Quantity::Temperature) => kelvin,
-            Some(Quantity::Stress) => |value| engineering(value, "Pa"),
-            _ => continue,
+        let Slot::Output(output) = &variable.slot else { continue };
+        let Some(quantity) = variable.quantity else { continue };
+        let is_shown = match output {
+            Output::Body { .. } => matches!(quantity, Quantity::Temperature | Quantity::Stress),
+            Output::Droplet { .. } => true,
+            _ => false,
         };
-        rows.push([variable.name.clone(), show(model.output(state, cache, output)?)]);
+        if is_shown {
+            let value = model.output(state, cache, output)?;
+            let text = match quantity {
+                Quantity::Temperature => kelvin(value),
+                Quantity::Ratio => format!("{value}"),
+                quantity => engineering(value, quantity.unit()),
+            };
+            rows.push([variable.name.clone(), text]);
+        }
     }
     Ok(table(["at the end", "value"], &rows))
 }

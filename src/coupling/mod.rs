@@ -2,6 +2,8 @@
 
 mod footprint;
 mod symmetry;
+mod top_face;
 
 pub use footprint::{Pattern, Placement};
 pub use symmetry::split_load;
+pub use top_face::TopFace;

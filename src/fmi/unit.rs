@@ -168,13 +168,19 @@ impl Unit {
 
     /// Advances from `point` by `step` [s]. The time afterwards is their sum, so that it never
     /// drifts from the master's.
+    ///
+    /// A step that cannot be completed, though nothing was wrong when it began, is discarded.
     pub fn step(&mut self, point: f64, step: f64) -> Answer {
         self.check_step(point, step)?;
         let registry = Arc::clone(&self.registry);
         let run = self.run()?;
-        run.model
-            .step(&mut run.state, &mut run.cache, step)
-            .map_err(|error| explain(&registry, error))?;
+        if let Err(error) = run.model.step(&mut run.state, &mut run.cache, step) {
+            let refusal = explain(&registry, error);
+            if refusal.status == Status::Discard {
+                self.phase = Phase::StepFailed;
+            }
+            return Err(refusal);
+        }
         run.state.time = point + step;
         Ok(self.write_fields())
     }
@@ -295,7 +301,11 @@ impl Unit {
 /// An error of the model in words that name the variable at fault.
 pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
     let ModelError::Input { index, message } = error else {
-        return Refusal::error(error.to_string());
+        let message = error.to_string();
+        return match error {
+            ModelError::Droplet { .. } => Refusal { status: Status::Discard, message },
+            _ => Refusal::error(message),
+        };
     };
     let at_fault = registry.variables.iter().find(|v| v.slot == Slot::Input(index));
     Refusal::error(match at_fault {

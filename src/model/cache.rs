@@ -1,3 +1,4 @@
+use super::droplets::{Below, DropletCache};
 use super::{Model, ModelError, State};
 use crate::body::fem::{Deformation, SolidFem, SolidLoads, Temperatures};
 
@@ -7,11 +8,12 @@ use crate::body::fem::{Deformation, SolidFem, SolidLoads, Temperatures};
 pub struct Cache {
     inputs: Vec<f64>,
     bodies: Vec<BodyCache>,
+    droplets: Vec<DropletCache>,
 }
 
 #[derive(Debug, Default)]
 struct BodyCache {
-    /// Depend on the inputs alone.
+    /// Depend on the inputs, and on the unknowns where a droplet is on the body.
     loads: SolidLoads,
     temperatures: Option<Temperatures>,
     deformation: Option<Deformation>,
@@ -24,15 +26,20 @@ struct BodyCache {
 impl Cache {
     /// Forgets all that depends on the unknowns.
     pub fn clear(&mut self) {
+        if !self.droplets.is_empty() {
+            *self = Self::default();
+        }
         for body in &mut self.bodies {
             let loads = std::mem::take(&mut body.loads);
             *body = BodyCache { loads, ..Default::default() };
         }
     }
 
-    /// Brings the loads up to date with the inputs.
-    pub(super) fn meet(&mut self, model: &Model, inputs: &[f64]) {
-        if self.inputs == inputs && self.bodies.len() == model.bodies.len() {
+    /// Brings the loads up to date with the inputs and with what droplets gave last.
+    pub(super) fn meet(&mut self, model: &Model, state: &State) {
+        let inputs = &state.inputs;
+        let sizes = [self.bodies.len(), self.droplets.len()];
+        if self.inputs == *inputs && sizes == [model.bodies.len(), model.droplets.len()] {
             return;
         }
         self.inputs = inputs.to_vec();
@@ -40,6 +47,17 @@ impl Cache {
             |body: &super::BodyModel| body.loads.assemble(&model.scene, inputs, body.solid.mesh());
         let fresh = |body| BodyCache { loads: loads(body), ..Default::default() };
         self.bodies = model.bodies.iter().map(fresh).collect();
+        self.droplets = model.droplets.iter().map(|_| DropletCache::default()).collect();
+        for (droplet, unknowns) in model.droplets.iter().zip(&state.bodies[model.bodies.len()..]) {
+            if let Below::Solid(contact) = &droplet.below {
+                let loads = &mut self.bodies[contact.solid].loads;
+                contact.add(loads, &droplet.droplet.exchange(unknowns));
+            }
+        }
+    }
+
+    pub(super) fn droplet(&mut self, index: usize) -> &mut DropletCache {
+        &mut self.droplets[index]
     }
 
     /// Makes sure that a body's nodal temperatures are known.

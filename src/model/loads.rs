@@ -3,7 +3,7 @@
 use super::{ModelError, slice};
 use crate::body::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
 use crate::coupling::{Pattern, Placement, split_load};
-use crate::scene::{Body, FaceName, Footprint, Load, Scene, Shape};
+use crate::scene::{FaceName, Footprint, Load, Scene, Shape};
 use crate::variables::{FaceInputKind, InputLayout, LoadInputs};
 
 /// Which inputs act on a body, and where.
@@ -25,7 +25,12 @@ struct FaceValue {
 }
 
 impl BodyLoads {
-    pub fn of(scene: &Scene, layout: &InputLayout, body: &str, plan: &Plan) -> Self {
+    pub fn of(
+        scene: &Scene,
+        layout: &InputLayout,
+        (body, shape): (&str, Shape),
+        plan: &Plan,
+    ) -> Self {
         let loads = scene.load.iter().zip(&layout.loads).enumerate();
         let loads = loads
             .filter(|(_, (load, _))| load.body_and_face().0 == body)
@@ -43,9 +48,8 @@ impl BodyLoads {
                 (place.axis, face, image.and_then(value))
             })
             .collect();
-        let Body::Solid(solid) = &scene.body[body];
         let initial_temperature = plan.initial_temperature;
-        Self { loads, faces, initial_temperature, shape: solid.shape }
+        Self { loads, faces, initial_temperature, shape }
     }
 
     /// Refuses inputs that make no sense for this body.
@@ -225,7 +229,8 @@ fn placement(load: &Load, places: &LoadInputs, inputs: &[f64]) -> Placement {
     }
 }
 
-fn add(target: &mut Vec<f64>, vector: &[f64], sign: f64) {
+/// Adds a nodal vector to another, either of which may be empty.
+pub fn add(target: &mut Vec<f64>, vector: &[f64], sign: f64) {
     if vector.is_empty() {
         return;
     }

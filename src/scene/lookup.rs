@@ -1,5 +1,6 @@
 //! What others ask of a checked scene.
 
+use super::droplet::{Coupling, Droplet};
 use super::types::*;
 
 /// Where a field lies in its body.
@@ -12,7 +13,43 @@ pub enum Place {
 impl Scene {
     /// The solid body of that name.
     pub fn solid(&self, name: &str) -> Option<&Solid> {
-        self.body.get(name).map(|Body::Solid(solid)| solid)
+        match self.body.get(name)? {
+            Body::Solid(solid) => Some(solid),
+            Body::Droplet(_) => None,
+        }
+    }
+
+    /// The droplet of that name.
+    pub fn droplet(&self, name: &str) -> Option<&Droplet> {
+        match self.body.get(name)? {
+            Body::Solid(_) => None,
+            Body::Droplet(droplet) => Some(droplet),
+        }
+    }
+
+    /// The solids, in the order of their names.
+    pub fn solids(&self) -> impl Iterator<Item = (&str, &Solid)> {
+        self.body.keys().filter_map(|name| Some((name.as_str(), self.solid(name)?)))
+    }
+
+    /// The droplets, in the order of their names.
+    pub fn droplets(&self) -> impl Iterator<Item = (&str, &Droplet)> {
+        self.body.keys().filter_map(|name| Some((name.as_str(), self.droplet(name)?)))
+    }
+
+    /// The index of the wall below a droplet.
+    pub fn wall_under(&self, droplet: &str) -> Option<usize> {
+        self.wall.iter().position(|wall| wall.under == droplet)
+    }
+
+    /// The index of the coupling of a droplet.
+    pub fn coupling_from(&self, droplet: &str) -> Option<usize> {
+        self.coupling.iter().position(|coupling| coupling.from == droplet)
+    }
+
+    /// The coupling that acts on a solid.
+    pub fn coupling_to(&self, solid: &str) -> Option<&Coupling> {
+        self.coupling.iter().find(|coupling| coupling.solid() == Some(solid))
     }
 
     /// Whether anything needs the displacements or stresses of a body, so that its mechanics must
@@ -25,6 +62,7 @@ impl Scene {
                 split_place(&load.on).is_some_and(|(on, _)| on == body)
                     && load.carries.iter().any(Carries::is_mechanical)
             })
+            || self.coupling_to(body).is_some_and(|coupling| coupling.traction)
     }
 }
 
@@ -134,6 +172,13 @@ impl Load {
     /// If the scene has not been checked and `on` is not `BODY.FACE`.
     pub fn body_and_face(&self) -> (&str, FaceName) {
         split_place(&self.on).expect("a checked load is on BODY.FACE")
+    }
+}
+
+impl Coupling {
+    /// The solid at the other end, as far as the coupling says one.
+    pub fn solid(&self) -> Option<&str> {
+        split_place(&self.to).map(|(body, _)| body)
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod check;
 mod decode;
+mod droplet;
 mod error;
 mod grid;
 mod locate;
@@ -13,6 +14,7 @@ mod types;
 use std::fs;
 use std::path::Path;
 
+pub use droplet::{Arrival, Coupling, Droplet, DropletMethod, Fluid, Placement, Wall, WallStart};
 pub use error::{Problem, SceneError};
 pub use grid::Grid;
 pub use lookup::Place;

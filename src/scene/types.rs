@@ -2,6 +2,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::droplet::{Coupling, Droplet, Wall};
 use crate::material::Material;
 
 /// Everything that a `scene.toml` says.
@@ -28,6 +29,12 @@ pub struct Scene {
     /// Grids of points whose values become arrays of FMI outputs.
     #[serde(default)]
     pub field: Vec<Field>,
+    /// Walls below droplets; their temperatures become FMI inputs, what they get FMI outputs.
+    #[serde(default)]
+    pub wall: Vec<Wall>,
+    /// Droplets on solids of the same scene.
+    #[serde(default)]
+    pub coupling: Vec<Coupling>,
     /// How much model the scene wants.
     #[serde(default)]
     pub fidelity: Fidelity,
@@ -42,6 +49,8 @@ pub struct Scene {
 pub enum Body {
     /// A solid that conducts heat and deforms elastically.
     Solid(Solid),
+    /// Drops of a fluid.
+    Droplet(Droplet),
 }
 
 /// A solid body.

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use crate::scene::{Body, Carries, CellShape, FaceName, Footprint, Scene, Shape};
+use crate::scene::{Carries, CellShape, FaceName, Footprint, Scene, Shape, Wall};
 
 /// Where each input of a scene stands in [`crate::model::State::inputs`].
 #[derive(Debug, Clone, PartialEq)]
@@ -8,6 +8,8 @@ pub struct InputLayout {
     /// In the order of the scene's loads.
     pub loads: Vec<LoadInputs>,
     pub faces: Vec<FaceInput>,
+    /// Temperatures of the cells of each wall, in the order of the scene's walls.
+    pub walls: Vec<Range<usize>>,
     /// Number of inputs.
     pub len: usize,
 }
@@ -46,14 +48,15 @@ impl InputLayout {
         let mut next = 0;
         let loads = scene.load.iter().map(|load| {
             let round_body = matches!(
-                scene.body.get(load.body_and_face().0),
-                Some(Body::Solid(solid)) if matches!(solid.shape, Shape::Disc(_))
+                scene.solid(load.body_and_face().0),
+                Some(solid) if matches!(solid.shape, Shape::Disc(_))
             );
             load_inputs(&load.footprint, &load.carries, round_body, &mut next)
         });
         let loads = loads.collect();
         let faces = face_inputs(scene, &mut next);
-        Self { loads, faces, len: next }
+        let walls = wall_inputs(scene, &mut next);
+        Self { loads, faces, walls, len: next }
     }
 }
 
@@ -63,11 +66,7 @@ fn load_inputs(
     round_body: bool,
     next: &mut usize,
 ) -> LoadInputs {
-    let cells = match footprint.cells() {
-        None => 1,
-        Some(CellShape::Rings(count)) => count,
-        Some(CellShape::Tiles([nx, ny])) => nx * ny,
-    };
+    let cells = count(footprint);
     let radial = matches!(footprint, Footprint::Rings { .. });
     let mut take = |wanted: bool, count: usize| {
         wanted.then(|| {
@@ -89,9 +88,27 @@ fn load_inputs(
     }
 }
 
+/// Number of cells with a value of their own.
+fn count(footprint: &Footprint) -> usize {
+    match footprint.cells() {
+        None => 1,
+        Some(CellShape::Rings(count)) => count,
+        Some(CellShape::Tiles([nx, ny])) => nx * ny,
+    }
+}
+
+fn wall_inputs(scene: &Scene, next: &mut usize) -> Vec<Range<usize>> {
+    let range = |wall: &Wall| {
+        let start = *next;
+        *next += count(&wall.footprint);
+        start..*next
+    };
+    scene.wall.iter().map(range).collect()
+}
+
 fn face_inputs(scene: &Scene, next: &mut usize) -> Vec<FaceInput> {
     let mut inputs = Vec::new();
-    for (body, Body::Solid(solid)) in &scene.body {
+    for (body, solid) in scene.solids() {
         for (&face, condition) in &solid.faces {
             let kind = if condition.temperature.is_some() {
                 FaceInputKind::Temperature
@@ -102,7 +119,7 @@ fn face_inputs(scene: &Scene, next: &mut usize) -> Vec<FaceInput> {
             } else {
                 continue;
             };
-            inputs.push(FaceInput { body: body.clone(), face, kind, index: *next });
+            inputs.push(FaceInput { body: body.to_owned(), face, kind, index: *next });
             *next += 1;
         }
     }

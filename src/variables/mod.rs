@@ -1,11 +1,13 @@
 //! The registry: every variable of a unit once, with name, unit, causality, start value and what it
 //! stands for. XML, get and set, CSV headers and documentation are all made from it.
 
+mod droplet;
 mod layout;
 mod parameter;
 mod quantity;
 mod registry;
 
+pub use droplet::{DropletConstant, DropletTotal, WallOutput};
 pub use layout::{FaceInput, FaceInputKind, InputLayout, LoadInputs};
 pub use parameter::{MaterialConstant, Parameter};
 pub use quantity::{DisplayUnit, Quantity};

@@ -1,4 +1,4 @@
-use super::Quantity;
+use super::{DropletConstant, Quantity};
 use crate::material::Material;
 use crate::scene::{Body, FaceName, Scene};
 
@@ -8,6 +8,7 @@ pub enum Parameter {
     Material { body: String, constant: MaterialConstant },
     InitialTemperature { body: String },
     ConvectionCoefficient { body: String, face: FaceName },
+    Droplet { body: String, constant: DropletConstant },
 }
 
 /// A constant of the thermo-elastic law.
@@ -94,19 +95,24 @@ impl Parameter {
         match self {
             Parameter::Material { body, .. }
             | Parameter::InitialTemperature { body }
-            | Parameter::ConvectionCoefficient { body, .. } => body,
+            | Parameter::ConvectionCoefficient { body, .. }
+            | Parameter::Droplet { body, .. } => body,
         }
     }
 
     fn place<'a>(&self, body: &'a mut Body) -> &'a mut f64 {
-        let Body::Solid(solid) = body;
-        match self {
-            Parameter::InitialTemperature { .. } => &mut solid.initial_temperature,
-            Parameter::ConvectionCoefficient { face, .. } => {
+        match (self, body) {
+            (Parameter::InitialTemperature { .. }, Body::Solid(solid)) => {
+                &mut solid.initial_temperature
+            }
+            (Parameter::InitialTemperature { .. }, Body::Droplet(droplet)) => {
+                &mut droplet.initial_temperature
+            }
+            (Parameter::ConvectionCoefficient { face, .. }, Body::Solid(solid)) => {
                 let face = solid.faces.get_mut(face).expect("registered from this very face");
                 &mut face.convection.as_mut().expect("registered as convective").coefficient
             }
-            Parameter::Material { constant, .. } => {
+            (Parameter::Material { constant, .. }, Body::Solid(solid)) => {
                 let Material::Thermoelastic(law) = &mut solid.material;
                 match constant {
                     MaterialConstant::Density => &mut law.density,
@@ -117,6 +123,10 @@ impl Parameter {
                     MaterialConstant::Expansion => &mut law.expansion,
                 }
             }
+            (Parameter::Droplet { constant, .. }, Body::Droplet(droplet)) => {
+                constant.place(droplet)
+            }
+            _ => panic!("a parameter is registered from a body of its kind"),
         }
     }
 }

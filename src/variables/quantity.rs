@@ -14,6 +14,13 @@ pub enum Quantity {
     Ratio,
     Expansion,
     HeatTransferCoefficient,
+    Velocity,
+    Viscosity,
+    SurfaceTension,
+    Mass,
+    Momentum,
+    Force,
+    HeatFlow,
 }
 
 /// A unit for display: `display value = factor · SI value + offset`.
@@ -29,7 +36,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 13] = [
+    pub const ALL: [Quantity; 20] = [
         Quantity::Temperature,
         Quantity::HeatFlux,
         Quantity::Stress,
@@ -43,6 +50,13 @@ impl Quantity {
         Quantity::Ratio,
         Quantity::Expansion,
         Quantity::HeatTransferCoefficient,
+        Quantity::Velocity,
+        Quantity::Viscosity,
+        Quantity::SurfaceTension,
+        Quantity::Mass,
+        Quantity::Momentum,
+        Quantity::Force,
+        Quantity::HeatFlow,
     ];
 
     /// Name of the FMI type.
@@ -61,6 +75,13 @@ impl Quantity {
             Quantity::Ratio => "Ratio",
             Quantity::Expansion => "ThermalExpansion",
             Quantity::HeatTransferCoefficient => "HeatTransferCoefficient",
+            Quantity::Velocity => "Velocity",
+            Quantity::Viscosity => "DynamicViscosity",
+            Quantity::SurfaceTension => "SurfaceTension",
+            Quantity::Mass => "Mass",
+            Quantity::Momentum => "Momentum",
+            Quantity::Force => "Force",
+            Quantity::HeatFlow => "HeatFlowRate",
         }
     }
 
@@ -78,6 +99,13 @@ impl Quantity {
             Quantity::Ratio => "1",
             Quantity::Expansion => "1/K",
             Quantity::HeatTransferCoefficient => "W/(m2.K)",
+            Quantity::Velocity => "m/s",
+            Quantity::Viscosity => "Pa.s",
+            Quantity::SurfaceTension => "N/m",
+            Quantity::Mass => "kg",
+            Quantity::Momentum => "kg.m/s",
+            Quantity::Force => "N",
+            Quantity::HeatFlow => "W",
         }
     }
 
@@ -95,6 +123,13 @@ impl Quantity {
             Quantity::Ratio => [0, 0, 0, 0],
             Quantity::Expansion => [0, 0, 0, -1],
             Quantity::HeatTransferCoefficient => [1, 0, -3, -1],
+            Quantity::Velocity => [0, 1, -1, 0],
+            Quantity::Viscosity => [1, -1, -1, 0],
+            Quantity::SurfaceTension => [1, 0, -2, 0],
+            Quantity::Mass => [1, 0, 0, 0],
+            Quantity::Momentum => [1, 1, -1, 0],
+            Quantity::Force => [1, 1, -2, 0],
+            Quantity::HeatFlow => [1, 2, -3, 0],
         }
     }
 
@@ -111,6 +146,10 @@ impl Quantity {
             Quantity::Displacement => scaled("nm", 1e9),
             Quantity::Energy => scaled("µJ", 1e6),
             Quantity::Expansion => scaled("1e-6/K", 1e6),
+            Quantity::Viscosity => scaled("mPa.s", 1e3),
+            Quantity::Mass => scaled("µg", 1e9),
+            Quantity::Force => scaled("mN", 1e3),
+            Quantity::HeatFlow => scaled("mW", 1e3),
             _ => None,
         }
     }
@@ -131,6 +170,13 @@ impl Quantity {
             Quantity::Ratio => 1.0,
             Quantity::Expansion => 1e-5,
             Quantity::HeatTransferCoefficient => 10.0,
+            Quantity::Velocity => 10.0,
+            Quantity::Viscosity => 1e-3,
+            Quantity::SurfaceTension => 0.1,
+            Quantity::Mass => 1e-9,
+            Quantity::Momentum => 1e-8,
+            Quantity::Force => 1e-2,
+            Quantity::HeatFlow => 1e-1,
         }
     }
 }

@@ -2,9 +2,12 @@ use std::collections::HashMap;
 use std::ops::Range;
 use std::rc::Rc;
 
-use super::{FaceInputKind, InputLayout, MaterialConstant, Parameter, Quantity};
+use super::{
+    DropletTotal, FaceInputKind, InputLayout, MaterialConstant, Parameter, Quantity, WallOutput,
+    droplet,
+};
 use crate::scene::{
-    Body, CellShape, CellValues, FaceName, Field, Gives, Load, LoadRange, Probe, Scene, Solid,
+    CellShape, CellValues, FaceName, Field, Gives, Load, LoadRange, Probe, Scene, Solid,
 };
 
 /// All variables of a scene's unit. The value reference of a variable is its place in the list.
@@ -75,6 +78,15 @@ pub enum Output {
     Body {
         body: String,
         total: BodyTotal,
+    },
+    Droplet {
+        body: String,
+        total: DropletTotal,
+    },
+    /// Index into the scene's walls.
+    Wall {
+        wall: usize,
+        output: WallOutput,
     },
 }
 
@@ -249,7 +261,7 @@ impl Registry {
 struct Reach<'a> {
     body: &'a str,
     mechanical: bool,
-    /// Summed up over the steps, so that no input acts at once.
+    /// Summed up over steps or the mean of the last one, so that no input acts at once.
     accumulated: bool,
 }
 
@@ -267,6 +279,8 @@ impl<'a> Reach<'a> {
                 BodyTotal::MECHANICAL.contains(total),
                 matches!(total, BodyTotal::HeatIn | BodyTotal::HeatStored | BodyTotal::HeatLost),
             ),
+            Output::Droplet { body, .. } => (body.as_str(), false, true),
+            Output::Wall { wall, .. } => (scene.wall[*wall].under.as_str(), false, true),
         };
         Self { body, mechanical, accumulated }
     }
@@ -313,12 +327,12 @@ fn parameters(scene: &Scene, list: &mut Vec<Variable>) {
         let slot = Slot::Parameter(parameter);
         list.push(Variable { name, description, slot, quantity: Some(quantity), start, min, max });
     };
-    for (body, Body::Solid(solid)) in &scene.body {
+    for (body, solid) in scene.solids() {
         for constant in MaterialConstant::ALL {
             add(
                 format!("{body}.{}", constant.key()),
                 format!("{} of {body}", constant.description()),
-                Parameter::Material { body: body.clone(), constant },
+                Parameter::Material { body: body.to_owned(), constant },
                 constant.quantity(),
                 constant.bounds(),
             );
@@ -326,7 +340,7 @@ fn parameters(scene: &Scene, list: &mut Vec<Variable>) {
         add(
             format!("{body}.initial_temperature"),
             format!("uniform temperature of {body} at time zero, free of thermal stress"),
-            Parameter::InitialTemperature { body: body.clone() },
+            Parameter::InitialTemperature { body: body.to_owned() },
             Quantity::Temperature,
             (Some(0.0), None),
         );
@@ -335,11 +349,14 @@ fn parameters(scene: &Scene, list: &mut Vec<Variable>) {
             add(
                 format!("{body}.{name}.coefficient"),
                 format!("heat transfer coefficient of the {name} of {body}"),
-                Parameter::ConvectionCoefficient { body: body.clone(), face },
+                Parameter::ConvectionCoefficient { body: body.to_owned(), face },
                 Quantity::HeatTransferCoefficient,
                 (Some(0.0), None),
             );
         }
+    }
+    for (body, fluid) in scene.droplets() {
+        droplet::parameters(body, fluid, list);
     }
     list.push(Variable {
         name: "solver.threads".into(),
@@ -369,9 +386,10 @@ fn inputs(scene: &Scene, list: &mut Vec<Variable>) {
         placement(load, places, list);
     }
     for input in &layout.faces {
-        let Some(Body::Solid(solid)) = scene.body.get(&input.body) else { continue };
+        let Some(solid) = scene.solid(&input.body) else { continue };
         list.push(face_variable(&input.body, solid, input.face, input.kind, input.index));
     }
+    droplet::inputs(scene, &layout, list);
 }
 
 fn amounts(load: &Load, places: &super::LoadInputs, list: &mut Vec<Variable>) {
@@ -444,7 +462,7 @@ fn placement(load: &Load, places: &super::LoadInputs, list: &mut Vec<Variable>) 
 }
 
 /// Index text of each cell in a variable's name, and the words for it.
-fn cell_labels(cells: Option<CellShape>) -> Vec<(String, String)> {
+pub(super) fn cell_labels(cells: Option<CellShape>) -> Vec<(String, String)> {
     match cells {
         None => vec![(String::new(), String::new())],
         Some(CellShape::Rings(count)) => {
@@ -458,7 +476,8 @@ fn cell_labels(cells: Option<CellShape>) -> Vec<(String, String)> {
     }
 }
 
-fn cell_start(start: Option<&CellValues>, cells: Option<CellShape>, cell: usize) -> f64 {
+/// The start value of one cell; zero where none is given.
+pub(super) fn cell_start(start: Option<&CellValues>, cells: Option<CellShape>, cell: usize) -> f64 {
     match (start, cells) {
         (Some(CellValues::Uniform(value)), _) => *value,
         (Some(CellValues::Rings(values)), _) => values[cell],
@@ -510,14 +529,14 @@ fn outputs(scene: &Scene, list: &mut Vec<Variable>) {
     for (i, field) in scene.field.iter().enumerate() {
         field_variables(i, field, list);
     }
-    for body in scene.body.keys() {
+    for (body, _) in scene.solids() {
         let mechanical: &[BodyTotal] =
             if scene.asks_mechanics(body) { &BodyTotal::MECHANICAL } else { &[] };
         for &total in BodyTotal::THERMAL.iter().chain(mechanical) {
             list.push(Variable {
                 name: format!("{body}.{}", total.key()),
                 description: format!("{} ({body})", total.description()),
-                slot: Slot::Output(Output::Body { body: body.clone(), total }),
+                slot: Slot::Output(Output::Body { body: body.to_owned(), total }),
                 quantity: Some(total.quantity()),
                 start: None,
                 min: None,
@@ -525,6 +544,7 @@ fn outputs(scene: &Scene, list: &mut Vec<Variable>) {
             });
         }
     }
+    droplet::outputs(scene, list);
 }
 
 fn probe_variables(index: usize, probe: &Probe, list: &mut Vec<Variable>) {

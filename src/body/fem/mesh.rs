@@ -68,6 +68,16 @@ impl Mesh {
         list
     }
 
+    /// Nodes along x (0) or y (1) over the whole body, `(node, is it the image)`, coordinates
+    /// ascending.
+    pub fn unfolded(&self, axis: usize) -> Vec<(usize, bool)> {
+        let own = (0..self.axes[axis].len()).map(|i| (i, false));
+        if !self.mirrored[axis] {
+            return own.collect();
+        }
+        (1..self.axes[axis].len()).rev().map(|i| (i, true)).chain(own).collect()
+    }
+
     /// Where a face of the body lies on the mesh, and whether it is the mirror image of that place.
     pub fn place(&self, face: FaceName) -> (MeshFace, bool) {
         let (axis, high) = match face {

@@ -244,7 +244,7 @@ impl SolidFem {
     pub fn fields(&self, temperatures: &Temperatures, deformation: &Deformation) -> NodalFields {
         let [x, y, z] = &self.mesh.axes;
         let [mirror_x, mirror_y] = self.mesh.mirrored;
-        let (columns, rows) = (unfold(x, mirror_x), unfold(y, mirror_y));
+        let (columns, rows) = (self.mesh.unfolded(0), self.mesh.unfolded(1));
         let coordinates = |axis: &Axis, places: &[(usize, bool)]| {
             let signed = |&(node, image): &(usize, bool)| {
                 if image { -axis.nodes[node] } else { axis.nodes[node] }
@@ -460,13 +460,4 @@ fn continues(mesh: &Mesh, axis: usize) -> bool {
 fn odd_along(parity: Parity, slot: usize) -> [usize; 3] {
     let odd = |image| usize::from(parity.tensor_sign(image, slot) < 0.0);
     [odd([true, false]), odd([false, true]), 0]
-}
-
-/// Nodes of an axis over the whole body, `(node, is it the image)`, coordinates ascending.
-fn unfold(axis: &Axis, mirrored: bool) -> Vec<(usize, bool)> {
-    let own = (0..axis.len()).map(|i| (i, false));
-    if !mirrored {
-        return own.collect();
-    }
-    (1..axis.len()).rev().map(|i| (i, true)).chain(own).collect()
 }

@@ -10,5 +10,5 @@ mod wall;
 
 pub use droplet::{DropletSph, DropletTotals, ParticleFields};
 pub use failure::Failure;
-pub use plan::{DropletPlan, Fluid, Placement, Release, Wall};
+pub use plan::{DropletPlan, Fluid, Release, Wall};
 pub use wall::{WallCells, WallExchange, WallShare};

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::wall::WallCells;
 use crate::kernel::Kernel;
+use crate::scene::Placement;
 
 /// Droplets of one fluid above one wall.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,17 +46,6 @@ pub struct Fluid {
     /// Speed of sound c₀ of the model [m/s]: at least ten times the fastest flow keeps the density
     /// within 1 %.
     pub sound_speed: f64,
-}
-
-/// How particles are laid out at first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Placement {
-    /// On a cubic lattice.
-    #[default]
-    Lattice,
-    /// At random with a smallest distance (Poisson disk).
-    BlueNoise,
 }
 
 /// One round droplet that starts to move at a time.

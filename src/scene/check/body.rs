@@ -1,13 +1,13 @@
-//! Shape, material, faces, symmetry and mesh of each body.
+//! Shape, material, faces, symmetry and mesh of each solid.
 
 use super::{Checker, fits, is_sound, number};
 use crate::material::Material;
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::types::{Body, Convection, Face, FaceName, Mesh, Shape, Solid, Symmetry};
+use crate::scene::types::{Convection, Face, FaceName, Mesh, Shape, Solid, Symmetry};
 
 pub fn check(checker: &mut Checker) {
-    for (name, Body::Solid(solid)) in &checker.scene.body {
+    for (name, solid) in checker.scene.solids() {
         let path = Path::default().key("body").key(name);
         shape(checker, &path.at("shape"), &solid.shape);
         material(checker, &path.at("material"), &solid.material);

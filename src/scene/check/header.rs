@@ -1,11 +1,11 @@
-//! What stands outside bodies, loads, probes and fields; and the names of all of these.
+//! What stands outside bodies, loads, probes, fields and walls; and the names of all of these.
 
 use std::collections::BTreeMap;
 
 use super::Checker;
 use crate::scene::locate::Path;
 
-/// Prefixes of variables that belong to no body, load, probe or field.
+/// Prefixes of variables that belong to no body, load, probe, field or wall.
 const RESERVED: [&str; 2] = ["solver", "output"];
 /// More threads than any machine of today runs well.
 const MOST_THREADS: usize = 1024;
@@ -60,8 +60,9 @@ fn names(checker: &mut Checker) {
         scene.probe.iter().enumerate().map(|(i, probe)| (element("probe", i), &probe.name));
     let fields =
         scene.field.iter().enumerate().map(|(i, field)| (element("field", i), &field.name));
+    let walls = scene.wall.iter().enumerate().map(|(i, wall)| (element("wall", i), &wall.name));
     let mut owners = BTreeMap::new();
-    for (path, name) in bodies.chain(loads).chain(probes).chain(fields) {
+    for (path, name) in bodies.chain(loads).chain(probes).chain(fields).chain(walls) {
         prefix(checker, &mut owners, path, name);
     }
 }
@@ -79,7 +80,7 @@ fn prefix<'a>(
     match owners.get(name) {
         Some(owner) => {
             let message = format!("the name is taken by {owner}");
-            checker.refuse(&path, message, "a name for each body, load, probe and field");
+            checker.refuse(&path, message, "a name for each body, load, probe, field and wall");
         }
         None => {
             owners.insert(name, path);

@@ -30,7 +30,8 @@ fn loaded_faces(_: &Shape) -> Vec<FaceName> {
     vec![FaceName::Top, FaceName::Bottom]
 }
 
-fn footprint(checker: &mut Checker, path: &Path, footprint: &Footprint) {
+/// Whether a footprint has a size and a sensible number of cells.
+pub fn footprint(checker: &mut Checker, path: &Path, footprint: &Footprint) {
     let path = path.key(footprint.name());
     if let Some(radius) = footprint.radius() {
         checker.positive(&path.at("radius"), radius, "the radius of a footprint");

@@ -1,17 +1,21 @@
 //! Whether what a scene says makes sense and can be modelled. One subject a file.
 
 mod body;
+mod coupling;
+mod droplet;
 mod field;
 mod header;
 mod load;
 mod probe;
 mod start;
 mod support;
+mod wall;
 
+use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
 use super::locate::{Path, Source};
 use super::lookup::split_place;
-use super::types::{Body, FaceName, Scene, Shape, Solid};
+use super::types::{FaceName, Scene, Shape, Solid};
 
 /// Largest number of points, rings or tiles along an axis.
 const MOST_CELLS: usize = 1000;
@@ -24,9 +28,12 @@ pub fn check(scene: &Scene, source: &Source) -> Result<(), SceneError> {
     let mut checker = Checker { scene, source, problems: Vec::new() };
     header::check(&mut checker);
     body::check(&mut checker);
+    droplet::check(&mut checker);
     load::check(&mut checker);
     probe::check(&mut checker);
     field::check(&mut checker);
+    wall::check(&mut checker);
+    coupling::check(&mut checker);
     support::check(&mut checker);
     SceneError::unless_empty(checker.problems)
 }
@@ -87,8 +94,11 @@ impl<'a> Checker<'a> {
     /// been refused, on which no place can be judged.
     fn body(&mut self, path: &Path, name: &str) -> Option<&'a Solid> {
         let solid = self.scene.solid(name);
-        let known = self.scene.body.keys().map(String::as_str).collect::<Vec<_>>().join(", ");
-        self.require(solid.is_some(), path, format!("there is no body `{name}`"), known);
+        if solid.is_none() {
+            let known = self.scene.solids().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
+            let message = self.not_a_solid(name, format!("there is no body `{name}`"));
+            self.refuse(path, message, or_none(known, "a body of kind `solid`"));
+        }
         solid.filter(|solid| is_sound(&solid.shape))
     }
 
@@ -105,15 +115,44 @@ impl<'a> Checker<'a> {
             offered(&solid.shape).contains(&face).then_some((face, solid))
         });
         if named.is_none() {
-            let known = self.scene.body.iter().flat_map(|(body, Body::Solid(solid))| {
+            let known = self.scene.solids().flat_map(|(body, solid)| {
                 let faces = offered(&solid.shape).into_iter();
                 faces.map(move |face| format!("{body}.{}", face.as_str()))
             });
             let known = known.collect::<Vec<_>>().join(", ");
-            self.refuse(path, format!("`{place}` is no face for this"), known);
+            let body = place.rsplit_once('.').map_or(place, |(body, _)| body);
+            let message = self.not_a_solid(body, format!("`{place}` is no face for this"));
+            self.refuse(path, message, or_none(known, "a face of a body of kind `solid`"));
         }
         named.filter(|(_, solid)| is_sound(&solid.shape))
     }
+
+    /// What to say of a body that a solid's name was expected for.
+    fn not_a_solid(&self, body: &str, otherwise: String) -> String {
+        match self.scene.droplet(body) {
+            Some(_) => format!(
+                "`{body}` is a droplet, which takes no loads, probes or fields: its values are \
+                 outputs by themselves"
+            ),
+            None => otherwise,
+        }
+    }
+
+    /// The droplet of that name, refused if there is none.
+    fn droplet(&mut self, path: &Path, name: &str) -> Option<&'a Droplet> {
+        let droplet = self.scene.droplet(name);
+        if droplet.is_none() {
+            let known = self.scene.droplets().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
+            let message = format!("there is no droplet `{name}`");
+            self.refuse(path, message, or_none(known, "a body of kind `droplet`"));
+        }
+        droplet
+    }
+}
+
+/// A list, or what to say where it is empty.
+fn or_none(list: String, otherwise: &str) -> String {
+    if list.is_empty() { otherwise.to_owned() } else { list }
 }
 
 /// Whether all extents of a shape are positive.

@@ -59,7 +59,7 @@ fn direction(checker: &mut Checker, path: &Path, load: &Load, key: &str) -> bool
 }
 
 /// Refuses values that are not one for each cell.
-fn cells(checker: &mut Checker, path: &Path, values: &CellValues, cells: Option<CellShape>) {
+pub fn cells(checker: &mut Checker, path: &Path, values: &CellValues, cells: Option<CellShape>) {
     let allowed = match cells {
         None => "one number".to_owned(),
         Some(CellShape::Rings(count)) => format!("one number, or a list of {count}"),

@@ -2,10 +2,10 @@
 
 use super::Checker;
 use crate::scene::locate::Path;
-use crate::scene::types::{Body, FaceName, Shape, Solid};
+use crate::scene::types::{FaceName, Shape, Solid};
 
 pub fn check(checker: &mut Checker) {
-    for (name, Body::Solid(solid)) in &checker.scene.body {
+    for (name, solid) in checker.scene.solids() {
         if checker.scene.asks_mechanics(name) {
             let free = free_motions(solid);
             let message = format!(

@@ -11,6 +11,7 @@ use std::collections::BTreeSet;
 use serde::de::DeserializeOwned;
 use toml::de::{DeFloat, DeValue};
 
+use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
 use super::locate::{Path, Source};
 use super::types::{Scene, Solid};
@@ -51,6 +52,7 @@ impl Decoder<'_> {
             let body = path.key(name.get_ref());
             self.read_if::<Thermoelastic>(&body.key("material"), "model", "thermoelastic");
             self.read_if::<Solid>(&body, "kind", "solid");
+            self.read_if::<Droplet>(&body, "kind", "droplet");
         }
     }
 

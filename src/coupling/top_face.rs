@@ -1,0 +1,252 @@
+//! What a fluid on the top of a solid sees of it, and what the solid gets from the fluid.
+
+use faer::Mat;
+
+use crate::body::fem::{Axis, Geometry, Mesh, Temperatures};
+use crate::body::sph::WallCells;
+use crate::math::gauss::gauss_on;
+use crate::math::separable::{Side, transform};
+
+use super::symmetry::split_load;
+
+/// The nodes of the whole top of a solid, images at mirrors included.
+///
+/// The fluid gives its heat and force to functions that are linear between neighbouring nodes; seen
+/// as densities, these become the nodal vectors of the elements' own shape functions. Both sets of
+/// functions sum to one everywhere, so all that is given arrives, and what is uniform stays so.
+pub struct TopFace {
+    mesh: Mesh,
+    /// `(node, is it the image)` along x and y, coordinates ascending.
+    places: [Vec<(usize, bool)>; 2],
+    /// From amounts on the linear functions to nodal vectors, along x and y of the mesh.
+    consistent: [Mat<f64>; 2],
+}
+
+impl TopFace {
+    pub fn of(mesh: &Mesh) -> Self {
+        Self {
+            mesh: mesh.clone(),
+            places: [0, 1].map(|axis| mesh.unfolded(axis)),
+            consistent: [0, 1].map(|axis| consistent(&mesh.axes[axis])),
+        }
+    }
+
+    /// The cells through which a fluid exchanges with the face.
+    pub fn cells(&self) -> WallCells {
+        let [x, y] = [0, 1].map(|a| {
+            let signed = |&(node, image): &(usize, bool)| {
+                let at = self.mesh.axes[a].nodes[node];
+                if image { -at } else { at }
+            };
+            self.places[a].iter().map(signed).collect::<Vec<f64>>()
+        });
+        match self.mesh.geometry {
+            Geometry::Box => WallCells::Nodes { x, y },
+            Geometry::Axisymmetric => WallCells::RadialNodes { r: x },
+        }
+    }
+
+    /// Temperature above the initial one at each cell [K].
+    pub fn rise(&self, temperatures: &Temperatures) -> Vec<f64> {
+        let [nx, ny, nz] = self.mesh.node_counts();
+        let top = nx * ny * (nz - 1);
+        let mut rise = vec![0.0; self.places[0].len() * self.places[1].len()];
+        let parts = self.mesh.parities().into_iter().zip(temperatures);
+        for (parity, part) in parts.filter(|(_, part)| !part.is_empty()) {
+            for (row, &(j, image_y)) in
+                rise.chunks_exact_mut(self.places[0].len()).zip(&self.places[1])
+            {
+                for (value, &(i, image_x)) in row.iter_mut().zip(&self.places[0]) {
+                    *value += parity.sign([image_x, image_y]) * part[top + i + nx * j];
+                }
+            }
+        }
+        rise
+    }
+
+    /// Nodal vectors, one a symmetry class, of an amount at each cell: heat, or a component of a
+    /// force that mirrors turn round along the axes in `flips`. Classes that are odd about a plane
+    /// in which the fluid is `symmetric` have none.
+    pub fn nodal(&self, amounts: &[f64], flips: [bool; 2], symmetric: [bool; 2]) -> Vec<Vec<f64>> {
+        let one = Mat::from_fn(1, 1, |_, _| 1.0);
+        let matrices = [&self.consistent[0], &self.consistent[1], &one];
+        let of_image = |image| transform(&self.seen(amounts, image), matrices, Side::Direct);
+        let mut vectors = split_load(&self.mesh, flips, of_image);
+        for (parity, vector) in self.mesh.parities().iter().zip(&mut vectors) {
+            if (0..2).any(|axis| symmetric[axis] && parity.odd[axis]) {
+                vector.clear();
+            }
+        }
+        vectors
+    }
+
+    /// The amounts on the meshed part as they are at its image; the symmetry planes halve those on
+    /// them.
+    fn seen(&self, amounts: &[f64], image: [bool; 2]) -> Vec<f64> {
+        let [nx, ny, _] = self.mesh.node_counts();
+        let place = |axis: usize, node: usize| match (self.mesh.mirrored[axis], image[axis]) {
+            (false, _) => (node, 1.0),
+            (true, is_image) => {
+                let middle = self.mesh.axes[axis].len() - 1;
+                let at = if is_image { middle - node } else { middle + node };
+                (at, if node == 0 { 0.5 } else { 1.0 })
+            }
+        };
+        let width = self.places[0].len();
+        let mut out = Vec::with_capacity(nx * ny);
+        for j in 0..ny {
+            let (row, share_y) = place(1, j);
+            for i in 0..nx {
+                let (column, share_x) = place(0, i);
+                out.push(share_x * share_y * amounts[column + width * row]);
+            }
+        }
+        out
+    }
+}
+
+/// `∫ N_i h_j w dx / ∫ h_j w dx` for shape functions N and functions h that are linear between
+/// neighbouring nodes; every column sums to 1.
+fn consistent(axis: &Axis) -> Mat<f64> {
+    let n = axis.len();
+    let mut matrix = Mat::<f64>::zeros(n, n);
+    if n == 1 {
+        matrix[(0, 0)] = 1.0;
+        return matrix;
+    }
+    for below in 0..n - 1 {
+        let [a, b] = [axis.nodes[below], axis.nodes[below + 1]];
+        // Linear times quadratic times the radius: four Gauss points are exact.
+        for (x, w) in gauss_on(4, a, b) {
+            let weight = w * axis.weight_at(x);
+            let shape = axis.shape_at(x);
+            let share = (x - a) / (b - a);
+            for (j, hat) in [(below, 1.0 - share), (below + 1, share)] {
+                for i in 0..shape.count {
+                    matrix[(shape.first + i, j)] += weight * hat * shape.values[i];
+                }
+            }
+        }
+    }
+    for j in 0..n {
+        let sum: f64 = (0..n).map(|i| matrix[(i, j)]).sum();
+        (0..n).for_each(|i| matrix[(i, j)] /= sum);
+    }
+    matrix
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::fem::Weight;
+
+    fn mesh(order: usize, mirrored: [bool; 2]) -> Mesh {
+        let half = [0.0, 0.1, 0.3, 1.0];
+        let whole = [-1.0, -0.2, 0.0, 0.3, 1.0];
+        let axis = |mirrored: bool| {
+            let ends: &[f64] = if mirrored { &half } else { &whole };
+            Axis::from_element_ends(ends, order, Weight::Uniform)
+        };
+        let depth = Axis::from_element_ends(&[-0.2, 0.0], order, Weight::Uniform);
+        let axes = [axis(mirrored[0]), axis(mirrored[1]), depth];
+        Mesh { axes, mirrored, geometry: Geometry::Box }
+    }
+
+    fn meshes() -> Vec<Mesh> {
+        let choices = [[false, false], [true, false], [true, true]];
+        choices.iter().flat_map(|&m| [mesh(1, m), mesh(2, m)]).collect()
+    }
+
+    /// What a place gives to the cells.
+    fn given(face: &TopFace, x: f64, y: f64, amount: f64) -> Vec<f64> {
+        let cells = face.cells();
+        let mut out = vec![0.0; cells.len()];
+        for (cell, weight) in cells.share(x, y).cells {
+            out[cell] += weight * amount;
+        }
+        out
+    }
+
+    #[test]
+    fn all_that_is_given_anywhere_arrives() {
+        for mesh in meshes() {
+            let face = TopFace::of(&mesh);
+            for (x, y) in [(0.0, 0.0), (-0.33, 0.2), (0.7, -1.0), (0.05, 0.05)] {
+                let parts = face.nodal(&given(&face, x, y, 3.0), [false; 2], [false; 2]);
+                let total = mesh.copies() * parts[0].iter().sum::<f64>();
+                assert!((total - 3.0).abs() < 1e-13, "{total} at {x}, {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_parts_of_a_force_give_back_the_force_on_each_side() {
+        let mesh = mesh(2, [true, false]);
+        let face = TopFace::of(&mesh);
+        let flips = [true, false]; // A force along x.
+        let parts = face.nodal(&given(&face, -0.6, 0.1, 2.0), flips, [false; 2]);
+        let side = |image: bool| -> f64 {
+            let signs = mesh.parities().into_iter().map(|p| p.vector_sign([image, false], 0));
+            signs.zip(&parts).map(|(sign, part)| sign * part.iter().sum::<f64>()).sum()
+        };
+        assert!(side(false).abs() < 1e-14);
+        assert!((side(true) - 2.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn a_uniform_density_becomes_the_load_of_the_shape_functions() {
+        let mesh = mesh(2, [false, false]);
+        let face = TopFace::of(&mesh);
+        let [x, y] = [&mesh.axes[0], &mesh.axes[1]];
+        let widths = |axis: &Axis| -> Vec<f64> {
+            let at = |i: usize| axis.nodes[i.min(axis.len() - 1)];
+            (0..axis.len()).map(|i| 0.5 * (at(i + 1) - at(i.saturating_sub(1)))).collect()
+        };
+        let amounts: Vec<f64> =
+            widths(y).iter().flat_map(|b| widths(x).into_iter().map(move |a| a * b)).collect();
+        let parts = face.nodal(&amounts, [false; 2], [false; 2]);
+        let exact =
+            y.integrals().into_iter().flat_map(|b| x.integrals().into_iter().map(move |a| a * b));
+        for (value, exact) in parts[0].iter().zip(exact) {
+            assert!((value - exact).abs() < 1e-14, "{value} {exact}");
+        }
+    }
+
+    #[test]
+    fn a_symmetric_fluid_makes_no_odd_part() {
+        let mesh = mesh(1, [true, true]);
+        let face = TopFace::of(&mesh);
+        let amounts: Vec<f64> = (0..face.cells().len()).map(|i| 1.0 + 1e-16 * i as f64).collect();
+        let parts = face.nodal(&amounts, [false; 2], [true; 2]);
+        assert!(!parts[0].is_empty() && parts[1..].iter().all(Vec::is_empty));
+    }
+
+    #[test]
+    fn temperatures_are_seen_on_both_sides_of_a_mirror() {
+        let mesh = mesh(1, [true, false]);
+        let face = TopFace::of(&mesh);
+        let [nx, ny, nz] = mesh.node_counts();
+        let field = |f: &dyn Fn(f64) -> f64| -> Vec<f64> {
+            (0..nx * ny * nz).map(|node| f(mesh.axes[0].nodes[node % nx])).collect()
+        };
+        let rise = face.rise(&vec![field(&|x| x * x), field(&|x| x)]);
+        let WallCells::Nodes { x, .. } = face.cells() else { unreachable!() };
+        for (i, rise) in rise.iter().enumerate() {
+            let x = x[i % x.len()];
+            assert!((rise - (x * x + x)).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn rings_about_an_axis_keep_the_sum_too() {
+        let r = Axis::from_element_ends(&[0.0, 0.2, 1.0], 2, Weight::Radial);
+        let z = Axis::from_element_ends(&[-0.2, 0.0], 2, Weight::Uniform);
+        let axes = [r, Axis::point(), z];
+        let mesh = Mesh { axes, mirrored: [false; 2], geometry: Geometry::Axisymmetric };
+        let face = TopFace::of(&mesh);
+        for x in [0.0, 0.05, 0.6] {
+            let parts = face.nodal(&given(&face, x, 0.0, 1.0), [true, false], [true; 2]);
+            assert!((parts[0].iter().sum::<f64>() - 1.0).abs() < 1e-14);
+        }
+    }
+}

@@ -1,0 +1,299 @@
+//! Droplets: from scene to plan, and what is read from their states.
+
+use std::f64::consts::PI;
+use std::ops::Range;
+
+use super::ModelError;
+use super::contact::Contact;
+use crate::body::sph::{
+    self, DropletPlan, DropletSph, DropletTotals, ParticleFields, Release, WallCells, WallExchange,
+};
+use crate::scene::{Droplet, Footprint, Scene};
+use crate::variables::{DropletTotal, InputLayout, WallOutput};
+
+/// A body of droplets and what lies below it.
+pub struct DropletModel {
+    pub name: String,
+    pub droplet: DropletSph,
+    pub below: Below,
+    /// Images at mirrors for each particle.
+    copies: f64,
+    initial_temperature: f64,
+    pub notes: Vec<String>,
+}
+
+/// What a droplet exchanges heat and momentum with.
+pub enum Below {
+    Nothing,
+    Wall(WallBelow),
+    Solid(Contact),
+}
+
+/// A wall whose cells have their temperatures from inputs.
+pub struct WallBelow {
+    /// Places of the temperatures among the inputs.
+    pub inputs: Range<usize>,
+    /// Of each cell [m²].
+    areas: Vec<f64>,
+}
+
+/// What is read from a droplet's state, computed when first asked for.
+#[derive(Debug, Default)]
+pub struct DropletCache {
+    totals: Option<DropletTotals>,
+    exchange: Option<WallExchange>,
+    temperatures: Option<[f64; 2]>,
+    particles: Option<usize>,
+}
+
+impl DropletModel {
+    /// `contact` is there for a droplet that the scene couples.
+    pub fn new(
+        scene: &Scene,
+        layout: &InputLayout,
+        name: &str,
+        contact: Option<Contact>,
+        threads: usize,
+    ) -> Self {
+        let droplet = &scene.droplet(name).expect("asked for by the name of a droplet");
+        let wall = scene.wall_under(name);
+        let cells = match (&contact, wall) {
+            (Some(contact), _) => Some(contact.cells()),
+            (None, Some(wall)) => cells_of(&scene.wall[wall].footprint),
+            (None, None) => None,
+        };
+        let mut notes = notes(droplet);
+        notes.extend(contact.as_ref().map(Contact::note));
+        let below = match (contact, wall) {
+            (Some(contact), _) => Below::Solid(contact),
+            (None, Some(wall)) => Below::Wall(WallBelow {
+                inputs: layout.walls[wall].clone(),
+                areas: areas(&scene.wall[wall].footprint, droplet.dimension),
+            }),
+            (None, None) => Below::Nothing,
+        };
+        Self {
+            name: name.to_owned(),
+            droplet: DropletSph::new(plan_of(droplet, cells), threads),
+            below,
+            copies: droplet.mirrors().iter().map(|&m| if m { 2.0 } else { 1.0 }).product(),
+            initial_temperature: droplet.initial_temperature,
+            notes,
+        }
+    }
+
+    /// Refuses temperatures of the wall that make no sense.
+    pub fn check(&self, inputs: &[f64]) -> Result<(), ModelError> {
+        let Below::Wall(wall) = &self.below else { return Ok(()) };
+        match wall.inputs.clone().find(|&index| inputs[index] <= 0.0) {
+            Some(index) => {
+                let message = format!("{} K is not above absolute zero", inputs[index]);
+                Err(ModelError::Input { index, message })
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Advances by `dt` [s] under wall temperatures, held.
+    pub fn advance(
+        &self,
+        state: &mut Vec<f64>,
+        wall_temperature: &[f64],
+        dt: f64,
+    ) -> Result<(), ModelError> {
+        let name = || self.name.clone();
+        self.droplet
+            .advance(state, wall_temperature, dt)
+            .map_err(|failure| ModelError::Droplet { name: name(), failure })
+    }
+
+    pub fn total(&self, state: &[f64], cache: &mut DropletCache, total: DropletTotal) -> f64 {
+        match total {
+            DropletTotal::MinTemperature => return self.temperatures(state, cache)[0],
+            DropletTotal::MaxTemperature => return self.temperatures(state, cache)[1],
+            DropletTotal::Particles => {
+                let count = || self.droplet.particles(state).mass.len();
+                return self.copies * *cache.particles.get_or_insert_with(count) as f64;
+            }
+            DropletTotal::HeatFlow | DropletTotal::Force => {
+                let exchange = self.exchange(state, cache);
+                let sum = if total == DropletTotal::Force {
+                    let pushes = exchange.impulse.iter().map(|impulse| -impulse[2]);
+                    pushes.sum::<f64>() - exchange.impulse_outside[2]
+                } else {
+                    exchange.heat.iter().sum::<f64>() + exchange.heat_outside
+                };
+                return a_time(sum, exchange);
+            }
+            _ => {}
+        }
+        let density = self.droplet.plan().fluid.density;
+        let totals = cache.totals.get_or_insert_with(|| self.droplet.totals(state));
+        match total {
+            DropletTotal::Height => totals.height,
+            DropletTotal::KineticEnergy => totals.kinetic_energy,
+            DropletTotal::CompressionEnergy => totals.compression_energy,
+            DropletTotal::SurfaceEnergy => totals.surface_energy,
+            DropletTotal::Mass => totals.mass,
+            DropletTotal::Momentum(axis) => totals.momentum[axis],
+            DropletTotal::HeatStored => totals.heat,
+            DropletTotal::HeatDrift => totals.heat_drift,
+            DropletTotal::MaxPressure => totals.max_pressure,
+            DropletTotal::MaxSpeed => totals.max_speed,
+            DropletTotal::MinDensity => totals.density_range[0] * density,
+            DropletTotal::MaxDensity => totals.density_range[1] * density,
+            DropletTotal::Steps => totals.steps,
+            DropletTotal::SpreadDiameter => totals.spread_diameter,
+            DropletTotal::Heat => totals.heat_to_wall,
+            DropletTotal::Impulse(axis) => totals.impulse_to_wall[axis],
+            DropletTotal::MinTemperature
+            | DropletTotal::MaxTemperature
+            | DropletTotal::Particles
+            | DropletTotal::HeatFlow
+            | DropletTotal::Force => unreachable!("returned above"),
+        }
+    }
+
+    /// What a cell of the wall got, or all that lies beyond the cells.
+    pub fn wall_output(&self, state: &[f64], cache: &mut DropletCache, output: WallOutput) -> f64 {
+        let exchange = self.exchange(state, cache);
+        let Below::Wall(wall) = &self.below else { return 0.0 };
+        let (amount, area) = match output {
+            WallOutput::HeatFlux(cell) => (exchange.heat[cell], wall.areas[cell]),
+            WallOutput::Pressure(cell) => (-exchange.impulse[cell][2], wall.areas[cell]),
+            WallOutput::ShearX(cell) | WallOutput::ShearR(cell) => {
+                (exchange.impulse[cell][0], wall.areas[cell])
+            }
+            WallOutput::ShearY(cell) => (exchange.impulse[cell][1], wall.areas[cell]),
+            WallOutput::HeatFlowOutside => (exchange.heat_outside, 1.0),
+            WallOutput::ForceOutside => (-exchange.impulse_outside[2], 1.0),
+        };
+        a_time(amount, exchange) / area
+    }
+
+    /// All particles, images at mirrors included.
+    pub fn particles(&self, state: &[f64]) -> ParticleFields {
+        let mut fields = self.droplet.particles(state);
+        let mirrors = self.droplet.plan().mirrors;
+        for axis in (0..2).filter(|&axis| mirrors[axis]) {
+            for i in 0..fields.mass.len() {
+                let image = |mut vector: [f64; 3]| {
+                    vector[axis] = -vector[axis];
+                    vector
+                };
+                fields.position.push(image(fields.position[i]));
+                fields.velocity.push(image(fields.velocity[i]));
+                for values in [
+                    &mut fields.mass,
+                    &mut fields.density,
+                    &mut fields.pressure,
+                    &mut fields.temperature,
+                ] {
+                    values.push(values[i]);
+                }
+            }
+        }
+        fields
+    }
+
+    fn exchange<'c>(&self, state: &[f64], cache: &'c mut DropletCache) -> &'c WallExchange {
+        cache.exchange.get_or_insert_with(|| self.droplet.exchange(state))
+    }
+
+    /// Lowest and highest temperature of a particle [K]; the initial one before the first drop.
+    fn temperatures(&self, state: &[f64], cache: &mut DropletCache) -> [f64; 2] {
+        *cache.temperatures.get_or_insert_with(|| {
+            let list = self.droplet.particles(state).temperature;
+            let range = |[low, high]: [f64; 2], &value: &f64| [low.min(value), high.max(value)];
+            let first = list.first().copied().unwrap_or(self.initial_temperature);
+            list.iter().fold([first; 2], range)
+        })
+    }
+}
+
+/// An amount of the last step as a mean rate; nothing before the first step.
+fn a_time(amount: f64, exchange: &WallExchange) -> f64 {
+    if exchange.duration > 0.0 { amount / exchange.duration } else { 0.0 }
+}
+
+/// What the engine builds a droplet from, above the cells of a wall or none.
+pub fn plan_of(droplet: &Droplet, cells: Option<WallCells>) -> DropletPlan {
+    let fluid = &droplet.fluid;
+    let releases = droplet.arrivals.iter().map(|arrival| Release {
+        time: arrival.time,
+        centre: [arrival.x, arrival.y, droplet.gap() + 0.5 * droplet.diameter],
+        diameter: droplet.diameter,
+        velocity: [0.0, 0.0, -droplet.impact_velocity],
+        temperature: droplet.initial_temperature,
+    });
+    DropletPlan {
+        dimension: droplet.dimension,
+        spacing: droplet.spacing,
+        support: droplet.support,
+        kernel: droplet.kernel,
+        fluid: sph::Fluid {
+            density: fluid.density,
+            viscosity: fluid.viscosity,
+            specific_heat: fluid.specific_heat,
+            conductivity: fluid.conductivity,
+            surface_tension: fluid.surface_tension,
+            sound_speed: droplet.sound_speed(),
+        },
+        placement: droplet.placement,
+        gravity: [0.0, 0.0, -droplet.gravity],
+        mirrors: droplet.mirrors(),
+        releases: releases.collect(),
+        wall: cells.map(|cells| sph::Wall { cells }),
+    }
+}
+
+/// The cells of a wall's footprint; scenes with other footprints are refused.
+pub fn cells_of(footprint: &Footprint) -> Option<WallCells> {
+    match *footprint {
+        Footprint::Rings { count, radius } => Some(WallCells::Rings { count, radius }),
+        Footprint::Tiles { count, size } => Some(WallCells::Tiles { count, size }),
+        Footprint::Disc { .. } | Footprint::Gaussian { .. } => None,
+    }
+}
+
+/// Area of each cell [m²]; tiles of a plane model are a metre deep.
+fn areas(footprint: &Footprint, dimension: usize) -> Vec<f64> {
+    match *footprint {
+        Footprint::Rings { count, radius } => {
+            let inner = PI * (radius / count as f64).powi(2);
+            (0..count).map(|ring| inner * (2 * ring + 1) as f64).collect()
+        }
+        Footprint::Tiles { count: [nx, ny], size: [x, y] } => {
+            let depth = if dimension == 2 { 1.0 } else { y / ny as f64 };
+            vec![x / nx as f64 * depth; nx * ny]
+        }
+        Footprint::Disc { .. } | Footprint::Gaussian { .. } => Vec::new(),
+    }
+}
+
+/// What was chosen or left out, and why: a sentence each.
+pub fn notes(droplet: &Droplet) -> Vec<String> {
+    let mut notes = vec![match droplet.mirrors() {
+        [true, true] => "a quarter of the drop is modelled: it mirrors itself in x = 0 and y = 0",
+        [true, false] => "half of the plane drop is modelled: it mirrors itself in x = 0",
+        _ => "the whole drop is modelled: nothing makes it mirror itself, or the scene asks for it",
+    }
+    .to_owned()];
+    let (sound, flow) = (droplet.sound_speed(), droplet.fastest_flow());
+    let ratio = sound / flow;
+    if droplet.fluid.sound_speed.is_none() {
+        notes.push(format!(
+            "speed of sound chosen: {sound:.4} m/s, ten times the fastest flow expected"
+        ));
+    } else if ratio < 10.0 {
+        notes.push(format!(
+            "the speed of sound is only {ratio:.2} times the fastest flow: the fluid is compressed \
+             by about {:.1} %, by 1 % at ten times",
+            100.0 / (ratio * ratio)
+        ));
+    }
+    if droplet.fluid.surface_tension == 0.0 {
+        notes.push("surface tension is left out: the scene names none".to_owned());
+    }
+    notes
+}

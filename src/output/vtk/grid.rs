@@ -1,0 +1,140 @@
+//! The nodes of a solid: one rectilinear grid (`.vtr`).
+
+use std::io::{self, Write};
+
+use quick_xml::Writer;
+
+use super::{AXES, Array, Values, write_file, write_header};
+use crate::material::stress::von_mises;
+use crate::model::NodalFields;
+
+const STRESSES: [&str; 6] = ["xx", "yy", "zz", "xy", "yz", "xz"];
+/// The same places in a meridian section, where y points around the axis.
+const AXISYMMETRIC_STRESSES: [&str; 6] = ["rr", "tt", "zz", "rt", "tz", "rz"];
+
+/// Writes the fields of one body at `time` [s].
+pub fn write_grid(out: impl Write, time: f64, fields: &NodalFields) -> io::Result<()> {
+    let von_mises: Vec<f64> = fields.stress.iter().copied().map(von_mises).collect();
+    let time = [time];
+    let time = Array::scalar("TimeValue", "s", &time);
+    let points = point_arrays(fields, &von_mises);
+    let axes: Vec<Array> =
+        AXES.iter().zip(&fields.axes).map(|(name, axis)| Array::scalar(name, "m", axis)).collect();
+    let structure =
+        |xml: &mut Writer<_>| write_structure(xml, &extent(fields), &time, &points, &axes);
+    let arrays: Vec<&Array> = std::iter::once(&time).chain(&points).chain(&axes).collect();
+    write_file(out, "RectilinearGrid", structure, &arrays)
+}
+
+/// The arrays at the nodes; mechanical ones where mechanics is modelled.
+fn point_arrays<'a>(fields: &'a NodalFields, von_mises: &'a [f64]) -> Vec<Array<'a>> {
+    let is_section = fields.axes[1].len() == 1;
+    let stresses = if is_section { &AXISYMMETRIC_STRESSES } else { &STRESSES };
+    let all = [
+        ("temperature", "K", &[""][..], &fields.temperature[..]),
+        ("displacement", "m", &AXES, fields.displacement.as_flattened()),
+        ("stress", "Pa", stresses, fields.stress.as_flattened()),
+        ("von_mises", "Pa", &[""], von_mises),
+    ];
+    all.into_iter()
+        .filter(|(.., values)| !values.is_empty())
+        .map(|(name, unit, components, values)| {
+            let values = Values::Real(values);
+            Array { name, unit, components, values }
+        })
+        .collect()
+}
+
+/// Index range of the nodes along each axis.
+fn extent(fields: &NodalFields) -> String {
+    let [x, y, z] = fields.axes.each_ref().map(|axis| axis.len().saturating_sub(1));
+    format!("0 {x} 0 {y} 0 {z}")
+}
+
+fn write_structure<W: Write>(
+    xml: &mut Writer<W>,
+    extent: &str,
+    time: &Array,
+    points: &[Array],
+    axes: &[Array],
+) -> io::Result<()> {
+    let mut offset = 0;
+    let grid = xml.create_element("RectilinearGrid").with_attribute(("WholeExtent", extent));
+    grid.write_inner_content(|xml| {
+        xml.create_element("FieldData")
+            .write_inner_content(|xml| write_header(xml, time, Some("1"), &mut offset))?;
+        let piece = xml.create_element("Piece").with_attribute(("Extent", extent));
+        piece.write_inner_content(|xml| {
+            let data = xml.create_element("PointData").with_attribute(("Scalars", "temperature"));
+            data.write_inner_content(|xml| {
+                points.iter().try_for_each(|array| write_header(xml, array, None, &mut offset))
+            })?;
+            xml.create_element("Coordinates").write_inner_content(|xml| {
+                axes.iter().try_for_each(|array| write_header(xml, array, None, &mut offset))
+            })?;
+            Ok(())
+        })?;
+        Ok(())
+    })?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::vtk::reader::read;
+
+    /// A body with a different value in every place.
+    fn fields(axes: [Vec<f64>; 3]) -> NodalFields {
+        let count = axes.iter().map(Vec::len).product();
+        let value = |i: usize, c: usize| (1 + i) as f64 / 3.0 - c as f64;
+        NodalFields {
+            axes,
+            temperature: (0..count).map(|i| 300.0 + value(i, 0)).collect(),
+            displacement: (0..count).map(|i| [0, 1, 2].map(|c| 1e-9 * value(i, c))).collect(),
+            stress: (0..count).map(|i| [0, 1, 2, 3, 4, 5].map(|c| 1e6 * value(i, c))).collect(),
+        }
+    }
+
+    fn written(fields: &NodalFields) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        write_grid(&mut bytes, 1.5e-6, fields).unwrap();
+        bytes
+    }
+
+    #[test]
+    fn a_grid_reads_back_bit_for_bit() {
+        let fields = fields([vec![-1.0, 0.0, 1.0], vec![-0.5, 0.5], vec![-0.1, 0.0]]);
+        let bytes = written(&fields);
+        let read = read(&bytes);
+        assert_eq!(read.elements["VTKFile"]["type"], "RectilinearGrid");
+        assert_eq!(read.elements["Piece"]["Extent"], "0 2 0 1 0 1");
+        assert_eq!(read.arrays["TimeValue"].1, [1.5e-6]);
+        for (name, axis) in AXES.iter().zip(&fields.axes) {
+            assert_eq!(&read.arrays[*name].1, axis);
+        }
+        assert_eq!(read.arrays["temperature"].1, fields.temperature);
+        assert_eq!(read.arrays["displacement"].1, fields.displacement.as_flattened());
+        assert_eq!(read.arrays["stress"].1, fields.stress.as_flattened());
+        assert_eq!(read.arrays["stress"].0["ComponentName5"], "xz");
+        assert_eq!(read.arrays["von_mises"].1.len(), fields.temperature.len());
+        assert!(bytes.ends_with(b"</AppendedData>\n</VTKFile>"));
+    }
+
+    #[test]
+    fn a_meridian_section_names_its_stresses_by_cylinder_coordinates() {
+        let read = read(&written(&fields([vec![0.0, 1.0], vec![0.0], vec![-0.1, 0.0]])));
+        assert_eq!(read.elements["RectilinearGrid"]["WholeExtent"], "0 1 0 0 0 1");
+        assert_eq!(read.arrays["stress"].0["ComponentName1"], "tt");
+    }
+
+    #[test]
+    fn a_body_without_mechanics_has_temperature_only() {
+        let mut fields = fields([vec![0.0, 1.0], vec![0.0, 1.0], vec![-0.1, 0.0]]);
+        fields.displacement.clear();
+        fields.stress.clear();
+        let read = read(&written(&fields));
+        let names: Vec<_> = read.arrays.keys().map(String::as_str).collect();
+        assert_eq!(names, ["TimeValue", "temperature", "x", "y", "z"]);
+    }
+}

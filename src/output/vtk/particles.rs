@@ -1,0 +1,109 @@
+//! The particles of a droplet: points (`.vtp`).
+
+use std::io::{self, Write};
+
+use quick_xml::Writer;
+
+use super::{Array, write_file, write_header};
+use crate::model::ParticleFields;
+
+/// Writes the particles of one droplet at `time` [s].
+pub fn write_particles(out: impl Write, time: f64, fields: &ParticleFields) -> io::Result<()> {
+    let count = fields.position.len();
+    let time = [time];
+    let time = Array::scalar("TimeValue", "s", &time);
+    let points = [
+        Array::scalar("temperature", "K", &fields.temperature),
+        Array::scalar("pressure", "Pa", &fields.pressure),
+        Array::scalar("density", "kg/m3", &fields.density),
+        Array::scalar("mass", "kg", &fields.mass),
+        Array::vector("velocity", "m/s", &fields.velocity),
+    ];
+    let places = Array::vector("position", "m", &fields.position);
+    // Viewers draw cells, so each point is one.
+    let own: Vec<i64> = (0..count as i64).collect();
+    let ends: Vec<i64> = (1..=count as i64).collect();
+    let cells = [Array::indices("connectivity", &own), Array::indices("offsets", &ends)];
+    let structure =
+        |xml: &mut Writer<_>| write_structure(xml, count, (&time, &points), (&places, &cells));
+    let all = std::iter::once(&time).chain(&points).chain([&places]).chain(&cells);
+    write_file(out, "PolyData", structure, &all.collect::<Vec<_>>())
+}
+
+fn write_structure<W: Write>(
+    xml: &mut Writer<W>,
+    count: usize,
+    (time, points): (&Array, &[Array]),
+    (places, cells): (&Array, &[Array]),
+) -> io::Result<()> {
+    let mut offset = 0;
+    let count = count.to_string();
+    xml.create_element("PolyData").write_inner_content(|xml| {
+        xml.create_element("FieldData")
+            .write_inner_content(|xml| write_header(xml, time, Some("1"), &mut offset))?;
+        let piece = xml
+            .create_element("Piece")
+            .with_attribute(("NumberOfPoints", count.as_str()))
+            .with_attribute(("NumberOfVerts", count.as_str()));
+        piece.write_inner_content(|xml| {
+            let data = xml.create_element("PointData").with_attribute(("Scalars", "temperature"));
+            data.write_inner_content(|xml| {
+                points.iter().try_for_each(|array| write_header(xml, array, None, &mut offset))
+            })?;
+            xml.create_element("Points")
+                .write_inner_content(|xml| write_header(xml, places, None, &mut offset))?;
+            xml.create_element("Verts").write_inner_content(|xml| {
+                cells.iter().try_for_each(|array| write_header(xml, array, None, &mut offset))
+            })?;
+            Ok(())
+        })?;
+        Ok(())
+    })?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::vtk::reader::read;
+
+    #[test]
+    fn particles_read_back_bit_for_bit() {
+        let fields = ParticleFields {
+            position: vec![[0.1, 0.2, 0.3], [-1.0 / 3.0, 2.0, 1e-6]],
+            velocity: vec![[0.0, 0.0, -50.0], [1.0, 2.0, 3.0]],
+            mass: vec![1e-14, 2e-14],
+            density: vec![1000.0, 1010.5],
+            pressure: vec![0.0, 2.6e6],
+            temperature: vec![373.15, 300.1],
+        };
+        let mut bytes = Vec::new();
+        write_particles(&mut bytes, 2e-6, &fields).unwrap();
+        let read = read(&bytes);
+        assert_eq!(read.elements["VTKFile"]["type"], "PolyData");
+        assert_eq!(read.elements["Piece"]["NumberOfVerts"], "2");
+        assert_eq!(read.arrays["TimeValue"].1, [2e-6]);
+        assert_eq!(read.arrays["position"].1, fields.position.as_flattened());
+        assert_eq!(read.arrays["velocity"].1, fields.velocity.as_flattened());
+        for (name, values) in [
+            ("mass", &fields.mass),
+            ("density", &fields.density),
+            ("pressure", &fields.pressure),
+            ("temperature", &fields.temperature),
+        ] {
+            assert_eq!(&read.arrays[name].1, values, "{name}");
+        }
+        for (name, whole) in [("connectivity", [0, 1]), ("offsets", [1, 2])] {
+            let (attributes, values) = &read.arrays[name];
+            let bits: Vec<u64> = values.iter().map(|value| value.to_bits()).collect();
+            assert_eq!((attributes["type"].as_str(), bits), ("Int64", whole.to_vec()), "{name}");
+        }
+    }
+
+    #[test]
+    fn no_particles_are_a_file_too() {
+        let mut bytes = Vec::new();
+        write_particles(&mut bytes, 0.0, &ParticleFields::default()).unwrap();
+        assert_eq!(read(&bytes).elements["Piece"]["NumberOfPoints"], "0");
+    }
+}

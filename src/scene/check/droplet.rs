@@ -1,0 +1,170 @@
+//! Size, fluid, particles and arrivals of each droplet.
+
+use std::f64::consts::PI;
+
+use super::{Checker, fits, number};
+use crate::scene::droplet::{Arrival, Droplet, Fluid};
+use crate::scene::locate::Path;
+use crate::scene::types::Symmetry;
+
+/// Fewest particles across a drop that make it one.
+const FEWEST_ACROSS: f64 = 6.0;
+/// More particles than this fit no machine of today.
+const MOST_PARTICLES: f64 = 2e7;
+/// Least speed of sound over the fastest flow: below, the fluid would be compressed by 4 % and more.
+const LEAST_SOUND_OVER_FLOW: f64 = 5.0;
+
+pub fn check(checker: &mut Checker) {
+    for (name, droplet) in checker.scene.droplets() {
+        let path = Path::default().key("body").key(name);
+        let before = checker.problems.len();
+        sizes(checker, &path, droplet);
+        fluid(checker, &path.at("fluid"), &droplet.fluid);
+        method(checker, &path, droplet);
+        if checker.problems.len() == before {
+            resolution(checker, &path.at("spacing"), droplet);
+            sound(checker, &path.at("fluid.sound_speed"), droplet);
+            arrivals(checker, &path.at("arrivals"), name, droplet);
+            symmetry(checker, &path.at("symmetry"), droplet);
+        }
+    }
+}
+
+fn sizes(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    checker.positive(&path.at("diameter"), droplet.diameter, "the diameter of a drop");
+    checker.positive(&path.at("spacing"), droplet.spacing, "the distance of particles");
+    checker.temperature(&path.at("initial_temperature"), droplet.initial_temperature);
+    for (key, value, what) in [
+        ("impact_velocity", droplet.impact_velocity, "the speed towards the wall"),
+        ("height", droplet.gap(), "the gap between drop and wall"),
+        ("gravity", droplet.gravity, "gravity, which acts towards the wall,"),
+    ] {
+        not_negative(checker, &path.at(key), value, what);
+    }
+}
+
+fn not_negative(checker: &mut Checker, path: &Path, value: f64, what: &str) {
+    checker.require(value >= 0.0, path, format!("{what} is not negative"), ">= 0");
+}
+
+fn fluid(checker: &mut Checker, path: &Path, fluid: &Fluid) {
+    checker.positive(&path.at("density"), fluid.density, "the density");
+    checker.positive(&path.at("viscosity"), fluid.viscosity, "the viscosity");
+    checker.positive(&path.at("specific_heat"), fluid.specific_heat, "the specific heat capacity");
+    checker.positive(&path.at("conductivity"), fluid.conductivity, "the thermal conductivity");
+    not_negative(
+        checker,
+        &path.at("surface_tension"),
+        fluid.surface_tension,
+        "the surface tension",
+    );
+    if let Some(speed) = fluid.sound_speed {
+        checker.positive(&path.at("sound_speed"), speed, "the speed of sound");
+    }
+}
+
+fn method(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    let fine = droplet.dimension == 2 || droplet.dimension == 3;
+    let allowed = "3, 2 (plane)";
+    checker.require(fine, &path.at("dimension"), "no model of this dimension", allowed);
+    let fine = (2.0..=6.0).contains(&droplet.support);
+    let message = "the support radius of the kernel is out of bounds";
+    checker.require(
+        fine,
+        &path.at("support"),
+        message,
+        "2 <= support <= 6 (distances of particles)",
+    );
+}
+
+fn resolution(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    let across = droplet.diameter / droplet.spacing;
+    let coarsest = droplet.diameter / FEWEST_ACROSS;
+    let volume = if droplet.dimension == 3 { PI / 6.0 } else { PI / 4.0 };
+    let drops = droplet.arrivals.len() as f64;
+    let copies: f64 = droplet.mirrors().map(|m| if m { 2.0 } else { 1.0 }).iter().product();
+    let particles = volume * across.powi(droplet.dimension as i32) * drops / copies;
+    if !fits(droplet.spacing, coarsest) {
+        let message = format!("only {across:.1} particles lie across the drop");
+        checker.refuse(path, message, format!("0 < spacing <= {}", number(coarsest)));
+    } else if particles > MOST_PARTICLES {
+        let scale = (particles / MOST_PARTICLES).powf(1.0 / droplet.dimension as f64);
+        let message = format!("this makes {} particles", number(particles.round()));
+        let allowed =
+            format!("{} or more, for at most 2e7 particles", number(droplet.spacing * scale));
+        checker.refuse(path, message, allowed);
+    }
+}
+
+fn sound(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    let flow = droplet.fastest_flow();
+    match droplet.fluid.sound_speed {
+        None => {
+            let message = "neither impact, gravity nor surface tension gives the flow a speed to \
+                           take ten times";
+            checker.require(flow > 0.0, path, message, "> 0");
+        }
+        Some(speed) => {
+            let least = LEAST_SOUND_OVER_FLOW * flow;
+            let message = format!(
+                "the flow of up to {} m/s would compress the fluid by more than 4 %",
+                number(flow)
+            );
+            let allowed = format!(
+                ">= {} (five times that flow; ten times keeps density within 1 %)",
+                number(least)
+            );
+            checker.require(fits(least, speed), path, message, allowed);
+        }
+    }
+}
+
+fn arrivals(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
+    let list = &droplet.arrivals;
+    checker.require(!list.is_empty(), path, "there is no arrival", "at least one arrival");
+    for (i, arrival) in list.iter().enumerate() {
+        let path = path.index(i);
+        not_negative(checker, &path.at("time"), arrival.time, "the time of an arrival");
+        if droplet.dimension == 2 {
+            let message = "a plane model lies in y = 0";
+            checker.require(arrival.y == 0.0, &path.at("y"), message, "0");
+        }
+        let fine = i == 0 || list[i - 1].time <= arrival.time;
+        let message = "arrivals stand in the order of their times";
+        let earlier = list[i.saturating_sub(1)].time;
+        checker.require(fine, &path.at("time"), message, format!(">= {}", number(earlier)));
+        let free =
+            checker.scene.wall_under(name).is_none() && checker.scene.coupling_from(name).is_none();
+        if let Some(other) = list[..i].iter().position(|other| meets(droplet, other, arrival, free))
+        {
+            let message = format!("the drop is released into that of arrivals[{other}]");
+            let allowed = "a place or time apart, or a larger `height`";
+            checker.refuse(&path, message, allowed);
+        }
+    }
+}
+
+/// Whether a drop is released where an earlier one still is: it falls freely, its centre to the
+/// wall at most.
+fn meets(droplet: &Droplet, earlier: &Arrival, later: &Arrival, free: bool) -> bool {
+    let time = later.time - earlier.time;
+    let fall = droplet.impact_velocity * time + 0.5 * droplet.gravity * time * time;
+    let deepest = droplet.gap() + 0.5 * droplet.diameter;
+    let fall = if free { fall } else { fall.min(deepest) };
+    let apart = (later.x - earlier.x).hypot(later.y - earlier.y);
+    !fits(droplet.diameter, apart.hypot(fall))
+}
+
+fn symmetry(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    match droplet.symmetry {
+        Symmetry::Axisymmetric => {
+            let message = "droplets are not modelled axisymmetric";
+            checker.refuse(path, message, "auto, none, quarter");
+        }
+        Symmetry::Quarter => {
+            let message = "a quarter needs all drops to arrive at x = 0, y = 0";
+            checker.require(droplet.is_centred(), path, message, "auto, none");
+        }
+        Symmetry::Auto | Symmetry::None => {}
+    }
+}

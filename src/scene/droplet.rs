@@ -1,0 +1,203 @@
+//! Droplets, the walls that make units of them and their couplings to solids.
+
+use serde::{Deserialize, Serialize};
+
+use super::types::{CellValues, Footprint, Symmetry};
+use crate::kernel::Kernel;
+
+/// Round drops of one fluid that arrive, along −z, above the plane z = 0.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Droplet {
+    #[serde(default)]
+    pub method: DropletMethod,
+    /// [m]
+    pub diameter: f64,
+    /// Speed towards the wall at the release [m/s].
+    pub impact_velocity: f64,
+    /// Uniform temperature at the release [K].
+    pub initial_temperature: f64,
+    /// Gap between a drop's lowest point and the wall at its release [m]; half a `spacing` if left
+    /// out.
+    pub height: Option<f64>,
+    /// Distance of particles [m].
+    pub spacing: f64,
+    pub fluid: Fluid,
+    /// 3, or 2 for a plane model in x and z, a metre deep.
+    #[serde(default = "three")]
+    pub dimension: usize,
+    #[serde(default)]
+    pub symmetry: Symmetry,
+    #[serde(default)]
+    pub placement: Placement,
+    /// Body force a mass towards −z [m/s²].
+    #[serde(default)]
+    pub gravity: f64,
+    #[serde(default)]
+    pub kernel: Kernel,
+    /// Support radius of the kernel over the distance of particles.
+    #[serde(default = "default_support")]
+    pub support: f64,
+    /// A copy of the drop for each entry.
+    #[serde(default = "one_arrival")]
+    pub arrivals: Vec<Arrival>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DropletMethod {
+    /// Weakly compressible smoothed particle hydrodynamics.
+    #[default]
+    Sph,
+}
+
+/// A Newtonian fluid that conducts heat.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Fluid {
+    /// At rest [kg/m³].
+    pub density: f64,
+    /// Dynamic viscosity [Pa s].
+    pub viscosity: f64,
+    /// [J/(kg K)]
+    pub specific_heat: f64,
+    /// [W/(m K)]
+    pub conductivity: f64,
+    /// [N/m]
+    #[serde(default)]
+    pub surface_tension: f64,
+    /// Speed of sound of the model [m/s]; ten times the fastest flow if left out.
+    pub sound_speed: Option<f64>,
+}
+
+/// How particles are laid out at first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Placement {
+    /// On a cubic lattice.
+    #[default]
+    Lattice,
+    /// At random with a smallest distance (Poisson disk).
+    BlueNoise,
+}
+
+/// When and where a drop is released.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Arrival {
+    /// Since the beginning of the run [s].
+    #[serde(default)]
+    pub time: f64,
+    /// Place of the centre [m].
+    #[serde(default)]
+    pub x: f64,
+    #[serde(default)]
+    pub y: f64,
+}
+
+/// A wall below a droplet whose temperatures are inputs, and heat fluxes and tractions outputs.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Wall {
+    pub name: String,
+    /// Name of the droplet.
+    pub under: String,
+    /// Rings or tiles, centred on the origin.
+    pub footprint: Footprint,
+    #[serde(default)]
+    pub start: WallStart,
+}
+
+/// Start values of a wall's inputs.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WallStart {
+    /// [K]; the droplet's own temperature if left out.
+    pub temperature: Option<CellValues>,
+}
+
+/// Exchange of heat and momentum between a droplet and the top of a solid.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Coupling {
+    /// Name of the droplet.
+    pub from: String,
+    /// `SOLID.top`.
+    pub to: String,
+    /// Whether pressure and shear of the fluid load the solid, too.
+    #[serde(default = "yes")]
+    pub traction: bool,
+    /// Longest time between two exchanges [s]; chosen from the fluid's motion and the contact's
+    /// heat if left out.
+    pub interval: Option<f64>,
+    /// The solid's mesh is fine out to this distance from each arrival [m]; as far as the drop is
+    /// expected to spread if left out.
+    pub radius: Option<f64>,
+}
+
+fn three() -> usize {
+    3
+}
+
+fn default_support() -> f64 {
+    3.0
+}
+
+fn one_arrival() -> Vec<Arrival> {
+    vec![Arrival::default()]
+}
+
+fn yes() -> bool {
+    true
+}
+
+/// Speed of sound over the fastest flow where the scene names none: density then stays within 1 %.
+const SOUND_OVER_FLOW: f64 = 10.0;
+
+impl Droplet {
+    /// Gap between a drop's lowest point and the wall at its release [m].
+    pub fn gap(&self) -> f64 {
+        self.height.unwrap_or(0.5 * self.spacing)
+    }
+
+    /// The largest of the speed of a drop that has fallen through its gap and its own height, and of
+    /// capillary waves, √(σ/(ρR)) [m/s].
+    pub fn fastest_flow(&self) -> f64 {
+        let fall = 2.0 * self.gravity * (self.gap() + self.diameter);
+        let capillary = self.fluid.surface_tension / (self.fluid.density * 0.5 * self.diameter);
+        (self.impact_velocity.powi(2) + fall).max(capillary).sqrt()
+    }
+
+    /// Speed of sound of the model [m/s].
+    pub fn sound_speed(&self) -> f64 {
+        self.fluid.sound_speed.unwrap_or_else(|| SOUND_OVER_FLOW * self.fastest_flow())
+    }
+
+    /// Whether all drops arrive at the origin.
+    pub fn is_centred(&self) -> bool {
+        self.arrivals.iter().all(|arrival| arrival.x == 0.0 && arrival.y == 0.0)
+    }
+
+    /// Along which of x and y the half of the model stands for the whole.
+    pub fn mirrors(&self) -> [bool; 2] {
+        let halved = match self.symmetry {
+            Symmetry::Auto => self.is_centred() && self.placement == Placement::Lattice,
+            symmetry => symmetry == Symmetry::Quarter,
+        };
+        [halved, halved && self.dimension == 3]
+    }
+
+    /// Diameter over which a drop spreads at most [m], the drop's own where it does not fall.
+    ///
+    /// D_max/D = 0.87 Re^(1/5) − 0.40 Re^(2/5) We^(−1/2) with Re = ρUD/µ and We = ρU²D/σ
+    /// (I. V. Roisman, Phys. Fluids 21 (2009) 052104, doi 10.1063/1.3129283), a fit for impacts
+    /// much faster than their waves.
+    pub fn spread_diameter(&self) -> f64 {
+        let Fluid { density, viscosity, surface_tension, .. } = self.fluid;
+        let reynolds = density * self.impact_velocity * self.diameter / viscosity;
+        let weber = density * self.impact_velocity.powi(2) * self.diameter / surface_tension;
+        let ratio = 0.87 * reynolds.powf(0.2) - 0.40 * reynolds.powf(0.4) / weber.sqrt();
+        // Of a drop at rest the fit makes NaN, of which `max` takes the 1, too.
+        ratio.max(1.0) * self.diameter
+    }
+}
