@@ -1,8 +1,6 @@
 use std::f64::consts::PI;
 
-use num_traits::Float;
-
-use super::{Shape, real};
+use super::{Number, Shape};
 
 /// w(q) = 2 (1 − q)³₊ − 8 (½ − q)³₊, the B-spline M₄ of support H.
 ///
@@ -14,18 +12,18 @@ impl Shape for CubicSpline {
     const NORMALISATION: [f64; 3] = [4.0 / 3.0, 40.0 / (7.0 * PI), 8.0 / PI];
 
     #[inline(always)]
-    fn value<R: Float>(q: R) -> R {
-        let outer = (R::one() - q).max(R::zero());
-        let inner = (real::<R>(0.5) - q).max(R::zero());
-        real::<R>(2.0) * outer * outer * outer - real::<R>(8.0) * inner * inner * inner
+    fn value<N: Number>(q: N) -> N {
+        let outer = (N::constant(1.0) - q).max(N::constant(0.0));
+        let inner = (N::constant(0.5) - q).max(N::constant(0.0));
+        N::constant(2.0) * outer * outer * outer - N::constant(8.0) * inner * inner * inner
     }
 
     #[inline(always)]
-    fn slope_over_q<R: Float>(q: R) -> R {
+    fn slope_over_q<N: Number>(q: N) -> N {
         // Inside ½ the two pieces leave −12q + 18q², which a quotient would lose near q = 0.
-        let near = real::<R>(18.0) * q - real::<R>(12.0);
-        let t = (R::one() - q).max(R::zero());
-        let far = real::<R>(-6.0) * t * t / q.max(real(0.25));
-        if q < real(0.5) { near } else { far }
+        let near = N::constant(18.0) * q - N::constant(12.0);
+        let t = (N::constant(1.0) - q).max(N::constant(0.0));
+        let far = N::constant(-6.0) * t * t / q.max(N::constant(0.25));
+        q.choose_below(0.5, near, far)
     }
 }

@@ -8,7 +8,8 @@ mod quintic_spline;
 mod wendland_c2;
 mod wendland_c4;
 
-use num_traits::Float;
+use std::ops::{Add, Div, Mul, Sub};
+
 use serde::{Deserialize, Serialize};
 
 pub use cubic_spline::CubicSpline;
@@ -16,14 +17,50 @@ pub use quintic_spline::QuinticSpline;
 pub use wendland_c2::WendlandC2;
 pub use wendland_c4::WendlandC4;
 
+/// What the formulas of kernels are made of: a number, or many numbers in the lanes of a vector.
+pub trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
+{
+    fn constant(value: f64) -> Self;
+
+    fn max(self, other: Self) -> Self;
+
+    /// `low` where this is below the limit, `high` elsewhere.
+    fn choose_below(self, limit: f64, low: Self, high: Self) -> Self;
+}
+
+macro_rules! number {
+    ($real:ty) => {
+        impl Number for $real {
+            #[inline(always)]
+            fn constant(value: f64) -> Self {
+                value as $real
+            }
+
+            #[inline(always)]
+            fn max(self, other: Self) -> Self {
+                if self > other { self } else { other }
+            }
+
+            #[inline(always)]
+            fn choose_below(self, limit: f64, low: Self, high: Self) -> Self {
+                if self < limit as $real { low } else { high }
+            }
+        }
+    };
+}
+
+number!(f32);
+number!(f64);
+
 /// The dimensionless shape of a kernel. All formulas are free of branches, so that loops over many
 /// pairs are made of vector instructions.
 pub trait Shape {
     /// w(q), zero for q ≥ 1.
-    fn value<R: Float>(q: R) -> R;
+    fn value<N: Number>(q: N) -> N;
 
     /// w′(q)/q: zero for q ≥ 1; smooth kernels have a finite limit at q = 0.
-    fn slope_over_q<R: Float>(q: R) -> R;
+    fn slope_over_q<N: Number>(q: N) -> N;
 
     /// σ_d for d = 1, 2, 3.
     const NORMALISATION: [f64; 3];
@@ -85,12 +122,6 @@ impl Kernel {
     pub fn scale(self, support: f64, dimension: usize) -> f64 {
         with_kernel_shape!(self, S => S::NORMALISATION[dimension - 1] / support.powi(dimension as i32))
     }
-}
-
-/// A constant in the precision at hand.
-#[inline(always)]
-fn real<R: Float>(value: f64) -> R {
-    R::from(value).expect("constants fit every floating-point type")
 }
 
 #[cfg(test)]

@@ -1,8 +1,6 @@
 use std::f64::consts::PI;
 
-use num_traits::Float;
-
-use super::{Shape, real};
+use super::{Number, Shape};
 
 /// w(q) = (1 − q)⁴ (1 + 4q).
 ///
@@ -14,15 +12,15 @@ impl Shape for WendlandC2 {
     const NORMALISATION: [f64; 3] = [3.0 / 2.0, 7.0 / PI, 21.0 / (2.0 * PI)];
 
     #[inline(always)]
-    fn value<R: Float>(q: R) -> R {
-        let t = (R::one() - q).max(R::zero());
+    fn value<N: Number>(q: N) -> N {
+        let t = (N::constant(1.0) - q).max(N::constant(0.0));
         let t2 = t * t;
-        t2 * t2 * (R::one() + real::<R>(4.0) * q)
+        t2 * t2 * (N::constant(1.0) + N::constant(4.0) * q)
     }
 
     #[inline(always)]
-    fn slope_over_q<R: Float>(q: R) -> R {
-        let t = (R::one() - q).max(R::zero());
-        real::<R>(-20.0) * t * t * t
+    fn slope_over_q<N: Number>(q: N) -> N {
+        let t = (N::constant(1.0) - q).max(N::constant(0.0));
+        N::constant(-20.0) * t * t * t
     }
 }

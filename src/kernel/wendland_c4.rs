@@ -1,8 +1,6 @@
 use std::f64::consts::PI;
 
-use num_traits::Float;
-
-use super::{Shape, real};
+use super::{Number, Shape};
 
 /// w(q) = (1 − q)⁶ (1 + 6q + 35q²/3).
 ///
@@ -14,16 +12,16 @@ impl Shape for WendlandC4 {
     const NORMALISATION: [f64; 3] = [27.0 / 16.0, 9.0 / PI, 495.0 / (32.0 * PI)];
 
     #[inline(always)]
-    fn value<R: Float>(q: R) -> R {
-        let t = (R::one() - q).max(R::zero());
+    fn value<N: Number>(q: N) -> N {
+        let t = (N::constant(1.0) - q).max(N::constant(0.0));
         let t2 = t * t;
-        t2 * t2 * t2 * (R::one() + q * (real::<R>(6.0) + real::<R>(35.0 / 3.0) * q))
+        t2 * t2 * t2 * (N::constant(1.0) + q * (N::constant(6.0) + N::constant(35.0 / 3.0) * q))
     }
 
     #[inline(always)]
-    fn slope_over_q<R: Float>(q: R) -> R {
-        let t = (R::one() - q).max(R::zero());
+    fn slope_over_q<N: Number>(q: N) -> N {
+        let t = (N::constant(1.0) - q).max(N::constant(0.0));
         let t2 = t * t;
-        real::<R>(-56.0 / 3.0) * t2 * t2 * t * (R::one() + real::<R>(5.0) * q)
+        N::constant(-56.0 / 3.0) * t2 * t2 * t * (N::constant(1.0) + N::constant(5.0) * q)
     }
 }

@@ -18,8 +18,16 @@ pub struct DropletModel {
     pub below: Below,
     /// Images at mirrors for each particle.
     copies: f64,
-    initial_temperature: f64,
+    rest: Rest,
     pub notes: Vec<String>,
+}
+
+/// The fluid before anything happens to it.
+struct Rest {
+    /// [kg/m³]
+    density: f64,
+    /// [K]
+    temperature: f64,
 }
 
 /// What a droplet exchanges heat and momentum with.
@@ -42,8 +50,6 @@ pub struct WallBelow {
 pub struct DropletCache {
     totals: Option<DropletTotals>,
     exchange: Option<WallExchange>,
-    temperatures: Option<[f64; 2]>,
-    particles: Option<usize>,
 }
 
 impl DropletModel {
@@ -77,7 +83,7 @@ impl DropletModel {
             droplet: DropletSph::new(plan_of(droplet, cells), threads),
             below,
             copies: droplet.mirrors().iter().map(|&m| if m { 2.0 } else { 1.0 }).product(),
-            initial_temperature: droplet.initial_temperature,
+            rest: Rest { density: droplet.fluid.density, temperature: droplet.initial_temperature },
             notes,
         }
     }
@@ -109,49 +115,50 @@ impl DropletModel {
 
     pub fn total(&self, state: &[f64], cache: &mut DropletCache, total: DropletTotal) -> f64 {
         match total {
-            DropletTotal::MinTemperature => return self.temperatures(state, cache)[0],
-            DropletTotal::MaxTemperature => return self.temperatures(state, cache)[1],
-            DropletTotal::Particles => {
-                let count = || self.droplet.particles(state).mass.len();
-                return self.copies * *cache.particles.get_or_insert_with(count) as f64;
-            }
-            DropletTotal::HeatFlow | DropletTotal::Force => {
+            DropletTotal::Force => {
                 let exchange = self.exchange(state, cache);
-                let sum = if total == DropletTotal::Force {
-                    let pushes = exchange.impulse.iter().map(|impulse| -impulse[2]);
-                    pushes.sum::<f64>() - exchange.impulse_outside[2]
-                } else {
-                    exchange.heat.iter().sum::<f64>() + exchange.heat_outside
-                };
+                let pushes = exchange.impulse.iter().map(|impulse| -impulse[2]);
+                return a_time(pushes.sum::<f64>() - exchange.impulse_outside[2], exchange);
+            }
+            DropletTotal::HeatFlow => {
+                let exchange = self.exchange(state, cache);
+                let sum = exchange.heat.iter().sum::<f64>() + exchange.heat_outside;
                 return a_time(sum, exchange);
             }
             _ => {}
         }
-        let density = self.droplet.plan().fluid.density;
-        let totals = cache.totals.get_or_insert_with(|| self.droplet.totals(state));
+        let totals = cache.totals.get_or_insert_with(|| self.totals(state));
         match total {
             DropletTotal::Height => totals.height,
             DropletTotal::KineticEnergy => totals.kinetic_energy,
             DropletTotal::CompressionEnergy => totals.compression_energy,
-            DropletTotal::SurfaceEnergy => totals.surface_energy,
             DropletTotal::Mass => totals.mass,
             DropletTotal::Momentum(axis) => totals.momentum[axis],
-            DropletTotal::HeatStored => totals.heat,
-            DropletTotal::HeatDrift => totals.heat_drift,
+            DropletTotal::HeatStored => totals.heat - totals.heat_released,
+            DropletTotal::HeatDrift => totals.heat - totals.heat_released + totals.heat_to_wall,
             DropletTotal::MaxPressure => totals.max_pressure,
             DropletTotal::MaxSpeed => totals.max_speed,
-            DropletTotal::MinDensity => totals.density_range[0] * density,
-            DropletTotal::MaxDensity => totals.density_range[1] * density,
+            DropletTotal::MinDensity => totals.density_range[0] * self.rest.density,
+            DropletTotal::MaxDensity => totals.density_range[1] * self.rest.density,
+            DropletTotal::MinTemperature => totals.temperature_range[0],
+            DropletTotal::MaxTemperature => totals.temperature_range[1],
+            DropletTotal::Particles => self.copies * totals.particles,
             DropletTotal::Steps => totals.steps,
             DropletTotal::SpreadDiameter => totals.spread_diameter,
             DropletTotal::Heat => totals.heat_to_wall,
             DropletTotal::Impulse(axis) => totals.impulse_to_wall[axis],
-            DropletTotal::MinTemperature
-            | DropletTotal::MaxTemperature
-            | DropletTotal::Particles
-            | DropletTotal::HeatFlow
-            | DropletTotal::Force => unreachable!("returned above"),
+            DropletTotal::HeatFlow | DropletTotal::Force => unreachable!("returned above"),
         }
+    }
+
+    /// Sums over the fluid; before the first drop, extremes are those of the fluid at rest.
+    fn totals(&self, state: &[f64]) -> DropletTotals {
+        let totals = self.droplet.totals(state);
+        if totals.particles > 0.0 {
+            return totals;
+        }
+        let temperature_range = [self.rest.temperature; 2];
+        DropletTotals { max_pressure: 0.0, density_range: [1.0; 2], temperature_range, ..totals }
     }
 
     /// What a cell of the wall got, or all that lies beyond the cells.
@@ -199,16 +206,6 @@ impl DropletModel {
     fn exchange<'c>(&self, state: &[f64], cache: &'c mut DropletCache) -> &'c WallExchange {
         cache.exchange.get_or_insert_with(|| self.droplet.exchange(state))
     }
-
-    /// Lowest and highest temperature of a particle [K]; the initial one before the first drop.
-    fn temperatures(&self, state: &[f64], cache: &mut DropletCache) -> [f64; 2] {
-        *cache.temperatures.get_or_insert_with(|| {
-            let list = self.droplet.particles(state).temperature;
-            let range = |[low, high]: [f64; 2], &value: &f64| [low.min(value), high.max(value)];
-            let first = list.first().copied().unwrap_or(self.initial_temperature);
-            list.iter().fold([first; 2], range)
-        })
-    }
 }
 
 /// An amount of the last step as a mean rate; nothing before the first step.
@@ -240,10 +237,13 @@ pub fn plan_of(droplet: &Droplet, cells: Option<WallCells>) -> DropletPlan {
             sound_speed: droplet.sound_speed(),
         },
         placement: droplet.placement,
+        precision: droplet.precision,
+        density_diffusion: droplet.density_diffusion,
+        shifting: droplet.shifting,
         gravity: [0.0, 0.0, -droplet.gravity],
         mirrors: droplet.mirrors(),
         releases: releases.collect(),
-        wall: cells.map(|cells| sph::Wall { cells }),
+        wall: cells.map(|cells| sph::Wall { cells, contact_angle: fluid.contact_angle }),
     }
 }
 

@@ -1,5 +1,7 @@
 //! Droplets, the walls that make units of them and their couplings to solids.
 
+use std::f64::consts::FRAC_PI_2;
+
 use serde::{Deserialize, Serialize};
 
 use super::types::{CellValues, Footprint, Symmetry};
@@ -38,6 +40,14 @@ pub struct Droplet {
     /// Support radius of the kernel over the distance of particles.
     #[serde(default = "default_support")]
     pub support: f64,
+    #[serde(default)]
+    pub precision: Precision,
+    /// δ of the density diffusion.
+    #[serde(default = "default_density_diffusion")]
+    pub density_diffusion: f64,
+    /// Whether particles are moved from crowded places to empty ones.
+    #[serde(default = "yes")]
+    pub shifting: bool,
     /// A copy of the drop for each entry.
     #[serde(default = "one_arrival")]
     pub arrivals: Vec<Arrival>,
@@ -66,6 +76,9 @@ pub struct Fluid {
     /// [N/m]
     #[serde(default)]
     pub surface_tension: f64,
+    /// Angle of contact with the wall [rad]; matters with surface tension only.
+    #[serde(default = "right_angle")]
+    pub contact_angle: f64,
     /// Speed of sound of the model [m/s]; ten times the fastest flow if left out.
     pub sound_speed: Option<f64>,
 }
@@ -79,6 +92,16 @@ pub enum Placement {
     Lattice,
     /// At random with a smallest distance (Poisson disk).
     BlueNoise,
+}
+
+/// Precision of what is computed for a pair of particles; positions and sums over time are always
+/// double.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    #[default]
+    Single,
+    Double,
 }
 
 /// When and where a drop is released.
@@ -141,6 +164,14 @@ fn three() -> usize {
 
 fn default_support() -> f64 {
     3.0
+}
+
+fn default_density_diffusion() -> f64 {
+    0.1
+}
+
+fn right_angle() -> f64 {
+    FRAC_PI_2
 }
 
 fn one_arrival() -> Vec<Arrival> {

@@ -14,7 +14,9 @@ mod types;
 use std::fs;
 use std::path::Path;
 
-pub use droplet::{Arrival, Coupling, Droplet, DropletMethod, Fluid, Placement, Wall, WallStart};
+pub use droplet::{
+    Arrival, Coupling, Droplet, DropletMethod, Fluid, Placement, Precision, Wall, WallStart,
+};
 pub use error::{Problem, SceneError};
 pub use grid::Grid;
 pub use lookup::Place;

@@ -23,7 +23,6 @@ pub enum DropletTotal {
     Height,
     KineticEnergy,
     CompressionEnergy,
-    SurfaceEnergy,
     Mass,
     Momentum(usize),
     HeatStored,
@@ -127,11 +126,10 @@ impl DropletConstant {
 
 impl DropletTotal {
     /// Of any droplet.
-    const FREE: [DropletTotal; 18] = [
+    const FREE: [DropletTotal; 17] = [
         DropletTotal::Height,
         DropletTotal::KineticEnergy,
         DropletTotal::CompressionEnergy,
-        DropletTotal::SurfaceEnergy,
         DropletTotal::Mass,
         DropletTotal::Momentum(0),
         DropletTotal::Momentum(1),
@@ -163,7 +161,6 @@ impl DropletTotal {
             DropletTotal::Height => "height",
             DropletTotal::KineticEnergy => "kinetic_energy",
             DropletTotal::CompressionEnergy => "compression_energy",
-            DropletTotal::SurfaceEnergy => "surface_energy",
             DropletTotal::Mass => "mass",
             DropletTotal::Momentum(axis) => return format!("momentum_{}", AXES[axis]),
             DropletTotal::HeatStored => "heat_stored",
@@ -190,12 +187,11 @@ impl DropletTotal {
             DropletTotal::Height => "height of the highest particle above the wall",
             DropletTotal::KineticEnergy => "kinetic energy",
             DropletTotal::CompressionEnergy => "elastic energy of the weak compression",
-            DropletTotal::SurfaceEnergy => "energy of the free surface",
             DropletTotal::Mass => "mass released so far",
             DropletTotal::Momentum(axis) => return format!("momentum along {}", AXES[axis]),
-            DropletTotal::HeatStored => "heat content above the initial temperature",
+            DropletTotal::HeatStored => "heat gained since the release, negative when cooled",
             DropletTotal::HeatDrift => {
-                "heat that the conduction operator made, for which no pair of particles accounts"
+                "heat stored and given to the wall, together: zero but for rounding"
             }
             DropletTotal::MaxPressure => "highest pressure of a particle",
             DropletTotal::MaxSpeed => "highest speed of a particle",
@@ -223,7 +219,6 @@ impl DropletTotal {
             DropletTotal::Height | DropletTotal::SpreadDiameter => Quantity::Length,
             DropletTotal::KineticEnergy
             | DropletTotal::CompressionEnergy
-            | DropletTotal::SurfaceEnergy
             | DropletTotal::HeatStored
             | DropletTotal::HeatDrift
             | DropletTotal::Heat => Quantity::Energy,

@@ -1,14 +1,20 @@
 //! The droplet as a body.
 
+use std::f64::consts::PI;
+
+use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in, state_len};
 use super::failure::Failure;
-use super::plan::DropletPlan;
+use super::placement::place;
+use super::plan::{DropletPlan, Release};
+use super::stepper::{Method, Stepper};
+use super::units::{compression_energy, pressure};
 use super::wall::WallExchange;
 
 /// Droplets above a wall: everything known before time starts. What changes is a flat vector, whose
 /// length grows when a droplet is released.
 pub struct DropletSph {
     plan: DropletPlan,
-    threads: usize,
+    method: Method,
 }
 
 /// Sums over the fluid, images at mirrors included (a plane model: per metre of depth).
@@ -22,15 +28,14 @@ pub struct DropletTotals {
     pub kinetic_energy: f64,
     /// Elastic energy of the weak compression [J].
     pub compression_energy: f64,
-    /// Energy of the free surface [J], from the pair forces.
-    pub surface_energy: f64,
-    /// Heat content above the initial temperature of each droplet [J], negative when cooled.
+    /// Heat content above the temperature of the first droplet, now and when released [J].
     pub heat: f64,
+    pub heat_released: f64,
     /// Given to the wall since time zero [J] and [N s].
     pub heat_to_wall: f64,
     pub impulse_to_wall: [f64; 3],
-    /// Heat that the corrected operator made, for which no pair accounts [J].
-    pub heat_drift: f64,
+    /// Impulse of gravity since time zero [N s].
+    pub impulse_of_gravity: [f64; 3],
     /// Diameter of the circle round all fluid that is near the wall [m].
     pub spread_diameter: f64,
     /// Height of the highest particle above the wall [m].
@@ -39,8 +44,11 @@ pub struct DropletTotals {
     pub max_pressure: f64,
     /// Lowest and highest density over the density at rest.
     pub density_range: [f64; 2],
-    /// Time steps made since time zero.
+    /// Lowest and highest temperature [K].
+    pub temperature_range: [f64; 2],
+    /// Time steps made since time zero, and particles there are, images left out.
     pub steps: f64,
+    pub particles: f64,
 }
 
 /// The particles of a state, images at mirrors left out.
@@ -61,50 +69,198 @@ pub struct ParticleFields {
 }
 
 impl DropletSph {
+    /// `threads` = 0 is taken for 1.
     pub fn new(plan: DropletPlan, threads: usize) -> Self {
-        Self { plan, threads }
+        let method = Method::of(&plan, threads.max(1));
+        Self { plan, method }
     }
 
     pub fn plan(&self) -> &DropletPlan {
         &self.plan
     }
 
+    /// Time zero: what is released then, nothing else.
     pub fn initial_state(&self) -> Vec<f64> {
-        vec![self.threads as f64]
+        let ledger = Ledger { exchange: WallExchange::none(self.cells()), ..Ledger::default() };
+        let (mut ledger, mut cloud) = (ledger, Cloud::default());
+        self.release(&mut ledger, &mut cloud);
+        flatten(&ledger, &cloud)
     }
 
     /// Whether a vector may be a state of this model.
     pub fn accepts(&self, state: &[f64]) -> bool {
-        state.len() == 1
+        particles_in(state, self.cells()).is_some()
+            && state[..state_len(self.cells(), 0)].iter().all(|number| number.is_finite())
+            && ledger_of(state, self.cells()).released <= self.plan.releases.len()
     }
 
     /// Advances by `duration` [s] with as many time steps as stability asks, under a temperature of
     /// each wall cell [K], held. A failure leaves the state as it was.
     pub fn advance(
         &self,
-        _state: &mut Vec<f64>,
-        _wall_temperature: &[f64],
-        _duration: f64,
+        state: &mut Vec<f64>,
+        wall_temperature: &[f64],
+        duration: f64,
     ) -> Result<(), Failure> {
+        let (mut ledger, mut cloud) =
+            (ledger_of(state, self.cells()), cloud_of(state, self.cells()));
+        ledger.exchange = WallExchange::none(self.cells());
+        ledger.exchange.duration = duration;
+        let reference = self.reference_temperature();
+        let wall: Vec<f64> = wall_temperature.iter().map(|t| t - reference).collect();
+        let end = ledger.time + duration;
+        while ledger.time < end {
+            let next = self.plan.releases.get(ledger.released).map_or(end, |r| r.time.min(end));
+            let rest = next - ledger.time;
+            if rest > 0.0 {
+                Stepper::new(&self.method, &mut cloud, &mut ledger, &wall).advance(rest)?;
+            }
+            ledger.time = next;
+            self.release(&mut ledger, &mut cloud);
+        }
+        *state = flatten(&ledger, &cloud);
         Ok(())
     }
 
     /// What the wall got during the last step; nothing before the first.
-    pub fn exchange(&self, _state: &[f64]) -> WallExchange {
-        let cells = self.plan.wall.as_ref().map_or(0, |wall| wall.cells.len());
-        WallExchange::none(cells)
+    pub fn exchange(&self, state: &[f64]) -> WallExchange {
+        ledger_of(state, self.cells()).exchange
     }
 
-    pub fn totals(&self, _state: &[f64]) -> DropletTotals {
-        DropletTotals::default()
+    pub fn totals(&self, state: &[f64]) -> DropletTotals {
+        let (ledger, cloud) = (ledger_of(state, self.cells()), cloud_of(state, self.cells()));
+        totals(&self.plan, &self.method, &ledger, &cloud)
     }
 
-    pub fn particles(&self, _state: &[f64]) -> ParticleFields {
-        ParticleFields::default()
+    pub fn particles(&self, state: &[f64]) -> ParticleFields {
+        let cloud = cloud_of(state, self.cells());
+        let units = &self.method.units;
+        let reference = self.reference_temperature();
+        ParticleFields {
+            position: cloud.position.iter().map(|x| x.map(|x| x * units.length)).collect(),
+            velocity: cloud.velocity.iter().map(|v| v.map(|v| v * units.speed)).collect(),
+            mass: cloud.mass.iter().map(|m| m * units.mass()).collect(),
+            density: cloud.density.iter().map(|r| (1.0 + r) * units.density).collect(),
+            pressure: cloud.density.iter().map(|&r| pressure(r) * units.pressure()).collect(),
+            temperature: cloud.temperature.iter().map(|t| t + reference).collect(),
+        }
     }
 
-    /// Number of particles that the whole plan will have, and the time step at rest [s].
-    pub fn forecast(_plan: &DropletPlan) -> (usize, f64) {
-        (0, 0.0)
+    /// Number of particles that the whole plan will have, and its time step at the speed of the
+    /// fastest droplet [s].
+    pub fn forecast(plan: &DropletPlan) -> (usize, f64) {
+        let share: f64 = plan.mirrors.iter().map(|&m| if m { 0.5 } else { 1.0 }).product();
+        let volume = |diameter: f64| match plan.dimension {
+            2 => PI / 4.0 * diameter.powi(2),
+            _ => PI / 6.0 * diameter.powi(3),
+        };
+        let cell = plan.spacing.powi(plan.dimension as i32);
+        let particles =
+            plan.releases.iter().map(|r| share * volume(r.diameter) / cell).sum::<f64>();
+        let speed = |r: &Release| r.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let fastest = plan.releases.iter().map(speed).fold(0.0, f64::max);
+        let method = Method::of(plan, 1);
+        let gravity = plan.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
+        let units = &method.units;
+        let gravity = gravity * units.length / units.speed.powi(2);
+        let step = method.stable_step(fastest / units.speed, gravity) * units.time();
+        (particles.round() as usize, step)
     }
+
+    fn cells(&self) -> usize {
+        self.plan.wall.as_ref().map_or(0, |wall| wall.cells.len())
+    }
+
+    /// The zero of the model's temperatures [K].
+    fn reference_temperature(&self) -> f64 {
+        self.plan.releases.first().map_or(0.0, |release| release.temperature)
+    }
+
+    /// Adds all droplets whose time has come.
+    fn release(&self, ledger: &mut Ledger, cloud: &mut Cloud) {
+        let before = cloud.len();
+        while let Some(release) =
+            self.plan.releases.get(ledger.released).filter(|release| release.time <= ledger.time)
+        {
+            self.add(release, ledger, cloud);
+            ledger.released += 1;
+        }
+        if cloud.len() > before {
+            Stepper::new(&self.method, cloud, ledger, &vec![0.0; self.cells()]).prime();
+        }
+    }
+
+    fn add(&self, release: &Release, ledger: &mut Ledger, cloud: &mut Cloud) {
+        let plan = &self.plan;
+        let units = &self.method.units;
+        let points = place(plan.placement, release.diameter, plan.spacing, plan.dimension);
+        let volume = match plan.dimension {
+            2 => PI / 4.0 * release.diameter.powi(2),
+            _ => PI / 6.0 * release.diameter.powi(3),
+        };
+        let mass = plan.fluid.density * volume / units.mass();
+        let temperature = release.temperature - self.reference_temperature();
+        let images: f64 = plan.mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
+        for (point, share) in points {
+            let at = [0, 1, 2].map(|a| (release.centre[a] + point[a]) / units.length);
+            if (0..2).any(|a| plan.mirrors[a] && at[a] < 0.0) {
+                continue;
+            }
+            let velocity = release.velocity.map(|v| v / units.speed);
+            cloud.push(at, velocity, share * mass, temperature);
+            let heat = units.energy() / self.method.heat_unit;
+            ledger.heat_released += images * share * mass * heat * temperature;
+        }
+    }
+}
+
+/// Sums over the fluid.
+fn totals(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud) -> DropletTotals {
+    let units = &method.units;
+    let images: f64 = plan.mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
+    let heat_unit = units.energy() / method.heat_unit;
+    let mut totals = DropletTotals {
+        heat_to_wall: ledger.heat_to_wall,
+        impulse_to_wall: ledger.impulse_to_wall,
+        impulse_of_gravity: ledger.impulse_of_gravity,
+        heat_released: ledger.heat_released,
+        steps: ledger.steps,
+        particles: cloud.len() as f64,
+        density_range: [f64::INFINITY, f64::NEG_INFINITY],
+        temperature_range: [f64::INFINITY, f64::NEG_INFINITY],
+        max_pressure: f64::NEG_INFINITY,
+        ..DropletTotals::default()
+    };
+    let reference = plan.releases.first().map_or(0.0, |release| release.temperature);
+    for i in 0..cloud.len() {
+        let mass = images * cloud.mass[i];
+        let speed = cloud.velocity[i].iter().map(|v| v * v).sum::<f64>();
+        totals.mass += mass * units.mass();
+        for a in 0..3 {
+            let mirrored = a < 2 && plan.mirrors[a];
+            let share = if mirrored { 0.0 } else { mass };
+            totals.momentum[a] += share * cloud.velocity[i][a] * units.mass() * units.speed;
+        }
+        totals.kinetic_energy += 0.5 * mass * speed * units.energy();
+        totals.compression_energy += mass * compression_energy(cloud.density[i]) * units.energy();
+        totals.heat += mass * heat_unit * cloud.temperature[i];
+        totals.max_speed = totals.max_speed.max(speed.sqrt() * units.speed);
+        totals.max_pressure =
+            totals.max_pressure.max(pressure(cloud.density[i]) * units.pressure());
+        let [low, high] = totals.density_range;
+        let ratio = 1.0 + cloud.density[i];
+        totals.density_range = [low.min(ratio), high.max(ratio)];
+        let [low, high] = totals.temperature_range;
+        let temperature = cloud.temperature[i] + reference;
+        totals.temperature_range = [low.min(temperature), high.max(temperature)];
+    }
+    let half = 0.5 * plan.spacing;
+    // Lone particles that were flung away belong to no lamella.
+    let held = |i: &usize| cloud.fullness[*i] > 0.2;
+    let height = (0..cloud.len()).filter(held).map(|i| cloud.position[i][2]).fold(0.0, f64::max);
+    totals.height = if cloud.len() == 0 { 0.0 } else { height * units.length + half };
+    let near = (0..cloud.len()).filter(held).filter(|&i| cloud.position[i][2] < 1.0);
+    let radius = near.map(|i| cloud.position[i][0].hypot(cloud.position[i][1])).fold(0.0, f64::max);
+    totals.spread_diameter = if radius > 0.0 { 2.0 * (radius * units.length + half) } else { 0.0 };
+    totals
 }

@@ -7,10 +7,6 @@ pub enum Failure {
         "the fluid is compressed to {ratio:.3} of its density at rest at x = {:.3e}, y = {:.3e}, z = {:.3e} m, t = {time:.6e} s: the speed of sound is too low for this flow", .at[0], .at[1], .at[2]
     )]
     Density { ratio: f64, at: [f64; 3], time: f64 },
-    #[error(
-        "a particle left through the wall at x = {:.3e}, y = {:.3e} m, t = {time:.6e} s: the speed of sound or the resolution is too low for this impact", .at[0], .at[1]
-    )]
-    Escaped { at: [f64; 3], time: f64 },
     #[error("a particle's {quantity} is not finite at t = {time:.6e} s")]
     NotFinite { quantity: &'static str, time: f64 },
 }

@@ -3,12 +3,27 @@
 //! The wall is the plane z = 0, the fluid lies above it. A plane model (two dimensions) lives in
 //! x and z and counts everything per metre of depth along y.
 
+mod blue_noise;
+mod cloud;
+mod continuity;
 mod droplet;
 mod failure;
+pub mod lab;
+mod lanes;
+mod loops;
+mod momentum;
+mod neighbours;
+mod order;
+mod placement;
 mod plan;
+mod shifting;
+mod stepper;
+mod tension;
+mod units;
 mod wall;
 
 pub use droplet::{DropletSph, DropletTotals, ParticleFields};
 pub use failure::Failure;
-pub use plan::{DropletPlan, Fluid, Release, Wall};
+pub use loops::Precision;
+pub use plan::{DropletPlan, Fluid, Placement, Release, Wall};
 pub use wall::{WallCells, WallExchange, WallShare};

@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::loops::Precision;
 use super::wall::WallCells;
 use crate::kernel::Kernel;
-use crate::scene::Placement;
+pub use crate::scene::Placement;
 
 /// Droplets of one fluid above one wall.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,6 +19,12 @@ pub struct DropletPlan {
     pub kernel: Kernel,
     pub fluid: Fluid,
     pub placement: Placement,
+    /// Precision of pair interactions.
+    pub precision: Precision,
+    /// δ of the density diffusion, for a smoothing length H/2.
+    pub density_diffusion: f64,
+    /// Whether particles are moved from crowded places to empty ones.
+    pub shifting: bool,
     /// Body force a mass [m/s²].
     pub gravity: [f64; 3],
     /// The planes x = 0 and y = 0 mirror the model, which then holds only x ≥ 0 (y ≥ 0).
@@ -66,4 +73,6 @@ pub struct Release {
 pub struct Wall {
     /// Where temperatures come from and heat and impulse go to.
     pub cells: WallCells,
+    /// Contact angle of the fluid [rad].
+    pub contact_angle: f64,
 }

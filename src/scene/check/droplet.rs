@@ -58,6 +58,9 @@ fn fluid(checker: &mut Checker, path: &Path, fluid: &Fluid) {
         fluid.surface_tension,
         "the surface tension",
     );
+    let fine = (0.0..=PI).contains(&fluid.contact_angle);
+    let message = "the angle of contact is out of bounds";
+    checker.require(fine, &path.at("contact_angle"), message, "0 to 3.14159 (rad)");
     if let Some(speed) = fluid.sound_speed {
         checker.positive(&path.at("sound_speed"), speed, "the speed of sound");
     }
@@ -67,6 +70,9 @@ fn method(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let fine = droplet.dimension == 2 || droplet.dimension == 3;
     let allowed = "3, 2 (plane)";
     checker.require(fine, &path.at("dimension"), "no model of this dimension", allowed);
+    let fine = (0.0..=1.0).contains(&droplet.density_diffusion);
+    let message = "the density diffusion is out of bounds";
+    checker.require(fine, &path.at("density_diffusion"), message, "0 to 1");
     let fine = (2.0..=6.0).contains(&droplet.support);
     let message = "the support radius of the kernel is out of bounds";
     checker.require(

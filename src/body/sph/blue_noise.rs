@@ -1,0 +1,156 @@
+//! Random points with a smallest distance, as even as such points can be.
+
+use crate::kernel::Kernel;
+
+/// Distance of Poisson-disk points over the side of the volume that each has on average, in two and
+/// three dimensions, for the densest packing that this sampling reaches.
+const DENSITY: [f64; 2] = [0.81, 0.86];
+/// Attempts around a point before it is given up (Bridson 2007, doi 10.1145/1278780.1278807).
+const ATTEMPTS: usize = 30;
+
+/// Points inside a sphere about the origin and their shares of its volume, after their number
+/// density; it counts points beyond the surface, so that the surface is not taken for a void.
+pub fn place(radius: f64, spacing: f64, dimension: usize) -> Vec<([f64; 3], f64)> {
+    let least = DENSITY[dimension - 2] * spacing;
+    let support = 3.0 * spacing;
+    let all = sample(radius + support, least, dimension);
+    let grid = Grid::new(&all, support);
+    let squared = |p: &[f64; 3]| p.iter().map(|x| x * x).sum::<f64>();
+    let inside = all.iter().filter(|p| squared(p) < radius * radius);
+    let volume = |p: &[f64; 3]| {
+        let mut density = 0.0;
+        grid.near(*p, |j| {
+            let distance = (0..3).map(|a| (all[j][a] - p[a]).powi(2)).sum::<f64>().sqrt();
+            density += Kernel::WendlandC2.value(distance, support, dimension);
+        });
+        1.0 / density
+    };
+    let points: Vec<([f64; 3], f64)> = inside.map(|p| (*p, volume(p))).collect();
+    let sum: f64 = points.iter().map(|point| point.1).sum();
+    points.into_iter().map(|(point, volume)| (point, volume / sum)).collect()
+}
+
+/// Poisson-disk points in a ball, no two nearer than `least`.
+fn sample(radius: f64, least: f64, dimension: usize) -> Vec<[f64; 3]> {
+    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let mut points = vec![[0.0; 3]];
+    let mut grid = Grid { side: least, cells: Default::default() };
+    grid.insert([0.0; 3], 0);
+    let mut active = vec![0];
+    while !active.is_empty() {
+        let pick = random.below(active.len());
+        let centre: [f64; 3] = points[active[pick]];
+        let found = (0..ATTEMPTS).find_map(|_| {
+            let step = random.shell(least, dimension);
+            let candidate = [0, 1, 2].map(|a| centre[a] + step[a]);
+            let inside = candidate.iter().map(|x| x * x).sum::<f64>() < radius * radius;
+            let mut free = inside;
+            grid.near(candidate, |j| {
+                let d2: f64 = (0..3).map(|a| (points[j][a] - candidate[a]).powi(2)).sum();
+                free &= d2 >= least * least;
+            });
+            free.then_some(candidate)
+        });
+        match found {
+            Some(point) => {
+                active.push(points.len());
+                grid.insert(point, points.len());
+                points.push(point);
+            }
+            None => {
+                active.swap_remove(pick);
+            }
+        }
+    }
+    points
+}
+
+/// Points by cells of one side.
+struct Grid {
+    side: f64,
+    cells: std::collections::HashMap<[i64; 3], Vec<usize>>,
+}
+
+impl Grid {
+    fn new(points: &[[f64; 3]], side: f64) -> Self {
+        let mut grid = Self { side, cells: Default::default() };
+        points.iter().enumerate().for_each(|(i, point)| grid.insert(*point, i));
+        grid
+    }
+
+    fn cell(&self, point: [f64; 3]) -> [i64; 3] {
+        point.map(|x| (x / self.side).floor() as i64)
+    }
+
+    fn insert(&mut self, point: [f64; 3], index: usize) {
+        self.cells.entry(self.cell(point)).or_default().push(index);
+    }
+
+    /// Visits the points of the cells round a place, which hold all within one side.
+    fn near(&self, point: [f64; 3], mut visit: impl FnMut(usize)) {
+        let [i, j, k] = self.cell(point);
+        for cell in (0..27).map(|n| [i + n % 3 - 1, j + n / 3 % 3 - 1, k + n / 9 - 1]) {
+            self.cells.get(&cell).into_iter().flatten().for_each(|&index| visit(index));
+        }
+    }
+}
+
+/// SplitMix64 (Steele, Lea & Flood 2014, doi 10.1145/2714064.2660195): the same numbers everywhere.
+struct Random(u64);
+
+impl Random {
+    /// Uniform in [0, 1).
+    fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.number() * count as f64) as usize
+    }
+
+    /// A step with a length between `least` and twice that.
+    fn shell(&mut self, least: f64, dimension: usize) -> [f64; 3] {
+        loop {
+            let mut step = [0.0; 3].map(|_: f64| 2.0 * self.number() - 1.0);
+            if dimension == 2 {
+                step[1] = 0.0;
+            }
+            let length = step.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if (0.5..1.0).contains(&length) {
+                return step.map(|x| 2.0 * least * x);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    #[test]
+    fn there_is_about_one_point_in_each_cell_of_a_lattice() {
+        for (dimension, volume) in [(2, PI), (3, 4.0 * PI / 3.0)] {
+            let spacing = [0.02, 0.08][dimension - 2];
+            let points = place(1.0, spacing, dimension);
+            let filled = points.len() as f64 * spacing.powi(dimension as i32) / volume;
+            assert!((filled - 1.0).abs() < 0.05, "{dimension}-D: {filled}");
+        }
+    }
+
+    #[test]
+    fn no_two_points_are_too_near() {
+        let points = place(1.0, 0.15, 3);
+        for (i, (a, _)) in points.iter().enumerate() {
+            for (b, _) in &points[..i] {
+                let d2: f64 = (0..3).map(|n| (a[n] - b[n]).powi(2)).sum();
+                assert!(d2.sqrt() >= DENSITY[1] * 0.15 - 1e-12);
+            }
+        }
+    }
+}

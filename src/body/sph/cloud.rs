@@ -1,0 +1,222 @@
+//! The particles of a model and its ledger: all that changes, and how it lies in a flat vector.
+
+use super::wall::WallExchange;
+
+/// Particles, each list with an entry for each. Lengths over H, velocities over c₀, masses over
+/// ρ₀H^d.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Cloud {
+    pub position: Vec<[f64; 3]>,
+    pub velocity: Vec<[f64; 3]>,
+    pub mass: Vec<f64>,
+    /// ρ/ρ₀ − 1.
+    pub density: Vec<f64>,
+    /// Above the model's reference [K].
+    pub temperature: Vec<f64>,
+    /// Rate of the step before.
+    pub heating: Vec<f64>,
+    /// By fluid and by the wall.
+    pub acceleration: Vec<[[f64; 3]; 2]>,
+    /// Renormalised gradient of the density.
+    pub gradient: Vec<[f64; 3]>,
+    /// Smallest eigenvalue of the moment matrix: 1 inside, falling to 0 towards a free surface.
+    pub fullness: Vec<f64>,
+}
+
+/// Sums over time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ledger {
+    /// [s]
+    pub time: f64,
+    /// Droplets released so far.
+    pub released: usize,
+    /// Time steps made.
+    pub steps: f64,
+    /// Heat released with the droplets, above the reference [J].
+    pub heat_released: f64,
+    /// Given to the wall since time zero [J], [N s].
+    pub heat_to_wall: f64,
+    pub impulse_to_wall: [f64; 3],
+    /// Impulse of gravity and of mirrors since time zero [N s].
+    pub impulse_of_gravity: [f64; 3],
+    /// What the wall got during the last step.
+    pub exchange: WallExchange,
+}
+
+/// Numbers of a particle in a flat vector.
+const NUMBERS: usize = 20;
+/// Numbers of the ledger before those of its cells.
+const HEAD: usize = 16;
+
+impl Cloud {
+    pub fn len(&self) -> usize {
+        self.mass.len()
+    }
+
+    /// Volume of a particle over H^d.
+    #[inline]
+    pub fn volume(&self, i: usize) -> f64 {
+        self.mass[i] / (1.0 + self.density[i])
+    }
+
+    /// Adds a particle at rest density.
+    pub fn push(&mut self, position: [f64; 3], velocity: [f64; 3], mass: f64, temperature: f64) {
+        self.position.push(position);
+        self.velocity.push(velocity);
+        self.mass.push(mass);
+        self.density.push(0.0);
+        self.temperature.push(temperature);
+        self.heating.push(0.0);
+        self.acceleration.push([[0.0; 3]; 2]);
+        self.gradient.push([0.0; 3]);
+        self.fullness.push(1.0);
+    }
+
+    /// Puts the particles into another order.
+    pub fn permute(&mut self, order: &[u32]) {
+        fn permuted<T: Copy>(list: &mut Vec<T>, order: &[u32]) {
+            *list = order.iter().map(|&i| list[i as usize]).collect();
+        }
+        permuted(&mut self.position, order);
+        permuted(&mut self.velocity, order);
+        permuted(&mut self.mass, order);
+        permuted(&mut self.density, order);
+        permuted(&mut self.temperature, order);
+        permuted(&mut self.heating, order);
+        permuted(&mut self.acceleration, order);
+        permuted(&mut self.gradient, order);
+        permuted(&mut self.fullness, order);
+    }
+
+    fn numbers(&self, i: usize) -> [f64; NUMBERS] {
+        let ([x, y, z], [u, v, w]) = (self.position[i], self.velocity[i]);
+        let [[a, b, c], [d, e, f]] = self.acceleration[i];
+        let [g, h, k] = self.gradient[i];
+        [
+            x,
+            y,
+            z,
+            u,
+            v,
+            w,
+            self.mass[i],
+            self.density[i],
+            self.temperature[i],
+            self.heating[i],
+            a,
+            b,
+            c,
+            d,
+            e,
+            f,
+            g,
+            h,
+            k,
+            self.fullness[i],
+        ]
+    }
+
+    fn take(&mut self, n: &[f64; NUMBERS]) {
+        self.push([n[0], n[1], n[2]], [n[3], n[4], n[5]], n[6], n[8]);
+        let i = self.len() - 1;
+        self.density[i] = n[7];
+        self.heating[i] = n[9];
+        self.acceleration[i] = [[n[10], n[11], n[12]], [n[13], n[14], n[15]]];
+        self.gradient[i] = [n[16], n[17], n[18]];
+        self.fullness[i] = n[19];
+    }
+}
+
+/// Length of the state of a number of particles above a wall of some cells.
+pub fn state_len(cells: usize, particles: usize) -> usize {
+    HEAD + 4 * cells + NUMBERS * particles
+}
+
+/// Number of particles of a state; nothing if its length fits none.
+pub fn particles_in(state: &[f64], cells: usize) -> Option<usize> {
+    let rest = state.len().checked_sub(state_len(cells, 0))?;
+    (rest % NUMBERS == 0).then_some(rest / NUMBERS)
+}
+
+/// Writes ledger and particles into a flat vector.
+pub fn flatten(ledger: &Ledger, cloud: &Cloud) -> Vec<f64> {
+    let exchange = &ledger.exchange;
+    let mut state = Vec::with_capacity(state_len(exchange.heat.len(), cloud.len()));
+    state.extend([ledger.time, ledger.released as f64, ledger.steps]);
+    state.extend([ledger.heat_released, ledger.heat_to_wall]);
+    state.extend(ledger.impulse_to_wall);
+    state.extend(ledger.impulse_of_gravity);
+    state.extend([exchange.duration, exchange.heat_outside]);
+    state.extend(exchange.impulse_outside);
+    state.extend(&exchange.heat);
+    state.extend(exchange.impulse.iter().flatten());
+    (0..cloud.len()).for_each(|i| state.extend(cloud.numbers(i)));
+    state
+}
+
+/// Reads the ledger of a state.
+pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
+    let three = |at: usize| [state[at], state[at + 1], state[at + 2]];
+    let (heat, impulse) = (HEAD, HEAD + cells);
+    Ledger {
+        time: state[0],
+        released: state[1] as usize,
+        steps: state[2],
+        heat_released: state[3],
+        heat_to_wall: state[4],
+        impulse_to_wall: three(5),
+        impulse_of_gravity: three(8),
+        exchange: WallExchange {
+            duration: state[11],
+            heat_outside: state[12],
+            impulse_outside: three(13),
+            heat: state[heat..impulse].to_vec(),
+            impulse: (0..cells).map(|cell| three(impulse + 3 * cell)).collect(),
+        },
+    }
+}
+
+/// Reads the particles of a state.
+pub fn cloud_of(state: &[f64], cells: usize) -> Cloud {
+    let mut cloud = Cloud::default();
+    state[state_len(cells, 0)..].as_chunks().0.iter().for_each(|numbers| cloud.take(numbers));
+    cloud
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_state_is_read_as_it_was_written() {
+        let mut cloud = Cloud::default();
+        for i in 0..5 {
+            let x = f64::from(i);
+            cloud.push([x, 1.0 + x, 2.0], [3.0, 4.0, x], 0.1 * x, 300.0 + x);
+            let last = cloud.len() - 1;
+            cloud.density[last] = 0.01 * x;
+            cloud.heating[last] = -x;
+            cloud.acceleration[last] = [[x, 1.0, 2.0], [3.0, x, 4.0]];
+            cloud.gradient[last] = [0.5, x, 0.25];
+            cloud.fullness[last] = 0.2 * x;
+        }
+        let mut exchange = WallExchange::none(3);
+        exchange.heat[1] = 7.0;
+        exchange.impulse[2] = [1.0, 2.0, 3.0];
+        exchange.duration = 0.5;
+        let ledger = Ledger {
+            time: 1.5,
+            released: 2,
+            impulse_to_wall: [1.0, 2.0, 3.0],
+            impulse_of_gravity: [4.0, 5.0, 6.0],
+            exchange,
+            ..Ledger::default()
+        };
+        let state = flatten(&ledger, &cloud);
+        assert_eq!(state.len(), state_len(3, 5));
+        assert_eq!(particles_in(&state, 3), Some(5));
+        assert_eq!(ledger_of(&state, 3), ledger);
+        assert_eq!(cloud_of(&state, 3), cloud);
+        assert_eq!(particles_in(&state[1..], 3), None);
+    }
+}

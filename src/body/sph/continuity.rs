@@ -1,0 +1,196 @@
+//! Rates of density and temperature, and gradients of density, at the middle of a step.
+
+use super::lanes::{Lanes, lanes};
+use super::loops::{Local, PairSum};
+use super::neighbours::{Block, Source};
+use crate::kernel::Shape;
+
+/// Continuity with density diffusion (δ-SPH), and conduction.
+///
+/// With lengths over H, velocities over c₀, r = ρ/ρ₀ − 1 and F = w′(q)/q of the kernel,
+///
+/// `dr_i/dt = (1 + r_i) Σ V_j F u_ij·x_ij + δ/2 · Σ 2 V_j (−F) [r_j − r_i + ½ (g_i + g_j)·x_ij]`,
+/// `(1 + r_i) dT_i/dt = 2 κ Σ V_j F (T_i − T_j)`,
+///
+/// with δ for a smoothing length H/2 and `g_i = B_i Σ V_j F (r_j − r_i) x_ij`,
+/// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. Images at the wall slip in the first
+/// equation; in the second they are as much colder than the wall as their original is hotter.
+///
+/// Sources: Antuono, Colagrossi & Marrone (2012), Comput. Phys. Commun. 183, 2570–2580, doi
+/// 10.1016/j.cpc.2012.07.006; Cleary & Monaghan (1999), J. Comput. Phys. 148, 227–264, doi
+/// 10.1006/jcph.1998.6118.
+pub struct Continuity<'a> {
+    /// Position, velocity, volume and r of every particle.
+    pub records: &'a [[f64; 8]],
+    /// g and temperature of every particle.
+    pub annexes: &'a [[f64; 4]],
+    /// Temperature of the wall below every particle.
+    pub wall_temperature: &'a [f64],
+    /// σ of the kernel.
+    pub normalisation: f64,
+    /// δ.
+    pub diffusion: f64,
+    /// κ = k/(ρ₀ c c₀ H).
+    pub conduction: f64,
+}
+
+/// Sums for one particle, their factors included.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ContinuityRates {
+    /// dr/dt.
+    pub density: f64,
+    /// dT/dt by fluid and by the wall.
+    pub temperature: [f64; 2],
+    /// −Σ V F x ⊗ x: xx, yy, zz, xy, yz, xz.
+    pub moment: [f64; 6],
+    /// Σ V_j F (r_j − r_i) x_ij.
+    pub gradient: [f64; 3],
+}
+
+impl PairSum for Continuity<'_> {
+    type Output = ContinuityRates;
+    const ANNEX: bool = true;
+
+    #[inline(always)]
+    fn record(&self, source: Source) -> [f64; 8] {
+        let [x, y, z] = signs(source.image());
+        let signs = [x, y, z, x, y, z, 1.0, 1.0];
+        let mut record = self.records[source.particle()];
+        for n in 0..8 {
+            record[n] *= signs[n];
+        }
+        record
+    }
+
+    #[inline(always)]
+    fn annex(&self, source: Source) -> [f64; 4] {
+        let [x, y, z] = signs(source.image());
+        let annex = self.annexes[source.particle()];
+        [x * annex[0], y * annex[1], z * annex[2], annex[3]]
+    }
+
+    #[inline(always)]
+    fn sum<L: Lanes, S: Shape>(
+        &self,
+        block: &Block,
+        k: usize,
+        local: &Local<L::Real>,
+    ) -> ContinuityRates {
+        let own = &self.records[block.first + k];
+        let annex = &self.annexes[block.first + k];
+        let here = Here {
+            position: lanes([
+                own[0] - block.centre[0],
+                own[1] - block.centre[1],
+                own[2] - block.centre[2],
+            ]),
+            velocity: lanes([own[3], own[4], own[5]]),
+            density: L::constant(own[7]),
+            gradient: lanes([annex[0], annex[1], annex[2]]),
+            temperature: L::constant(annex[3]),
+        };
+        let [fluid, wall] = block.neighbours(k);
+        let mut sums = Sums::zero();
+        for places in fluid {
+            sums.add::<S>(
+                &here,
+                L::gather(&local.records, places),
+                L::gather_annex(&local.annexes, places),
+                L::constant(1.0),
+            );
+        }
+        let by_fluid = sums.temperature.sum();
+        if !wall.is_empty() {
+            sums.temperature = L::constant(0.0);
+            let twice_wall = 2.0 * self.wall_temperature[block.first + k];
+            let here = Here { temperature: L::constant(annex[3] - twice_wall), ..here };
+            for places in wall {
+                sums.add::<S>(
+                    &here,
+                    L::gather(&local.records, places),
+                    L::gather_annex(&local.annexes, places),
+                    L::constant(-1.0),
+                );
+            }
+        }
+        let by_wall = if wall.is_empty() { L::Real::default() } else { sums.temperature.sum() };
+        let scale = self.normalisation;
+        let heating = 2.0 * self.conduction * scale / (1.0 + own[7]);
+        let mut moment = [0.0; 6];
+        for n in 0..6 {
+            moment[n] = -scale * sums.moment[n].sum().into();
+        }
+        let mut gradient = [0.0; 3];
+        for a in 0..3 {
+            gradient[a] = scale * sums.gradient[a].sum().into();
+        }
+        ContinuityRates {
+            density: scale * (1.0 + own[7]) * sums.divergence.sum().into()
+                - scale * self.diffusion * sums.diffusion.sum().into(),
+            temperature: [heating * by_fluid.into(), heating * by_wall.into()],
+            moment,
+            gradient,
+        }
+    }
+}
+
+/// −1 along axes that an image turns round.
+#[inline(always)]
+pub fn signs(image: u8) -> [f64; 3] {
+    [1.0 - f64::from(image << 1 & 2), 1.0 - f64::from(image & 2), 1.0 - f64::from(image >> 1 & 2)]
+}
+
+/// The particle whose neighbours are summed, in all lanes.
+struct Here<L> {
+    position: [L; 3],
+    velocity: [L; 3],
+    density: L,
+    gradient: [L; 3],
+    temperature: L,
+}
+
+struct Sums<L> {
+    divergence: L,
+    diffusion: L,
+    temperature: L,
+    moment: [L; 6],
+    gradient: [L; 3],
+}
+
+impl<L: Lanes> Sums<L> {
+    #[inline(always)]
+    fn zero() -> Self {
+        let zero = L::constant(0.0);
+        Self {
+            divergence: zero,
+            diffusion: zero,
+            temperature: zero,
+            moment: [zero; 6],
+            gradient: [zero; 3],
+        }
+    }
+
+    /// Adds sixteen neighbours; `image` is −1 where their temperature is to be turned round.
+    #[inline(always)]
+    fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8], annex: [L; 4], image: L) {
+        let [x, y, z, vx, vy, vz, volume, density] = neighbour;
+        let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
+        let u = [here.velocity[0] - vx, here.velocity[1] - vy, here.velocity[2] - vz];
+        let slope = volume * S::slope_over_q((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt());
+        let e = [slope * d[0], slope * d[1], slope * d[2]];
+        self.divergence = self.divergence + (u[0] * e[0] + u[1] * e[1] + u[2] * e[2]);
+        let along = (here.gradient[0] + annex[0]) * e[0]
+            + (here.gradient[1] + annex[1]) * e[1]
+            + (here.gradient[2] + annex[2]) * e[2];
+        let jump = density - here.density;
+        self.diffusion = self.diffusion + (jump * slope + L::constant(0.5) * along);
+        self.temperature = self.temperature + slope * (here.temperature - image * annex[3]);
+        for n in 0..6 {
+            let (a, b) = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)][n];
+            self.moment[n] = self.moment[n] + e[a] * d[b];
+        }
+        for a in 0..3 {
+            self.gradient[a] = self.gradient[a] + jump * e[a];
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! Loops over pairs of particles: blocks over threads, neighbours over the lanes of a vector.
+
+pub use crate::scene::Precision;
+use num_traits::Float;
+
+use super::lanes::{Annex, Array, Lanes, Record};
+use super::neighbours::{Block, Source};
+use crate::kernel::{Kernel, Shape};
+use crate::math::parallel;
+use crate::with_kernel_shape;
+
+/// Blocks that share one local copy's memory.
+const GROUP: usize = 4;
+
+/// Something to compute for every particle from its neighbours.
+pub trait PairSum: Sync {
+    /// What comes out for one particle.
+    type Output: Send;
+
+    /// The numbers of a source that all loops read, its image already taken: position first.
+    fn record(&self, source: Source) -> [f64; 8];
+
+    /// Further numbers, where [`Self::ANNEX`].
+    fn annex(&self, _source: Source) -> [f64; 4] {
+        [0.0; 4]
+    }
+
+    const ANNEX: bool = false;
+
+    /// Sums over the neighbours of the k-th particle of a block.
+    fn sum<L: Lanes, S: Shape>(
+        &self,
+        block: &Block,
+        k: usize,
+        local: &Local<L::Real>,
+    ) -> Self::Output;
+}
+
+/// Copy of what surrounds a block, about its centre. Place 0 holds nothing, far away.
+#[derive(Debug, Default)]
+pub struct Local<R> {
+    pub records: Vec<Record<R>>,
+    pub annexes: Vec<Annex<R>>,
+}
+
+impl<R: Float + Default> Local<R> {
+    #[inline(always)]
+    fn fill<P: PairSum>(&mut self, pass: &P, block: &Block) {
+        let single = |value: f64| R::from(value).expect("every number has a nearest one");
+        let far = single(1e3);
+        let [x, y, z] = block.centre;
+        let centre = [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0];
+        self.records.clear();
+        self.records.push([far, far, far, R::zero(), R::zero(), R::zero(), R::zero(), R::zero()]);
+        self.records.extend(block.sources.iter().map(|&source| {
+            let record = pass.record(source);
+            let mut local = [R::zero(); 8];
+            for n in 0..8 {
+                local[n] = single(record[n] - centre[n]);
+            }
+            local
+        }));
+        if P::ANNEX {
+            self.annexes.clear();
+            self.annexes.push([R::zero(); 4]);
+            self.annexes.extend(block.sources.iter().map(|&s| pass.annex(s).map(single)));
+        }
+    }
+}
+
+/// Computes a sum for all particles, in their order.
+pub fn for_all<P: PairSum>(
+    pass: &P,
+    blocks: &[Block],
+    kernel: Kernel,
+    precision: Precision,
+    threads: usize,
+) -> Vec<P::Output> {
+    let groups: Vec<&[Block]> = blocks.chunks(GROUP).collect();
+    let group =
+        |g: usize| with_kernel_shape!(kernel, S => dispatch::<P, S>(pass, groups[g], precision));
+    let results = parallel::map(threads, groups.len(), group);
+    let mut all = Vec::with_capacity(blocks.iter().map(|block| block.count).sum());
+    results.into_iter().for_each(|part| all.extend(part));
+    all
+}
+
+/// Takes the widest instructions that the processor has.
+fn dispatch<P: PairSum, S: Shape>(
+    pass: &P,
+    blocks: &[Block],
+    precision: Precision,
+) -> Vec<P::Output> {
+    if precision == Precision::Double {
+        return over_blocks::<P, Array<f64>, S>(pass, blocks);
+    }
+    #[cfg(target_arch = "x86_64")]
+    {
+        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
+            // SAFETY: the processor has what the function asks for.
+            return unsafe { over_blocks_avx512::<P, S>(pass, blocks) };
+        }
+        if is_x86_feature_detected!("avx2") {
+            // SAFETY: as above.
+            return unsafe { over_blocks_avx2::<P, S>(pass, blocks) };
+        }
+    }
+    over_blocks::<P, Array<f32>, S>(pass, blocks)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512vl")]
+fn over_blocks_avx512<P: PairSum, S: Shape>(pass: &P, blocks: &[Block]) -> Vec<P::Output> {
+    over_blocks::<P, super::lanes::Avx512, S>(pass, blocks)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn over_blocks_avx2<P: PairSum, S: Shape>(pass: &P, blocks: &[Block]) -> Vec<P::Output> {
+    over_blocks::<P, Array<f32>, S>(pass, blocks)
+}
+
+#[inline(always)]
+fn over_blocks<P: PairSum, L: Lanes, S: Shape>(pass: &P, blocks: &[Block]) -> Vec<P::Output> {
+    let mut local = Local::<L::Real>::default();
+    let mut all = Vec::with_capacity(blocks.iter().map(|block| block.count).sum());
+    for block in blocks {
+        local.fill(pass, block);
+        for k in 0..block.count {
+            all.push(pass.sum::<L, S>(block, k, &local));
+        }
+    }
+    all
+}

@@ -1,0 +1,168 @@
+//! Particles in an order in which near ones stand together: blocks of a balanced k-d tree.
+
+/// Particles in a block; the last block may have fewer.
+pub const BLOCK: usize = 64;
+
+/// Corners of a box along x, y, z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    pub low: [f64; 3],
+    pub high: [f64; 3],
+}
+
+/// A tree over blocks of particles that stand in its order.
+#[derive(Debug, Clone, Default)]
+pub struct BlockTree {
+    nodes: Vec<Node>,
+}
+
+#[derive(Debug, Clone)]
+struct Node {
+    bounds: Bounds,
+    /// Indices of the two parts, or the block of a leaf.
+    parts: Parts,
+}
+
+#[derive(Debug, Clone)]
+enum Parts {
+    Two([usize; 2]),
+    Block(usize),
+}
+
+impl Bounds {
+    /// The smallest box round some points; nothing lies in the box of none.
+    pub fn of(points: impl Iterator<Item = [f64; 3]>) -> Self {
+        let none = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
+        points.fold(none, |bounds, point| Self {
+            low: [0, 1, 2].map(|a| bounds.low[a].min(point[a])),
+            high: [0, 1, 2].map(|a| bounds.high[a].max(point[a])),
+        })
+    }
+
+    pub fn joined(&self, other: &Self) -> Self {
+        Self {
+            low: [0, 1, 2].map(|a| self.low[a].min(other.low[a])),
+            high: [0, 1, 2].map(|a| self.high[a].max(other.high[a])),
+        }
+    }
+
+    /// The image at the mirrors x = 0, y = 0, z = 0 (bits 1, 2, 4).
+    pub fn mirrored(&self, image: u8) -> Self {
+        let turned = |a: usize| image >> a & 1 == 1;
+        Self {
+            low: [0, 1, 2].map(|a| if turned(a) { -self.high[a] } else { self.low[a] }),
+            high: [0, 1, 2].map(|a| if turned(a) { -self.low[a] } else { self.high[a] }),
+        }
+    }
+
+    pub fn centre(&self) -> [f64; 3] {
+        [0, 1, 2].map(|a| 0.5 * (self.low[a] + self.high[a]))
+    }
+
+    /// Square of the distance to a point, 0 inside.
+    pub fn distance_squared(&self, point: [f64; 3]) -> f64 {
+        let gap = |a: usize| (self.low[a] - point[a]).max(point[a] - self.high[a]).max(0.0);
+        (0..3).map(|a| gap(a) * gap(a)).sum()
+    }
+
+    fn gap_squared(&self, other: &Self) -> f64 {
+        let gap = |a: usize| (self.low[a] - other.high[a]).max(other.low[a] - self.high[a]);
+        (0..3).map(|a| gap(a).max(0.0).powi(2)).sum()
+    }
+}
+
+/// The order that puts `points` into blocks, and the tree over the blocks.
+pub fn space_order(points: &[[f64; 3]]) -> (Vec<u32>, BlockTree) {
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    let mut tree = BlockTree::default();
+    if !points.is_empty() {
+        tree.grow(points, &mut order, 0);
+    }
+    (order, tree)
+}
+
+impl BlockTree {
+    /// Adds the part of the tree for some of the points, which it puts in order; its node's index.
+    fn grow(&mut self, points: &[[f64; 3]], order: &mut [u32], first_block: usize) -> usize {
+        let bounds = Bounds::of(order.iter().map(|&i| points[i as usize]));
+        let node = self.nodes.len();
+        self.nodes.push(Node { bounds, parts: Parts::Block(first_block) });
+        if order.len() > BLOCK {
+            let blocks = order.len().div_ceil(BLOCK);
+            let left = blocks / 2;
+            let extent = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
+            let axis = (1..3).fold(0, |best, a| if extent[a] > extent[best] { a } else { best });
+            let place = |&i: &u32| points[i as usize][axis];
+            // Ties are broken by the index, so that equal points have one order.
+            order.select_nth_unstable_by(left * BLOCK, |a, b| {
+                place(a).total_cmp(&place(b)).then(a.cmp(b))
+            });
+            let (low, high) = order.split_at_mut(left * BLOCK);
+            let parts =
+                [self.grow(points, low, first_block), self.grow(points, high, first_block + left)];
+            self.nodes[node].parts = Parts::Two(parts);
+        }
+        node
+    }
+
+    /// Blocks whose box, mirrored, comes nearer to `bounds` than `reach`, in their order.
+    pub fn near(&self, bounds: &Bounds, image: u8, reach: f64, found: &mut Vec<usize>) {
+        if !self.nodes.is_empty() {
+            // The mirror keeps distances, so it may be applied to what is searched for.
+            self.search(0, &bounds.mirrored(image), reach * reach, found);
+        }
+    }
+
+    fn search(&self, node: usize, bounds: &Bounds, reach_squared: f64, found: &mut Vec<usize>) {
+        let node = &self.nodes[node];
+        if node.bounds.gap_squared(bounds) > reach_squared {
+            return;
+        }
+        match node.parts {
+            Parts::Block(block) => found.push(block),
+            Parts::Two(parts) => {
+                parts.into_iter().for_each(|part| self.search(part, bounds, reach_squared, found));
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn points(count: usize) -> Vec<[f64; 3]> {
+        let number = |i: usize| (i as f64 * 0.754877666).fract();
+        (0..count).map(|i| [number(i), number(7 * i + 3), 0.3 * number(13 * i + 5)]).collect()
+    }
+
+    #[test]
+    fn every_point_stands_in_one_block() {
+        for count in [0, 1, 64, 65, 1000] {
+            let (mut order, _) = space_order(&points(count));
+            order.sort_unstable();
+            assert_eq!(order, (0..count as u32).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn the_search_finds_the_blocks_that_a_loop_over_all_finds() {
+        let points = points(2000);
+        let (order, tree) = space_order(&points);
+        let block = |b: usize| {
+            let range = b * BLOCK..((b + 1) * BLOCK).min(order.len());
+            Bounds::of(order[range].iter().map(|&i| points[i as usize]))
+        };
+        let blocks = order.len().div_ceil(BLOCK);
+        for image in [0, 1, 6] {
+            for b in 0..blocks {
+                let mut found = Vec::new();
+                tree.near(&block(b), image, 0.15, &mut found);
+                let all: Vec<usize> = (0..blocks)
+                    .filter(|&c| block(c).mirrored(image).gap_squared(&block(b)) <= 0.15 * 0.15)
+                    .collect();
+                assert_eq!(found, all);
+            }
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Where the particles of a round droplet stand at first.
+
+use super::plan::Placement;
+
+/// Points inside a sphere (a circle in x and z in two dimensions) about the origin, about one in a
+/// volume `spacing`^d, and their shares of its volume.
+///
+/// On the lattice every point has the same share. Points at random have shares after their number
+/// density, so that crowded ones are lighter: `m_i ∝ 1/Σ_j W_ij` (Park 2021, eq. 2.106), with the sum
+/// taken over points beyond the surface too.
+pub fn place(
+    placement: Placement,
+    diameter: f64,
+    spacing: f64,
+    dimension: usize,
+) -> Vec<([f64; 3], f64)> {
+    let radius = 0.5 * diameter;
+    let inside = |p: &[f64; 3]| p.iter().map(|x| x * x).sum::<f64>() < radius * radius;
+    match placement {
+        Placement::Lattice => {
+            let points: Vec<_> = lattice(radius, spacing, dimension).filter(inside).collect();
+            let share = 1.0 / points.len() as f64;
+            points.into_iter().map(|point| (point, share)).collect()
+        }
+        Placement::BlueNoise => super::blue_noise::place(radius, spacing, dimension),
+    }
+}
+
+/// Points of a cubic lattice that has the origin in the middle of a cell.
+fn lattice(radius: f64, spacing: f64, dimension: usize) -> impl Iterator<Item = [f64; 3]> {
+    let half = (radius / spacing).ceil() as i64;
+    let at = move |i: i64| (i as f64 + 0.5) * spacing;
+    let rows = if dimension == 2 { 0..1 } else { -half..half };
+    (-half..half).flat_map(move |k| {
+        rows.clone().flat_map(move |j| {
+            let y = if dimension == 2 { 0.0 } else { at(j) };
+            (-half..half).map(move |i| [at(i), y, at(k)])
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use super::*;
+
+    #[test]
+    fn a_lattice_fills_the_droplet() {
+        for (dimension, volume) in [(2, PI / 4.0), (3, PI / 6.0)] {
+            let points = place(Placement::Lattice, 1.0, 0.02, dimension);
+            let filled = points.len() as f64 * 0.02f64.powi(dimension as i32);
+            assert!((filled / volume - 1.0).abs() < 0.01, "{dimension}-D: {filled}");
+            let shares: f64 = points.iter().map(|point| point.1).sum();
+            assert!((shares - 1.0).abs() < 1e-12);
+            let moment: f64 = points.iter().map(|point| point.0[0]).sum();
+            assert!(moment.abs() < 1e-9);
+        }
+    }
+}

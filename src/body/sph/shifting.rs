@@ -1,0 +1,121 @@
+//! Particles are moved a little from crowded places to empty ones.
+
+use super::continuity::signs;
+use super::lanes::{Lanes, lanes};
+use super::loops::{Local, PairSum};
+use super::neighbours::{Block, Source};
+use crate::kernel::Shape;
+
+/// Weight of the term that acts against pairs (Monaghan 2000), and its power.
+const PAIRING: f64 = 0.2;
+/// Particles fuller than this lie inside the fluid.
+pub const INSIDE: f64 = 0.75;
+
+/// Gradient of the concentration of particles, and where the free surface lies.
+///
+/// `∇C_i = Σ V_j [1 + 0.2 (w(q)/w(q₀))⁴] F x_ij`, with q₀ the distance of particles over H;
+/// the normal follows the gradient of the smallest eigenvalue λ of the moment matrix.
+///
+/// Sources: Sun, Colagrossi, Marrone & Zhang (2017), Comput. Methods Appl. Mech. Eng. 315, 25–49, doi
+/// 10.1016/j.cma.2016.10.028; Marrone, Colagrossi, Le Touzé & Graziani (2010), J. Comput. Phys. 229,
+/// 3652–3663, doi 10.1016/j.jcp.2010.01.019.
+pub struct Crowding<'a> {
+    /// Position, 0, 0, 0, volume and λ of every particle.
+    pub records: &'a [[f64; 8]],
+    /// σ of the kernel.
+    pub normalisation: f64,
+    /// 1/w(q₀).
+    pub reference: f64,
+}
+
+/// What tells how to move a particle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CrowdingSums {
+    pub gradient: [f64; 3],
+    /// Σ V_j (λ_j − λ_i) F x_ij.
+    pub normal: [f64; 3],
+    /// Concentration of neighbours that lie at a free surface.
+    pub surface: f64,
+}
+
+impl PairSum for Crowding<'_> {
+    type Output = CrowdingSums;
+
+    #[inline(always)]
+    fn record(&self, source: Source) -> [f64; 8] {
+        let [x, y, z] = signs(source.image());
+        let mut record = self.records[source.particle()];
+        record[0] *= x;
+        record[1] *= y;
+        record[2] *= z;
+        record
+    }
+
+    #[inline(always)]
+    fn sum<L: Lanes, S: Shape>(
+        &self,
+        block: &Block,
+        k: usize,
+        local: &Local<L::Real>,
+    ) -> CrowdingSums {
+        let own = &self.records[block.first + k];
+        let at: [L; 3] =
+            lanes([own[0] - block.centre[0], own[1] - block.centre[1], own[2] - block.centre[2]]);
+        let fullness = L::constant(own[7]);
+        let mut gradient = [L::constant(0.0); 3];
+        let mut normal = [L::constant(0.0); 3];
+        let mut surface = L::constant(0.0);
+        for places in block.neighbours(k).into_iter().flatten() {
+            let [x, y, z, _, _, _, volume, theirs] = L::gather(&local.records, places);
+            let d = [at[0] - x, at[1] - y, at[2] - z];
+            let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+            let value = volume * S::value(q);
+            let slope = volume * S::slope_over_q(q);
+            let ratio = S::value(q) * L::constant(self.reference);
+            let square = ratio * ratio;
+            let pull = slope * (L::constant(1.0) + L::constant(PAIRING) * square * square);
+            let rise = slope * (theirs - fullness);
+            for a in 0..3 {
+                gradient[a] = gradient[a] + pull * d[a];
+                normal[a] = normal[a] + rise * d[a];
+            }
+            let none = L::constant(0.0);
+            surface = surface + theirs.choose_below(INSIDE, value, none);
+        }
+        let scale = self.normalisation;
+        let mut sums = CrowdingSums {
+            gradient: [0.0; 3],
+            normal: [0.0; 3],
+            surface: scale * surface.sum().into(),
+        };
+        for a in 0..3 {
+            sums.gradient[a] = scale * gradient[a].sum().into();
+            sums.normal[a] = scale * normal[a].sum().into();
+        }
+        sums
+    }
+}
+
+/// Largest displacement at once, over H.
+const MOST: f64 = 0.02;
+
+/// The displacement of a particle over H, for the way that the fastest particle went since the last
+/// one. Near a free surface it is along the surface only; at its rim there is none.
+pub fn displacement(sums: &CrowdingSums, fullness: f64, way: f64) -> [f64; 3] {
+    let mut shift = sums.gradient.map(|g| -way * g);
+    if fullness < INSIDE {
+        return [0.0; 3];
+    }
+    if sums.surface > 0.0 {
+        let length = sums.normal.iter().map(|n| n * n).sum::<f64>().sqrt();
+        if length > 0.0 {
+            let along: f64 = (0..3).map(|a| shift[a] * sums.normal[a] / length).sum();
+            for a in 0..3 {
+                shift[a] -= along * sums.normal[a] / length;
+            }
+        }
+    }
+    let length = shift.iter().map(|s| s * s).sum::<f64>().sqrt();
+    let limit = if length > MOST { MOST / length } else { 1.0 };
+    shift.map(|s| limit * s)
+}

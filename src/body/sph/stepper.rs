@@ -1,0 +1,445 @@
+//! Steps in time.
+//!
+//! Kick, drift, kick with one evaluation of each rate: density and temperature are advanced with
+//! rates at the middle of the step, velocities with accelerations at its ends, so the scheme is of
+//! second order and its pressure waves are neither damped nor amplified by it (Adami, Hu & Adams
+//! 2012, J. Comput. Phys. 231, 7057–7075, doi 10.1016/j.jcp.2012.05.005).
+
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::cloud::{Cloud, Ledger};
+use super::continuity::Continuity;
+use super::failure::Failure;
+use super::loops::{Precision, for_all};
+use super::momentum::Momentum;
+use super::neighbours::{Neighbours, WALL};
+use super::plan::DropletPlan;
+use super::shifting::{Crowding, displacement};
+use super::tension::amplitude;
+use super::units::{Units, pressure};
+use super::wall::{WallCells, WallExchange};
+use crate::kernel::Kernel;
+
+/// Numbers of the method that a plan fixes, without dimension.
+pub struct Method {
+    pub units: Units,
+    dimension: usize,
+    kernel: Kernel,
+    precision: Precision,
+    normalisation: f64,
+    mirrors: [bool; 2],
+    viscosity: f64,
+    conduction: f64,
+    diffusion: f64,
+    /// Surface tension over ρ₀c₀²H, and the amplitude of the pair force over σ of the kernel.
+    tension: f64,
+    cohesion: f64,
+    wetting: f64,
+    gravity: [f64; 3],
+    /// c₀²/c of the fluid [K], to turn energy of a unit of mass into temperature.
+    pub heat_unit: f64,
+    spacing: f64,
+    shifts: bool,
+    wall: Option<WallCells>,
+    threads: usize,
+}
+
+/// Everything of a run between two communication points.
+pub struct Stepper<'a> {
+    method: &'a Method,
+    cloud: &'a mut Cloud,
+    ledger: &'a mut Ledger,
+    neighbours: Neighbours,
+    /// Temperature of each wall cell above the reference.
+    wall_temperature: &'a [f64],
+    /// Way of the fastest particle since the last shift, over H.
+    way: f64,
+}
+
+/// Share of H/c₀ that a step may take.
+const COURANT: f64 = 0.2;
+/// Shares of H²/ν, √(H/a) and of the shortest capillary wave's period.
+const DIFFUSIVE: f64 = 0.02;
+const FORCED: f64 = 0.18;
+const CAPILLARY: f64 = 0.25;
+/// Densities over that at rest which no weakly compressible flow has.
+const DENSITIES: [f64; 2] = [0.3, 3.0];
+/// Determinant below which a moment matrix is not inverted.
+const SINGULAR: f64 = 0.05;
+
+impl Method {
+    pub fn of(plan: &DropletPlan, threads: usize) -> Self {
+        let units = Units::of(plan);
+        let fluid = &plan.fluid;
+        let (h, c) = (units.length, units.speed);
+        let normalisation = plan.kernel.scale(1.0, plan.dimension);
+        let tension = fluid.surface_tension / (units.density * c * c * h);
+        Self {
+            units,
+            dimension: plan.dimension,
+            kernel: plan.kernel,
+            precision: plan.precision,
+            normalisation,
+            mirrors: plan.mirrors,
+            viscosity: fluid.viscosity / (units.density * c * h),
+            conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
+            diffusion: plan.density_diffusion,
+            tension,
+            cohesion: amplitude(tension, plan.dimension) / normalisation,
+            wetting: plan.wall.as_ref().map_or(0.0, |wall| 0.5 * (1.0 + wall.contact_angle.cos())),
+            gravity: plan.gravity.map(|g| g * h / (c * c)),
+            heat_unit: c * c / fluid.specific_heat,
+            spacing: 1.0 / plan.support,
+            shifts: plan.shifting,
+            wall: plan.wall.as_ref().map(|wall| wall.cells.clone()),
+            threads,
+        }
+    }
+
+    fn mirror_bits(&self) -> u8 {
+        let wall = if self.wall.is_some() { WALL } else { 0 };
+        u8::from(self.mirrors[0]) | u8::from(self.mirrors[1]) << 1 | wall
+    }
+
+    /// Largest stable step, over H/c₀.
+    pub fn stable_step(&self, fastest: f64, most_accelerated: f64) -> f64 {
+        [
+            COURANT / (1.0 + fastest),
+            DIFFUSIVE / self.viscosity.max(self.conduction),
+            FORCED / most_accelerated.sqrt(),
+            CAPILLARY * (self.spacing.powi(3) / (2.0 * PI * self.tension)).sqrt(),
+        ]
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+    }
+}
+
+impl<'a> Stepper<'a> {
+    /// Sorts the particles and lists their neighbours.
+    pub fn new(
+        method: &'a Method,
+        cloud: &'a mut Cloud,
+        ledger: &'a mut Ledger,
+        wall_temperature: &'a [f64],
+    ) -> Self {
+        let neighbours = Neighbours::default();
+        let mut stepper = Self { method, cloud, ledger, neighbours, wall_temperature, way: 0.0 };
+        stepper.sort();
+        stepper
+    }
+
+    fn sort(&mut self) {
+        let (order, tree) = Neighbours::order(&self.cloud.position);
+        self.cloud.permute(&order);
+        let (mirrors, threads) = (self.method.mirror_bits(), self.method.threads);
+        self.neighbours =
+            Neighbours::of_ordered(self.cloud.position.clone(), &tree, mirrors, threads);
+    }
+
+    fn fastest(&self) -> f64 {
+        let squared = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
+        self.cloud.velocity.iter().map(squared).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Advances by `duration` [s].
+    pub fn advance(&mut self, duration: f64) -> Result<(), Failure> {
+        let method = self.method;
+        let mut rest = duration / method.units.time();
+        while rest > 0.0 && self.cloud.len() > 0 {
+            let acceleration = |a: &[[f64; 3]; 2]| {
+                (0..3).map(|n| (a[0][n] + a[1][n] + method.gravity[n]).powi(2)).sum::<f64>()
+            };
+            let most = self.cloud.acceleration.iter().map(acceleration).fold(0.0, f64::max).sqrt();
+            let stable = method.stable_step(self.fastest(), most);
+            if !stable.is_finite() || stable <= 0.0 {
+                return Err(self.not_finite("velocity"));
+            }
+            // Equal steps to the end, so that none is tiny.
+            let dt = rest / (rest / stable).ceil();
+            self.step(dt)?;
+            rest = if dt == rest { 0.0 } else { rest - dt };
+            self.ledger.steps += 1.0;
+        }
+        Ok(())
+    }
+
+    /// Accelerations of particles that stand where they are, for a start.
+    pub fn prime(&mut self) {
+        let velocity = self.cloud.velocity.clone();
+        self.accelerate(&velocity);
+    }
+
+    fn step(&mut self, dt: f64) -> Result<(), Failure> {
+        self.kick(0.5 * dt);
+        let drifted = |cloud: &Cloud, i: usize| {
+            let (x, v) = (cloud.position[i], cloud.velocity[i]);
+            [0, 1, 2].map(|a| x[a] + dt * v[a])
+        };
+        if !self.neighbours.serve(|i| drifted(self.cloud, i)) {
+            self.shift();
+            self.sort();
+        }
+        self.way += dt * self.fastest();
+        self.drift(0.5 * dt);
+        self.change_density_and_heat(dt);
+        self.drift(0.5 * dt);
+        self.rebound();
+        let ahead: Vec<[f64; 3]> = (0..self.cloud.len()).map(|i| self.ahead(i, 0.5 * dt)).collect();
+        self.accelerate(&ahead);
+        self.kick(0.5 * dt);
+        self.ledger.time += dt * self.method.units.time();
+        self.check()
+    }
+
+    fn drift(&mut self, dt: f64) {
+        for (x, v) in self.cloud.position.iter_mut().zip(&self.cloud.velocity) {
+            (0..3).for_each(|a| x[a] += dt * v[a]);
+        }
+    }
+
+    /// Velocity of a particle after `dt` under the accelerations of the step before.
+    fn ahead(&self, i: usize, dt: f64) -> [f64; 3] {
+        let (v, [a, b]) = (self.cloud.velocity[i], self.cloud.acceleration[i]);
+        [0, 1, 2].map(|n| v[n] + dt * (a[n] + b[n] + self.method.gravity[n]))
+    }
+
+    /// Changes velocities by the accelerations, and gives the wall's part to the wall.
+    fn kick(&mut self, dt: f64) {
+        let images = if self.method.mirrors[0] { 2.0 } else { 1.0 }
+            * if self.method.mirrors[1] { 2.0 } else { 1.0 };
+        let momentum = self.method.units.mass() * self.method.units.speed;
+        for i in 0..self.cloud.len() {
+            self.cloud.velocity[i] = self.ahead(i, dt);
+            let mass = self.cloud.mass[i];
+            for n in 0..3 {
+                self.ledger.impulse_of_gravity[n] +=
+                    images * momentum * mass * dt * self.method.gravity[n];
+            }
+            let by_wall = self.cloud.acceleration[i][1];
+            if by_wall != [0.0; 3] {
+                self.give(i, 0.0, by_wall.map(|a| -momentum * mass * dt * a));
+            }
+        }
+    }
+
+    /// Gives heat [J] and impulse [N s] of a particle and of its images at mirrors to the wall below.
+    fn give(&mut self, i: usize, heat: f64, impulse: [f64; 3]) {
+        let Some(cells) = &self.method.wall else { return };
+        let [x, y, _] = self.cloud.position[i].map(|x| x * self.method.units.length);
+        let sides = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
+        for &right in sides(self.method.mirrors[0]) {
+            for &back in sides(self.method.mirrors[1]) {
+                let impulse = [right * impulse[0], back * impulse[1], impulse[2]];
+                deposit(cells, self.ledger, [right * x, back * y], heat, impulse);
+            }
+        }
+    }
+
+    fn change_density_and_heat(&mut self, dt: f64) {
+        let method = self.method;
+        let cloud = &*self.cloud;
+        let warm = |i: usize| cloud.temperature[i] + 0.5 * dt * cloud.heating[i];
+        let records: Vec<[f64; 8]> = (0..cloud.len())
+            .map(|i| record(cloud, i, cloud.velocity[i], cloud.density[i]))
+            .collect();
+        let annexes: Vec<[f64; 4]> = (0..cloud.len())
+            .map(|i| {
+                let [x, y, z] = cloud.gradient[i];
+                [x, y, z, warm(i)]
+            })
+            .collect();
+        let wall_temperature: Vec<f64> = (0..cloud.len()).map(|i| self.wall_below(i)).collect();
+        let pass = Continuity {
+            records: &records,
+            annexes: &annexes,
+            wall_temperature: &wall_temperature,
+            normalisation: method.normalisation,
+            diffusion: method.diffusion,
+            conduction: method.conduction,
+        };
+        let rates = for_all(
+            &pass,
+            &self.neighbours.blocks,
+            method.kernel,
+            method.precision,
+            method.threads,
+        );
+        let heat = method.units.energy() / method.heat_unit;
+        for (i, rate) in rates.iter().enumerate() {
+            let [by_fluid, by_wall] = rate.temperature;
+            let moment = matrix(&rate.moment, method.dimension);
+            self.cloud.fullness[i] = moment.symmetric_eigenvalues().min();
+            self.cloud.gradient[i] = renormalised(&moment, rate.gradient);
+            self.cloud.density[i] += dt * rate.density;
+            self.cloud.heating[i] = by_fluid + by_wall;
+            self.cloud.temperature[i] += dt * (by_fluid + by_wall);
+            if by_wall != 0.0 {
+                self.give(i, -heat * self.cloud.mass[i] * dt * by_wall, [0.0; 3]);
+            }
+        }
+    }
+
+    /// Temperature of the wall below a particle; the particle's own where it has no wall near.
+    fn wall_below(&self, i: usize) -> f64 {
+        let [x, y, z] = self.cloud.position[i];
+        match &self.method.wall {
+            Some(cells) if z < 1.0 => {
+                let length = self.method.units.length;
+                let share = cells.share(x * length, y * length);
+                share.cells.iter().map(|&(cell, weight)| weight * self.wall_temperature[cell]).sum()
+            }
+            _ => self.cloud.temperature[i],
+        }
+    }
+
+    fn accelerate(&mut self, velocity: &[[f64; 3]]) {
+        let method = self.method;
+        let cloud = &*self.cloud;
+        let records: Vec<[f64; 8]> = (0..cloud.len())
+            .map(|i| record(cloud, i, velocity[i], pressure(cloud.density[i])))
+            .collect();
+        let pass = Momentum {
+            records: &records,
+            densities: &cloud.density,
+            normalisation: method.normalisation,
+            viscosity: method.viscosity,
+            cohesion: method.cohesion,
+            wetting: method.wetting,
+            weight: -2.0 * method.gravity[2],
+        };
+        self.cloud.acceleration = for_all(
+            &pass,
+            &self.neighbours.blocks,
+            method.kernel,
+            method.precision,
+            method.threads,
+        );
+    }
+
+    /// A particle that meets its image at a plane exchanges its place with it: exactly what two mirror
+    /// images do that pass through each other.
+    fn rebound(&mut self) {
+        let momentum = self.method.units.mass() * self.method.units.speed;
+        let walled = self.method.wall.is_some();
+        for i in 0..self.cloud.len() {
+            for a in 0..2 {
+                if self.method.mirrors[a] && self.cloud.position[i][a] < 0.0 {
+                    self.cloud.position[i][a] *= -1.0;
+                    self.cloud.velocity[i][a] *= -1.0;
+                }
+            }
+            if walled && self.cloud.position[i][2] < 0.0 {
+                self.cloud.position[i][2] *= -1.0;
+                self.cloud.velocity[i][2] *= -1.0;
+                let impulse = -2.0 * momentum * self.cloud.mass[i] * self.cloud.velocity[i][2];
+                self.give(i, 0.0, [0.0, 0.0, impulse]);
+            }
+        }
+    }
+
+    /// Moves particles from crowded places to empty ones.
+    fn shift(&mut self) {
+        let way = std::mem::take(&mut self.way);
+        if !self.method.shifts || way == 0.0 {
+            return;
+        }
+        let method = self.method;
+        let cloud = &*self.cloud;
+        let records: Vec<[f64; 8]> =
+            (0..cloud.len()).map(|i| record(cloud, i, [0.0; 3], cloud.fullness[i])).collect();
+        let value = |q: f64| method.kernel.value(q, 1.0, method.dimension) / method.normalisation;
+        let pass = Crowding {
+            records: &records,
+            normalisation: method.normalisation,
+            reference: 1.0 / value(method.spacing),
+        };
+        let sums = for_all(
+            &pass,
+            &self.neighbours.blocks,
+            method.kernel,
+            method.precision,
+            method.threads,
+        );
+        for (i, sums) in sums.iter().enumerate() {
+            let shift = displacement(sums, self.cloud.fullness[i], way);
+            for a in 0..3 {
+                self.cloud.position[i][a] += shift[a];
+            }
+        }
+        self.rebound_quietly();
+    }
+
+    /// Puts back what a shift moved through a plane.
+    fn rebound_quietly(&mut self) {
+        let planes = [self.method.mirrors[0], self.method.mirrors[1], self.method.wall.is_some()];
+        for x in &mut self.cloud.position {
+            (0..3).filter(|&a| planes[a]).for_each(|a| x[a] = x[a].abs());
+        }
+    }
+
+    fn check(&self) -> Result<(), Failure> {
+        let time = self.ledger.time;
+        for i in 0..self.cloud.len() {
+            let ratio = 1.0 + self.cloud.density[i];
+            let at = self.cloud.position[i].map(|x| x * self.method.units.length);
+            if !at.iter().chain(&self.cloud.velocity[i]).all(|x| x.is_finite()) {
+                return Err(self.not_finite("velocity"));
+            }
+            if !self.cloud.temperature[i].is_finite() {
+                return Err(self.not_finite("temperature"));
+            }
+            if !(DENSITIES[0]..DENSITIES[1]).contains(&ratio) {
+                return Err(Failure::Density { ratio, at, time });
+            }
+        }
+        Ok(())
+    }
+
+    fn not_finite(&self, quantity: &'static str) -> Failure {
+        Failure::NotFinite { quantity, time: self.ledger.time }
+    }
+}
+
+fn record(cloud: &Cloud, i: usize, velocity: [f64; 3], last: f64) -> [f64; 8] {
+    let ([x, y, z], [u, v, w]) = (cloud.position[i], velocity);
+    [x, y, z, u, v, w, cloud.volume(i), last]
+}
+
+/// The moment matrix; in a plane model nothing happens along y.
+fn matrix(&[xx, yy, zz, xy, yz, xz]: &[f64; 6], dimension: usize) -> Matrix3<f64> {
+    let yy = if dimension == 2 { 1.0 } else { yy };
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
+/// The gradient that is exact for linear fields; nothing where too few neighbours span space.
+fn renormalised(moment: &Matrix3<f64>, sum: [f64; 3]) -> [f64; 3] {
+    if moment.determinant() < SINGULAR {
+        return [0.0; 3];
+    }
+    moment.try_inverse().map_or([0.0; 3], |inverse| (inverse * Vector3::from(sum)).into())
+}
+
+/// Adds heat [J] and impulse [N s] at a place of the wall.
+fn deposit(cells: &WallCells, ledger: &mut Ledger, [x, y]: [f64; 2], heat: f64, impulse: [f64; 3]) {
+    let exchange: &mut WallExchange = &mut ledger.exchange;
+    let share = cells.share(x, y);
+    ledger.heat_to_wall += heat;
+    (0..3).for_each(|n| ledger.impulse_to_wall[n] += impulse[n]);
+    if share.outside {
+        exchange.heat_outside += heat;
+        (0..3).for_each(|n| exchange.impulse_outside[n] += impulse[n]);
+        return;
+    }
+    let radius = x.hypot(y);
+    let impulse = match cells {
+        WallCells::Tiles { .. } | WallCells::Nodes { .. } => impulse,
+        _ if radius > 0.0 => [(x * impulse[0] + y * impulse[1]) / radius, 0.0, impulse[2]],
+        _ => [0.0, 0.0, impulse[2]],
+    };
+    for (cell, weight) in share.cells {
+        exchange.heat[cell] += weight * heat;
+        (0..3).for_each(|n| exchange.impulse[cell][n] += weight * impulse[n]);
+    }
+}
