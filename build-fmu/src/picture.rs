@@ -1,6 +1,6 @@
 //! The unit's icon: a section through the first loaded body, to scale around its loads.
 
-use impinge::scene::{Body, FaceName, Footprint, Load, Scene, Shape};
+use impinge::scene::{Droplet, FaceName, Footprint, Load, Scene, Shape};
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
 const WIDTH: f32 = 400.0;
@@ -21,6 +21,7 @@ const WARMTH: [[f32; 3]; 6] = [
 const INK: [f32; 3] = [0.13, 0.19, 0.25];
 const HOT: [f32; 3] = [0.77, 0.18, 0.11];
 const WHITE: [f32; 3] = [1.0, 1.0, 1.0];
+const WATER: [f32; 3] = [0.55, 0.75, 0.90];
 
 /// The picture of a scene, as a PNG file.
 pub fn png(scene: &Scene) -> Result<Vec<u8>, String> {
@@ -30,7 +31,8 @@ pub fn png(scene: &Scene) -> Result<Vec<u8>, String> {
     if let Some(section) = Section::of(scene) {
         section.paint_body(&mut canvas);
         section.paint_loads(&mut canvas);
-        let probes = scene.probe.iter().filter(|probe| probe.body == section.body);
+        section.drops.iter().for_each(|drop| section.paint_drop(&mut canvas, drop));
+        let probes = scene.probe.iter().filter(|probe| Some(&*probe.body) == section.body);
         probes.for_each(|probe| section.paint_probe(&mut canvas, probe.at));
     }
     canvas.0.encode_png().map_err(|error| format!("cannot draw the picture: {error}"))
@@ -41,6 +43,34 @@ struct Spot {
     x: f64,
     reach: f64,
     on_top: bool,
+    /// Whether arrows show it.
+    is_load: bool,
+}
+
+/// A drop above the top face, where it is released [m].
+struct Drop {
+    x: f64,
+    z: f64,
+    radius: f64,
+}
+
+impl Drop {
+    /// The first drop to arrive at each place.
+    fn of(droplet: &Droplet) -> Vec<Self> {
+        let radius = 0.5 * droplet.diameter;
+        let mut drops: Vec<Self> = Vec::new();
+        for arrival in &droplet.arrivals {
+            if drops.iter().all(|drop| drop.x != arrival.x) {
+                drops.push(Self { x: arrival.x, z: droplet.gap() + radius, radius });
+            }
+        }
+        drops
+    }
+
+    /// What it warms.
+    fn spot(&self) -> Spot {
+        Spot { x: self.x, reach: self.radius, on_top: true, is_load: false }
+    }
 }
 
 impl Spot {
@@ -52,7 +82,7 @@ impl Spot {
             | Footprint::Rings { radius, .. } => load.start.radius.unwrap_or(radius),
         };
         let on_top = load.body_and_face().1 != FaceName::Bottom;
-        Self { x: load.start.x.unwrap_or(0.0), reach, on_top }
+        Self { x: load.start.x.unwrap_or(0.0), reach, on_top, is_load: true }
     }
 
     fn overlaps(&self, other: &Spot) -> bool {
@@ -71,7 +101,9 @@ impl Spot {
 
 /// The part of a body that is seen, and where: rightward x and downward depth below the top face.
 struct Section<'a> {
-    body: &'a str,
+    /// Name of the solid, if it is one.
+    body: Option<&'a str>,
+    drops: Vec<Drop>,
     /// The widest first.
     spots: Vec<Spot>,
     thickness: f64,
@@ -87,28 +119,32 @@ struct Section<'a> {
 
 impl<'a> Section<'a> {
     fn of(scene: &'a Scene) -> Option<Self> {
-        let body = match scene.load.first() {
-            Some(load) => load.body_and_face().0,
-            None => scene.body.keys().next()?,
+        let loaded = scene.load.first().map(|load| load.body_and_face().0);
+        let coupled = scene.coupling.first().and_then(|coupling| coupling.solid());
+        let first = || scene.solids().next().map(|(name, _)| name);
+        let body = loaded.or(coupled).or_else(first);
+        let drops: Vec<Drop> = match body {
+            Some(body) => {
+                let coupling = scene.coupling_to(body);
+                coupling.and_then(|coupling| scene.droplet(&coupling.from)).map_or(vec![], Drop::of)
+            }
+            None => scene.droplets().next().map_or(vec![], |(_, droplet)| Drop::of(droplet)),
         };
-        let Body::Solid(solid) = scene.body.get(body)?;
-        let half_width = match solid.shape {
-            Shape::Box(extents) => extents[0] / 2.0,
-            Shape::Disc(disc) => disc.radius,
-        };
-        let thickness = solid.shape.thickness();
-        let loads = scene.load.iter().filter(|load| load.body_and_face().0 == body);
-        let mut spots: Vec<Spot> = loads.map(Spot::of).collect();
+        let (half_width, thickness) = extents(scene, body, &drops)?;
+        let loads = scene.load.iter().filter(|load| Some(load.body_and_face().0) == body);
+        let mut spots: Vec<Spot> =
+            loads.map(Spot::of).chain(drops.iter().map(Drop::spot)).collect();
         spots.sort_by(|a, b| b.reach.total_cmp(&a.reach));
         let (middle, half_seen) = seen(&spots, half_width);
         let free = if half_seen < half_width { 0.0 } else { MARGIN };
         let scale = f64::from(WIDTH / 2.0 - free) / half_seen;
         let height = (thickness * scale) as f32;
-        let top = top_of(&spots, height);
+        let highest = drops.iter().map(|drop| drop.z + drop.radius).fold(0.0, f64::max);
+        let top = top_of(&spots, height, (highest * scale) as f32);
         let left = WIDTH / 2.0 + ((-half_width - middle) * scale) as f32;
         let width = (2.0 * half_width * scale) as f32;
         let outline = Rect::from_xywh(left, top, width, height)?;
-        Some(Self { body, spots, thickness, middle, scale, top, outline })
+        Some(Self { body, drops, spots, thickness, middle, scale, top, outline })
     }
 
     fn pixel_x(&self, x: f64) -> f32 {
@@ -142,7 +178,7 @@ impl<'a> Section<'a> {
     }
 
     fn paint_loads(&self, canvas: &mut Canvas) {
-        for (i, spot) in self.spots.iter().enumerate() {
+        for (i, spot) in self.spots.iter().enumerate().filter(|(_, spot)| spot.is_load) {
             let (left, right) =
                 (self.pixel_x(spot.x - spot.reach), self.pixel_x(spot.x + spot.reach));
             let (face, outward) =
@@ -158,6 +194,16 @@ impl<'a> Section<'a> {
                 paint_arrow(canvas, x, face + 8.0 * outward, outward);
             }
         }
+    }
+
+    fn paint_drop(&self, canvas: &mut Canvas, drop: &Drop) {
+        let (x, y) = (self.pixel_x(drop.x), self.pixel_y(drop.z));
+        let radius = (drop.radius * self.scale) as f32;
+        if let Some(circle) = PathBuilder::from_circle(x, y, radius) {
+            canvas.fill(&circle, WATER);
+            canvas.stroke(&circle, INK, 1.5);
+        }
+        paint_arrow(canvas, x, y + 0.55 * radius.max(40.0), -1.0);
     }
 
     fn paint_probe(&self, canvas: &mut Canvas, at: [f64; 3]) {
@@ -177,10 +223,32 @@ fn seen(spots: &[Spot], half_width: f64) -> (f64, f64) {
     if half_seen < half_width { ((low + high) / 2.0, half_seen) } else { (0.0, half_width) }
 }
 
-/// Where the top face goes: bodies that are too thick run off the side that has no load.
-fn top_of(spots: &[Spot], height: f32) -> f32 {
+/// Half the width and the thickness of what the picture is of: a solid, or the wall below drops.
+fn extents(scene: &Scene, body: Option<&str>, drops: &[Drop]) -> Option<(f64, f64)> {
+    if let Some(solid) = body.and_then(|name| scene.solid(name)) {
+        let half_width = match solid.shape {
+            Shape::Box(extents) => extents[0] / 2.0,
+            Shape::Disc(disc) => disc.radius,
+        };
+        return Some((half_width, solid.shape.thickness()));
+    }
+    let widest = drops.iter().map(|drop| drop.x.abs() + 2.0 * drop.radius).reduce(f64::max)?;
+    match scene.wall.first().map(|wall| wall.footprint) {
+        Some(Footprint::Tiles { size, .. }) => Some((size[0] / 2.0, widest)),
+        Some(footprint) => Some((footprint.radius()?, widest)),
+        None => Some((widest, 0.0)),
+    }
+}
+
+/// Where the top face goes: bodies that are too thick run off the side that has no load, and drops
+/// above find their place.
+fn top_of(spots: &[Spot], height: f32, drops: f32) -> f32 {
     let on_top = spots.iter().any(|spot| spot.on_top);
-    let room_above = if on_top { AIR } else { MARGIN };
+    let room_above = match (on_top, drops > 0.0) {
+        (_, true) => drops + MARGIN,
+        (true, false) => AIR,
+        (false, false) => MARGIN,
+    };
     let room_below = if spots.iter().any(|spot| !spot.on_top) { AIR } else { MARGIN };
     let room = HEIGHT - room_above - room_below;
     if height <= room {

@@ -1,16 +1,21 @@
 //! A scene in sentences.
 
 use impinge::scene::{
-    Body, Carries, Disc, Face, FaceName, Field, Footprint, Load, Plane, Probe, Scene, Shape, Solid,
+    Carries, Coupling, Disc, Droplet, Face, FaceName, Field, Footprint, Load, Plane, Probe, Scene,
+    Shape, Solid, Wall,
 };
 
-/// One sentence or two for each body, load, probe and field.
+/// One sentence or two for each body, load, probe, field, wall and coupling.
 pub fn of(scene: &Scene) -> Vec<String> {
-    let bodies = scene.body.iter().map(|(name, Body::Solid(body))| solid(name, body));
+    let solids = scene.solids().map(|(name, body)| solid(name, body));
+    let droplets = scene.droplets().map(|(name, body)| droplet(name, body));
     let loads = scene.load.iter().map(load);
     let probes = scene.probe.iter().map(probe);
     let fields = scene.field.iter().map(field);
-    bodies.chain(loads).chain(probes).chain(fields).collect()
+    let walls = scene.wall.iter().map(wall);
+    let couplings = scene.coupling.iter().map(coupling);
+    let bodies = solids.chain(droplets);
+    bodies.chain(loads).chain(probes).chain(fields).chain(walls).chain(couplings).collect()
 }
 
 /// A number as short as it can be read: `5e7`.
@@ -87,7 +92,12 @@ fn load(load: &Load) -> String {
             Carries::Shear => "shear",
         })
         .collect();
-    let footprint = match load.footprint {
+    let place = footprint(&load.footprint);
+    format!("{}: {} on {}, over {place}.", load.name, carried.join(", "), load.on)
+}
+
+fn footprint(footprint: &Footprint) -> String {
+    match *footprint {
         Footprint::Disc { radius } => format!("a disc of radius {}", metres(radius)),
         Footprint::Gaussian { radius } => {
             format!("a Gaussian spot that falls to 1/e² at {}", metres(radius))
@@ -98,8 +108,38 @@ fn load(load: &Load) -> String {
         Footprint::Tiles { count: [nx, ny], size: [x, y] } => {
             format!("{nx} × {ny} tiles over {} × {}", metres(x), metres(y))
         }
+    }
+}
+
+fn droplet(name: &str, droplet: &Droplet) -> String {
+    let drops = match droplet.arrivals.len() {
+        1 => "a drop".to_owned(),
+        count => format!("{count} drops, each"),
     };
-    format!("{}: {} on {}, over {footprint}.", load.name, carried.join(", "), load.on)
+    let model = if droplet.dimension == 2 { "plane, one metre deep, " } else { "" };
+    format!(
+        "{name}: {drops} of diameter {}, at {} K in the beginning, that arrives at {} m/s; {model}by \
+         weakly compressible smoothed particle hydrodynamics with particles {} apart.",
+        metres(droplet.diameter),
+        droplet.initial_temperature,
+        droplet.impact_velocity,
+        metres(droplet.spacing)
+    )
+}
+
+fn wall(wall: &Wall) -> String {
+    format!(
+        "{}: the wall under {}, whose temperatures are inputs and whose heat fluxes and tractions are \
+         outputs, on {}.",
+        wall.name,
+        wall.under,
+        footprint(&wall.footprint)
+    )
+}
+
+fn coupling(coupling: &Coupling) -> String {
+    let carried = if coupling.traction { "heat, pressure and shear" } else { "heat" };
+    format!("{} gives {carried} to {} and feels its temperature.", coupling.from, coupling.to)
 }
 
 fn probe(probe: &Probe) -> String {
