@@ -87,6 +87,27 @@ impl DropletSph {
         flatten(&ledger, &cloud)
     }
 
+    /// A state at time zero of given particles, in place of the plan's droplets.
+    pub fn state_of(&self, particles: &ParticleFields) -> Vec<f64> {
+        let units = &self.method.units;
+        let reference = self.reference_temperature();
+        let mut cloud = Cloud::default();
+        for i in 0..particles.mass.len() {
+            let position = particles.position[i].map(|x| x / units.length);
+            let velocity = particles.velocity[i].map(|v| v / units.speed);
+            let mass = particles.mass[i] / units.mass();
+            cloud.push(position, velocity, mass, particles.temperature[i] - reference);
+            cloud.density[i] = particles.density[i] / units.density - 1.0;
+        }
+        let mut ledger = Ledger {
+            released: self.plan.releases.len(),
+            exchange: WallExchange::none(self.cells()),
+            ..Ledger::default()
+        };
+        Stepper::new(&self.method, &mut cloud, &mut ledger, &vec![0.0; self.cells()]).prime();
+        flatten(&ledger, &cloud)
+    }
+
     /// Whether a vector may be a state of this model.
     pub fn accepts(&self, state: &[f64]) -> bool {
         particles_in(state, self.cells()).is_some()

@@ -20,7 +20,7 @@ pub type Annex<R> = [R; 4];
 
 /// Arithmetic on [`WIDTH`] lanes.
 pub trait Lanes: Number {
-    type Real: Float + Default + Into<f64> + Send + Sync;
+    type Real: Float + Number + Default + Into<f64> + Send + Sync;
 
     fn sqrt(self) -> Self;
     fn to_array(self) -> [Self::Real; WIDTH];

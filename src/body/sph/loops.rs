@@ -5,7 +5,7 @@ use num_traits::Float;
 
 use super::lanes::{Annex, Array, Lanes, Record};
 use super::neighbours::{Block, Source};
-use crate::kernel::{Kernel, Shape};
+use crate::kernel::{Kernel, Number, Shape};
 use crate::math::parallel;
 use crate::with_kernel_shape;
 
@@ -43,27 +43,29 @@ pub struct Local<R> {
     pub annexes: Vec<Annex<R>>,
 }
 
-impl<R: Float + Default> Local<R> {
+impl<R: Float + Number> Local<R> {
     #[inline(always)]
     fn fill<P: PairSum>(&mut self, pass: &P, block: &Block) {
-        let single = |value: f64| R::from(value).expect("every number has a nearest one");
-        let far = single(1e3);
+        let far = R::constant(1e3);
         let [x, y, z] = block.centre;
         let centre = [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0];
         self.records.clear();
         self.records.push([far, far, far, R::zero(), R::zero(), R::zero(), R::zero(), R::zero()]);
-        self.records.extend(block.sources.iter().map(|&source| {
+        self.records.resize(block.sources.len() + 1, [R::zero(); 8]);
+        for (local, &source) in self.records[1..].iter_mut().zip(&block.sources) {
             let record = pass.record(source);
-            let mut local = [R::zero(); 8];
             for n in 0..8 {
-                local[n] = single(record[n] - centre[n]);
+                local[n] = R::constant(record[n] - centre[n]);
             }
-            local
-        }));
+        }
         if P::ANNEX {
-            self.annexes.clear();
-            self.annexes.push([R::zero(); 4]);
-            self.annexes.extend(block.sources.iter().map(|&s| pass.annex(s).map(single)));
+            self.annexes.resize(block.sources.len() + 1, [R::zero(); 4]);
+            for (local, &source) in self.annexes[1..].iter_mut().zip(&block.sources) {
+                let annex = pass.annex(source);
+                for n in 0..4 {
+                    local[n] = R::constant(annex[n]);
+                }
+            }
         }
     }
 }

@@ -4,16 +4,17 @@ use super::continuity::signs;
 use super::lanes::{Lanes, WIDTH, lanes};
 use super::loops::{Local, PairSum};
 use super::neighbours::{Block, Source, WALL};
+use super::tension::PairForce;
 use crate::kernel::Shape;
 
 /// Pressure, viscosity and surface tension, equal and opposite in every pair.
 ///
 /// With lengths over H, velocities over c₀, pressures over ρ₀c₀² and F = w′(q)/q of the kernel,
 ///
-/// `(1 + r_i) du_i/dt = Σ V_j F [−(p_i + p_j) x_ij + 2 ν u_ij] + A Σ V_j cos(3πq/2) x_ij/q`.
+/// `(1 + r_i) du_i/dt = Σ V_j F [−(p_i + p_j) x_ij + 2 ν u_ij] + Σ V_j g(q) x_ij/q`
 ///
-/// The last term repels below q = ⅓ and attracts beyond. Images at the wall move against their
-/// originals, so that the fluid sticks; they attract by a share of the tension, the wetting.
+/// with the pair force g of surface tension. Images at the wall move against their originals, so that
+/// the fluid sticks; their pair force is a share of the fluid's, the wetting.
 ///
 /// Sources: Morris, Fox & Zhu (1997), J. Comput. Phys. 136, 214–226, doi 10.1006/jcph.1997.5776;
 /// Tartakovsky & Meakin (2005), Phys. Rev. E 72, 026301, doi 10.1103/PhysRevE.72.026301.
@@ -26,9 +27,8 @@ pub struct Momentum<'a> {
     pub normalisation: f64,
     /// ν = µ/(ρ₀ c₀ H).
     pub viscosity: f64,
-    /// A over the kernel's σ.
-    pub cohesion: f64,
-    /// Share of the tension that the wall has: (1 + cos θ)/2 for a contact angle θ.
+    pub cohesion: PairForce,
+    /// Share of the pair force that the wall has: (1 + cos θ)/2 for a contact angle θ.
     pub wetting: f64,
     /// Pressure in the image of a particle above its own, for each length of height: 2 g H/c₀².
     pub weight: f64,
@@ -65,22 +65,23 @@ impl PairSum for Momentum<'_> {
         local: &Local<L::Real>,
     ) -> Accelerations {
         let own = &self.records[block.first + k];
-        let here = Here {
+        let here = |share: f64| Here::<L> {
             position: lanes([
                 own[0] - block.centre[0],
                 own[1] - block.centre[1],
                 own[2] - block.centre[2],
             ]),
             velocity: lanes([own[3], own[4], own[5]]),
-            pressure: L::constant(own[7]),
+            pressure: L::constant(own[7] + 2.0 * share * self.cohesion.background),
             viscosity: L::constant(2.0 * self.viscosity),
+            amplitude: L::constant(share * self.cohesion.amplitude / self.normalisation),
         };
-        let inertia = 1.0 + self.densities[block.first + k];
         let [fluid, wall] = block.neighbours(k);
-        let scale = self.normalisation / inertia;
+        let scale = self.normalisation / (1.0 + self.densities[block.first + k]);
+        let cohesive = self.cohesion.amplitude != 0.0;
         [
-            scaled(total::<L, S>(fluid, &here, self.cohesion, local), scale),
-            scaled(total::<L, S>(wall, &here, self.cohesion * self.wetting, local), scale),
+            scaled(total::<L, S>(fluid, &here(1.0), cohesive, local), scale),
+            scaled(total::<L, S>(wall, &here(self.wetting), cohesive, local), scale),
         ]
     }
 }
@@ -90,18 +91,17 @@ impl PairSum for Momentum<'_> {
 fn total<L: Lanes, S: Shape>(
     neighbours: &[[u16; WIDTH]],
     here: &Here<L>,
-    cohesion: f64,
+    cohesive: bool,
     local: &Local<L::Real>,
 ) -> [L; 3] {
     let mut force = [L::constant(0.0); 3];
-    if cohesion == 0.0 {
+    if cohesive {
         for places in neighbours {
-            add::<L, S, false>(&mut force, here, L::gather(&local.records, places), here.pressure);
+            add::<L, S, true>(&mut force, here, L::gather(&local.records, places));
         }
     } else {
-        let cohesion = L::constant(cohesion);
         for places in neighbours {
-            add::<L, S, true>(&mut force, here, L::gather(&local.records, places), cohesion);
+            add::<L, S, false>(&mut force, here, L::gather(&local.records, places));
         }
     }
     force
@@ -118,6 +118,7 @@ struct Here<L> {
     velocity: [L; 3],
     pressure: L,
     viscosity: L,
+    amplitude: L,
 }
 
 /// Adds the forces of sixteen neighbours.
@@ -126,7 +127,6 @@ fn add<L: Lanes, S: Shape, const COHESIVE: bool>(
     force: &mut [L; 3],
     here: &Here<L>,
     neighbour: [L; 8],
-    amplitude: L,
 ) {
     let [x, y, z, vx, vy, vz, volume, pressure] = neighbour;
     let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
@@ -136,7 +136,7 @@ fn add<L: Lanes, S: Shape, const COHESIVE: bool>(
     let slope = volume * S::slope_over_q(q);
     let mut along = L::constant(0.0) - slope * (here.pressure + pressure);
     if COHESIVE {
-        along = along + amplitude * volume * cohesion(q, square);
+        along = along + here.amplitude * volume * cohesion(q, square);
     }
     let viscous = here.viscosity * slope;
     for a in 0..3 {

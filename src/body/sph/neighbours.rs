@@ -4,14 +4,19 @@
 //! Lengths are in units of the support radius. The lists reach farther than the kernel by a skin, so
 //! that they serve until neighbours have moved against each other by its width.
 
+use std::ops::Range;
+
 use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, space_order};
 use crate::math::parallel;
 
-/// Reach of the lists beyond the kernel.
-const SKIN: f64 = 0.1;
+/// Reach of the lists beyond the kernel, in steps of the motion against neighbours; its bounds.
+const SKIN_STEPS: f64 = 8.0;
+const SKINS: [f64; 2] = [0.05, 0.3];
 /// Share of the skin that rounding in single precision could use.
 const MARGIN: f64 = 1e-5;
+/// Growth of the surroundings at which the particles are sorted anew.
+const GROWTH: f64 = 1.2;
 
 /// Mirrors of the model as bits of an image: x = 0, y = 0, and the wall z = 0.
 pub const WALL: u8 = 4;
@@ -50,19 +55,35 @@ pub struct Block {
     places: Vec<u16>,
     /// For each particle the ends of its runs: neighbours, and images at the wall.
     ends: Vec<[u32; 2]>,
-    /// The blocks that the sources come from.
+    /// Blocks that hold all sources, with their image.
     surroundings: Vec<(usize, u8)>,
+    /// How far neighbours may still move against each other.
+    slack: f64,
 }
 
 /// Neighbours of all particles.
 #[derive(Default)]
 pub struct Neighbours {
     pub blocks: Vec<Block>,
-    /// Places of the particles when the lists were made.
-    reference: Vec<[f64; 3]>,
+    tree: BlockTree,
+    /// Sources of all blocks when the particles were sorted.
+    sorted_sources: usize,
 }
 
 impl Block {
+    fn empty(first: usize, count: usize) -> Self {
+        Self {
+            first,
+            count,
+            centre: [0.0; 3],
+            sources: Vec::new(),
+            places: Vec::new(),
+            ends: Vec::with_capacity(count),
+            surroundings: Vec::new(),
+            slack: f64::NAN,
+        }
+    }
+
     /// Places of the neighbours of the k-th particle of the block: fluid, and images at the wall.
     #[inline(always)]
     pub fn neighbours(&self, k: usize) -> [&[[u16; WIDTH]]; 2] {
@@ -84,80 +105,118 @@ impl Neighbours {
         space_order(points)
     }
 
-    /// Lists the neighbours of particles that stand in the order of the tree's blocks. `mirrors`
-    /// holds the bits of the mirrors of the model.
-    pub fn of_ordered(
-        points: Vec<[f64; 3]>,
-        tree: &BlockTree,
-        mirrors: u8,
-        threads: usize,
-    ) -> Self {
-        let blocks = points.len().div_ceil(BLOCK);
-        let block = |b: usize| list(b * BLOCK, &points, tree, mirrors);
-        let blocks = parallel::map(threads, blocks, block);
-        Self { blocks, reference: points }
+    /// Neighbours of particles that stand in the order of the tree's blocks; the lists are made when
+    /// they are first needed.
+    pub fn of_ordered(tree: BlockTree, particles: usize) -> Self {
+        let block = |b: usize| Block::empty(b * BLOCK, BLOCK.min(particles - b * BLOCK));
+        let blocks = (0..particles.div_ceil(BLOCK)).map(block).collect();
+        Self { blocks, tree, sorted_sources: 0 }
     }
 
-    /// Whether the lists still hold all neighbours when the particles are at `points`.
-    pub fn serve(&self, points: impl Fn(usize) -> [f64; 3]) -> bool {
-        let moved = |block: &Block| {
+    /// Whether the particles have mixed so much that they should be sorted anew.
+    pub fn are_scattered(&self) -> bool {
+        self.sorted_sources > 0
+            && self.sources() as f64 > GROWTH * self.sorted_sources as f64
+    }
+
+    fn sources(&self) -> usize {
+        self.blocks.iter().map(|block| block.sources.len()).sum()
+    }
+
+    /// Makes the lists hold all neighbours of particles at `points` and on their way along `drifts`.
+    /// `mirrors` holds the bits of the mirrors of the model.
+    pub fn prepare(
+        &mut self,
+        points: &[[f64; 3]],
+        drifts: &[[f64; 3]],
+        mirrors: u8,
+        threads: usize,
+    ) {
+        let drift = |block: &Block| {
             let range = block.first..block.first + block.count;
-            Bounds::of(range.map(|i| {
-                let (now, then) = (points(i), self.reference[i]);
-                [0, 1, 2].map(|a| now[a] - then[a])
-            }))
+            Bounds::of(drifts[range].iter().copied())
         };
-        let moved: Vec<Bounds> = self.blocks.iter().map(moved).collect();
-        self.blocks.iter().all(|block| {
-            let around = block.surroundings.iter().fold(moved[block.first / BLOCK], |sum, part| {
-                sum.joined(&moved[part.0].mirrored(part.1))
-            });
-            let span = (0..3).map(|a| (around.high[a] - around.low[a]).powi(2)).sum::<f64>();
-            span < (SKIN - MARGIN).powi(2)
-        })
+        let drifts: Vec<Bounds> = self.blocks.iter().map(drift).collect();
+        let mut worn = Vec::new();
+        for (b, block) in self.blocks.iter_mut().enumerate() {
+            block.slack -= span(&drifts, &block.surroundings);
+            if block.slack.is_nan() || block.slack < MARGIN {
+                worn.push(b);
+            }
+        }
+        if worn.is_empty() {
+            return;
+        }
+        self.tree.refit(points);
+        let list = |k: usize| list(worn[k] * BLOCK, points, &drifts, &self.tree, mirrors);
+        let fresh = parallel::map(threads, worn.len(), list);
+        for (&b, block) in worn.iter().zip(fresh) {
+            self.blocks[b] = block;
+        }
+        if self.sorted_sources == 0 {
+            self.sorted_sources = self.sources();
+        }
     }
 }
 
+/// How far particles of some blocks move against each other at most; infinite for no block.
+fn span(drifts: &[Bounds], surroundings: &[(usize, u8)]) -> f64 {
+    let Some(first) = surroundings.first() else { return f64::INFINITY };
+    let start = drifts[first.0].mirrored(first.1);
+    let all = surroundings.iter().fold(start, |all, part| {
+        all.joined(&drifts[part.0].mirrored(part.1))
+    });
+    (0..3).map(|a| (all.high[a] - all.low[a]).powi(2)).sum::<f64>().sqrt()
+}
+
 /// Lists what surrounds the block of particles from `first` on.
-fn list(first: usize, points: &[[f64; 3]], tree: &BlockTree, mirrors: u8) -> Block {
-    let count = BLOCK.min(points.len() - first);
-    let own = &points[first..first + count];
+fn list(
+    first: usize,
+    points: &[[f64; 3]],
+    drifts: &[Bounds],
+    tree: &BlockTree,
+    mirrors: u8,
+) -> Block {
+    let mut block = Block::empty(first, BLOCK.min(points.len() - first));
+    let own = &points[first..first + block.count];
     let bounds = Bounds::of(own.iter().copied());
-    let reach = 1.0 + SKIN;
-    let mut surroundings = Vec::new();
+    block.centre = bounds.centre();
     let mut found = Vec::new();
     // The wall is the highest bit, so its images come last.
     for image in (0..8).filter(|image| image & !mirrors == 0) {
         found.clear();
-        tree.near(&bounds, image, reach, &mut found);
-        surroundings.extend(found.iter().map(|&block| (block, image)));
+        tree.near(&bounds, image, 1.0 + SKINS[1], &mut found);
+        block.surroundings.extend(found.iter().map(|&b| (b, image)));
     }
-    let mut sources = Vec::new();
+    let motion = span(drifts, &block.surroundings);
+    let skin = (SKIN_STEPS * motion).clamp(SKINS[0], SKINS[1]).max(1.5 * motion);
+    let reach = 1.0 + skin;
+    if skin > SKINS[1] {
+        block.surroundings.clear();
+        for image in (0..8).filter(|image| image & !mirrors == 0) {
+            found.clear();
+            tree.near(&bounds, image, reach, &mut found);
+            block.surroundings.extend(found.iter().map(|&b| (b, image)));
+        }
+    }
+    block.slack = skin - motion;
     let mut wall = 0;
-    for &(block, image) in &surroundings {
+    for &(b, image) in &block.surroundings {
         let near = bounds.mirrored(image);
-        for j in block * BLOCK..((block + 1) * BLOCK).min(points.len()) {
+        for j in b * BLOCK..((b + 1) * BLOCK).min(points.len()) {
             if near.distance_squared(points[j]) <= reach * reach {
-                sources.push(Source::new(j, image));
+                block.sources.push(Source::new(j, image));
             }
         }
         if image & WALL == 0 {
-            wall = sources.len();
+            wall = block.sources.len();
         }
     }
-    let centre = bounds.centre();
-    let local = Places::of(&sources, points, centre);
-    let mut block = Block {
-        first,
-        count,
-        centre,
-        places: Vec::with_capacity(count * 160),
-        ends: Vec::with_capacity(count),
-        sources,
-        surroundings,
-    };
+    assert!(block.sources.len() < usize::from(u16::MAX), "too many particles in one place");
+    let local = Places::of(&block.sources, points, block.centre);
+    block.places.reserve(block.count * 160);
     for point in own {
-        let at = [0, 1, 2].map(|a| (point[a] - centre[a]) as f32);
+        let at = [0, 1, 2].map(|a| (point[a] - block.centre[a]) as f32);
         let ends = [0..wall, wall..block.sources.len()].map(|part| {
             local.near(at, part, (reach * reach) as f32, &mut block.places);
             let full = block.places.len().next_multiple_of(WIDTH);
@@ -188,24 +247,185 @@ impl Places {
     }
 
     /// Appends the places within reach of a point.
-    fn near(
-        &self,
-        at: [f32; 3],
-        part: std::ops::Range<usize>,
-        reach_squared: f32,
-        places: &mut Vec<u16>,
-    ) {
-        let [x, y, z] = self.along.each_ref().map(|along| &along[part.clone()]);
+    fn near(&self, at: [f32; 3], part: Range<usize>, reach_squared: f32, places: &mut Vec<u16>) {
+        let along = self.along.each_ref().map(|along| &along[part.clone()]);
         let start = places.len();
+        // Room for all of them, and for the last vector to be written whole.
         places.resize(start + part.len() + WIDTH, 0);
-        let mut end = start;
-        for k in 0..x.len() {
-            let d = [x[k] - at[0], y[k] - at[1], z[k] - at[2]];
-            let near = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach_squared;
-            // Without a branch: written always, kept only if near.
-            places[end] = (part.start + k + 1) as u16;
-            end += usize::from(near);
+        let first = (part.start + 1) as u16;
+        let found = select(along, at, reach_squared, first, &mut places[start..]);
+        places.truncate(start + found);
+    }
+}
+
+/// Writes `first + k` for every k-th point within reach, in order; their number.
+fn select(
+    along: [&[f32]; 3],
+    at: [f32; 3],
+    reach_squared: f32,
+    first: u16,
+    places: &mut [u16],
+) -> usize {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx512f") {
+        // SAFETY: the processor has what the function asks for.
+        return unsafe { select_avx512(along, at, reach_squared, first, places) };
+    }
+    select_each(along, 0, at, reach_squared, first, places, 0)
+}
+
+/// One point after the other from the `k`-th on, without a branch: written always, kept if near.
+fn select_each(
+    [x, y, z]: [&[f32]; 3],
+    from: usize,
+    at: [f32; 3],
+    reach_squared: f32,
+    first: u16,
+    places: &mut [u16],
+    mut found: usize,
+) -> usize {
+    for k in from..x.len() {
+        let d = [x[k] - at[0], y[k] - at[1], z[k] - at[2]];
+        let near = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach_squared;
+        places[found] = first + k as u16;
+        found += usize::from(near);
+    }
+    found
+}
+
+/// Sixteen points at once.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f")]
+fn select_avx512(
+    along: [&[f32]; 3],
+    at: [f32; 3],
+    reach_squared: f32,
+    first: u16,
+    places: &mut [u16],
+) -> usize {
+    use std::arch::x86_64::*;
+    let [x, y, z] = along;
+    let whole = x.len() / WIDTH * WIDTH;
+    let [ax, ay, az] = [_mm512_set1_ps(at[0]), _mm512_set1_ps(at[1]), _mm512_set1_ps(at[2])];
+    let reach = _mm512_set1_ps(reach_squared);
+    let ahead = _mm512_set1_epi32(WIDTH as i32);
+    let count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    let mut numbers = _mm512_add_epi32(count, _mm512_set1_epi32(i32::from(first)));
+    let mut found = 0;
+    for k in (0..whole).step_by(WIDTH) {
+        assert!(found + WIDTH <= places.len());
+        // SAFETY: k + 16 is within the three slices, and found + 16 within the places.
+        unsafe {
+            let dx = _mm512_sub_ps(_mm512_loadu_ps(x[k..].as_ptr()), ax);
+            let dy = _mm512_sub_ps(_mm512_loadu_ps(y[k..].as_ptr()), ay);
+            let dz = _mm512_sub_ps(_mm512_loadu_ps(z[k..].as_ptr()), az);
+            let xy = _mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy));
+            let square = _mm512_add_ps(xy, _mm512_mul_ps(dz, dz));
+            let near = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, reach);
+            let kept = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(near, numbers));
+            _mm256_storeu_si256(places[found..].as_mut_ptr().cast(), kept);
+            found += near.count_ones() as usize;
         }
-        places.truncate(end);
+        numbers = _mm512_add_epi32(numbers, ahead);
+    }
+    select_each(along, whole, at, reach_squared, first, places, found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MIRRORS: u8 = 0b101;
+
+    fn number(i: usize) -> f64 {
+        (i as f64 * 0.754877666).fract()
+    }
+
+    fn ordered(count: usize) -> (Vec<[f64; 3]>, Neighbours) {
+        let point =
+            |i: usize| [3.0 * number(i), 3.0 * number(7 * i + 3), 2.0 * number(13 * i + 5)];
+        let points: Vec<_> = (0..count).map(point).collect();
+        let (order, tree) = Neighbours::order(&points);
+        let points = order.iter().map(|&i| points[i as usize]).collect();
+        (points, Neighbours::of_ordered(tree, count))
+    }
+
+    fn image(point: [f64; 3], image: u8) -> [f64; 3] {
+        [0, 1, 2].map(|a| if image >> a & 1 == 1 { -point[a] } else { point[a] })
+    }
+
+    /// Asserts that the lists hold all pairs within the support, and tells how many pairs they hold.
+    fn assert_complete(points: &[[f64; 3]], neighbours: &Neighbours) -> usize {
+        let mut listed_pairs = 0;
+        for block in &neighbours.blocks {
+            for k in 0..block.count {
+                let at = points[block.first + k];
+                for (part, wall) in block.neighbours(k).into_iter().zip([false, true]) {
+                    let listed = part.iter().flatten().filter(|&&place| place > 0);
+                    let listed: std::collections::HashSet<(usize, u8)> = listed
+                        .map(|&place| block.sources[place as usize - 1])
+                        .map(|source| (source.particle(), source.image()))
+                        .collect();
+                    listed_pairs += listed.len();
+                    let images = (0..8).filter(|i| i & !MIRRORS == 0 && (i & WALL != 0) == wall);
+                    for code in images {
+                        for (j, point) in points.iter().enumerate() {
+                            let other = image(*point, code);
+                            let square: f64 = (0..3).map(|a| (at[a] - other[a]).powi(2)).sum();
+                            assert!(square >= 1.0 || listed.contains(&(j, code)), "{at:?} {other:?}");
+                        }
+                    }
+                }
+            }
+        }
+        listed_pairs
+    }
+
+    #[test]
+    fn the_lists_hold_what_a_loop_over_all_pairs_finds() {
+        for threads in [1, 3] {
+            let (points, mut neighbours) = ordered(700);
+            neighbours.prepare(&points, &vec![[0.0; 3]; 700], MIRRORS, threads);
+            let listed = assert_complete(&points, &neighbours);
+            let near = |i: usize, code: u8| {
+                let reach = (1.0 + SKINS[0]).powi(2);
+                let square = |p: &[f64; 3]| {
+                    let other = image(*p, code);
+                    (0..3).map(|a| (points[i][a] - other[a]).powi(2)).sum::<f64>()
+                };
+                points.iter().filter(|p| square(p) < reach).count()
+            };
+            let images = [0, 1, 4, 5];
+            let all: usize = (0..700).flat_map(|i| images.map(|code| near(i, code))).sum();
+            assert_eq!(listed, all);
+        }
+    }
+
+    #[test]
+    fn the_lists_stay_complete_while_particles_move() {
+        let (mut points, mut neighbours) = ordered(700);
+        let drift = |i: usize, step: usize| {
+            [0, 1, 2].map(|a| 0.03 * (number(i + 11 * a + step / 9) - 0.5))
+        };
+        for step in 0..40 {
+            let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
+            neighbours.prepare(&points, &drifts, MIRRORS, 1);
+            assert_complete(&points, &neighbours);
+            for (x, d) in points.iter_mut().zip(&drifts) {
+                *x = [0, 1, 2].map(|a| x[a] + d[a]);
+            }
+            assert_complete(&points, &neighbours);
+        }
+    }
+
+    #[test]
+    fn a_common_motion_wears_no_list_out() {
+        let (mut points, mut neighbours) = ordered(500);
+        neighbours.prepare(&points, &vec![[0.0; 3]; 500], 0, 1);
+        let slack = neighbours.blocks[0].slack;
+        let drifts = vec![[0.5, -0.2, 0.1]; 500];
+        neighbours.prepare(&points, &drifts, 0, 1);
+        points.iter_mut().for_each(|x| x[0] += 0.5);
+        assert!((neighbours.blocks[0].slack - slack).abs() < 1e-15);
     }
 }

@@ -113,6 +113,20 @@ impl BlockTree {
         }
     }
 
+    /// Fits the boxes to points that have moved.
+    pub fn refit(&mut self, points: &[[f64; 3]]) {
+        // Parts stand behind what they are parts of.
+        for node in (0..self.nodes.len()).rev() {
+            self.nodes[node].bounds = match self.nodes[node].parts {
+                Parts::Block(block) => {
+                    let range = block * BLOCK..((block + 1) * BLOCK).min(points.len());
+                    Bounds::of(points[range].iter().copied())
+                }
+                Parts::Two([a, b]) => self.nodes[a].bounds.joined(&self.nodes[b].bounds),
+            };
+        }
+    }
+
     fn search(&self, node: usize, bounds: &Bounds, reach_squared: f64, found: &mut Vec<usize>) {
         let node = &self.nodes[node];
         if node.bounds.gap_squared(bounds) > reach_squared {

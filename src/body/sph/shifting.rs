@@ -99,7 +99,7 @@ impl PairSum for Crowding<'_> {
 /// Largest displacement at once, over H.
 const MOST: f64 = 0.02;
 
-/// The displacement of a particle over H, for the way that the fastest particle went since the last
+/// The displacement of a particle over H, for the way that particles went on average since the last
 /// one. Near a free surface it is along the surface only; at its rim there is none.
 pub fn displacement(sums: &CrowdingSums, fullness: f64, way: f64) -> [f64; 3] {
     let mut shift = sums.gradient.map(|g| -way * g);

@@ -7,8 +7,6 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{Matrix3, Vector3};
-
 use super::cloud::{Cloud, Ledger};
 use super::continuity::Continuity;
 use super::failure::Failure;
@@ -17,7 +15,7 @@ use super::momentum::Momentum;
 use super::neighbours::{Neighbours, WALL};
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
-use super::tension::amplitude;
+use super::tension::PairForce;
 use super::units::{Units, pressure};
 use super::wall::{WallCells, WallExchange};
 use crate::kernel::Kernel;
@@ -33,9 +31,9 @@ pub struct Method {
     viscosity: f64,
     conduction: f64,
     diffusion: f64,
-    /// Surface tension over ρ₀c₀²H, and the amplitude of the pair force over σ of the kernel.
+    /// Surface tension over ρ₀c₀²H, and the pair force that makes it.
     tension: f64,
-    cohesion: f64,
+    cohesion: PairForce,
     wetting: f64,
     gravity: [f64; 3],
     /// c₀²/c of the fluid [K], to turn energy of a unit of mass into temperature.
@@ -54,8 +52,6 @@ pub struct Stepper<'a> {
     neighbours: Neighbours,
     /// Temperature of each wall cell above the reference.
     wall_temperature: &'a [f64],
-    /// Way of the fastest particle since the last shift, over H.
-    way: f64,
 }
 
 /// Share of H/c₀ that a step may take.
@@ -66,6 +62,8 @@ const FORCED: f64 = 0.18;
 const CAPILLARY: f64 = 0.25;
 /// Densities over that at rest which no weakly compressible flow has.
 const DENSITIES: [f64; 2] = [0.3, 3.0];
+/// Way at the mean speed over H after which particles are moved from crowded places.
+const SHIFT_WAY: f64 = 0.1;
 /// Determinant below which a moment matrix is not inverted.
 const SINGULAR: f64 = 0.05;
 
@@ -87,7 +85,7 @@ impl Method {
             conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
             diffusion: plan.density_diffusion,
             tension,
-            cohesion: amplitude(tension, plan.dimension) / normalisation,
+            cohesion: PairForce::of(tension, plan.kernel, plan.dimension),
             wetting: plan.wall.as_ref().map_or(0.0, |wall| 0.5 * (1.0 + wall.contact_angle.cos())),
             gravity: plan.gravity.map(|g| g * h / (c * c)),
             heat_unit: c * c / fluid.specific_heat,
@@ -125,7 +123,7 @@ impl<'a> Stepper<'a> {
         wall_temperature: &'a [f64],
     ) -> Self {
         let neighbours = Neighbours::default();
-        let mut stepper = Self { method, cloud, ledger, neighbours, wall_temperature, way: 0.0 };
+        let mut stepper = Self { method, cloud, ledger, neighbours, wall_temperature };
         stepper.sort();
         stepper
     }
@@ -133,14 +131,24 @@ impl<'a> Stepper<'a> {
     fn sort(&mut self) {
         let (order, tree) = Neighbours::order(&self.cloud.position);
         self.cloud.permute(&order);
+        self.neighbours = Neighbours::of_ordered(tree, self.cloud.len());
+    }
+
+    /// Lists neighbours for ways that the particles are about to go.
+    fn list(&mut self, drifts: &[[f64; 3]]) {
         let (mirrors, threads) = (self.method.mirror_bits(), self.method.threads);
-        self.neighbours =
-            Neighbours::of_ordered(self.cloud.position.clone(), &tree, mirrors, threads);
+        self.neighbours.prepare(&self.cloud.position, drifts, mirrors, threads);
     }
 
     fn fastest(&self) -> f64 {
         let squared = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
         self.cloud.velocity.iter().map(squared).fold(0.0, f64::max).sqrt()
+    }
+
+    fn root_mean_square_speed(&self) -> f64 {
+        let squared = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
+        let sum: f64 = self.cloud.velocity.iter().map(squared).sum();
+        (sum / self.cloud.len() as f64).sqrt()
     }
 
     /// Advances by `duration` [s].
@@ -167,21 +175,23 @@ impl<'a> Stepper<'a> {
 
     /// Accelerations of particles that stand where they are, for a start.
     pub fn prime(&mut self) {
+        self.list(&vec![[0.0; 3]; self.cloud.len()]);
         let velocity = self.cloud.velocity.clone();
         self.accelerate(&velocity);
     }
 
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
         self.kick(0.5 * dt);
-        let drifted = |cloud: &Cloud, i: usize| {
-            let (x, v) = (cloud.position[i], cloud.velocity[i]);
-            [0, 1, 2].map(|a| x[a] + dt * v[a])
-        };
-        if !self.neighbours.serve(|i| drifted(self.cloud, i)) {
+        self.ledger.way += dt * self.root_mean_square_speed();
+        if self.ledger.way > SHIFT_WAY {
             self.shift();
+        }
+        if self.neighbours.are_scattered() {
             self.sort();
         }
-        self.way += dt * self.fastest();
+        let drifts: Vec<[f64; 3]> =
+            self.cloud.velocity.iter().map(|v| [dt * v[0], dt * v[1], dt * v[2]]).collect();
+        self.list(&drifts);
         self.drift(0.5 * dt);
         self.change_density_and_heat(dt);
         self.drift(0.5 * dt);
@@ -269,8 +279,8 @@ impl<'a> Stepper<'a> {
         let heat = method.units.energy() / method.heat_unit;
         for (i, rate) in rates.iter().enumerate() {
             let [by_fluid, by_wall] = rate.temperature;
-            let moment = matrix(&rate.moment, method.dimension);
-            self.cloud.fullness[i] = moment.symmetric_eigenvalues().min();
+            let moment = filled(rate.moment, method.dimension);
+            self.cloud.fullness[i] = least_eigenvalue(&moment);
             self.cloud.gradient[i] = renormalised(&moment, rate.gradient);
             self.cloud.density[i] += dt * rate.density;
             self.cloud.heating[i] = by_fluid + by_wall;
@@ -341,10 +351,12 @@ impl<'a> Stepper<'a> {
 
     /// Moves particles from crowded places to empty ones.
     fn shift(&mut self) {
-        let way = std::mem::take(&mut self.way);
-        if !self.method.shifts || way == 0.0 {
+        let way = std::mem::take(&mut self.ledger.way);
+        if !self.method.shifts {
             return;
         }
+        // After sorting there are no lists yet.
+        self.list(&vec![[0.0; 3]; self.cloud.len()]);
         let method = self.method;
         let cloud = &*self.cloud;
         let records: Vec<[f64; 8]> =
@@ -362,17 +374,20 @@ impl<'a> Stepper<'a> {
             method.precision,
             method.threads,
         );
-        for (i, sums) in sums.iter().enumerate() {
-            let shift = displacement(sums, self.cloud.fullness[i], way);
-            for a in 0..3 {
-                self.cloud.position[i][a] += shift[a];
-            }
+        let shifts: Vec<[f64; 3]> = sums
+            .iter()
+            .zip(&self.cloud.fullness)
+            .map(|(sums, &fullness)| displacement(sums, fullness, way))
+            .collect();
+        self.list(&shifts);
+        for (x, shift) in self.cloud.position.iter_mut().zip(&shifts) {
+            (0..3).for_each(|a| x[a] += shift[a]);
         }
-        self.rebound_quietly();
+        self.put_back();
     }
 
     /// Puts back what a shift moved through a plane.
-    fn rebound_quietly(&mut self) {
+    fn put_back(&mut self) {
         let planes = [self.method.mirrors[0], self.method.mirrors[1], self.method.wall.is_some()];
         for x in &mut self.cloud.position {
             (0..3).filter(|&a| planes[a]).for_each(|a| x[a] = x[a].abs());
@@ -408,17 +423,42 @@ fn record(cloud: &Cloud, i: usize, velocity: [f64; 3], last: f64) -> [f64; 8] {
 }
 
 /// The moment matrix; in a plane model nothing happens along y.
-fn matrix(&[xx, yy, zz, xy, yz, xz]: &[f64; 6], dimension: usize) -> Matrix3<f64> {
-    let yy = if dimension == 2 { 1.0 } else { yy };
-    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+fn filled(mut moment: [f64; 6], dimension: usize) -> [f64; 6] {
+    if dimension == 2 {
+        moment[1] = 1.0;
+    }
+    moment
+}
+
+/// Smallest eigenvalue of a symmetric matrix xx, yy, zz, xy, yz, xz (Smith 1961, doi
+/// 10.1145/355578.366316).
+fn least_eigenvalue(&[xx, yy, zz, xy, yz, xz]: &[f64; 6]) -> f64 {
+    let mean = (xx + yy + zz) / 3.0;
+    let [a, b, c] = [xx - mean, yy - mean, zz - mean];
+    let spread = (a * a + b * b + c * c + 2.0 * (xy * xy + yz * yz + xz * xz)) / 6.0;
+    if spread <= 0.0 {
+        return mean;
+    }
+    let determinant =
+        a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
+    let cosine = (0.5 * determinant / (spread * spread.sqrt())).clamp(-1.0, 1.0);
+    mean + 2.0 * spread.sqrt() * (cosine.acos() / 3.0 + 2.0 * PI / 3.0).cos()
 }
 
 /// The gradient that is exact for linear fields; nothing where too few neighbours span space.
-fn renormalised(moment: &Matrix3<f64>, sum: [f64; 3]) -> [f64; 3] {
-    if moment.determinant() < SINGULAR {
+fn renormalised(&[xx, yy, zz, xy, yz, xz]: &[f64; 6], [a, b, c]: [f64; 3]) -> [f64; 3] {
+    let [xx_, yy_, zz_] = [yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy];
+    let [xy_, yz_, xz_] = [xz * yz - xy * zz, xy * xz - xx * yz, xy * yz - xz * yy];
+    let determinant = xx * xx_ + xy * xy_ + xz * xz_;
+    if determinant < SINGULAR {
         return [0.0; 3];
     }
-    moment.try_inverse().map_or([0.0; 3], |inverse| (inverse * Vector3::from(sum)).into())
+    let inverse = 1.0 / determinant;
+    [
+        inverse * (xx_ * a + xy_ * b + xz_ * c),
+        inverse * (xy_ * a + yy_ * b + yz_ * c),
+        inverse * (xz_ * a + yz_ * b + zz_ * c),
+    ]
 }
 
 /// Adds heat [J] and impulse [N s] at a place of the wall.
@@ -441,5 +481,34 @@ fn deposit(cells: &WallCells, ledger: &mut Ledger, [x, y]: [f64; 2], heat: f64, 
     for (cell, weight) in share.cells {
         exchange.heat[cell] += weight * heat;
         (0..3).for_each(|n| exchange.impulse[cell][n] += weight * impulse[n]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::Matrix3;
+
+    use super::*;
+
+    const MOMENT: [f64; 6] = [0.9, 0.7, 0.4, 0.1, -0.2, 0.05];
+
+    fn matrix([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> Matrix3<f64> {
+        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+    }
+
+    #[test]
+    fn the_least_eigenvalue_is_that_of_an_iterative_solver() {
+        for moment in [MOMENT, [1.0, 1.0, 1.0, 0.0, 0.0, 0.0], [0.3, 0.2, 0.9, 0.0, 0.0, 0.1]] {
+            let exact = matrix(moment).symmetric_eigenvalues().min();
+            assert!((least_eigenvalue(&moment) - exact).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn renormalisation_inverts_the_moment() {
+        let gradient = nalgebra::Vector3::new(1.0, -2.0, 0.5);
+        let sum = matrix(MOMENT) * gradient;
+        let found = renormalised(&MOMENT, sum.into());
+        assert!((nalgebra::Vector3::from(found) - gradient).norm() < 1e-12);
     }
 }
