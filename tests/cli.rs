@@ -250,3 +250,63 @@ fn a_folder_that_cannot_be_made_is_named() {
     fs::write(place.path("taken"), "a file").unwrap();
     place.run(&["--out", "taken/here"]).fails(1, &["cannot create the folder", "taken"]);
 }
+
+const DROP: &str = r#"
+name = "Drop"
+stop_time = 3e-7
+step = 1e-7
+
+[body.drop]
+kind = "droplet"
+diameter = 1e-4
+impact_velocity = 20.0
+initial_temperature = 350.0
+spacing = 1e-5
+fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6 }
+
+[[wall]]
+name = "wall"
+under = "drop"
+footprint = { tiles = { count = [2, 2], size = [2e-4, 2e-4] } }
+"#;
+
+#[test]
+fn check_tells_what_a_droplet_costs() {
+    let place = Workplace::new();
+    fs::write(place.path("drop.toml"), DROP).unwrap();
+    let report = place.call(&["check", "drop.toml"]).succeeds().stdout();
+    for words in [
+        "drop     100 µm",
+        "2 × 2 tiles, 200 µm × 200 µm",
+        "drop: 131 particles, about",
+        "time steps of",
+        "a quarter of the drop is modelled",
+        "speed of sound chosen: 200.0",
+        "wall.temperature[2,2]  K     350",
+        "wall.shear_y[2,2]",
+        "drop.spread_diameter",
+        "drop.viscosity",
+    ] {
+        assert!(report.contains(words), "`{words}` is missing in: {report}");
+    }
+}
+
+#[test]
+fn a_run_writes_the_particles_of_a_droplet() {
+    let place = Workplace::new();
+    fs::write(place.path("drop.toml"), DROP).unwrap();
+    let options = ["run", "drop.toml", "--set", "wall.temperature=300", "--out", "files"];
+    let report = place.call(&options).succeeds().stdout();
+    for words in ["3 steps", "drop.height", "drop.mass                5.2360e-10 kg"] {
+        assert!(report.contains(words), "`{words}` is missing in: {report}");
+    }
+    let text = fs::read_to_string(place.path("files/outputs.csv")).unwrap();
+    assert!(text.contains(",drop.force [N],\"wall.heat_flux[1,1] [W/m2]\","), "{text}");
+    assert_eq!(text.lines().count(), 5);
+    let list = fs::read_to_string(place.path("files/drop.pvd")).unwrap();
+    let entries: Vec<&str> = list.lines().filter(|line| line.contains("<DataSet")).collect();
+    assert_eq!(entries.len(), 4);
+    let last = fs::read(place.path("files").join(attribute(entries[3], "file"))).unwrap();
+    let head = String::from_utf8_lossy(&last[..500]);
+    assert!(head.contains("type=\"PolyData\"") && head.contains("NumberOfVerts"), "{head}");
+}

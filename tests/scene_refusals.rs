@@ -9,7 +9,10 @@ use serde::Deserialize;
 const PLATE: &str = include_str!("scenes/plate.toml");
 const DISC: &str = include_str!("scenes/disc.toml");
 const TILES: &str = include_str!("scenes/tiles.toml");
-const SCENES: [(&str, &str); 3] = [("plate", PLATE), ("disc", DISC), ("tiles", TILES)];
+const DROP: &str = include_str!("scenes/drop.toml");
+const IMPACT: &str = include_str!("scenes/impact.toml");
+const SCENES: [(&str, &str); 5] =
+    [("plate", PLATE), ("disc", DISC), ("tiles", TILES), ("drop", DROP), ("impact", IMPACT)];
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -92,6 +95,42 @@ fn scenes_that_make_sense_are_accepted() {
     for symmetry in ["none", "quarter"] {
         accepted(&edited(PLATE, "\"auto\"     ", &format!("\"{symmetry}\"")));
     }
+}
+
+#[test]
+fn droplets_may_be_alone_above_walls_or_on_solids() {
+    let (free, _) = DROP.split_once("[[wall]]").unwrap();
+    accepted(free);
+    let tiles = edited(
+        DROP,
+        "rings = { count = 3, radius = 2e-4 }",
+        "tiles = { count = [3, 1], size = [4e-4, 4e-4] }",
+    );
+    let tiles = edited(&tiles, "[300.0, 301.0, 302.0]", "[[300.0], [301.0], [302.0]]");
+    accepted(&edited(&tiles, "dimension = 3", "dimension = 2"));
+    accepted(&edited(&tiles, "{ time = 0.0 }", "{ x = 1e-4 }"));
+    accepted(&edited(DROP, ", sound_speed = 120.0", ""));
+    accepted(&edited(DROP, "symmetry = \"auto\"", "symmetry = \"quarter\""));
+    let disc =
+        edited(IMPACT, "box = [1e-3, 1e-3, 2e-4]", "disc = { radius = 1e-3, thickness = 2e-4 }");
+    accepted(&edited(&disc, "{ x = 2e-4, y = -1e-4 }", "{ time = 1e-6 }"));
+    let heat_alone = edited(IMPACT, "sides = { clamped = true }", "");
+    let heat_alone = edited(&heat_alone, "interval = 5e-8", "traction = false");
+    assert!(!accepted(&heat_alone).asks_mechanics("plate"));
+    assert!(accepted(IMPACT).asks_mechanics("plate"));
+}
+
+#[test]
+fn what_a_droplet_leaves_out_is_chosen() {
+    let scene = accepted(IMPACT);
+    let drop = scene.droplet("drop").unwrap();
+    assert_eq!((drop.gap(), drop.sound_speed()), (5e-6, 200.0));
+    assert_eq!((drop.mirrors(), drop.is_centred()), ([false; 2], false));
+    assert_eq!(accepted(DROP).droplet("drop").unwrap().mirrors(), [true; 2]);
+    assert_eq!((scene.wall_under("drop"), scene.coupling_from("drop")), (None, Some(0)));
+    assert!(scene.droplet("plate").is_none() && scene.solid("drop").is_none());
+    // Re = 2000 without surface tension: 0.87 · 2000^(1/5).
+    assert!((drop.spread_diameter() / 1e-4 - 3.978).abs() < 1e-3);
 }
 
 #[test]

@@ -314,3 +314,39 @@ fn paint([red, green, blue]: [f32; 3]) -> Paint<'static> {
     }
     paint
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const UNIT: &str = include_str!("../../examples/droplet_unit/scene.toml");
+    const IMPACT: &str = include_str!("../../examples/droplet_impact/scene.toml");
+
+    /// Number of pixels of a colour, and whether any differ from white below the drop.
+    fn seen(text: &str) -> (usize, bool) {
+        let scene = impinge::scene::parse(text, "scene").unwrap_or_else(|e| panic!("{e}"));
+        let picture = Pixmap::decode_png(&png(&scene).unwrap()).unwrap();
+        let wanted = WATER.map(|part| (part * 255.0).round() as i32);
+        let is_water = |pixel: &&tiny_skia::PremultipliedColorU8| {
+            let colour = [pixel.red(), pixel.green(), pixel.blue()];
+            colour.iter().zip(wanted).all(|(&a, b)| (i32::from(a) - b).abs() <= 1)
+        };
+        let bottom = picture.pixel(WIDTH as u32 / 2, HEIGHT as u32 - 10).unwrap();
+        (picture.pixels().iter().filter(is_water).count(), bottom.red() != 255)
+    }
+
+    #[test]
+    fn a_drop_is_seen_above_its_plate_and_above_its_wall() {
+        for text in [UNIT, IMPACT] {
+            let (water, has_ground) = seen(text);
+            assert!(water > 3000 && has_ground, "{water} {has_ground}");
+        }
+    }
+
+    #[test]
+    fn a_drop_without_a_wall_is_seen_alone() {
+        let free = UNIT.split("[[wall]]").next().unwrap();
+        let (water, has_ground) = seen(free);
+        assert!(water > 3000 && !has_ground, "{water} {has_ground}");
+    }
+}

@@ -66,6 +66,22 @@ fn outputs_name_the_inputs_that_they_follow_at_once() {
     assert!(!names.contains(&index("spot.heat_flux").to_string()), "{traction}");
 }
 
+#[test]
+fn what_a_droplet_gives_follows_no_input_at_once() {
+    let text = include_str!("../../examples/droplet_unit/scene.toml");
+    let xml = model_description(&scene::parse(text, "scene.toml").unwrap(), text);
+    let outputs = xml.split_once("<Outputs>").unwrap().1.split_once("</Outputs>").unwrap().0;
+    let count = outputs.matches("<Unknown ").count();
+    assert!(count > 100, "{count}");
+    assert_eq!(outputs.matches("dependencies=\"\"").count(), count);
+    for name in ["wall.temperature[30]", "wall.shear_r[1]", "drop.sound_speed", "drop.force"] {
+        assert!(xml.contains(&format!("<ScalarVariable name=\"{name}\" ")), "no {name}");
+    }
+    for unit in ["N", "W", "Pa.s", "N/m", "m/s", "kg", "kg.m/s"] {
+        assert!(xml.contains(&format!("<Unit name=\"{unit}\">")), "no {unit}");
+    }
+}
+
 /// The copies under modelDescription are what `build-fmu SCENE --xml FILE` writes now.
 #[test]
 fn checked_in_copies_of_the_examples_are_up_to_date() {

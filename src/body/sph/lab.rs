@@ -27,7 +27,8 @@ pub fn bench() {
     let t1 = t.elapsed().as_secs_f64();
     let pts: Vec<_> = order.iter().map(|&i| pts[i as usize]).collect();
     let t = Instant::now();
-    let mut nb = Neighbours::of_ordered(tree, pts.len()); nb.prepare(&pts, &vec![[0.005,0.0,0.0]; pts.len()], 0, threads);
+    let mut nb = Neighbours::of_ordered(tree, pts.len());
+    nb.prepare(&pts, &vec![[0.005, 0.0, 0.0]; pts.len()], 0, threads);
     let t2 = t.elapsed().as_secs_f64();
     let np = pts.len() as f64;
     let listed: usize = nb.blocks.iter().map(|b| b.listed()).sum();
@@ -72,7 +73,8 @@ pub fn bench() {
         let t = Instant::now();
         let o2 = for_all(&m, &nb.blocks, Kernel::WendlandC2, Precision::Single, threads);
         let b = t.elapsed().as_secs_f64();
-        let m = Momentum { cohesion: super::tension::PairForce::of(1e-3,Kernel::WendlandC2,3), ..m };
+        let m =
+            Momentum { cohesion: super::tension::PairForce::of(1e-3, Kernel::WendlandC2, 3), ..m };
         let t = Instant::now();
         let o3 = for_all(&m, &nb.blocks, Kernel::WendlandC2, Precision::Single, threads);
         let d = t.elapsed().as_secs_f64();
@@ -194,27 +196,124 @@ pub fn impact() {
     }
 }
 
-fn free(dim: usize, res: f64, radius: f64, sigma: f64, mu: f64, c: f64, placement: Placement, cohesion_fix: f64) -> DropletPlan {
-    DropletPlan { dimension:dim, spacing:2.0*radius/res, support:3.0, kernel:Kernel::WendlandC2, fluid:Fluid{density:1000.0,viscosity:mu,specific_heat:4000.0,conductivity:0.6,surface_tension:sigma*cohesion_fix,sound_speed:c}, placement, precision:Precision::Single, density_diffusion:0.1, shifting:true, gravity:[0.0;3], mirrors:[true, dim==3], releases:vec![Release{time:0.0,centre:[0.0;3],diameter:2.0*radius,velocity:[0.0;3],temperature:300.0}], wall:None }
+fn free(
+    dim: usize,
+    res: f64,
+    radius: f64,
+    sigma: f64,
+    mu: f64,
+    c: f64,
+    placement: Placement,
+    cohesion_fix: f64,
+) -> DropletPlan {
+    DropletPlan {
+        dimension: dim,
+        spacing: 2.0 * radius / res,
+        support: 3.0,
+        kernel: Kernel::WendlandC2,
+        fluid: Fluid {
+            density: 1000.0,
+            viscosity: mu,
+            specific_heat: 4000.0,
+            conductivity: 0.6,
+            surface_tension: sigma * cohesion_fix,
+            sound_speed: c,
+        },
+        placement,
+        precision: Precision::Single,
+        density_diffusion: 0.1,
+        shifting: true,
+        gravity: [0.0; 3],
+        mirrors: [true, dim == 3],
+        releases: vec![Release {
+            time: 0.0,
+            centre: [0.0; 3],
+            diameter: 2.0 * radius,
+            velocity: [0.0; 3],
+            temperature: 300.0,
+        }],
+        wall: None,
+    }
 }
 pub fn laplace() {
     let arg = |n: usize, d: f64| std::env::args().nth(n).map_or(d, |s| s.parse().unwrap());
-    let dim = arg(2,2.0) as usize; let res = arg(3,40.0); let cf = arg(4, 15.0); let stop = arg(5, 1.0); let amp = arg(6, 0.0); let pl = if arg(7,0.0)>0.0 {Placement::BlueNoise} else {Placement::Lattice}; let mu=arg(8,1e-3); let shift = arg(9,1.0) > 0.0;
+    let dim = arg(2, 2.0) as usize;
+    let res = arg(3, 40.0);
+    let cf = arg(4, 15.0);
+    let stop = arg(5, 1.0);
+    let amp = arg(6, 0.0);
+    let pl = if arg(7, 0.0) > 0.0 { Placement::BlueNoise } else { Placement::Lattice };
+    let mu = arg(8, 1e-3);
+    let shift = arg(9, 1.0) > 0.0;
     let (r, sigma) = (1e-3, 0.0728);
-    let uc = (sigma/(1000.0*r) as f64).sqrt();
-    let mut plan = free(dim, res, r, sigma, mu, cf*uc, pl, 1.0); plan.shifting = shift;
-    let period = if dim==3 { 2.0*3.14159265*(1000.0*r*r*r/(8.0*sigma) as f64).sqrt() } else { 2.0*3.14159265*(1000.0*r*r*r/(6.0*sigma) as f64).sqrt() };
+    let uc = (sigma / (1000.0 * r) as f64).sqrt();
+    let mut plan = free(dim, res, r, sigma, mu, cf * uc, pl, 1.0);
+    plan.shifting = shift;
+    let period = if dim == 3 {
+        2.0 * 3.14159265 * (1000.0 * r * r * r / (8.0 * sigma) as f64).sqrt()
+    } else {
+        2.0 * 3.14159265 * (1000.0 * r * r * r / (6.0 * sigma) as f64).sqrt()
+    };
     let drop = DropletSph::new(plan, 1);
     let mut s = drop.initial_state();
-    if amp != 0.0 { let mut p = drop.particles(&s); for x in &mut p.position { let e = amp; if dim==2 { x[0]*=1.0+e; x[2]/=1.0+e; } else { x[0]/=(1.0+e).sqrt(); x[1]/=(1.0+e).sqrt(); x[2]*=1.0+e; } } s = drop.state_of(&p); }
-    println!("period {period:.4e} particles {} 2s/R {:.2}", drop.totals(&s).particles, if dim==3 {2.0*sigma/r} else {sigma/r});
-    let frames = arg(10, 40.0) as usize; let mut series = vec![];
+    if amp != 0.0 {
+        let mut p = drop.particles(&s);
+        for x in &mut p.position {
+            let e = amp;
+            if dim == 2 {
+                x[0] *= 1.0 + e;
+                x[2] /= 1.0 + e;
+            } else {
+                x[0] /= (1.0 + e).sqrt();
+                x[1] /= (1.0 + e).sqrt();
+                x[2] *= 1.0 + e;
+            }
+        }
+        s = drop.state_of(&p);
+    }
+    println!(
+        "period {period:.4e} particles {} 2s/R {:.2}",
+        drop.totals(&s).particles,
+        if dim == 3 { 2.0 * sigma / r } else { sigma / r }
+    );
+    let frames = arg(10, 40.0) as usize;
+    let mut series = vec![];
     for f in 1..=frames {
-        if let Err(e) = drop.advance(&mut s, &[], stop*period/frames as f64) { println!("FAILED {e}"); return; }
-        let p = drop.particles(&s); let q = drop.totals(&s);
-        let (mut pin, mut n, mut mx, mut mz, mut m, mut pout)=(0.0,0.0,0.0,0.0,0.0,0.0); let mut nout=0.0;
-        for i in 0..p.mass.len() { let rr: f64 = p.position[i].iter().map(|x|x*x).sum::<f64>().sqrt(); if rr<0.6*r {pin+=p.pressure[i];n+=1.0;} if rr>0.9*r {pout+=p.pressure[i];nout+=1.0;} mx+=p.mass[i]*p.position[i][0].powi(2); mz+=p.mass[i]*p.position[i][2].powi(2); m+=p.mass[i]; }
-        series.push(mx-mz);
-        println!("t/T {:.3} steps {} p_in {:.3} p_out {:.3} KE {:.3e} a {:.5e} {:.5e} rho {:.4} {:.4} vmax/uc {:.3}", stop*f as f64/frames as f64, q.steps, pin/n, pout/nout, q.kinetic_energy, (mx/m).sqrt()/r, (mz/m).sqrt()/r, q.density_range[0], q.density_range[1], q.max_speed/uc);
+        if let Err(e) = drop.advance(&mut s, &[], stop * period / frames as f64) {
+            println!("FAILED {e}");
+            return;
+        }
+        let p = drop.particles(&s);
+        let q = drop.totals(&s);
+        let (mut pin, mut n, mut mx, mut mz, mut m, mut pout) = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+        let mut nout = 0.0;
+        for i in 0..p.mass.len() {
+            let rr: f64 = p.position[i].iter().map(|x| x * x).sum::<f64>().sqrt();
+            if rr < 0.6 * r {
+                pin += p.pressure[i];
+                n += 1.0;
+            }
+            if rr > 0.9 * r {
+                pout += p.pressure[i];
+                nout += 1.0;
+            }
+            mx += p.mass[i] * p.position[i][0].powi(2);
+            mz += p.mass[i] * p.position[i][2].powi(2);
+            m += p.mass[i];
+        }
+        series.push(mx - mz);
+        println!(
+            "t/T {:.3} steps {} p_in {:.3} p_out {:.3} KE {:.3e} a {:.5e} {:.5e} rho {:.4} {:.4} vmax/uc {:.3}",
+            stop * f as f64 / frames as f64,
+            q.steps,
+            pin / n,
+            pout / nout,
+            q.kinetic_energy,
+            (mx / m).sqrt() / r,
+            (mz / m).sqrt() / r,
+            q.density_range[0],
+            q.density_range[1],
+            q.max_speed / uc
+        );
     }
 }

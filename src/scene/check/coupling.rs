@@ -40,6 +40,7 @@ fn alone(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupling) {
     if let Some(first) = scene.coupling_from(&coupling.from).filter(|&first| first != i) {
         let message = format!("`{}` is coupled by coupling[{first}] already", coupling.from);
         checker.refuse(&from, message, "one coupling a droplet");
+        return;
     }
     let others = scene.coupling[..i].iter();
     if let Some(other) = others.clone().position(|other| other.to == coupling.to) {

@@ -135,10 +135,12 @@ fn arrivals(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
             let message = "a plane model lies in y = 0";
             checker.require(arrival.y == 0.0, &path.at("y"), message, "0");
         }
-        let fine = i == 0 || list[i - 1].time <= arrival.time;
-        let message = "arrivals stand in the order of their times";
         let earlier = list[i.saturating_sub(1)].time;
-        checker.require(fine, &path.at("time"), message, format!(">= {}", number(earlier)));
+        let message = "arrivals stand in the order of their times";
+        let allowed = format!(">= {}", number(earlier));
+        if !checker.require(earlier <= arrival.time, &path.at("time"), message, allowed) {
+            continue;
+        }
         let free =
             checker.scene.wall_under(name).is_none() && checker.scene.coupling_from(name).is_none();
         if let Some(other) = list[..i].iter().position(|other| meets(droplet, other, arrival, free))
@@ -153,7 +155,7 @@ fn arrivals(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
 /// Whether a drop is released where an earlier one still is: it falls freely, its centre to the
 /// wall at most.
 fn meets(droplet: &Droplet, earlier: &Arrival, later: &Arrival, free: bool) -> bool {
-    let time = later.time - earlier.time;
+    let time = (later.time - earlier.time).max(0.0);
     let fall = droplet.impact_velocity * time + 0.5 * droplet.gravity * time * time;
     let deepest = droplet.gap() + 0.5 * droplet.diameter;
     let fall = if free { fall } else { fall.min(deepest) };

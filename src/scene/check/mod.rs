@@ -131,8 +131,8 @@ impl<'a> Checker<'a> {
     fn not_a_solid(&self, body: &str, otherwise: String) -> String {
         match self.scene.droplet(body) {
             Some(_) => format!(
-                "`{body}` is a droplet, which takes no loads, probes or fields: its values are \
-                 outputs by themselves"
+                "`{body}` is a droplet, on which nothing else acts and whose values are outputs by \
+                 themselves"
             ),
             None => otherwise,
         }

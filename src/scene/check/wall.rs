@@ -8,8 +8,10 @@ use crate::scene::types::{CellValues, Footprint};
 pub fn check(checker: &mut Checker) {
     for (i, wall) in checker.scene.wall.iter().enumerate() {
         let path = Path::default().key("wall").index(i);
+        let before = checker.problems.len();
         load::footprint(checker, &path.at("footprint"), &wall.footprint);
-        let has_cells = cells(checker, &path.at("footprint"), &wall.footprint);
+        cells(checker, &path.at("footprint"), &wall.footprint);
+        let has_cells = checker.problems.len() == before;
         if has_cells {
             temperatures(checker, &path.at("start.temperature"), wall);
         }
@@ -24,10 +26,10 @@ pub fn check(checker: &mut Checker) {
     }
 }
 
-fn cells(checker: &mut Checker, path: &Path, footprint: &Footprint) -> bool {
+fn cells(checker: &mut Checker, path: &Path, footprint: &Footprint) {
     let message = "a wall is cut into cells, each with a temperature and a flux of its own";
     let path = path.key(footprint.name());
-    checker.require(footprint.cells().is_some(), &path, message, "rings, tiles")
+    checker.require(footprint.cells().is_some(), &path, message, "rings, tiles");
 }
 
 fn temperatures(checker: &mut Checker, path: &Path, wall: &Wall) {

@@ -1,0 +1,175 @@
+"""A drop's unit above a wall that this program models: alumina that warms up ring by ring."""
+
+import sys
+import time
+from dataclasses import dataclass, field
+from math import pi, sqrt
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import shared  # noqa: E402
+
+NAME = "droplet_unit"
+STOP, STEP = 3.5e-6, 5e-8  # s
+RINGS, RADIUS = 30, 150e-6  # m, as in scene.toml
+DIAMETER, SPEED = 0.1e-3, 50.0  # m, m/s
+HOT, COLD = 373.15, 293.15  # K
+EFFUSIVITY = sqrt(10.0 * 3950.0 * 900.0)  # W √s/(m² K), of alumina
+
+EDGES = np.linspace(0, RADIUS, RINGS + 1)
+AREAS = pi * np.diff(EDGES**2)
+SCALARS = [
+    "drop.spread_diameter",
+    "drop.height",
+    "drop.kinetic_energy",
+    "drop.compression_energy",
+    "drop.heat",
+    "drop.heat_flow",
+    "drop.force",
+    "drop.impulse_z",
+    "drop.momentum_z",
+]
+
+
+class HalfSpaces:
+    """A half space of alumina under each ring, whose flux is held over each step.
+
+    A flux q that begins at t' warms the surface by 2 q √((t − t')/π)/e (H. S. Carslaw and
+    J. C. Jaeger, Conduction of Heat in Solids, Oxford 1959, §2.9).
+    """
+
+    def __init__(self):
+        self.starts, self.jumps = [], []
+        self.flux = np.zeros(RINGS)
+
+    def add(self, start: float, flux: np.ndarray):
+        self.starts.append(start)
+        self.jumps.append(flux - self.flux)
+        self.flux = flux
+
+    def temperature(self, t: float) -> np.ndarray:
+        since = np.sqrt((t - np.array(self.starts)) / pi)
+        return COLD + 2 / EFFUSIVITY * since @ np.array(self.jumps)
+
+
+@dataclass
+class Result:
+    times: list[float] = field(default_factory=list)  # s, ends of steps
+    scalars: list[np.ndarray] = field(default_factory=list)  # in the order of SCALARS
+    fluxes: list[np.ndarray] = field(default_factory=list)  # W/m² of each ring
+    pressures: list[np.ndarray] = field(default_factory=list)  # Pa of each ring
+    surface: list[np.ndarray] = field(default_factory=list)  # K of each ring
+    outside: float = 0.0  # J that went beyond the rings
+    momentum: float = 0.0  # kg m/s along z in the beginning
+
+    def freeze(self):
+        for name in ("times", "scalars", "fluxes", "pressures", "surface"):
+            setattr(self, name, np.array(getattr(self, name)))
+
+    def history(self, name: str) -> np.ndarray:
+        return self.scalars[:, SCALARS.index(name)]
+
+
+def rings(name: str) -> list[str]:
+    return [f"wall.{name}[{i + 1}]" for i in range(RINGS)]
+
+
+def simulate(fmu: Path) -> Result:
+    result, wall = Result(), HalfSpaces()
+    with shared.Unit(fmu) as unit:
+        result.momentum = unit.get("drop.momentum_z")[0]
+        for step in range(round(STOP / STEP)):
+            start = unit.time
+            unit.step_to((step + 1) * STEP)
+            flux = unit.get(*rings("heat_flux"))
+            wall.add(start, flux)
+            surface = wall.temperature(unit.time)
+            unit.set(dict(zip(rings("temperature"), surface, strict=True)))
+            result.times.append(unit.time)
+            result.fluxes.append(flux)
+            result.surface.append(surface)
+            result.pressures.append(unit.get(*rings("pressure")))
+            result.scalars.append(unit.get(*SCALARS))
+            result.outside += STEP * unit.get("wall.heat_flow_outside")[0]
+    result.freeze()
+    return result
+
+
+def report(result: Result):
+    rows = []
+    for t in [0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 3.5]:
+        step = round(t * 1e-6 / STEP) - 1
+        values = [
+            result.history("drop.spread_diameter")[step] / DIAMETER,
+            result.history("drop.height")[step] / DIAMETER,
+            result.pressures[step, 0] / 1e6,
+            result.history("drop.force")[step] * 1e3,
+            result.fluxes[step, 0] / 1e6,
+            result.surface[step, 0] - shared.ZERO_CELSIUS,
+        ]
+        rows.append([f"{t:g}"] + [f"{value:.3f}" for value in values])
+    head = ["t/µs", "spread/D", "height/D", "p/MPa", "force/mN", "q/(MW/m²)", "wall/°C"]
+    shared.print_table(head, rows)
+    given = STEP * (result.fluxes @ AREAS).sum() + result.outside
+    heat = result.history("drop.heat")[-1]
+    print(f"heat of all rings and beyond {given * 1e6:.6f} µJ = drop's to {given / heat - 1:.0e}")
+    lost = result.momentum - result.history("drop.momentum_z")[-1]
+    impulse = result.history("drop.impulse_z")[-1]
+    print(f"impulse of the wall {impulse:.4e} N s = momentum lost to {impulse / lost - 1:.0e}")
+
+
+def draw(result: Result, folder: Path) -> Path:
+    figure, axes = shared.new_figure(2, 2)
+    draw_rings(axes[0, 0], result, result.fluxes / 1e6, "MW/m²", cmap="inferno")
+    axes[0, 0].set_title("Heat flux into the wall")
+    pressures = np.clip(result.pressures / 1e6, 0, None)
+    draw_rings(axes[0, 1], result, pressures, "MPa", cmap="viridis")
+    axes[0, 1].set_title("Pressure on the wall")
+    draw_shape(axes[1, 0], result)
+    draw_energy(axes[1, 1], result)
+    figure.suptitle(
+        f"A drop of {DIAMETER * 1e6:.0f} µm hits a wall at {SPEED:.0f} m/s: what the unit gives"
+    )
+    return shared.save(figure, folder, NAME)
+
+
+def draw_rings(plot, result: Result, values: np.ndarray, unit: str, **options):
+    times = np.concatenate([[0], result.times]) * 1e6
+    highest = np.percentile(values, 99.5)
+    mesh = plot.pcolormesh(times, EDGES * 1e6, values.T, vmin=0, vmax=highest, **options)
+    plot.figure.colorbar(mesh, ax=plot, label=unit)
+    plot.set(xlabel="time / µs", ylabel="radius / µm")
+
+
+def draw_shape(plot, result: Result):
+    times = result.times * 1e6
+    plot.plot(times, result.history("drop.spread_diameter") / DIAMETER, label="spread diameter")
+    plot.plot(times, result.history("drop.height") / DIAMETER, label="height")
+    plot.set(xlabel="time / µs", ylabel="over the drop's diameter", ylim=(0, None))
+    plot.set_title("The drop becomes a lamella")
+    plot.legend()
+
+
+def draw_energy(plot, result: Result):
+    times = result.times * 1e6
+    plot.plot(times, result.history("drop.kinetic_energy") * 1e9, label="kinetic energy / nJ")
+    plot.plot(times, result.history("drop.heat") * 1e8, label="heat lost / 10 nJ")
+    plot.set(xlabel="time / µs", ylim=(0, None))
+    plot.set_title("Energy")
+    plot.legend()
+
+
+def main(given: list[str] | None = None) -> Result:
+    options = shared.arguments(NAME, __doc__, given)
+    started = time.perf_counter()
+    result = simulate(options.fmu)
+    print(f"{len(result.times)} steps in {time.perf_counter() - started:.1f} s")
+    report(result)
+    draw(result, options.out)
+    return result
+
+
+if __name__ == "__main__":
+    main()

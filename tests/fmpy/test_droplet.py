@@ -1,0 +1,79 @@
+"""A drop as a master sees it: alone above a wall, and on a plate in the same unit."""
+
+from math import pi
+
+import numpy as np
+import pytest
+from fmpy.fmi1 import FMICallException
+from master import Unit
+
+STEP = 1e-7
+AREAS = pi * 2.5e-5**2 * np.array([1, 3, 5, 7])
+
+
+def rings(name):
+    return [f"wall.{name}[{ring}]" for ring in range(1, 5)]
+
+
+def test_the_rings_and_what_lies_beyond_them_take_all_that_the_drop_gives(pack):
+    given = 0.0
+    with Unit(pack("drop")) as unit:
+        momentum = unit["drop.momentum_z"]
+        for _ in range(20):
+            unit.step(STEP)
+            flow = np.array(unit.read(rings("heat_flux"))) @ AREAS
+            given += STEP * (flow + unit["wall.heat_flow_outside"])
+            force = np.array(unit.read(rings("pressure"))) @ AREAS + unit["wall.force_outside"]
+            assert force == pytest.approx(unit["drop.force"], rel=1e-9)
+        assert given == pytest.approx(unit["drop.heat"], rel=1e-9)
+        assert unit["drop.impulse_z"] == pytest.approx(momentum - unit["drop.momentum_z"], rel=1e-4)
+
+
+def test_wall_temperatures_are_inputs(pack):
+    heats = []
+    for temperature in (300.0, 325.0, 350.0):
+        with Unit(pack("drop"), dict.fromkeys(rings("temperature"), temperature)) as unit:
+            for _ in range(5):
+                unit.step(STEP)
+            heats.append(unit["drop.heat"])
+    assert heats[1] == pytest.approx(heats[0] / 2, rel=1e-3)
+    assert abs(heats[2]) < 1e-9 * heats[0]
+
+
+def test_the_drop_and_its_fluid_are_parameters(pack):
+    with Unit(pack("drop"), {"drop.diameter": 8e-5, "drop.density": 800.0}) as unit:
+        assert unit["drop.mass"] == pytest.approx(800.0 * pi / 6 * 8e-5**3, rel=1e-9)
+    with pytest.raises(FMICallException):
+        Unit(pack("drop"), {"drop.diameter": 3e-5})
+
+
+def test_heat_passes_whole_from_drop_to_plate(pack):
+    with Unit(pack("impact")) as unit:
+        for step in (0.3e-7, 2.7e-7, 1e-7, 6e-7):
+            unit.step(step)
+        given = unit["drop.heat"]
+        assert given > 0
+        assert unit["plate.heat_in"] == pytest.approx(given, rel=1e-12)
+        assert unit["plate.heat_stored"] == pytest.approx(given, rel=1e-9)
+        assert unit["drop.heat_stored"] == pytest.approx(-given, rel=1e-5)
+        assert 300.0 < unit["centre.temperature"] < 350.0
+        assert unit["centre.stress_xx"] < 0
+
+
+def test_a_step_without_meaning_is_discarded(pack):
+    with Unit(pack("drop")) as unit:
+        unit.step(STEP)
+        before = unit["drop.heat"]
+        unit.set(dict.fromkeys(rings("temperature"), 1e300))
+        with pytest.raises(FMICallException) as refused:
+            unit.step(STEP)
+        assert refused.value.status == 2, "fmi2Discard"
+        assert any("drop: " in line and "t = " in line for line in unit.log), unit.log
+        assert unit["drop.heat"] == before
+
+
+def test_particles_are_written_beside_the_plate(pack, tmp_path):
+    with Unit(pack("impact"), {"output.directory": str(tmp_path)}) as unit:
+        unit.step(STEP)
+    for name in ("drop.pvd", "drop_000001.vtp", "plate.pvd", "plate_000001.vtr"):
+        assert (tmp_path / name).is_file(), name
