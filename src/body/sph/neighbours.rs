@@ -115,8 +115,7 @@ impl Neighbours {
 
     /// Whether the particles have mixed so much that they should be sorted anew.
     pub fn are_scattered(&self) -> bool {
-        self.sorted_sources > 0
-            && self.sources() as f64 > GROWTH * self.sorted_sources as f64
+        self.sorted_sources > 0 && self.sources() as f64 > GROWTH * self.sorted_sources as f64
     }
 
     fn sources(&self) -> usize {
@@ -163,9 +162,8 @@ impl Neighbours {
 fn span(drifts: &[Bounds], surroundings: &[(usize, u8)]) -> f64 {
     let Some(first) = surroundings.first() else { return f64::INFINITY };
     let start = drifts[first.0].mirrored(first.1);
-    let all = surroundings.iter().fold(start, |all, part| {
-        all.joined(&drifts[part.0].mirrored(part.1))
-    });
+    let all =
+        surroundings.iter().fold(start, |all, part| all.joined(&drifts[part.0].mirrored(part.1)));
     (0..3).map(|a| (all.high[a] - all.low[a]).powi(2)).sum::<f64>().sqrt()
 }
 
@@ -342,8 +340,7 @@ mod tests {
     }
 
     fn ordered(count: usize) -> (Vec<[f64; 3]>, Neighbours) {
-        let point =
-            |i: usize| [3.0 * number(i), 3.0 * number(7 * i + 3), 2.0 * number(13 * i + 5)];
+        let point = |i: usize| [3.0 * number(i), 3.0 * number(7 * i + 3), 2.0 * number(13 * i + 5)];
         let points: Vec<_> = (0..count).map(point).collect();
         let (order, tree) = Neighbours::order(&points);
         let points = order.iter().map(|&i| points[i as usize]).collect();
@@ -372,7 +369,10 @@ mod tests {
                         for (j, point) in points.iter().enumerate() {
                             let other = image(*point, code);
                             let square: f64 = (0..3).map(|a| (at[a] - other[a]).powi(2)).sum();
-                            assert!(square >= 1.0 || listed.contains(&(j, code)), "{at:?} {other:?}");
+                            assert!(
+                                square >= 1.0 || listed.contains(&(j, code)),
+                                "{at:?} {other:?}"
+                            );
                         }
                     }
                 }
@@ -404,9 +404,8 @@ mod tests {
     #[test]
     fn the_lists_stay_complete_while_particles_move() {
         let (mut points, mut neighbours) = ordered(700);
-        let drift = |i: usize, step: usize| {
-            [0, 1, 2].map(|a| 0.03 * (number(i + 11 * a + step / 9) - 0.5))
-        };
+        let drift =
+            |i: usize, step: usize| [0, 1, 2].map(|a| 0.03 * (number(i + 11 * a + step / 9) - 0.5));
         for step in 0..40 {
             let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
             neighbours.prepare(&points, &drifts, MIRRORS, 1);

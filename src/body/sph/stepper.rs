@@ -439,8 +439,7 @@ fn least_eigenvalue(&[xx, yy, zz, xy, yz, xz]: &[f64; 6]) -> f64 {
     if spread <= 0.0 {
         return mean;
     }
-    let determinant =
-        a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
+    let determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
     let cosine = (0.5 * determinant / (spread * spread.sqrt())).clamp(-1.0, 1.0);
     mean + 2.0 * spread.sqrt() * (cosine.acos() / 3.0 + 2.0 * PI / 3.0).cos()
 }

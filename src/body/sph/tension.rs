@@ -31,12 +31,12 @@ impl PairForce {
         let power = dimension as i32;
         let cosine = |n: i32| integral(|q| q.powi(n) * (1.5 * PI * q).cos());
         let slope = |q: f64| -q * kernel.gradient_factor(q, 1.0, dimension);
-        let [pressure, parting] = if dimension == 2 { [PI / 2.0, 1.0 / 3.0] } else { [2.0 * PI / 3.0, PI / 8.0] };
+        let [pressure, parting] =
+            if dimension == 2 { [PI / 2.0, 1.0 / 3.0] } else { [2.0 * PI / 3.0, PI / 8.0] };
         // Background for each amplitude, then the tension that both make.
         let background = -pressure * cosine(power);
         let tension_made = -parting
-            * (cosine(power + 1)
-                + 2.0 * background * integral(|q| q.powi(power + 1) * slope(q)));
+            * (cosine(power + 1) + 2.0 * background * integral(|q| q.powi(power + 1) * slope(q)));
         let amplitude = tension / tension_made;
         Self { amplitude, background: amplitude * background }
     }
@@ -65,9 +65,8 @@ mod tests {
     fn parting_two_half_spaces_takes_twice_the_tension() {
         for kernel in Kernel::ALL {
             let force = force(kernel, 3);
-            let potential = |q: f64| -> f64 {
-                gauss_on(40, q, 1.0).map(|(s, w)| w * force(s)).sum()
-            };
+            let potential =
+                |q: f64| -> f64 { gauss_on(40, q, 1.0).map(|(s, w)| w * force(s)).sum() };
             let mut work = 0.0;
             for (cosine, weight) in gauss_on(10, 0.0, 1.0) {
                 for (q, w) in gauss_on(40, 0.0, 1.0) {

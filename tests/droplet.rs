@@ -1,0 +1,230 @@
+//! Droplets: balances, closed forms, and independence of how they are computed.
+
+use std::f64::consts::PI;
+
+use impinge::body::sph::{
+    DropletPlan, DropletSph, Fluid, ParticleFields, Placement, Precision, Release, Wall, WallCells,
+};
+use impinge::kernel::Kernel;
+
+const DIAMETER: f64 = 1e-4;
+const SPEED: f64 = 50.0;
+const HOT: f64 = 373.15;
+const COLD: f64 = 293.15;
+const RINGS: usize = 30;
+
+const WATER: Fluid = Fluid {
+    density: 1000.0,
+    viscosity: 3e-4,
+    specific_heat: 4000.0,
+    conductivity: 0.6,
+    surface_tension: 0.0,
+    sound_speed: 500.0,
+};
+
+/// A drop of some particles over its diameter that is about to hit a wall.
+fn impact(resolution: f64) -> DropletPlan {
+    let spacing = DIAMETER / resolution;
+    DropletPlan {
+        dimension: 3,
+        spacing,
+        support: 3.0,
+        kernel: Kernel::WendlandC2,
+        fluid: WATER,
+        placement: Placement::Lattice,
+        precision: Precision::Single,
+        density_diffusion: 0.1,
+        shifting: true,
+        gravity: [0.0; 3],
+        mirrors: [true; 2],
+        releases: vec![Release {
+            time: 0.0,
+            centre: [0.0, 0.0, 0.5 * (DIAMETER + spacing)],
+            diameter: DIAMETER,
+            velocity: [0.0, 0.0, -SPEED],
+            temperature: HOT,
+        }],
+        wall: Some(Wall {
+            cells: WallCells::Rings { count: RINGS, radius: 1.5e-4 },
+            contact_angle: 0.5 * PI,
+        }),
+    }
+}
+
+/// A state after some steps of 0.25 µs, under a cold wall.
+fn run(drop: &DropletSph, steps: usize) -> Vec<f64> {
+    let mut state = drop.initial_state();
+    for _ in 0..steps {
+        drop.advance(&mut state, &[COLD; RINGS], 0.25e-6).unwrap();
+    }
+    state
+}
+
+#[test]
+fn what_the_droplet_loses_the_wall_gains() {
+    for placement in [Placement::Lattice, Placement::BlueNoise] {
+        let mirrors = [placement == Placement::Lattice; 2];
+        let drop = DropletSph::new(DropletPlan { placement, mirrors, ..impact(14.0) }, 1);
+        let mut state = drop.initial_state();
+        let before = drop.totals(&state);
+        let mass = 1000.0 * PI / 6.0 * DIAMETER.powi(3);
+        assert!((before.mass / mass - 1.0).abs() < 1e-12);
+        assert!((before.momentum[2] / (-mass * SPEED) - 1.0).abs() < 1e-12);
+        let mut to_rings = 0.0;
+        for _ in 0..6 {
+            drop.advance(&mut state, &[COLD; RINGS], 0.25e-6).unwrap();
+            let now = drop.totals(&state);
+            assert!((now.mass / before.mass - 1.0).abs() < 1e-13);
+            let momentum = now.momentum[2] + now.impulse_to_wall[2] - before.momentum[2];
+            // Pair forces are equal and opposite to the last bit of single precision.
+            assert!((momentum / before.momentum[2]).abs() < 1e-7, "{momentum:e}");
+            assert!((now.heat + now.heat_to_wall).abs() < 1e-7 * now.heat_to_wall);
+            let exchange = drop.exchange(&state);
+            to_rings += exchange.heat.iter().sum::<f64>() + exchange.heat_outside;
+            assert!((to_rings / now.heat_to_wall - 1.0).abs() < 1e-12);
+        }
+        let now = drop.totals(&state);
+        assert!(now.heat_to_wall > 0.0 && now.impulse_to_wall[2] < 0.0);
+        assert!(now.kinetic_energy < before.kinetic_energy);
+        assert!(now.spread_diameter > 1.2 * DIAMETER && now.height < 0.8 * DIAMETER);
+    }
+}
+
+#[test]
+fn threads_change_no_bit() {
+    let alone = run(&DropletSph::new(impact(14.0), 1), 3);
+    for threads in [2, 5] {
+        let together = run(&DropletSph::new(impact(14.0), threads), 3);
+        assert!(alone.iter().zip(&together).all(|(a, b)| a.to_bits() == b.to_bits()));
+    }
+}
+
+#[test]
+fn a_saved_state_goes_on_as_if_nothing_had_happened() {
+    let drop = DropletSph::new(impact(12.0), 1);
+    let mut saved = run(&drop, 2);
+    assert!(drop.accepts(&saved) && !drop.accepts(&saved[1..]));
+    let other = DropletSph::new(impact(12.0), 1);
+    other.advance(&mut saved, &[COLD; RINGS], 0.25e-6).unwrap();
+    let straight = run(&drop, 3);
+    assert!(saved.iter().zip(&straight).all(|(a, b)| a.to_bits() == b.to_bits()));
+}
+
+#[test]
+fn single_precision_of_pairs_does_no_harm() {
+    let single = DropletSph::new(impact(14.0), 1);
+    let double = DropletSph::new(DropletPlan { precision: Precision::Double, ..impact(14.0) }, 1);
+    // Until the flow is chaotic, single particles agree.
+    let [a, b] = [&single, &double].map(|drop| drop.particles(&run(drop, 1)));
+    let moved = a.position.iter().map(|x| x[2]).fold(0.0, f64::max);
+    let [a, b] = [a, b].map(|particles| {
+        let mut heights: Vec<f64> = particles.position.iter().map(|x| x[2]).collect();
+        heights.sort_by(f64::total_cmp);
+        heights
+    });
+    let apart = a.iter().zip(&b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(apart < 1e-3 * moved, "{apart:e} of {moved:e}");
+    let [a, b] = [&single, &double].map(|drop| drop.totals(&run(drop, 6)));
+    assert!((a.kinetic_energy / b.kinetic_energy - 1.0).abs() < 0.01);
+    assert!((a.heat_to_wall / b.heat_to_wall - 1.0).abs() < 0.05);
+    assert!((a.impulse_to_wall[2] / b.impulse_to_wall[2] - 1.0).abs() < 0.01);
+}
+
+#[test]
+fn a_quarter_stands_for_the_whole() {
+    let quarter = DropletSph::new(impact(12.0), 1);
+    let whole = DropletSph::new(DropletPlan { mirrors: [false; 2], ..impact(12.0) }, 1);
+    let [a, b] = [&quarter, &whole].map(|drop| drop.totals(&run(drop, 1)));
+    assert_eq!(4.0 * a.particles, b.particles);
+    assert!((a.mass / b.mass - 1.0).abs() < 1e-12);
+    assert!((a.kinetic_energy / b.kinetic_energy - 1.0).abs() < 2e-3);
+    assert!((a.impulse_to_wall[2] / b.impulse_to_wall[2] - 1.0).abs() < 2e-3);
+    assert!((a.heat_to_wall / b.heat_to_wall - 1.0).abs() < 2e-2);
+}
+
+#[test]
+fn a_droplet_flies_freely_until_it_hits() {
+    let mut plan = impact(12.0);
+    plan.releases[0].centre[2] += 4e-5;
+    plan.gravity = [0.0, 0.0, -9.81e5];
+    let drop = DropletSph::new(plan, 1);
+    let mut state = drop.initial_state();
+    drop.advance(&mut state, &[COLD; RINGS], 0.5e-6).unwrap();
+    let now = drop.totals(&state);
+    let speed = SPEED + 9.81e5 * 0.5e-6;
+    assert!((now.momentum[2] / (-now.mass * speed) - 1.0).abs() < 1e-9);
+    assert_eq!(now.impulse_to_wall, [0.0; 3]);
+    assert_eq!(now.heat_to_wall, 0.0);
+}
+
+#[test]
+fn a_train_arrives_drop_by_drop() {
+    let mut plan = impact(10.0);
+    let first = plan.releases[0];
+    plan.releases.push(Release { time: 1e-6, centre: [0.0, 0.0, 2.5e-4], ..first });
+    let drop = DropletSph::new(plan, 1);
+    let mut state = drop.initial_state();
+    let one = drop.totals(&state).particles;
+    drop.advance(&mut state, &[COLD; RINGS], 0.9e-6).unwrap();
+    assert_eq!(drop.totals(&state).particles, one);
+    drop.advance(&mut state, &[COLD; RINGS], 0.2e-6).unwrap();
+    assert_eq!(drop.totals(&state).particles, 2.0 * one);
+    assert!(drop.accepts(&state));
+}
+
+#[test]
+fn a_flow_faster_than_sound_is_refused_and_changes_nothing() {
+    let mut plan = impact(10.0);
+    plan.fluid.sound_speed = 10.0;
+    let drop = DropletSph::new(plan, 1);
+    let mut state = drop.initial_state();
+    let mut refused = None;
+    for _ in 0..40 {
+        let before = state.clone();
+        if let Err(failure) = drop.advance(&mut state, &[COLD; RINGS], 0.1e-6) {
+            assert_eq!(state, before);
+            refused = Some(failure.to_string());
+            break;
+        }
+    }
+    assert!(refused.expect("a refusal").contains("speed of sound"));
+}
+
+/// Heat that a resting block of water gives to a wall of constant temperature, over the closed form
+/// `2 k ΔT √(t/(π a))` of a half space.
+fn contact_heat(spacing: f64) -> f64 {
+    let (width, height, time) = (3.2e-5, 2.4e-5, 40e-6);
+    let mut plan = impact(DIAMETER / spacing);
+    plan.fluid.sound_speed = 5.0;
+    plan.fluid.viscosity = 1e-2;
+    let cells = WallCells::Tiles { count: [1, 1], size: [1e-3, 1e-3] };
+    plan.wall = Some(Wall { cells, contact_angle: 0.5 * PI });
+    let drop = DropletSph::new(plan, 1);
+    let mut block = ParticleFields::default();
+    let count = |length: f64| (length / spacing).round() as usize;
+    let at = |i: usize| (i as f64 + 0.5) * spacing;
+    for i in 0..count(0.5 * width) {
+        for j in 0..count(0.5 * width) {
+            for k in 0..count(height) {
+                block.position.push([at(i), at(j), at(k)]);
+                block.velocity.push([0.0; 3]);
+                block.mass.push(1000.0 * spacing.powi(3));
+                block.density.push(1000.0);
+                block.temperature.push(HOT);
+            }
+        }
+    }
+    let mut state = drop.state_of(&block);
+    drop.advance(&mut state, &[COLD], time).unwrap();
+    let diffusivity = WATER.conductivity / (WATER.density * WATER.specific_heat);
+    let heat = 2.0 * WATER.conductivity * (HOT - COLD) * (time / (PI * diffusivity)).sqrt();
+    drop.totals(&state).heat_to_wall / (heat * width * width)
+}
+
+#[test]
+fn contact_heat_converges_to_that_of_a_half_space() {
+    let errors = [2e-6, 1e-6].map(|spacing| (contact_heat(spacing) - 1.0).abs());
+    println!("relative errors of the contact heat: {errors:?}");
+    assert!(errors[1] < 0.04, "{errors:?}");
+    assert!((errors[0] / errors[1]).log2() > 1.3, "{errors:?}");
+}
