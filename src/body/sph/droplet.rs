@@ -275,13 +275,36 @@ fn totals(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud) -
         let temperature = cloud.temperature[i] + reference;
         totals.temperature_range = [low.min(temperature), high.max(temperature)];
     }
-    let half = 0.5 * plan.spacing;
-    // Lone particles that were flung away belong to no lamella.
-    let held = |i: &usize| cloud.fullness[*i] > 0.2;
-    let height = (0..cloud.len()).filter(held).map(|i| cloud.position[i][2]).fold(0.0, f64::max);
-    totals.height = if cloud.len() == 0 { 0.0 } else { height * units.length + half };
-    let near = (0..cloud.len()).filter(held).filter(|&i| cloud.position[i][2] < 1.0);
-    let radius = near.map(|i| cloud.position[i][0].hypot(cloud.position[i][1])).fold(0.0, f64::max);
-    totals.spread_diameter = if radius > 0.0 { 2.0 * (radius * units.length + half) } else { 0.0 };
+    let heights = cloud.position.iter().map(|x| x[2] * units.length);
+    totals.height = heights.fold(0.0, f64::max);
+    totals.spread_diameter = 2.0 * units.length * film_radius(plan, cloud);
     totals
+}
+
+/// Radius over H out to which fluid covers the wall, round the middle of the fluid near it: the film
+/// ends at the first ring of a particle's width that holds less than a quarter of a layer, so
+/// that spray beyond it does not count.
+fn film_radius(plan: &DropletPlan, cloud: &Cloud) -> f64 {
+    let near: Vec<usize> = (0..cloud.len()).filter(|&i| cloud.position[i][2] < 1.0).collect();
+    let mass: f64 = near.iter().map(|&i| cloud.mass[i]).sum();
+    let middle = |a: usize| match a < 2 && plan.mirrors[a] {
+        true => 0.0,
+        false => near.iter().map(|&i| cloud.mass[i] * cloud.position[i][a]).sum::<f64>() / mass,
+    };
+    let middle = [middle(0), middle(1)];
+    let width = 1.0 / plan.support;
+    let mut held = Vec::new();
+    for &i in &near {
+        let [x, y, _] = cloud.position[i];
+        let ring = ((x - middle[0]).hypot(y - middle[1]) / width) as usize;
+        held.resize(held.len().max(ring + 1), 0.0);
+        held[ring] += cloud.volume(i);
+    }
+    let open: f64 = plan.mirrors.iter().map(|&m| if m { 0.5 } else { 1.0 }).product();
+    let layer = |ring: usize| match plan.dimension {
+        2 => 2.0 * open * width * width,
+        _ => PI * (2.0 * ring as f64 + 1.0) * open * width.powi(3),
+    };
+    let covered = (0..held.len()).take_while(|&ring| held[ring] > 0.25 * layer(ring)).count();
+    covered as f64 * width
 }

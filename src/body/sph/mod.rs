@@ -8,7 +8,6 @@ mod cloud;
 mod continuity;
 mod droplet;
 mod failure;
-pub mod lab;
 mod lanes;
 mod loops;
 mod momentum;

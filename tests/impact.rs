@@ -1,0 +1,305 @@
+//! Droplets in scenes: what leaves the fluid arrives, and a step is a function of the state.
+
+#[allow(dead_code)]
+mod common;
+
+use std::f64::consts::PI;
+
+use common::{Trial, off};
+use impinge::model::{Cache, Model, ModelError};
+use impinge::scene;
+
+/// A coarse drop that falls at 20 m/s, with further keys.
+fn drop(keys: &str) -> String {
+    format!(
+        r#"
+name = "Drop"
+stop_time = 4e-6
+step = 1e-7
+[body.drop]
+kind = "droplet"
+diameter = 1e-4
+impact_velocity = 20.0
+initial_temperature = 350.0
+spacing = 1e-5
+fluid = {{ density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6 }}
+{keys}
+"#
+    )
+}
+
+fn wall(footprint: &str) -> String {
+    format!(
+        "[[wall]]\nname = \"wall\"\nunder = \"drop\"\nfootprint = {{ {footprint} }}\nstart = {{ \
+         temperature = 300.0 }}\n"
+    )
+}
+
+const RINGS: &str = "rings = { count = 4, radius = 1.2e-4 }";
+const BOX: &str = "box = [1e-3, 1e-3, 1e-4]";
+const DISC: &str = "disc = { radius = 5e-4, thickness = 1e-4 }";
+
+/// A plate below the drop, which is coupled with further keys.
+fn plate(shape: &str, symmetry: &str, conductivity: f64, coupling: &str) -> String {
+    format!(
+        r#"
+[body.plate]
+kind = "solid"
+shape = {{ {shape} }}
+material = {{ model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = {conductivity:?}, young = 300e9, poisson = 0.21, expansion = 8.1e-6 }}
+initial_temperature = 300.0
+symmetry = "{symmetry}"
+mesh = {{ spacing = 2e-5, depth_spacing = 1e-6, growth = 2.0, order = 1 }}
+faces = {{ bottom = {{ clamped = true }} }}
+[[coupling]]
+from = "drop"
+to = "plate.top"
+{coupling}
+"#
+    )
+}
+
+fn probe(x: f64) -> String {
+    format!(
+        "[[probe]]\nname = \"spot\"\nin = \"plate\"\nat = [{x:?}, 0.0, 0.0]\ngives = \
+         [\"temperature\", \"stress\", \"displacement\"]\n"
+    )
+}
+
+fn steps(trial: &mut Trial, count: usize, dt: f64) {
+    (0..count).for_each(|_| trial.step(dt));
+}
+
+#[test]
+fn all_heat_that_leaves_the_drop_enters_the_plate() {
+    let aside = "arrivals = [{ x = 1.1e-4, y = -0.7e-4 }]";
+    for (keys, shape, symmetry) in
+        [("", BOX, "auto"), (aside, BOX, "auto"), (aside, BOX, "none"), ("", DISC, "auto")]
+    {
+        let text = drop(keys) + &plate(shape, symmetry, 10.0, "traction = false");
+        let mut trial = Trial::new(&text);
+        steps(&mut trial, 20, 1e-7);
+        let [given, taken] = ["drop.heat", "plate.heat_in"].map(|name| trial.get(name));
+        assert!(given > 1e-9, "{shape} {symmetry}: {given} J");
+        assert!(off(taken, given) < 1e-12, "{shape} {symmetry}: {given} J become {taken} J");
+        assert!(off(-trial.get("drop.heat_stored"), given) < 1e-6);
+        assert!(trial.heat_residual("plate") < 1e-9);
+    }
+}
+
+/// A plate that is held at its bottom passes the force on to what holds it.
+#[test]
+fn the_force_of_the_drop_goes_through_the_plate() {
+    let field = "[[field]]\nname = \"below\"\non = \"plate.bottom\"\ngrid = [50, 50]\ngives = \
+                 [\"stress\"]\n";
+    let text = drop("") + &plate(BOX, "auto", 10.0, "") + &probe(0.0) + field;
+    let mut trial = Trial::new(&text);
+    steps(&mut trial, 8, 1e-7);
+    let force = trial.get("drop.force");
+    assert!(force > 1e-3, "{force} N");
+    let cell = 1e-6 / 2500.0;
+    let mut passed = 0.0;
+    for i in 1..=50 {
+        for j in 1..=50 {
+            passed -= cell * trial.get(&format!("below.stress_zz[{i},{j}]"));
+        }
+    }
+    assert!(off(passed, force) < 0.05, "{passed} N of {force} N");
+    assert!(trial.get("spot.displacement_z") < 0.0);
+}
+
+#[test]
+fn a_quarter_and_the_whole_say_the_same() {
+    let values = |keys: &str, symmetry: &str| {
+        let text = drop(keys) + &plate(BOX, symmetry, 10.0, "") + &probe(3e-5);
+        let mut trial = Trial::new(&text);
+        steps(&mut trial, 3, 1e-7);
+        ["spot.temperature", "spot.stress_zz", "spot.displacement_x", "drop.heat", "drop.force"]
+            .map(|name| trial.get(name))
+    };
+    let quarter = values("precision = \"double\"", "quarter");
+    let whole = values("precision = \"double\"\nsymmetry = \"none\"", "none");
+    for (a, b) in quarter.into_iter().zip(whole) {
+        assert!(off(a, b) < 1e-4, "{quarter:?} {whole:?}");
+    }
+}
+
+#[test]
+fn a_plate_that_never_warms_is_a_wall_at_its_temperature() {
+    // So good a conductor spreads the heat at once over a mass that hardly feels it.
+    let mut on_plate = Trial::new(&(drop("") + &plate(BOX, "auto", 1e9, "traction = false")));
+    let tiles = "tiles = { count = [2, 2], size = [1e-3, 1e-3] }";
+    let mut on_wall = Trial::new(&(drop("") + &wall(tiles)));
+    for trial in [&mut on_plate, &mut on_wall] {
+        steps(trial, 20, 1e-7);
+    }
+    let [plate, wall] = [&mut on_plate, &mut on_wall].map(|trial| trial.get("drop.heat"));
+    assert!(off(plate, wall) < 1e-3, "{plate} J {wall} J");
+}
+
+#[test]
+fn a_disc_and_a_box_take_the_same_heat() {
+    let [on_disc, on_box] = [DISC, BOX].map(|shape| {
+        let mut trial = Trial::new(&(drop("") + &plate(shape, "auto", 10.0, "traction = false")));
+        steps(&mut trial, 20, 1e-7);
+        (trial.get("drop.heat"), trial.get("plate.max_temperature"))
+    });
+    assert!(off(on_disc.0, on_box.0) < 0.02, "{on_disc:?} {on_box:?}");
+}
+
+#[test]
+fn a_step_is_the_sum_of_its_exchanges() {
+    let text = drop("") + &plate(BOX, "auto", 10.0, "interval = 1e-7") + &probe(3e-5);
+    let (mut once, mut often) = (Trial::new(&text), Trial::new(&text));
+    once.step(4e-7);
+    steps(&mut often, 4, 1e-7);
+    assert_eq!(once.state.bodies, often.state.bodies);
+    for name in ["spot.temperature", "spot.stress_xx", "plate.heat_in", "drop.force"] {
+        assert_eq!(once.get(name), often.get(name), "{name}");
+    }
+}
+
+#[test]
+fn a_shorter_interval_comes_nearer_to_the_limit() {
+    let heat = |interval: f64| {
+        let coupling = format!("traction = false\ninterval = {interval:e}");
+        let mut trial = Trial::new(&(drop("") + &plate(BOX, "auto", 10.0, &coupling)));
+        steps(&mut trial, 2, 1e-6);
+        trial.get("drop.heat")
+    };
+    let [coarse, middle, fine] = [1e-6, 2.5e-7, 6.25e-8].map(heat);
+    assert!((middle - fine).abs() < 0.6 * (coarse - fine).abs(), "{coarse} {middle} {fine}");
+}
+
+#[test]
+fn outputs_are_a_function_of_the_state() {
+    let text = drop("") + &plate(BOX, "auto", 10.0, "") + &probe(3e-5);
+    let mut trial = Trial::new(&text);
+    let names = ["spot.temperature", "spot.stress_zz", "drop.force", "drop.kinetic_energy"];
+    steps(&mut trial, 5, 1e-7);
+    let saved = trial.state.clone();
+    let first = names.map(|name| trial.get(name));
+    steps(&mut trial, 3, 1e-7);
+    let later = names.map(|name| trial.get(name));
+    trial.restart(&saved);
+    assert_eq!(names.map(|name| trial.get(name)), first);
+    steps(&mut trial, 3, 1e-7);
+    assert_eq!(names.map(|name| trial.get(name)), later);
+    assert_ne!(first, later);
+}
+
+#[test]
+fn the_cells_of_a_wall_and_what_lies_outside_make_the_whole() {
+    let mut trial = Trial::new(&(drop("") + &wall("rings = { count = 4, radius = 4e-5 }")));
+    for _ in 0..20 {
+        let before = trial.get("drop.heat");
+        trial.step(1e-7);
+        let area = |ring: usize| PI * 1e-10 * (2 * ring - 1) as f64;
+        let sum = |trial: &mut Trial, key: &str| -> f64 {
+            (1..=4).map(|ring| area(ring) * trial.get(&format!("wall.{key}[{ring}]"))).sum()
+        };
+        let heat = sum(&mut trial, "heat_flux") + trial.get("wall.heat_flow_outside");
+        assert!((heat - trial.get("drop.heat_flow")).abs() <= 1e-12 * heat.abs());
+        let gained = trial.get("drop.heat") - before;
+        assert!((1e-7 * heat - gained).abs() <= 1e-9 * gained.abs());
+        let force = sum(&mut trial, "pressure") + trial.get("wall.force_outside");
+        assert!((force - trial.get("drop.force")).abs() <= 1e-9 * force.abs());
+    }
+    assert!(trial.get("wall.heat_flow_outside") > 0.0, "the drop has not spread beyond the rings");
+    assert!(trial.get("wall.shear_r[3]") > 0.0, "a spreading drop drags the wall outward");
+}
+
+#[test]
+fn a_warmer_wall_takes_less_heat() {
+    let heat = |temperature: f64| {
+        let mut trial = Trial::new(&(drop("") + &wall(RINGS)));
+        (1..=4).for_each(|ring| trial.set(&format!("wall.temperature[{ring}]"), temperature));
+        steps(&mut trial, 10, 1e-7);
+        trial.get("drop.heat")
+    };
+    let [cold, warm, alike] = [300.0, 325.0, 350.0].map(heat);
+    assert!(off(warm, 0.5 * cold) < 1e-3, "{cold} {warm}");
+    assert!(alike.abs() < 1e-9 * cold, "{alike}");
+}
+
+#[test]
+fn nothing_has_happened_before_the_first_step() {
+    let mut trial = Trial::new(&(drop("") + &wall(RINGS)));
+    for name in ["drop.heat", "drop.force", "wall.heat_flux[1]", "wall.pressure[4]"] {
+        assert_eq!(trial.get(name), 0.0, "{name}");
+    }
+    assert!(off(trial.get("drop.mass"), 1000.0 * PI / 6.0 * 1e-12) < 1e-9);
+    assert!(off(trial.get("drop.momentum_z"), -20.0 * trial.get("drop.mass")) < 1e-9);
+    assert_eq!(trial.get("drop.min_temperature"), 350.0);
+}
+
+#[test]
+fn a_train_of_drops_is_released_drop_by_drop() {
+    let train = "height = 1e-4\narrivals = [{ time = 2e-7, x = -2e-4 }, { time = 4e-7, x = 2e-4 }]";
+    let tiles = "tiles = { count = [2, 1], size = [1e-3, 1e-3] }";
+    let mut trial = Trial::new(&(drop(train) + &wall(tiles)));
+    let one = 1000.0 * PI / 6.0 * 1e-12;
+    let mut masses = Vec::new();
+    for _ in 0..3 {
+        masses.push((trial.get("drop.mass") / one).round());
+        assert!(trial.get("drop.max_temperature").is_finite());
+        trial.step(2e-7);
+    }
+    assert_eq!(masses, [0.0, 1.0, 2.0]);
+}
+
+#[test]
+fn a_drop_in_free_space_moves_on() {
+    let mut trial = Trial::new(&drop("height = 1e-4"));
+    let momentum = trial.get("drop.momentum_z");
+    steps(&mut trial, 5, 1e-7);
+    assert!(off(trial.get("drop.momentum_z"), momentum) < 1e-6);
+    let fallen = 2.0e-4 - trial.get("drop.height");
+    assert!((fallen - 20.0 * 5e-7).abs() < 1e-6, "{fallen}");
+}
+
+#[test]
+fn a_plane_drop_is_the_same_on_both_sides() {
+    let tiles = "tiles = { count = [6, 1], size = [3e-4, 1e-3] }";
+    let mut trial = Trial::new(&(drop("dimension = 2") + &wall(tiles)));
+    steps(&mut trial, 10, 1e-7);
+    let pressures: Vec<f64> =
+        (1..=6).map(|i| trial.get(&format!("wall.pressure[{i},1]"))).collect();
+    let highest = pressures.iter().copied().fold(0.0, f64::max);
+    assert!(highest > 1e5, "{pressures:?}");
+    for i in 0..3 {
+        assert!((pressures[i] - pressures[5 - i]).abs() <= 1e-9 * highest);
+    }
+    let shear = [1, 6].map(|i| trial.get(&format!("wall.shear_x[{i},1]")));
+    assert!((shear[0] + shear[1]).abs() <= 1e-9 * highest);
+}
+
+#[test]
+fn a_step_that_fails_changes_nothing_and_says_where() {
+    let scene = scene::parse(&(drop("") + &wall(RINGS)), "scene").unwrap();
+    let model = Model::build(&scene, 1).unwrap();
+    let (mut state, mut cache) = (model.initial_state(), Cache::default());
+    model.step(&mut state, &mut cache, 1e-7).unwrap();
+    state.inputs.fill(1e300);
+    let before = state.clone();
+    let error = model.step(&mut state, &mut cache, 1e-6).unwrap_err();
+    assert!(matches!(error, ModelError::Droplet { .. }), "{error}");
+    assert!(error.to_string().starts_with("drop: ") && error.to_string().contains("t = "));
+    assert_eq!(state, before);
+
+    state.inputs[2] = 0.0;
+    let error = model.step(&mut state, &mut cache, 1e-6).unwrap_err();
+    assert!(matches!(error, ModelError::Input { index: 2, .. }), "{error}");
+}
+
+#[test]
+fn the_speed_of_sound_is_chosen_and_said() {
+    let mut trial = Trial::new(&drop("gravity = 9.81"));
+    let notes = trial.model.notes().join("\n");
+    assert!(notes.contains("speed of sound chosen: 200."), "{notes}");
+    assert!(notes.contains("surface tension is left out"), "{notes}");
+    assert!(trial.get("drop.max_speed") > 0.0);
+    let slow = drop("").replace("conductivity = 0.6", "conductivity = 0.6, sound_speed = 140.0");
+    let notes = Trial::new(&slow).model.notes().join("\n");
+    assert!(notes.contains("only 7.00 times"), "{notes}");
+}
