@@ -298,7 +298,8 @@ pub(super) fn outputs(scene: &Scene, list: &mut Vec<Variable>) {
 }
 
 fn wall_outputs(index: usize, wall: &Wall, droplet: Option<&Droplet>, list: &mut Vec<Variable>) {
-    let mut kinds: Vec<(&str, &str, Quantity, fn(usize) -> WallOutput)> = vec![
+    type Kind = (&'static str, &'static str, Quantity, fn(usize) -> WallOutput);
+    let mut kinds: Vec<Kind> = vec![
         ("heat_flux", "heat flux into the wall", Quantity::HeatFlux, WallOutput::HeatFlux),
         ("pressure", "pressure on the wall", Quantity::Stress, WallOutput::Pressure),
     ];
