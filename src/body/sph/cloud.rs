@@ -21,6 +21,8 @@ pub struct Cloud {
     pub gradient: Vec<[f64; 3]>,
     /// Smallest eigenvalue of the moment matrix: 1 inside, falling to 0 towards a free surface.
     pub fullness: Vec<f64>,
+    /// Moment matrices of the last step: xx, yy, zz, xy, yz, xz; empty before the first.
+    pub moment: Vec<[f64; 6]>,
 }
 
 /// Sums over time.
@@ -88,6 +90,9 @@ impl Cloud {
         permuted(&mut self.acceleration, order);
         permuted(&mut self.gradient, order);
         permuted(&mut self.fullness, order);
+        if !self.moment.is_empty() {
+            permuted(&mut self.moment, order);
+        }
     }
 
     fn numbers(&self, i: usize) -> [f64; NUMBERS] {

@@ -170,6 +170,7 @@ impl<'a> Stepper<'a> {
             rest = if dt == rest { 0.0 } else { rest - dt };
             self.ledger.steps += 1.0;
         }
+        self.measure_fullness();
         Ok(())
     }
 
@@ -178,6 +179,13 @@ impl<'a> Stepper<'a> {
         self.list(&vec![[0.0; 3]; self.cloud.len()]);
         let velocity = self.cloud.velocity.clone();
         self.accelerate(&velocity);
+    }
+
+    /// Tells how full the surroundings of particles are from the moments of the last step.
+    pub fn measure_fullness(&mut self) {
+        for (fullness, moment) in self.cloud.fullness.iter_mut().zip(&self.cloud.moment) {
+            *fullness = least_eigenvalue(moment);
+        }
     }
 
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
@@ -277,10 +285,11 @@ impl<'a> Stepper<'a> {
             method.threads,
         );
         let heat = method.units.energy() / method.heat_unit;
+        self.cloud.moment.resize(rates.len(), [0.0; 6]);
         for (i, rate) in rates.iter().enumerate() {
             let [by_fluid, by_wall] = rate.temperature;
             let moment = filled(rate.moment, method.dimension);
-            self.cloud.fullness[i] = least_eigenvalue(&moment);
+            self.cloud.moment[i] = moment;
             self.cloud.gradient[i] = renormalised(&moment, rate.gradient);
             self.cloud.density[i] += dt * rate.density;
             self.cloud.heating[i] = by_fluid + by_wall;
@@ -355,6 +364,7 @@ impl<'a> Stepper<'a> {
         if !self.method.shifts {
             return;
         }
+        self.measure_fullness();
         // After sorting there are no lists yet.
         self.list(&vec![[0.0; 3]; self.cloud.len()]);
         let method = self.method;
