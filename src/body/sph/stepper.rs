@@ -170,7 +170,6 @@ impl<'a> Stepper<'a> {
             rest = if dt == rest { 0.0 } else { rest - dt };
             self.ledger.steps += 1.0;
         }
-        self.measure_fullness();
         Ok(())
     }
 
@@ -179,13 +178,6 @@ impl<'a> Stepper<'a> {
         self.list(&vec![[0.0; 3]; self.cloud.len()]);
         let velocity = self.cloud.velocity.clone();
         self.accelerate(&velocity);
-    }
-
-    /// Tells how full the surroundings of particles are from the moments of the last step.
-    pub fn measure_fullness(&mut self) {
-        for (fullness, moment) in self.cloud.fullness.iter_mut().zip(&self.cloud.moment) {
-            *fullness = least_eigenvalue(moment);
-        }
     }
 
     fn step(&mut self, dt: f64) -> Result<(), Failure> {
@@ -285,7 +277,6 @@ impl<'a> Stepper<'a> {
             method.threads,
         );
         let heat = method.units.energy() / method.heat_unit;
-        self.cloud.moment.resize(rates.len(), [0.0; 6]);
         for (i, rate) in rates.iter().enumerate() {
             let [by_fluid, by_wall] = rate.temperature;
             let moment = filled(rate.moment, method.dimension);
@@ -364,13 +355,13 @@ impl<'a> Stepper<'a> {
         if !self.method.shifts {
             return;
         }
-        self.measure_fullness();
+        let fullness: Vec<f64> = self.cloud.moment.iter().map(least_eigenvalue).collect();
         // After sorting there are no lists yet.
         self.list(&vec![[0.0; 3]; self.cloud.len()]);
         let method = self.method;
         let cloud = &*self.cloud;
         let records: Vec<[f64; 8]> =
-            (0..cloud.len()).map(|i| record(cloud, i, [0.0; 3], cloud.fullness[i])).collect();
+            (0..cloud.len()).map(|i| record(cloud, i, [0.0; 3], fullness[i])).collect();
         let value = |q: f64| method.kernel.value(q, 1.0, method.dimension) / method.normalisation;
         let pass = Crowding {
             records: &records,
@@ -386,7 +377,7 @@ impl<'a> Stepper<'a> {
         );
         let shifts: Vec<[f64; 3]> = sums
             .iter()
-            .zip(&self.cloud.fullness)
+            .zip(&fullness)
             .map(|(sums, &fullness)| displacement(sums, fullness, way))
             .collect();
         self.list(&shifts);
