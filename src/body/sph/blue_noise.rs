@@ -4,7 +4,7 @@ use crate::kernel::Kernel;
 
 /// Distance of Poisson-disk points over the side of the volume that each has on average, in two and
 /// three dimensions, for the densest packing that this sampling reaches.
-const DENSITY: [f64; 2] = [0.785, 0.86];
+const DENSITY: [f64; 2] = [0.785, 0.8325];
 /// Attempts around a point before it is given up (Bridson 2007, doi 10.1145/1278780.1278807).
 const ATTEMPTS: usize = 30;
 

@@ -19,8 +19,8 @@ pub struct Cloud {
     pub acceleration: Vec<[[f64; 3]; 2]>,
     /// Renormalised gradient of the density.
     pub gradient: Vec<[f64; 3]>,
-    /// Smallest eigenvalue of the moment matrix: 1 inside, falling to 0 towards a free surface.
-    pub fullness: Vec<f64>,
+    /// Moment matrices of the last step: xx, yy, zz, xy, yz, xz.
+    pub moment: Vec<[f64; 6]>,
 }
 
 /// Sums over time.
@@ -46,7 +46,7 @@ pub struct Ledger {
 }
 
 /// Numbers of a particle in a flat vector.
-const NUMBERS: usize = 20;
+const NUMBERS: usize = 25;
 /// Numbers of the ledger before those of its cells.
 const HEAD: usize = 17;
 
@@ -71,7 +71,7 @@ impl Cloud {
         self.heating.push(0.0);
         self.acceleration.push([[0.0; 3]; 2]);
         self.gradient.push([0.0; 3]);
-        self.fullness.push(1.0);
+        self.moment.push([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
     }
 
     /// Puts the particles into another order.
@@ -87,13 +87,14 @@ impl Cloud {
         permuted(&mut self.heating, order);
         permuted(&mut self.acceleration, order);
         permuted(&mut self.gradient, order);
-        permuted(&mut self.fullness, order);
+        permuted(&mut self.moment, order);
     }
 
     fn numbers(&self, i: usize) -> [f64; NUMBERS] {
         let ([x, y, z], [u, v, w]) = (self.position[i], self.velocity[i]);
         let [[a, b, c], [d, e, f]] = self.acceleration[i];
         let [g, h, k] = self.gradient[i];
+        let [xx, yy, zz, xy, yz, xz] = self.moment[i];
         [
             x,
             y,
@@ -114,7 +115,12 @@ impl Cloud {
             g,
             h,
             k,
-            self.fullness[i],
+            xx,
+            yy,
+            zz,
+            xy,
+            yz,
+            xz,
         ]
     }
 
@@ -125,7 +131,7 @@ impl Cloud {
         self.heating[i] = n[9];
         self.acceleration[i] = [[n[10], n[11], n[12]], [n[13], n[14], n[15]]];
         self.gradient[i] = [n[16], n[17], n[18]];
-        self.fullness[i] = n[19];
+        self.moment[i] = [n[19], n[20], n[21], n[22], n[23], n[24]];
     }
 }
 
@@ -202,7 +208,7 @@ mod tests {
             cloud.heating[last] = -x;
             cloud.acceleration[last] = [[x, 1.0, 2.0], [3.0, x, 4.0]];
             cloud.gradient[last] = [0.5, x, 0.25];
-            cloud.fullness[last] = 0.2 * x;
+            cloud.moment[last] = [x, 1.0, 2.0, 0.1, 0.2, 0.3];
         }
         let mut exchange = WallExchange::none(3);
         exchange.heat[1] = 7.0;

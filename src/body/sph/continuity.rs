@@ -94,8 +94,8 @@ impl PairSum for Continuity<'_> {
         for places in fluid {
             sums.add::<S>(
                 &here,
-                L::gather(&local.records, places),
-                L::gather_annex(&local.annexes, places),
+                local.gather(places),
+                local.gather_annex(places),
                 L::constant(1.0),
             );
         }
@@ -107,8 +107,8 @@ impl PairSum for Continuity<'_> {
             for places in wall {
                 sums.add::<S>(
                     &here,
-                    L::gather(&local.records, places),
-                    L::gather_annex(&local.annexes, places),
+                    local.gather(places),
+                    local.gather_annex(places),
                     L::constant(-1.0),
                 );
             }

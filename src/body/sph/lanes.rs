@@ -26,10 +26,16 @@ pub trait Lanes: Number {
     fn to_array(self) -> [Self::Real; WIDTH];
 
     /// The numbers of the records at sixteen places, number by number.
-    fn gather(records: &[Record<Self::Real>], places: &[u16; WIDTH]) -> [Self; 8];
+    ///
+    /// # Safety
+    /// There is a record at every place.
+    unsafe fn gather(records: &[Record<Self::Real>], places: &[u16; WIDTH]) -> [Self; 8];
 
     /// The numbers of the annexes at sixteen places, number by number.
-    fn gather_annex(annexes: &[Annex<Self::Real>], places: &[u16; WIDTH]) -> [Self; 4];
+    ///
+    /// # Safety
+    /// There is an annex at every place.
+    unsafe fn gather_annex(annexes: &[Annex<Self::Real>], places: &[u16; WIDTH]) -> [Self; 4];
 
     /// Sum of the lanes, in pairs of pairs.
     #[inline(always)]
@@ -118,7 +124,7 @@ impl<R: Float + Number + Default + Into<f64> + Send + Sync> Lanes for Array<R> {
     }
 
     #[inline(always)]
-    fn gather(records: &[Record<R>], places: &[u16; WIDTH]) -> [Self; 8] {
+    unsafe fn gather(records: &[Record<R>], places: &[u16; WIDTH]) -> [Self; 8] {
         let mut result = [Self([R::default(); WIDTH]); 8];
         for (lane, &place) in places.iter().enumerate() {
             let record = &records[place as usize];
@@ -130,7 +136,7 @@ impl<R: Float + Number + Default + Into<f64> + Send + Sync> Lanes for Array<R> {
     }
 
     #[inline(always)]
-    fn gather_annex(annexes: &[Annex<R>], places: &[u16; WIDTH]) -> [Self; 4] {
+    unsafe fn gather_annex(annexes: &[Annex<R>], places: &[u16; WIDTH]) -> [Self; 4] {
         let mut result = [Self([R::default(); WIDTH]); 4];
         for (lane, &place) in places.iter().enumerate() {
             let annex = &annexes[place as usize];
@@ -213,17 +219,20 @@ mod avx512 {
         /// Loads each record at once and transposes them in registers, which is several times
         /// faster than the processor's own gather instructions.
         #[inline(always)]
-        fn gather(records: &[Record<f32>], places: &[u16; WIDTH]) -> [Self; 8] {
-            let pair = [
-                pair(records, places[0], places[4]),
-                pair(records, places[1], places[5]),
-                pair(records, places[2], places[6]),
-                pair(records, places[3], places[7]),
-                pair(records, places[8], places[12]),
-                pair(records, places[9], places[13]),
-                pair(records, places[10], places[14]),
-                pair(records, places[11], places[15]),
-            ];
+        unsafe fn gather(records: &[Record<f32>], places: &[u16; WIDTH]) -> [Self; 8] {
+            // SAFETY: by contract.
+            let pair = unsafe {
+                [
+                    pair(records, places[0], places[4]),
+                    pair(records, places[1], places[5]),
+                    pair(records, places[2], places[6]),
+                    pair(records, places[3], places[7]),
+                    pair(records, places[8], places[12]),
+                    pair(records, places[9], places[13]),
+                    pair(records, places[10], places[14]),
+                    pair(records, places[11], places[15]),
+                ]
+            };
             let near = transpose([pair[0], pair[1], pair[2], pair[3]]);
             let far = transpose([pair[4], pair[5], pair[6], pair[7]]);
             let mut result = [Self(near[0]); 8];
@@ -237,38 +246,48 @@ mod avx512 {
         }
 
         #[inline(always)]
-        fn gather_annex(annexes: &[Annex<f32>], places: &[u16; WIDTH]) -> [Self; 4] {
-            let [a, b, c, d] = transpose([
-                four(annexes, places[0], places[4], places[8], places[12]),
-                four(annexes, places[1], places[5], places[9], places[13]),
-                four(annexes, places[2], places[6], places[10], places[14]),
-                four(annexes, places[3], places[7], places[11], places[15]),
-            ]);
+        unsafe fn gather_annex(annexes: &[Annex<f32>], places: &[u16; WIDTH]) -> [Self; 4] {
+            // SAFETY: by contract.
+            let [a, b, c, d] = transpose(unsafe {
+                [
+                    four(annexes, [places[0], places[4], places[8], places[12]]),
+                    four(annexes, [places[1], places[5], places[9], places[13]]),
+                    four(annexes, [places[2], places[6], places[10], places[14]]),
+                    four(annexes, [places[3], places[7], places[11], places[15]]),
+                ]
+            });
             [Self(a), Self(b), Self(c), Self(d)]
         }
     }
 
-    /// Two records in one register.
+    /// Two records in one register; there are records at both places.
     #[inline(always)]
-    fn pair(records: &[Record<f32>], low: u16, high: u16) -> __m512 {
-        let (low, high) = (records[low as usize].as_ptr(), records[high as usize].as_ptr());
+    unsafe fn pair(records: &[Record<f32>], low: u16, high: u16) -> __m512 {
+        debug_assert!(usize::from(low.max(high)) < records.len());
         unsafe {
-            let low = _mm512_castps_pd(_mm512_castps256_ps512(_mm256_loadu_ps(low)));
-            let high = _mm256_castps_pd(_mm256_loadu_ps(high));
-            _mm512_castpd_ps(_mm512_insertf64x4::<1>(low, high))
+            let low = _mm256_loadu_ps(records.get_unchecked(usize::from(low)).as_ptr());
+            let high = _mm256_loadu_ps(records.get_unchecked(usize::from(high)).as_ptr());
+            let low = _mm512_castps_pd(_mm512_castps256_ps512(low));
+            _mm512_castpd_ps(_mm512_insertf64x4::<1>(low, _mm256_castps_pd(high)))
         }
     }
 
-    /// Four annexes in one register.
+    /// The annex at a place where there is one.
     #[inline(always)]
-    fn four(annexes: &[Annex<f32>], a: u16, b: u16, c: u16, d: u16) -> __m512 {
-        let (a, b) = (annexes[a as usize].as_ptr(), annexes[b as usize].as_ptr());
-        let (c, d) = (annexes[c as usize].as_ptr(), annexes[d as usize].as_ptr());
+    unsafe fn annex(annexes: &[Annex<f32>], place: u16) -> __m128 {
+        debug_assert!(usize::from(place) < annexes.len());
+        unsafe { _mm_loadu_ps(annexes.get_unchecked(usize::from(place)).as_ptr()) }
+    }
+
+    /// Four annexes in one register; there are annexes at all four places.
+    #[inline(always)]
+    unsafe fn four(annexes: &[Annex<f32>], places: [u16; 4]) -> __m512 {
+        let [a, b, c, d] = places;
         unsafe {
-            let first = _mm512_castps128_ps512(_mm_loadu_ps(a));
-            let second = _mm512_insertf32x4::<1>(first, _mm_loadu_ps(b));
-            let third = _mm512_insertf32x4::<2>(second, _mm_loadu_ps(c));
-            _mm512_insertf32x4::<3>(third, _mm_loadu_ps(d))
+            let first = _mm512_castps128_ps512(annex(annexes, a));
+            let second = _mm512_insertf32x4::<1>(first, annex(annexes, b));
+            let third = _mm512_insertf32x4::<2>(second, annex(annexes, c));
+            _mm512_insertf32x4::<3>(third, annex(annexes, d))
         }
     }
 

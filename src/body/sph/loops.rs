@@ -3,7 +3,7 @@
 pub use crate::scene::Precision;
 use num_traits::Float;
 
-use super::lanes::{Annex, Array, Lanes, Record};
+use super::lanes::{Annex, Array, Lanes, Record, WIDTH};
 use super::neighbours::{Block, Source};
 use crate::kernel::{Kernel, Number, Shape};
 use crate::math::parallel;
@@ -44,6 +44,21 @@ pub struct Local<R> {
 }
 
 impl<R: Float + Number> Local<R> {
+    /// Records at places of the block that this is the copy for.
+    #[inline(always)]
+    pub fn gather<L: Lanes<Real = R>>(&self, places: &[u16; WIDTH]) -> [L; 8] {
+        // SAFETY: the lists of a block hold only places of its sources, and each has a record.
+        unsafe { L::gather(&self.records, places) }
+    }
+
+    /// Annexes at places of the block that this is the copy for.
+    #[inline(always)]
+    pub fn gather_annex<L: Lanes<Real = R>>(&self, places: &[u16; WIDTH]) -> [L; 4] {
+        assert!(self.annexes.len() == self.records.len());
+        // SAFETY: as above, and each has an annex.
+        unsafe { L::gather_annex(&self.annexes, places) }
+    }
+
     #[inline(always)]
     fn fill<P: PairSum>(&mut self, pass: &P, block: &Block) {
         let far = R::constant(1e3);

@@ -97,11 +97,11 @@ fn total<L: Lanes, S: Shape>(
     let mut force = [L::constant(0.0); 3];
     if cohesive {
         for places in neighbours {
-            add::<L, S, true>(&mut force, here, L::gather(&local.records, places));
+            add::<L, S, true>(&mut force, here, local.gather(places));
         }
     } else {
         for places in neighbours {
-            add::<L, S, false>(&mut force, here, L::gather(&local.records, places));
+            add::<L, S, false>(&mut force, here, local.gather(places));
         }
     }
     force

@@ -91,11 +91,6 @@ impl Block {
         let [middle, end] = self.ends[k].map(|end| end as usize);
         [start..middle, middle..end].map(|range| self.places[range].as_chunks().0)
     }
-
-    /// Number of neighbours within the reach of the lists, places that fill up runs left out.
-    pub fn listed(&self) -> usize {
-        self.places.iter().filter(|&&place| place != 0).count()
-    }
 }
 
 impl Neighbours {

@@ -66,7 +66,7 @@ impl PairSum for Crowding<'_> {
         let mut normal = [L::constant(0.0); 3];
         let mut surface = L::constant(0.0);
         for places in block.neighbours(k).into_iter().flatten() {
-            let [x, y, z, _, _, _, volume, theirs] = L::gather(&local.records, places);
+            let [x, y, z, _, _, _, volume, theirs] = local.gather(places);
             let d = [at[0] - x, at[1] - y, at[2] - z];
             let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
             let value = volume * S::value(q);

@@ -280,7 +280,7 @@ impl<'a> Stepper<'a> {
         for (i, rate) in rates.iter().enumerate() {
             let [by_fluid, by_wall] = rate.temperature;
             let moment = filled(rate.moment, method.dimension);
-            self.cloud.fullness[i] = least_eigenvalue(&moment);
+            self.cloud.moment[i] = moment;
             self.cloud.gradient[i] = renormalised(&moment, rate.gradient);
             self.cloud.density[i] += dt * rate.density;
             self.cloud.heating[i] = by_fluid + by_wall;
@@ -355,12 +355,13 @@ impl<'a> Stepper<'a> {
         if !self.method.shifts {
             return;
         }
+        let fullness: Vec<f64> = self.cloud.moment.iter().map(least_eigenvalue).collect();
         // After sorting there are no lists yet.
         self.list(&vec![[0.0; 3]; self.cloud.len()]);
         let method = self.method;
         let cloud = &*self.cloud;
         let records: Vec<[f64; 8]> =
-            (0..cloud.len()).map(|i| record(cloud, i, [0.0; 3], cloud.fullness[i])).collect();
+            (0..cloud.len()).map(|i| record(cloud, i, [0.0; 3], fullness[i])).collect();
         let value = |q: f64| method.kernel.value(q, 1.0, method.dimension) / method.normalisation;
         let pass = Crowding {
             records: &records,
@@ -376,7 +377,7 @@ impl<'a> Stepper<'a> {
         );
         let shifts: Vec<[f64; 3]> = sums
             .iter()
-            .zip(&self.cloud.fullness)
+            .zip(&fullness)
             .map(|(sums, &fullness)| displacement(sums, fullness, way))
             .collect();
         self.list(&shifts);
