@@ -101,8 +101,9 @@ pub struct BodyForecast {
     pub notes: Vec<String>,
 }
 
-/// Models with fewer nodes or particles than this are quicker on one thread.
+/// Models with fewer nodes or particles than these are quicker on one thread.
 const NODES_WORTH_THREADS: usize = 20_000;
+const PARTICLES_WORTH_THREADS: usize = 2_000;
 
 impl Model {
     /// Builds meshes, modes and factorisations; `threads` = 0 lets the program choose.
@@ -112,7 +113,7 @@ impl Model {
         let mut most_threads = 1;
         for (name, body) in scene.solids() {
             let plan = plan(scene, name, body);
-            let threads = resolve_threads(threads, plan.mesh.nodes());
+            let threads = resolve_threads(threads, plan.mesh.nodes() >= NODES_WORTH_THREADS);
             most_threads = most_threads.max(threads);
             let solid = SolidFem::new(&plan, threads)?;
             let loads = BodyLoads::of(scene, &layout, (name, body.shape), &plan);
@@ -121,7 +122,7 @@ impl Model {
         let mut droplets = Vec::new();
         for (name, droplet) in scene.droplets() {
             let (particles, time_step) = DropletSph::forecast(&droplets::plan_of(droplet, None));
-            let threads = resolve_threads(threads, particles);
+            let threads = resolve_threads(threads, particles >= PARTICLES_WORTH_THREADS);
             most_threads = most_threads.max(threads);
             let contact = contact_of(scene, (name, droplet), &bodies, time_step);
             droplets.push(DropletModel::new(scene, &layout, name, contact, threads));
@@ -435,9 +436,10 @@ fn refinement(load: &Load) -> Refinement {
     Refinement { x: stretch(0), y: stretch(1), top, feature }
 }
 
-fn resolve_threads(wanted: usize, nodes: usize) -> usize {
+/// Number of threads to use; 0 are wanted for as many as are worth it.
+fn resolve_threads(wanted: usize, is_large: bool) -> usize {
     match wanted {
-        0 if nodes < NODES_WORTH_THREADS => 1,
+        0 if !is_large => 1,
         0 => std::thread::available_parallelism().map_or(1, Into::into),
         threads => threads,
     }
