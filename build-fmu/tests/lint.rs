@@ -443,3 +443,41 @@ fn the_rules_are_listed_with_their_sections() {
         assert!(rules.iter().all(|rule| text.contains(rule)), "{rules:?}: {text}");
     }
 }
+
+#[test]
+fn an_encoding_other_than_utf_8_is_a_warning() {
+    let change =
+        |unit: &mut Entries| replace(unit, "", "encoding=\"UTF-8\"", "encoding=\"latin-1\"");
+    finds(change, ("warning", "well-formed"), &["modelDescription.xml:1: the encoding", "latin-1"]);
+}
+
+#[test]
+fn a_dependency_that_is_no_input_is_found() {
+    let change = |unit: &mut Entries| {
+        set(unit, "<Outputs>", "dependencies", "1");
+        set(unit, "<Outputs>", "dependenciesKind", "dependent");
+    };
+    finds(change, ("warning", "dependencies"), &["is a parameter"]);
+    let change = |unit: &mut Entries| {
+        let (_, xml) = unit.iter().find(|(path, _)| path == XML).unwrap();
+        let xml = std::str::from_utf8(xml).unwrap();
+        let output =
+            xml.split_once("<Unknown index=\"").unwrap().1.split('"').next().unwrap().to_owned();
+        set(unit, "<Outputs>", "dependencies", &output);
+        set(unit, "<Outputs>", "dependenciesKind", "dependent");
+    };
+    finds(change, ("error", "dependencies"), &["is no known"]);
+}
+
+#[test]
+fn source_files_that_are_not_there_are_found() {
+    let list =
+        "><SourceFiles><File name=\"./a.c\"/><File name=\"b.c\"/></SourceFiles></CoSimulation>";
+    let change = |unit: &mut Entries| replace(unit, "<CoSimulation", "/>", list);
+    finds(change, ("warning", "sources"), &["2 source files, but no folder sources"]);
+    let change = |unit: &mut Entries| {
+        replace(unit, "<CoSimulation", "/>", list);
+        unit.push(("sources/a.c".into(), Vec::new()));
+    };
+    finds(change, ("error", "sources"), &["sources/b.c is not in the unit"]);
+}

@@ -85,6 +85,7 @@ fn findings(bytes: Vec<u8>, may_run: bool) -> Vec<Finding> {
     let mut report = Report::of(&rules::WELL_FORMED, &mut found);
     let Some(text) = report.take(package.text(DESCRIPTION)) else { return found };
     let Some(document) = report.take(Document::parse(&text)) else { return found };
+    rules::check_encoding(&text, &mut report);
     if !rules::of_this_version(&document, &mut Report::of(&rules::VERSION, &mut found)) {
         return found;
     }

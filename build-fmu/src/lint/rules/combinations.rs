@@ -18,6 +18,12 @@ pub static RULE: Rule = Rule {
 fn check(subject: &Subject, report: &mut Report) {
     let variables = &subject.description.variables;
     for variable in variables {
+        if variable.node.attribute("variability").is_none()
+            && variable.kind.is_some_and(|kind| kind != Kind::Real)
+        {
+            let wrong = "variability is left out, and its default, continuous, is for reals only";
+            report.warning(subject.document.place(variable.node), wrong, "discrete, fixed, …");
+        }
         if let Some((attribute, wrong, allowed)) = fault(variable) {
             report.error(subject.document.place_of(variable.node, attribute), wrong, allowed);
         }

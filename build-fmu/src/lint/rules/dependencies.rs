@@ -54,11 +54,16 @@ fn check_indices(
                 let wrong = format!("dependency {index}: there is no such variable");
                 report.error(place(), wrong, format!("1 to {count}"));
             }
-            Some(variable) if !known(index, variable) => {
+            Some(variable) if known(index, variable) => {}
+            // Widespread, the reference units of the standard's authors among them.
+            Some(variable) if variable.causality == Some(Causality::Parameter) => {
+                let wrong = format!("dependency {index}: {:?} is a parameter", variable.name);
+                report.warning(place(), wrong, RULE.says);
+            }
+            Some(variable) => {
                 let wrong = format!("dependency {index}: {:?} is no known", variable.name);
                 report.error(place(), wrong, RULE.says);
             }
-            Some(_) => {}
         }
     }
     if !indices.is_sorted_by(|a, b| a < b) {
@@ -87,6 +92,7 @@ fn check_kinds(subject: &Subject, unknown: &Unknown, is_initial: bool, report: &
         (true, false) => return,
     };
     if let Some(kind) = kinds.iter().find(|kind| !allowed.contains(kind)) {
-        report.error(place(), format!("the kind {kind} is not allowed here"), allowed.join(", "));
+        let wrong = format!("the kind {kind} is not for this unknown");
+        report.warning(place(), wrong, allowed.join(", "));
     }
 }

@@ -29,7 +29,7 @@ use super::Subject;
 use super::finding::Report;
 use super::package::Package;
 
-pub use reading::{READABLE, VERSION, WELL_FORMED, of_this_version};
+pub use reading::{READABLE, VERSION, WELL_FORMED, check_encoding, of_this_version};
 
 pub struct Rule {
     pub name: &'static str,

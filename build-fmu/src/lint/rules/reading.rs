@@ -26,6 +26,17 @@ pub static VERSION: Rule = Rule {
     check: Check::Reading,
 };
 
+/// Warns of a description that says that it is not in UTF-8, though it could be read so.
+pub fn check_encoding(text: &str, report: &mut Report) {
+    let declaration = text.split("?>").next().filter(|text| text.contains("<?xml"));
+    let Some((_, rest)) = declaration.and_then(|text| text.split_once("encoding")) else { return };
+    let name = rest.split(['"', '\'']).nth(1).unwrap_or_default();
+    if !name.eq_ignore_ascii_case("utf-8") {
+        let place = Place { line: Some(1), ..Place::file(DESCRIPTION) };
+        report.warning(place, format!("the encoding is said to be {name:?}"), "UTF-8");
+    }
+}
+
 /// Whether the description is of FMI 2.0. Units of other versions may be right, by rules that are not
 /// known here.
 pub fn of_this_version(document: &Document, report: &mut Report) -> bool {
