@@ -89,7 +89,7 @@ impl Random<'_> {
         } else if self.chance(0.3) {
             self.onward(*phase)
         } else {
-            self.any()
+            self.any(instance)
         };
         *phase = match &call {
             Call::Instantiate(Birth::Good) => 'i',
@@ -118,7 +118,7 @@ impl Random<'_> {
         }
     }
 
-    fn any(&mut self) -> Call {
+    fn any(&mut self, own: usize) -> Call {
         match self.rng.u32(..100) {
             0 => Call::Free,
             1 => Call::Instantiate(self.birth()),
@@ -131,7 +131,7 @@ impl Random<'_> {
             56..60 => self.set_texts(),
             60..74 => Call::Step { point: self.point(), size: self.size() },
             74..79 => self.status(),
-            79..92 => Call::State(self.state()),
+            79..92 => Call::State(self.state(own)),
             92..95 => self.directional(),
             95..96 => self.input_derivatives(),
             _ => self.output_derivatives(),
@@ -277,24 +277,26 @@ impl Random<'_> {
         Call::Status { name: self.one_of(&STATUS), kind, null: self.chance(0.1) }
     }
 
-    /// Mostly a place of an instance that may be the right one.
-    fn place(&mut self) -> Place {
-        (self.rng.usize(..INSTANCES), self.rng.usize(..PLACES))
+    /// A place of the instance, seldom of another one.
+    fn place(&mut self, own: usize) -> Place {
+        let instance = if self.chance(0.9) { own } else { self.rng.usize(..INSTANCES) };
+        (instance, self.rng.usize(..PLACES))
     }
 
-    fn state(&mut self) -> StateCall {
-        match self.rng.u32(..12) {
-            0..4 => StateCall::Save { into: self.place() },
-            4..8 => StateCall::Restore { from: self.place() },
-            8 => StateCall::Free { of: self.place() },
-            9 => {
+    fn state(&mut self, own: usize) -> StateCall {
+        match self.rng.u32(..16) {
+            0..4 => StateCall::Save { into: self.place(own) },
+            4..8 => StateCall::Restore { from: self.place(own) },
+            8 => StateCall::Free { of: self.place(own) },
+            9..12 => {
                 let room = self.one_of(&[0, 0, 0, 7, -1, isize::MIN]);
-                StateCall::Serialize { of: self.place(), room }
+                StateCall::Serialize { of: self.place(own), room }
             }
-            10 => {
-                let cut = self.one_of(&[0, 0, 0, 1, 9, usize::MAX]);
-                let changed = self.chance(0.2).then(|| self.rng.usize(..4096));
-                StateCall::Deserialize { bytes: self.place(), into: self.place(), cut, changed }
+            12..15 => {
+                let cut = self.one_of(&[0, 0, 0, 0, 0, 1, 9, usize::MAX]);
+                let changed = self.chance(0.1).then(|| self.rng.usize(..4096));
+                let bytes = self.place(own);
+                StateCall::Deserialize { bytes, into: self.place(own), cut, changed }
             }
             _ => StateCall::SaveNowhere,
         }

@@ -22,7 +22,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use call::{Call, Line};
+use call::{Call, Kept, Line, Nulls, UNTOUCHED};
+use impinge::variables::Causality;
 use play::{Tally, play};
 use world::{Kind, World};
 
@@ -32,7 +33,7 @@ const THREADS: u64 = 4;
 /// Calls in a script.
 const LENGTH: usize = 120;
 /// Scripts of the run that belongs to the tests.
-const FEW: u64 = 400;
+const FEW: u64 = 200;
 
 fn setting(name: &str) -> Option<u64> {
     let text = env::var(name).ok()?;
@@ -154,28 +155,32 @@ fn calls_that_overlap_are_refused_and_do_no_harm() {
     let messages = Messages::default();
     let handle = world.arguments().instantiate(&messages);
     assert!(!handle.is_null());
-    let plain = |name| Call::Plain(name).run(handle, 0.0, &mut call::Kept::default()).status;
+    let plain = |name| Call::Plain(name).run(handle, 0.0, &mut Kept::default()).status;
     assert_eq!(plain("fmi2EnterInitializationMode"), OK);
     assert_eq!(plain("fmi2ExitInitializationMode"), OK);
     let shared = &Shared(handle);
-    let outputs = &world.references(Kind::Real);
+    let reals = &world.references(Kind::Real);
+    let input = world.reals_of(|causality| causality == Causality::Input)[0];
     thread::scope(|scope| {
-        for _ in 0..THREADS {
+        for worker in 0..THREADS {
+            let (kind, nulls) = (Kind::Real, Nulls::None);
+            let get = Call::Get { kind, references: reals.clone(), nulls };
+            let set =
+                Call::Set { kind, references: vec![input], values: vec![worker as f64], nulls };
             scope.spawn(move || {
-                let get = Call::Get {
-                    kind: Kind::Real,
-                    references: outputs.clone(),
-                    nulls: call::Nulls::None,
-                };
-                for _ in 0..2000 {
-                    let answer = get.run(shared.0, 0.0, &mut call::Kept::default());
-                    let untouched = answer.written.iter().all(|&bits| bits == call::UNTOUCHED);
-                    assert!([OK, ERROR].contains(&answer.status));
-                    assert_eq!(untouched, answer.status == ERROR);
+                for _ in 0..1000 {
+                    let answers =
+                        [&set, &get].map(|call| call.run(shared.0, 0.0, &mut Kept::default()));
+                    assert!(answers.iter().all(|answer| [OK, ERROR].contains(&answer.status)));
+                    let untouched = answers[1].written.iter().all(|&bits| bits == UNTOUCHED);
+                    assert_eq!(untouched, answers[1].status == ERROR);
                 }
             });
         }
     });
+    let get = Call::Get { kind: Kind::Real, references: vec![input], nulls: Nulls::None };
+    let last = f64::from_bits(get.run(handle, 0.0, &mut Kept::default()).written[0]);
+    assert!((0..THREADS).any(|worker| worker as f64 == last), "{last}");
     assert_eq!(plain("fmi2Reset"), OK);
     free(handle);
 }
