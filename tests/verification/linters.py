@@ -42,7 +42,9 @@ CHECKERS = {"build-fmu --lint": by_lint, "fmpy validate": by_fmpy, "fmutool -che
 def defective_units(folder):
     """The units with one defect each, by name."""
     test = ["--test", "lint", "every_planted_defect_is_found_and_nothing_else"]
-    made = run("cargo", "test", "-p", "build-fmu", *test, env={**os.environ, "KEEP_DEFECTS": folder})
+    made = run(
+        "cargo", "test", "-p", "build-fmu", *test, env={**os.environ, "KEEP_DEFECTS": folder}
+    )
     if made.returncode:
         sys.exit(made.stdout + made.stderr)
     return sorted(Path(folder).glob("*.fmu"))

@@ -19,35 +19,27 @@ pub static OUTPUTS: Rule = Rule {
 pub static DERIVATIVES: Rule = Rule {
     name: "derivatives",
     section: "2.2.8",
-    says: "ModelStructure/Derivatives lists variables with the attribute derivative, each once; for \
-           model exchange all that are derivatives of states",
+    says: "ModelStructure/Derivatives lists variables with the attribute derivative, each once",
     check: Check::Unit(derivatives),
 };
 
 fn outputs(subject: &Subject, report: &mut Report) {
     let is_output = |variable: &Variable| variable.causality == Some(Causality::Output);
     let listed = members(subject, &subject.description.outputs, is_output, &OUTPUTS, report);
-    missing(subject, &listed, is_output, ("Outputs", &OUTPUTS), report);
-}
-
-fn derivatives(subject: &Subject, report: &mut Report) {
-    let is_derivative = |variable: &Variable| variable.derivative().is_some();
-    let unknowns = &subject.description.derivatives;
-    let listed = members(subject, unknowns, is_derivative, &DERIVATIVES, report);
-    if subject.description.interfaces.iter().any(|interface| !interface.is_co_simulation) {
-        let may_be_left_out = |v: &Variable| v.derivative().is_none() || is_second(subject, v);
-        let expected = |v: &Variable| !may_be_left_out(v);
-        missing(subject, &listed, expected, ("Derivatives", &DERIVATIVES), report);
+    let Some(structure) = child(subject.description.root, "ModelStructure") else { return };
+    for (at, variable) in subject.description.variables.iter().enumerate() {
+        if is_output(variable) && !listed.contains(&(at + 1)) {
+            let place = subject.document.place(child(structure, "Outputs").unwrap_or(structure));
+            let wrong = format!("{:?}, variable {}, is not listed", variable.name, at + 1);
+            report.error(place, wrong, OUTPUTS.says);
+        }
     }
 }
 
-/// Whether a variable is the derivative of a variable that is no state itself, such as an input.
-fn is_second(subject: &Subject, variable: &Variable) -> bool {
-    let of = variable.derivative().and_then(|index| subject.description.variable(index));
-    of.is_some_and(|state| {
-        !matches!(state.causality, Some(Causality::Local | Causality::Output))
-            || state.initial.is_none()
-    })
+/// Which derivatives belong to states only the unit knows, so that none can be told to be missing.
+fn derivatives(subject: &Subject, report: &mut Report) {
+    let is_derivative = |variable: &Variable| variable.derivative().is_some();
+    members(subject, &subject.description.derivatives, is_derivative, &DERIVATIVES, report);
 }
 
 /// The indices in a list, after reports on those that do not belong there.
@@ -85,23 +77,4 @@ fn members(
         }
     }
     listed
-}
-
-/// Reports variables that should be listed.
-fn missing(
-    subject: &Subject,
-    listed: &HashSet<usize>,
-    expected: impl Fn(&Variable) -> bool,
-    (list, rule): (&str, &Rule),
-    report: &mut Report,
-) {
-    let root = subject.description.root;
-    let Some(structure) = child(root, "ModelStructure") else { return };
-    let place = || subject.document.place(child(structure, list).unwrap_or(structure));
-    for (at, variable) in subject.description.variables.iter().enumerate() {
-        if expected(variable) && !listed.contains(&(at + 1)) {
-            let wrong = format!("{:?}, variable {}, is not listed", variable.name, at + 1);
-            report.error(place(), wrong, rule.says);
-        }
-    }
 }
