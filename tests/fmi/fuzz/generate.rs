@@ -39,7 +39,7 @@ const STATUS: [&str; 5] = [
 ];
 
 /// Values that programs trip over.
-const ODD: [f64; 16] = [
+const ODD: [f64; 20] = [
     f64::NAN,
     f64::INFINITY,
     f64::NEG_INFINITY,
@@ -52,10 +52,14 @@ const ODD: [f64; 16] = [
     -1.0,
     1.0,
     1e-300,
+    1e-60,
     1e9,
+    1e60,
     2_147_483_647.0,
     -2_147_483_648.0,
     0.5,
+    0.4999999999999999,
+    -0.9999999999999999,
 ];
 
 /// Texts for `output.directory`, none of which can become a folder.

@@ -161,6 +161,9 @@ impl<'a> Stage<'a> {
             return Err(format!("refused, but wrote {:x?}", answer.written));
         }
         for message in self.messages.take() {
+            if message.text.contains("internal error") {
+                return Err(message.text);
+            }
             if message.status >= DISCARD && !message.text.starts_with(line.call.name()) {
                 // Serialising asks for the size first.
                 let is_size = message.text.starts_with("fmi2SerializedFMUstateSize");
@@ -231,6 +234,10 @@ impl<'a> Stage<'a> {
         let statuses = [look.set.status, look.threads.status];
         if statuses != [OK; 2] || look.directory.is_none() {
             return Err(format!("values cannot be read: {look:?}; {:?}", self.messages.take()));
+        }
+        let said = self.messages.take();
+        if let Some(panic) = said.iter().find(|message| message.text.contains("internal error")) {
+            return Err(panic.text.clone());
         }
         let expected = tells_time.then(|| oracle.time.to_bits());
         if look.time != expected {
