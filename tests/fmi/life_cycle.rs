@@ -88,6 +88,12 @@ const TABLE: [(&str, &str, Call); 40] = [
     }),
 ];
 
+/// The phases in which the standard allows a function, by their letters.
+pub fn allowed_phases(name: &str) -> &'static str {
+    let row = TABLE.iter().find(|(function, ..)| *function == name);
+    row.unwrap_or_else(|| panic!("no function {name}")).1
+}
+
 /// Words of the log when a call comes at the wrong time.
 const UNTIMELY: [&str; 2] = ["not allowed in state", "belongs to model exchange"];
 

@@ -1,6 +1,7 @@
 //! The C ABI as a master sees it: the built library is loaded and driven through its symbols.
 
 mod exports;
+mod fuzz;
 mod instantiation;
 mod life_cycle;
 mod logging;
