@@ -20,6 +20,8 @@ pub type Byte = c_char;
 pub const CO_SIMULATION: c_int = 1;
 /// `fmi2LastSuccessfulTime` of `fmi2StatusKind`.
 pub const LAST_SUCCESSFUL_TIME: c_int = 2;
+/// `fmi2Terminated` of `fmi2StatusKind`.
+pub const TERMINATED: c_int = 3;
 
 /// `fmi2Status`. `fmi2Pending` is missing: every call is done when it returns.
 #[repr(C)]

@@ -8,6 +8,7 @@ use quick_xml::events::{BytesDecl, Event};
 
 use super::guid::guid;
 use super::log::Category;
+use super::rates::HIGHEST_OUTPUT_DERIVATIVE;
 use crate::scene::Scene;
 use crate::variables::{Causality, DisplayUnit, Quantity, Registry, Value, Variable};
 
@@ -64,8 +65,13 @@ fn co_simulation(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
         ("modelIdentifier", scene.name.clone()),
         ("needsExecutionTool", "false".into()),
         ("canHandleVariableCommunicationStepSize", "true".into()),
+        ("canInterpolateInputs", "true".into()),
+        ("maxOutputDerivativeOrder", HIGHEST_OUTPUT_DERIVATIVE.to_string()),
         ("canBeInstantiatedOnlyOncePerProcess", "false".into()),
         ("canNotUseMemoryManagementFunctions", "true".into()),
+        ("canGetAndSetFMUstate", "true".into()),
+        ("canSerializeFMUstate", "true".into()),
+        ("providesDirectionalDerivative", "true".into()),
     ];
     leaf(xml, "CoSimulation", &attributes)
 }
