@@ -103,9 +103,14 @@ impl Unit {
         self.run = snapshot.model.map(Run::new);
         if self.phase != Phase::StepComplete {
             self.series = None;
-        } else if self.series.is_none() || !same_files {
-            self.series = None;
-            return Ok(self.open_series());
+            return Ok(Status::Ok);
+        }
+        match &mut self.series {
+            Some(series) if same_files => series.go_back(self.state.time),
+            _ => {
+                self.series = None;
+                return Ok(self.open_series());
+            }
         }
         Ok(Status::Ok)
     }

@@ -1,5 +1,6 @@
 //! The C ABI as a master sees it: the built library is loaded and driven through its symbols.
 
+mod derivatives;
 mod exports;
 mod instantiation;
 mod life_cycle;
@@ -7,5 +8,6 @@ mod logging;
 mod master;
 mod model_description;
 mod refusals;
+mod states;
 mod stepping;
 mod threads;
