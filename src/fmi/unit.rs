@@ -370,7 +370,7 @@ impl Unit {
             allocate_memory: None,
             free_memory: None,
             step_finished: None,
-            environment: std::ptr::null_mut(),
+            component_environment: std::ptr::null_mut(),
         };
         let text = include_str!("../../tests/fmi/scene.toml");
         let scene = scene::parse(text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));

@@ -1,7 +1,9 @@
 //! The C ABI as a master sees it: the built library is loaded and driven through its symbols.
 
 mod derivatives;
+mod endurance;
 mod exports;
+mod header;
 mod instantiation;
 mod life_cycle;
 mod logging;
