@@ -183,8 +183,8 @@ impl Motion<'_> {
         let (along_x, along_y) = (x.shape_at(place[0]), y.shape_at(place[1]));
         for j in 0..along_y.count {
             let row = &mut out[(along_y.first + j) * x.len() + along_x.first..];
-            for i in 0..along_x.count {
-                row[i] += weight * along_x.values[i] * along_y.values[j];
+            for (target, value) in row.iter_mut().zip(&along_x.values[..along_x.count]) {
+                *target += weight * value * along_y.values[j];
             }
         }
     }
