@@ -17,7 +17,7 @@ use sha2::{Digest, Sha256};
 use super::legality::Phase;
 use super::saved::Snapshot;
 use super::types::{Answer, Refusal};
-use super::unit::{Experiment, Unit, explain};
+use super::unit::{Experiment, Unit};
 use crate::model::State;
 use crate::scene::Scene;
 use crate::variables::{Parameter, Registry, Slot};
@@ -52,20 +52,19 @@ impl Unit {
             Refusal::error(format!("the saved state contradicts itself: {message}"))
         };
         let mut snapshot = read.map_err(contradicts)?;
-        let wanted = snapshot.state.inputs.len() == self.state.inputs.len();
-        if !wanted {
-            let count = snapshot.state.inputs.len();
-            return Err(contradicts(format!("{count} inputs, not {}", self.state.inputs.len())));
+        let early = matches!(snapshot.phase, Phase::Instantiated | Phase::InitializationMode);
+        if early && snapshot.state.bodies.is_empty() {
+            // There need not be a model yet, nor parameters that make sense.
+            let (inputs, count) = (&snapshot.state.inputs, self.state.inputs.len());
+            let mut lists = std::iter::once(inputs).chain(&snapshot.state.derivatives);
+            return match lists.find(|list| list.len() != count) {
+                None => Ok(snapshot),
+                Some(list) => Err(contradicts(format!("{} inputs, not {count}", list.len()))),
+            };
         }
-        if !snapshot.state.bodies.is_empty() {
-            let model = self.model_of(&snapshot.scene)?;
-            model
-                .check_state(&snapshot.state)
-                .map_err(|error| contradicts(explain(&self.registry, error).message))?;
-            snapshot.model = Some(model);
-        } else if !matches!(snapshot.phase, Phase::Instantiated | Phase::InitializationMode) {
-            return Err(contradicts(format!("no unknowns in {}", snapshot.phase.name())));
-        }
+        let model = self.model_of(&snapshot.scene)?;
+        model.check_state(&snapshot.state).map_err(|error| contradicts(error.to_string()))?;
+        snapshot.model = Some(model);
         Ok(snapshot)
     }
 }
@@ -224,5 +223,71 @@ impl Reader<'_> {
     fn lists(&mut self) -> Result<Vec<Vec<f64>>, String> {
         let count = self.count()?;
         (0..count).map(|_| self.numbers()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fmi::types::Status;
+
+    /// A running unit and what it saves.
+    fn running() -> (Unit, Snapshot) {
+        let mut unit = Unit::for_tests();
+        unit.finish_initialization().unwrap();
+        let place = unit.save(std::ptr::null_mut()).unwrap();
+        let snapshot = unit.saved.get(place).unwrap().clone();
+        (unit, snapshot)
+    }
+
+    /// Whole bytes of this unit whose contents make no sense are refused with these words.
+    #[track_caller]
+    fn refused(change: impl FnOnce(&mut Snapshot), words: &str) {
+        let (unit, mut snapshot) = running();
+        change(&mut snapshot);
+        let Err(refusal) = unit.deserialize(&unit.serialize(&snapshot)) else {
+            panic!("taken: {words}")
+        };
+        assert_eq!(refusal.status, Status::Error);
+        assert!(refusal.message.contains(words), "{}", refusal.message);
+    }
+
+    #[test]
+    fn the_model_says_how_many_unknowns_a_body_takes() {
+        refused(|s| drop(s.state.bodies[0].pop()), "unknowns of plate");
+        refused(|s| s.state.bodies[0].push(0.0), "unknowns of plate");
+        refused(|s| s.state.bodies.push(Vec::new()), "unknowns of 2 bodies; the scene has 1");
+        refused(|s| s.state.bodies.clear(), "unknowns of 0 bodies");
+    }
+
+    #[test]
+    fn contents_that_contradict_the_scene_are_refused() {
+        refused(|s| drop(s.state.inputs.pop()), "inputs; the scene has");
+        refused(|s| s.state.derivatives.push(vec![0.0]), "values of 1 inputs");
+        refused(|s| s.state.derivatives = vec![s.state.inputs.clone(); 3], "up to order 3");
+        refused(|s| s.state.bodies[0][3] = f64::NAN, "not finite");
+        refused(|s| s.state.time = f64::INFINITY, "not finite");
+        let nonsense = |s: &mut Snapshot| {
+            let parameters: Vec<Parameter> = parameters(&Registry::of(&s.scene)).cloned().collect();
+            parameters[0].set(&mut s.scene, -1.0);
+        };
+        refused(nonsense, "density");
+        let early = |s: &mut Snapshot| {
+            (s.phase, s.state.bodies) = (Phase::Instantiated, Vec::new());
+            s.state.inputs.pop();
+        };
+        refused(early, "contradicts itself");
+    }
+
+    #[test]
+    fn another_version_of_the_format_is_refused_with_both() {
+        let (unit, snapshot) = running();
+        let mut bytes = unit.serialize(&snapshot);
+        bytes[MARK.len()] = 2;
+        let end = bytes.len() - CHECKSUM;
+        let sum = checksum(&bytes[..end]);
+        bytes[end..].copy_from_slice(&sum);
+        let refusal = unit.deserialize(&bytes).err().unwrap();
+        assert!(refusal.message.contains("version 2; this program reads 1"), "{}", refusal.message);
     }
 }

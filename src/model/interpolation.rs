@@ -66,7 +66,8 @@ impl Model {
     /// middle and end, and heat is solved exactly under these. So amounts and face values make no
     /// time error, the step is then one part. Footprints that move or grow make one of the fourth
     /// order; they go by at most an eighth of their radius (a ring's width, a tile's smaller side) in
-    /// a part.
+    /// a part. For alumina under footprints of 50 µm at 1 m/s that is 3e-5 of the rise for a
+    /// Gaussian, and for a disc or tiles 2e-5 below them and 5e-4 at the edge that goes ahead.
     pub(super) fn advance_along(
         &self,
         path: &InputPath,

@@ -207,8 +207,11 @@ impl BodyLoads {
             (places.radius, load.range.radius),
         ];
         for (at, range) in named {
-            if let (Some(index), Some([low, high])) = (at, range)
-                && !(low..=high).contains(&inputs[index])
+            let Some([low, high]) = range else { continue };
+            // A path may come to its end with a rounding error.
+            let slack = ROUNDING * (high - low);
+            if let Some(index) = at
+                && !(low - slack..=high + slack).contains(&inputs[index])
             {
                 let message = format!(
                     "{} m is outside the range of {} (allowed: {low} to {high} m)",
@@ -235,7 +238,7 @@ impl BodyLoads {
         let centres = [(place.x, places.x), (place.y, places.y)];
         for axis in 0..2 {
             let (centre, input) = centres[axis];
-            let room = limits[axis] * (1.0 + 1e-9);
+            let room = limits[axis] * (1.0 + ROUNDING);
             if centre.abs() + half[axis] > room {
                 let index = input.or(places.radius).unwrap_or_default();
                 let message = format!(
@@ -249,6 +252,9 @@ impl BodyLoads {
         Ok(())
     }
 }
+
+/// Part of a length by which a place may miss its limits.
+const ROUNDING: f64 = 1e-9;
 
 /// Nodal vectors of one quantity of a load, one a symmetry class.
 struct Part {

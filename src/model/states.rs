@@ -1,12 +1,19 @@
 //! Whether a state that comes from elsewhere belongs to a model.
 
-use super::{Model, ModelError, State};
+use super::{HIGHEST_INPUT_DERIVATIVE, Model, ModelError, State};
 
 impl Model {
     /// Refuses a state that this model cannot go on from: a wrong number of inputs or bodies,
     /// unknowns of a length that a body does not take, or numbers that are not finite.
     pub fn check_state(&self, state: &State) -> Result<(), ModelError> {
         let refuse = |message: String| Err(ModelError::State(message));
+        let orders = state.derivatives.len();
+        if orders > HIGHEST_INPUT_DERIVATIVE {
+            return refuse(format!(
+                "derivatives of inputs up to order {orders}; the highest is \
+                 {HIGHEST_INPUT_DERIVATIVE}"
+            ));
+        }
         let wanted = self.layout.len;
         for values in std::iter::once(&state.inputs).chain(&state.derivatives) {
             if values.len() != wanted {
