@@ -4,6 +4,7 @@ mod cache;
 mod interpolation;
 mod loads;
 mod sharing;
+mod start_rates;
 mod states;
 mod tangent;
 
@@ -11,6 +12,7 @@ pub use cache::Cache;
 pub use interpolation::HIGHEST_INPUT_DERIVATIVE;
 use interpolation::InputPath;
 use loads::BodyLoads;
+pub use start_rates::start_rates;
 pub use tangent::Tangent;
 
 pub use crate::body::fem::NodalFields;

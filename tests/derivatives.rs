@@ -7,6 +7,9 @@ use std::f64::consts::PI;
 
 use common::{Trial, off};
 use impinge::closed_form::{Conductor, GaussianFlux};
+use impinge::model::start_rates;
+use impinge::scene;
+use impinge::variables::{MaterialConstant, Output, Parameter};
 
 /// A block of soft numbers with every kind of thermal face, loads of every footprint and probes off
 /// all planes of symmetry.
@@ -148,6 +151,40 @@ fn changes_with_inputs_are_the_limit_of_differences() {
             trial.restart(&start);
             assert_limit(&names, &found, differ, step, 3e-5, &format!("{direction:?}"));
         }
+    }
+}
+
+#[test]
+fn outputs_at_the_start_follow_constants_as_the_theory_says() {
+    for order in [1, 2] {
+        let text = block("auto", order);
+        let scene = scene::parse(&text, "scene").unwrap();
+        let mut trial = Trial::new(&text);
+        let names: Vec<String> =
+            ["temperature", "stress_xx", "displacement_z"].map(|key| format!("p.{key}")).to_vec();
+        let now = values(&mut trial, &names);
+        // Without expansion, what tractions do alone; what temperatures do is the rest.
+        let mut tractions = Trial::new(&text.replace("expansion = 1e-3", "expansion = 0.0"));
+        let by_tractions = values(&mut tractions, &names);
+        let by_heat: Vec<f64> = now.iter().zip(&by_tractions).map(|(a, b)| a - b).collect();
+        let rates = |constant| {
+            let parameter = Parameter::Material { body: "block".into(), constant };
+            let outputs: Vec<Output> = names.iter().map(|name| trial.output(name)).collect();
+            let outputs: Vec<&Output> = outputs.iter().collect();
+            start_rates(&scene, &trial.state.inputs, &parameter, &outputs).unwrap()
+        };
+        let close = |value: f64, wanted: f64| {
+            assert!((value - wanted).abs() < 1e-8 * wanted.abs().max(1e-9), "{value} {wanted}");
+        };
+        let young = rates(MaterialConstant::Young);
+        // Stresses by heat are proportional to E, displacements by tractions to 1/E.
+        close(young[0], 0.0);
+        close(young[1], by_heat[1] / 1000.0);
+        close(young[2], -by_tractions[2] / 1000.0);
+        let expansion = rates(MaterialConstant::Expansion);
+        close(expansion[1], by_heat[1] / 1e-3);
+        close(expansion[2], by_heat[2] / 1e-3);
+        assert_eq!(rates(MaterialConstant::Conductivity), [0.0; 3]);
     }
 }
 

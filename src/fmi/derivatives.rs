@@ -4,7 +4,8 @@ use super::instance::{array, call, write};
 use super::legality::Function;
 use super::types::{Handle, Integer, Real, Reference, Status};
 
-/// Exact, with the unknowns of the bodies held: what outputs follow at once.
+/// With respect to inputs exact, with the unknowns of the bodies held: what outputs follow at once.
+/// In initialization mode parameters are known too; with respect to these to about 1e-10.
 ///
 /// # Safety
 /// Pointers are null or as the standard asks.

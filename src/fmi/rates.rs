@@ -2,17 +2,18 @@
 
 use std::sync::Arc;
 
+use super::legality::Phase;
 use super::types::{Answer, Integer, Reference, Refusal, Status};
 use super::unit::{Unit, explain};
 use super::values::{Kind, find};
-use crate::model::HIGHEST_INPUT_DERIVATIVE;
+use crate::model::{HIGHEST_INPUT_DERIVATIVE, start_rates};
 use crate::variables::{Output, Registry, Slot, Variable};
 
 /// Highest order of output derivatives, as the XML declares it.
 pub const HIGHEST_OUTPUT_DERIVATIVE: usize = 1;
 
 impl Unit {
-    /// Changes of outputs when inputs change by `changes`.
+    /// Changes of outputs when inputs change by `changes`, and in initialization mode parameters too.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[Reference],
@@ -22,16 +23,34 @@ impl Unit {
         let registry = Arc::clone(&self.registry);
         let outputs = outputs(&registry, unknowns)?;
         let mut direction = vec![0.0; self.state.inputs.len()];
-        for (input, change) in inputs(&registry, knowns)?.into_iter().zip(changes) {
-            let (index, variable) = input;
-            check_finite(&variable.name, *change)?;
-            direction[index] += change;
+        let mut parameters = Vec::new();
+        for (variable, &change) in find(&registry, knowns, Kind::Real)?.into_iter().zip(changes) {
+            check_finite(&variable.name, change)?;
+            match &variable.slot {
+                Slot::Input(index) => direction[*index] += change,
+                Slot::Parameter(parameter) if self.phase == Phase::InitializationMode => {
+                    parameters.push((parameter, change));
+                }
+                _ => return Err(Refusal::error(format!("{} is no input", variable.name))),
+            }
         }
+        let mut sum = self.input_rates(&outputs, &direction)?;
+        for (parameter, change) in parameters {
+            let rates = start_rates(&self.scene, &self.state.inputs, parameter, &outputs);
+            let rates = rates.map_err(|error| explain(&registry, error))?;
+            sum.iter_mut().zip(rates).for_each(|(s, rate)| *s += change * rate);
+        }
+        Ok(sum)
+    }
+
+    fn input_rates(&mut self, outputs: &[&Output], direction: &[f64]) -> Answer<Vec<f64>> {
+        let registry = Arc::clone(&self.registry);
         let (run, state) = self.run()?;
-        let tangent = run.model.input_tangent(state, &direction);
+        let tangent = run.model.input_tangent(state, direction);
         let mut tangent = tangent.map_err(|error| explain(&registry, error))?;
-        let rate = |output| run.model.output_rate(state, &mut run.cache, &mut tangent, output);
-        let found: Result<Vec<f64>, _> = outputs.into_iter().map(rate).collect();
+        let rate =
+            |output: &&Output| run.model.output_rate(state, &mut run.cache, &mut tangent, output);
+        let found: Result<Vec<f64>, _> = outputs.iter().map(rate).collect();
         found.map_err(|error| explain(&registry, error))
     }
 

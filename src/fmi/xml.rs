@@ -184,7 +184,8 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
 }
 
 /// Outputs with the inputs that they follow at once. At initialisation an output may follow all
-/// parameters and inputs, which is what a list that is left out means.
+/// parameters and inputs, which is what a list that is left out means. Directional derivatives serve
+/// all of these.
 fn structure(xml: &mut Xml, scene: &Scene, registry: &Registry) -> io::Result<()> {
     let dependencies = registry.all_dependencies(scene);
     parent(xml, "Outputs", &[], |xml| {

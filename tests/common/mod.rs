@@ -2,7 +2,7 @@
 
 use impinge::model::{Cache, Model, ModelError, State, Tangent};
 use impinge::scene::{self, Scene};
-use impinge::variables::{Causality, Registry, Slot};
+use impinge::variables::{Causality, Output, Registry, Slot};
 
 pub struct Trial {
     pub model: Model,
@@ -53,12 +53,8 @@ impl Trial {
     }
 
     pub fn get(&mut self, name: &str) -> f64 {
-        match self.slot(name) {
-            Slot::Output(output) => {
-                self.model.output(&self.state, &mut self.cache, &output).unwrap()
-            }
-            _ => panic!("{name} is no output"),
-        }
+        let output = self.output(name);
+        self.model.output(&self.state, &mut self.cache, &output).unwrap()
     }
 
     /// Time derivatives of outputs.
@@ -83,12 +79,19 @@ impl Trial {
         outputs.map(|i| self.registry.variables[i].name.clone()).collect()
     }
 
-    fn follow(&mut self, mut tangent: Tangent, names: &[String]) -> Vec<f64> {
-        let mut rate = |name: &String| match self.slot(name) {
-            Slot::Output(output) => {
-                self.model.output_rate(&self.state, &mut self.cache, &mut tangent, &output).unwrap()
-            }
+    /// The output of a name.
+    pub fn output(&self, name: &str) -> Output {
+        match self.slot(name) {
+            Slot::Output(output) => output,
             _ => panic!("{name} is no output"),
+        }
+    }
+
+    fn follow(&mut self, mut tangent: Tangent, names: &[String]) -> Vec<f64> {
+        let mut rate = |name: &String| {
+            let output = self.output(name);
+            let rate = self.model.output_rate(&self.state, &mut self.cache, &mut tangent, &output);
+            rate.unwrap()
         };
         names.iter().map(&mut rate).collect()
     }

@@ -103,6 +103,46 @@ fn derivatives_are_there_in_initialization_mode_and_change_nothing() {
     assert!((slope * 1e6 / unit.get("centre.stress_zz") - 1.0).abs() < 1e-12);
 }
 
+/// In initialization mode outputs depend on inputs and parameters alike, as the XML says by naming
+/// no dependencies there.
+#[test]
+fn every_parameter_is_known_in_initialization_mode() {
+    let unit = Unit::initializing();
+    assert_eq!(unit.set("spot.pressure", 1e6), OK);
+    let registry = registry();
+    let outputs: Vec<u32> = registry.of_causality(Causality::Output).map(|i| i as u32).collect();
+    let read = || {
+        let mut values = vec![0.0; outputs.len()];
+        assert_eq!(unit.get_all(&outputs, &mut values), OK);
+        values
+    };
+    let before = unit.snapshot();
+    for (reference, variable) in registry.variables.iter().enumerate() {
+        let Slot::Parameter(_) = variable.slot else { continue };
+        let name = &variable.name;
+        let found = unit.directional_derivative(&outputs, &[reference as u32], &[1.0]);
+        let value = unit.get(name);
+        let step = 1e-3 * value;
+        let [above, below] = [step, -step].map(|by| {
+            assert_eq!(unit.set(name, value + by), OK);
+            read()
+        });
+        assert_eq!(unit.set(name, value), OK);
+        for (i, &output) in outputs.iter().enumerate() {
+            let wanted = (above[i] - below[i]) / (2.0 * step);
+            let rounding = 1e-11 * above[i].abs() / step;
+            let error = (found[i] - wanted).abs();
+            let output = &registry.variables[output as usize].name;
+            assert!(
+                error <= 1e-4 * wanted.abs() + rounding,
+                "{output} by {name}: {} {wanted}",
+                found[i]
+            );
+        }
+    }
+    assert_eq!(unit.snapshot(), before);
+}
+
 #[test]
 fn what_cannot_be_differentiated_is_refused_by_name() {
     let unit = loaded();
