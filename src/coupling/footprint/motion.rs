@@ -24,15 +24,15 @@ impl Pattern {
         image: [bool; 2],
     ) -> Vec<f64> {
         let (place, rate) = (place.mirrored(image), rate.mirrored(image));
-        let motion = |radius, growth| Motion {
+        let discs = |discs: Vec<(f64, f64)>| Motion {
             axes: [x, y],
             centre: [place.x, place.y],
             velocity: [rate.x, rate.y],
-            radius,
-            growth,
+            growth: rate.radius / place.radius,
+            discs,
         };
         match *footprint {
-            Footprint::Disc { .. } => scaled(motion(place.radius, rate.radius).of(self), values[0]),
+            Footprint::Disc { .. } => discs(vec![(place.radius, values[0])]).of(self),
             Footprint::Gaussian { .. } => {
                 let along = |axis, centre| gaussian(axis, centre, place.radius);
                 let change = |axis: &Axis, centre, velocity| {
@@ -46,13 +46,8 @@ impl Pattern {
             }
             Footprint::Rings { count, .. } => {
                 let turned = matches!(self, Pattern::Outward(axis) if image[axis]);
-                let mut sum = vec![0.0; x.len() * y.len()];
-                for (radius, jump) in ring_jumps(count, place.radius, values) {
-                    let growth = rate.radius * radius / place.radius;
-                    let part = motion(radius, growth).of(self);
-                    add_scaled(&mut sum, &part, if turned { -jump } else { jump });
-                }
-                sum
+                let jumps = ring_jumps(count, place.radius, values).collect();
+                scaled(discs(jumps).of(self), if turned { -1.0 } else { 1.0 })
             }
             Footprint::Tiles { count, size } => {
                 let columns = strip_motions(x, [place.x, rate.x], count[0], size[0]);
@@ -106,13 +101,15 @@ impl Pattern {
     }
 }
 
-/// A disc that moves and grows.
+/// A sum of discs about one centre that moves, and which grow.
 struct Motion<'a> {
     axes: [&'a Axis; 2],
     centre: [f64; 2],
     velocity: [f64; 2],
-    radius: f64,
+    /// Relative growth of all radii.
     growth: f64,
+    /// Radius and value of each disc.
+    discs: Vec<(f64, f64)>,
 }
 
 const GAUSS_OVER_ARC: usize = 12;
@@ -121,20 +118,22 @@ const GAUSS_ALONG_RAY: usize = 3;
 
 impl Motion<'_> {
     fn of(&self, pattern: Pattern) -> Vec<f64> {
-        let mut out = self.swept(pattern);
+        let [x, y] = self.axes;
+        let mut out = vec![0.0; x.len() * y.len()];
+        for &disc in &self.discs {
+            self.add_swept(&mut out, pattern, disc);
+        }
         if let Pattern::Outward(axis) = pattern
             && self.velocity != [0.0; 2]
         {
-            add_scaled(&mut out, &self.turned(axis), -1.0);
+            self.add_turned(&mut out, axis);
         }
         out
     }
 
-    /// `∮ N f (v · n + Ṙ) R dφ` over the edge, with `f` the pattern.
-    fn swept(&self, pattern: Pattern) -> Vec<f64> {
-        let [x, y] = self.axes;
-        let mut out = vec![0.0; x.len() * y.len()];
-        for piece in self.edge_angles().windows(2) {
+    /// Adds `∮ N f (v · n + Ṙ) R dφ` over the edge of a disc, with `f` the pattern.
+    fn add_swept(&self, out: &mut [f64], pattern: Pattern, (radius, value): (f64, f64)) {
+        for piece in ascending(self.edge_angles(radius)).windows(2) {
             for (angle, w) in gauss_on(GAUSS_OVER_ARC, piece[0], piece[1]) {
                 let normal = [angle.cos(), angle.sin()];
                 let speed = self.velocity[0] * normal[0] + self.velocity[1] * normal[1];
@@ -142,31 +141,38 @@ impl Motion<'_> {
                     Pattern::Scalar => 1.0,
                     Pattern::Outward(axis) => normal[axis],
                 };
-                let weight = w * self.radius * (speed + self.growth) * direction;
-                self.add_at(&mut out, normal, self.radius, weight);
+                let weight = w * radius * (speed + self.growth * radius) * direction;
+                self.add_at(out, normal, radius, value * weight);
             }
         }
-        out
     }
 
-    /// `∫ N (v_i − n_i (v · n))/r dA`: what the directions away from the centre lose as it moves.
-    /// Along a ray the 1/r goes with the element of area, so that the integrand is smooth.
-    fn turned(&self, axis: usize) -> Vec<f64> {
-        let [x, y] = self.axes;
-        let mut out = vec![0.0; x.len() * y.len()];
-        for piece in self.corner_angles().windows(2) {
+    /// Adds `−∫ N f (v_i − n_i (v · n))/r dA`: what the directions away from the centre lose as it
+    /// moves. Along a ray the 1/r goes with the element of area, so that the integrand is smooth.
+    fn add_turned(&self, out: &mut [f64], axis: usize) {
+        for piece in self.ray_angles().windows(2) {
             for (angle, w) in gauss_on(GAUSS_OVER_ARC, piece[0], piece[1]) {
                 let normal = [angle.cos(), angle.sin()];
                 let along = self.velocity[0] * normal[0] + self.velocity[1] * normal[1];
-                let factor = w * (self.velocity[axis] - normal[axis] * along);
+                let factor = w * (normal[axis] * along - self.velocity[axis]);
                 for part in self.ray_ends(normal).windows(2) {
+                    let value = self.value_at(0.5 * (part[0] + part[1]));
                     for (r, weight) in gauss_on(GAUSS_ALONG_RAY, part[0], part[1]) {
-                        self.add_at(&mut out, normal, r, factor * weight);
+                        self.add_at(out, normal, r, factor * weight * value);
                     }
                 }
             }
         }
-        out
+    }
+
+    /// Sum of the discs at a distance from the centre.
+    fn value_at(&self, r: f64) -> f64 {
+        self.discs.iter().filter(|(radius, _)| *radius > r).map(|(_, value)| value).sum()
+    }
+
+    /// Radius of the largest disc.
+    fn reach(&self) -> f64 {
+        self.discs.iter().map(|(radius, _)| *radius).fold(0.0, f64::max)
     }
 
     /// Adds `weight N` of the point at the distance `r` along `normal`, if it is on the mesh.
@@ -189,34 +195,36 @@ impl Motion<'_> {
         }
     }
 
-    /// Ascending angles between which the edge meets no border of elements.
-    fn edge_angles(&self) -> Vec<f64> {
+    /// Angles between which the edge of a disc meets no border of elements.
+    fn edge_angles(&self, radius: f64) -> Vec<f64> {
         let mut angles: Vec<f64> = (-2..=2).map(|i| f64::from(i) * FRAC_PI_2).collect();
         for end in self.ends(0) {
-            let cosine = (end - self.centre[0]) / self.radius;
+            let cosine = (end - self.centre[0]) / radius;
             if cosine.abs() < 1.0 {
                 angles.extend([cosine.acos(), -cosine.acos()]);
             }
         }
         for end in self.ends(1) {
-            let sine = (end - self.centre[1]) / self.radius;
+            let sine = (end - self.centre[1]) / radius;
             if sine.abs() < 1.0 {
                 let angle = sine.asin();
                 angles.extend([angle, if angle > 0.0 { PI - angle } else { -PI - angle }]);
             }
         }
-        ascending(angles)
+        angles
     }
 
-    /// Ascending angles between which rays meet no corner of elements inside the disc, and leave it
-    /// through no border of elements.
-    fn corner_angles(&self) -> Vec<f64> {
-        let mut angles = self.edge_angles();
+    /// Ascending angles between which rays meet no corner of elements, and no border of elements on
+    /// an edge.
+    fn ray_angles(&self) -> Vec<f64> {
+        let radii = self.discs.iter().map(|(radius, _)| *radius);
+        let mut angles: Vec<f64> = radii.flat_map(|radius| self.edge_angles(radius)).collect();
+        let reach = self.reach();
         for end_y in self.ends(1) {
             for end_x in self.ends(0) {
                 let offset = [end_x - self.centre[0], end_y - self.centre[1]];
                 let distance = offset[0].hypot(offset[1]);
-                if distance > 0.0 && distance < self.radius {
+                if distance > 0.0 && distance < reach {
                     angles.push(offset[1].atan2(offset[0]));
                 }
             }
@@ -224,14 +232,15 @@ impl Motion<'_> {
         ascending(angles)
     }
 
-    /// Ascending distances along a ray at which it meets borders of elements, from the centre to the
-    /// edge.
+    /// Ascending distances along a ray at which it meets edges and borders of elements.
     fn ray_ends(&self, normal: [f64; 2]) -> Vec<f64> {
-        let mut ends = vec![0.0, self.radius];
+        let reach = self.reach();
+        let mut ends: Vec<f64> = self.discs.iter().map(|(radius, _)| *radius).collect();
+        ends.push(0.0);
         for axis in [0, 1] {
             for end in self.ends(axis) {
                 let r = (end - self.centre[axis]) / normal[axis];
-                if r > 0.0 && r < self.radius {
+                if r > 0.0 && r < reach {
                     ends.push(r);
                 }
             }
