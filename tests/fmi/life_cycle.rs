@@ -131,17 +131,6 @@ fn an_untimely_call_changes_nothing() {
 }
 
 #[test]
-fn optional_functions_say_that_they_are_not_offered() {
-    let unit = Unit::running();
-    for (name, _, call) in TABLE.iter().filter(|(name, ..)| {
-        name.contains("FMUstate") || name.contains("Derivative") && name != &"fmi2GetDerivatives"
-    }) {
-        assert_eq!(call(&unit), ERROR, "{name}");
-        unit.expect_message(ERROR, &[name, "not offered"]);
-    }
-}
-
-#[test]
 fn a_unit_can_be_freed_in_every_phase() {
     for (_, make) in PHASES {
         drop(make());
