@@ -243,7 +243,8 @@ impl Unit {
             self.inputs[index] = value;
             return;
         };
-        if run.state.inputs[index] != value {
+        // Bits, so that a zero of the other sign is read back as it was set.
+        if run.state.inputs[index].to_bits() != value.to_bits() {
             run.state.inputs[index] = value;
             run.cache.clear();
             run.checked = false;
