@@ -291,7 +291,8 @@ impl Unit {
     }
 
     pub(super) fn set_input(&mut self, index: usize, value: f64) {
-        if self.state.inputs[index] == value {
+        // Bits, so that a zero of the other sign is read back as it was set.
+        if self.state.inputs[index].to_bits() == value.to_bits() {
             return;
         }
         self.state.inputs[index] = value;
