@@ -8,7 +8,7 @@ RELEASE := target/release
 PY_FILES := $(wildcard python tests/fmpy tests/verification benches examples)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo units examples test rust-test python-test verify bench build clean
+.PHONY: help demo units examples test rust-test python-test fuzz verify bench build clean
 
 help: ## say what there is
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
@@ -37,6 +37,11 @@ python-test: build $(VENV)/ready
 	$(BIN)/ruff check $(PY_FILES)
 	$(BIN)/ruff format --check $(PY_FILES)
 	$(BIN)/python -m pytest tests/fmpy
+
+SECONDS ?= 600
+
+fuzz: ## drive the C ABI with random calls for SECONDS seconds
+	FUZZ_SECONDS=$(SECONDS) cargo test --test fmi fuzz:: -- --nocapture
 
 verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent finite-element code
 	cargo test --release --features verification --test verification -- --nocapture --test-threads 1

@@ -5,16 +5,22 @@ mod contact;
 mod droplet_forecast;
 mod droplets;
 mod exchange;
+mod interpolation;
 mod loads;
 mod sharing;
-
-use std::ops::Range;
+mod start_rates;
+mod states;
+mod tangent;
 
 pub use cache::Cache;
 use contact::Contact;
 pub use droplet_forecast::DropletForecast;
 use droplets::DropletModel;
+pub use interpolation::HIGHEST_INPUT_DERIVATIVE;
+use interpolation::InputPath;
 use loads::BodyLoads;
+pub use start_rates::start_rates;
+pub use tangent::Tangent;
 
 pub use crate::body::fem::NodalFields;
 use crate::body::fem::{Geometry, Plan, Refinement, SolidFem};
@@ -52,6 +58,9 @@ pub struct State {
     pub time: f64,
     /// Values of the inputs, in the order of the [`InputLayout`].
     pub inputs: Vec<f64>,
+    /// Time derivatives of the inputs at this time: the first of all inputs [1/s], then the second
+    /// [1/s²], as far as there are any. Without any, inputs are held.
+    pub derivatives: Vec<Vec<f64>>,
     /// Unknowns of each body: solids, then droplets, each in the order of their names. Those of a
     /// droplet grow in number when a drop is released.
     pub bodies: Vec<Vec<f64>>,
@@ -62,6 +71,15 @@ pub enum ModelError {
     /// An input is out of place; `index` is its place among the state's inputs.
     #[error("{message}")]
     Input { index: usize, message: String },
+    /// An input goes out of place in the course of a step, `after` seconds.
+    #[error("{message}, {after:e} s into the step")]
+    Underway { index: usize, message: String, after: f64 },
+    /// The results of a step are too large for numbers.
+    #[error("the solution of {body} grows beyond what numbers can hold")]
+    Overflow { body: String },
+    /// A state does not fit the model.
+    #[error("{0}")]
+    State(String),
     #[error("{0}")]
     Scene(#[from] SceneError),
     #[error("{0}")]
@@ -69,6 +87,9 @@ pub enum ModelError {
     /// A step of a droplet has no physical meaning.
     #[error("{name}: {failure}")]
     Droplet { name: String, failure: Failure },
+    /// What a droplet gives has no derivative in time.
+    #[error("what a droplet gives is known step by step: it has no derivative in time")]
+    NoRate,
 }
 
 /// What a scene will cost, estimated before it is built.
@@ -151,6 +172,7 @@ impl Model {
         State {
             time: 0.0,
             inputs: initial_inputs(&self.scene),
+            derivatives: Vec::new(),
             bodies: solids.chain(droplets).collect(),
         }
     }
@@ -168,18 +190,30 @@ impl Model {
         self.droplets.iter().try_for_each(|body| body.check(inputs))
     }
 
-    /// Advances by `dt` [s] under the state's inputs, held constant. A refusal changes nothing.
+    /// Advances by `dt` [s]. Inputs follow their derivatives over the step and are held without; at
+    /// its end the state has their values and derivatives there. A refusal changes nothing.
     pub fn step(&self, state: &mut State, cache: &mut Cache, dt: f64) -> Result<(), ModelError> {
         self.check_inputs(&state.inputs)?;
-        if self.droplets.is_empty() {
+        let path = InputPath::of(state);
+        let mut bodies = state.bodies.clone();
+        if path.is_held() {
             cache.meet(self, state);
             for (index, body) in self.bodies.iter().enumerate() {
-                body.solid.advance(&mut state.bodies[index], cache.loads(index), dt);
+                let loads = std::slice::from_ref(cache.loads(index));
+                body.solid.advance(&mut bodies[index], loads, dt);
             }
         } else {
-            state.bodies = self.advanced(state, dt)?;
+            self.advance_along(&path, &mut bodies, dt)?;
         }
+        self.advance_droplets(&path, state, &mut bodies, dt)?;
+        for (body, unknowns) in self.bodies.iter().zip(&bodies) {
+            if !unknowns.iter().all(|value| value.is_finite()) {
+                return Err(ModelError::Overflow { body: body.name.clone() });
+            }
+        }
+        state.bodies = bodies;
         state.time += dt;
+        (state.inputs, state.derivatives) = path.end(dt);
         cache.clear();
         Ok(())
     }
@@ -211,14 +245,16 @@ impl Model {
                 if *component == Component::Temperature {
                     // A single temperature is cheaper from the modes than from the whole field.
                     let (unknowns, loads) = (&state.bodies[index], cache.loads(index));
-                    return Ok(self.bodies[index].solid.temperature_at(unknowns, loads, probe.at));
+                    let solid = &self.bodies[index].solid;
+                    let rise = solid.rise_at(unknowns, loads, probe.at);
+                    return Ok(solid.initial_temperature() + rise);
                 }
-                self.component(state, cache, index, *component, probe.at)
+                self.component(&state.bodies, cache, index, *component, probe.at)
             }
             Output::Field { field, component, cell } => {
                 let (body, _) = self.scene.field[*field].body_and_place();
                 let point = self.grids[*field].point(cell[0], cell[1]);
-                self.component(state, cache, self.place(body), *component, point)
+                self.component(&state.bodies, cache, self.place(body), *component, point)
             }
         }
     }
@@ -239,7 +275,7 @@ impl Model {
         self.check_inputs(&state.inputs)?;
         cache.meet(self, state);
         let index = self.place(body);
-        cache.solve(self, state, index)?;
+        cache.solve(self, &state.bodies, index)?;
         let solid = &self.bodies[index].solid;
         Ok(solid.fields(cache.temperatures(index), cache.deformation(index)))
     }
@@ -280,7 +316,7 @@ impl Model {
 
     fn component(
         &self,
-        state: &State,
+        unknowns: &[Vec<f64>],
         cache: &mut Cache,
         index: usize,
         component: Component,
@@ -288,10 +324,11 @@ impl Model {
     ) -> Result<f64, ModelError> {
         let solid = &self.bodies[index].solid;
         if component == Component::Temperature {
-            cache.heat(self, state, index);
-            return Ok(solid.temperature_from(cache.temperatures(index), point));
+            cache.heat(self, unknowns, index);
+            let rise = solid.rise_from(cache.temperatures(index), point);
+            return Ok(solid.initial_temperature() + rise);
         }
-        cache.solve(self, state, index)?;
+        cache.solve(self, unknowns, index)?;
         if let Component::Displacement(i) = component {
             return Ok(solid.displacement_at(cache.deformation(index), point)[i]);
         }
@@ -317,11 +354,11 @@ impl Model {
             BodyTotal::HeatLost => solid.heat_totals(unknowns).lost,
             BodyTotal::HeatStored => solid.heat_stored(unknowns),
             BodyTotal::MaxTemperature => {
-                cache.heat(self, state, index);
+                cache.heat(self, &state.bodies, index);
                 cache.max_temperature(solid, index)
             }
             BodyTotal::MaxVonMises | BodyTotal::MaxPrincipal => {
-                cache.solve(self, state, index)?;
+                cache.solve(self, &state.bodies, index)?;
                 let [von_mises, principal] = cache.max_stress(solid, index);
                 if total == BodyTotal::MaxVonMises { von_mises } else { principal }
             }
@@ -443,9 +480,4 @@ fn resolve_threads(wanted: usize, is_large: bool) -> usize {
         0 => std::thread::available_parallelism().map_or(1, Into::into),
         threads => threads,
     }
-}
-
-/// Values of a range of inputs.
-fn slice<'a>(inputs: &'a [f64], range: &Option<Range<usize>>) -> Option<&'a [f64]> {
-    range.as_ref().map(|range| &inputs[range.clone()])
 }

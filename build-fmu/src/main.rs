@@ -1,8 +1,9 @@
-//! `build-fmu`: packs a scene as an FMI unit.
+//! `build-fmu`: packs a scene as an FMI unit, and checks units.
 
 mod archive;
 mod documentation;
 mod library;
+mod lint;
 mod picture;
 mod words;
 
@@ -14,12 +15,13 @@ use clap::Parser;
 use impinge::fmi::xml::model_description;
 use impinge::scene::{self, Scene};
 
-/// Pack a scene as an FMI 2.0 co-simulation unit
+/// Pack a scene as an FMI 2.0 co-simulation unit, or check a unit
 #[derive(Parser)]
 #[command(version)]
 struct Arguments {
-    /// The scene, a TOML file
-    scene: PathBuf,
+    /// The scene, a TOML file; with --lint the unit
+    #[arg(value_name = "SCENE", required_unless_present_any = ["rules", "instantiate"])]
+    file: Option<PathBuf>,
     /// Where to write the unit [default: NAME.fmu]
     #[arg(short, long, value_name = "FILE.fmu")]
     output: Option<PathBuf>,
@@ -29,25 +31,52 @@ struct Arguments {
     /// Write only the modelDescription.xml to this file
     #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "library"])]
     xml: Option<PathBuf>,
+    /// Check a unit of FMI 2.0, of any tool; its library is loaded to compare the GUID
+    #[arg(long, conflicts_with_all = ["output", "library", "xml"])]
+    lint: bool,
+    /// Say what is checked
+    #[arg(long, requires = "lint")]
+    rules: bool,
+    /// Leave the unit's library alone, as befits units that nobody vouches for
+    #[arg(long, requires = "lint")]
+    no_run: bool,
+    #[arg(long, hide = true, num_args = 4, exclusive = true)]
+    instantiate: Option<Vec<String>>,
 }
 
 fn main() -> ExitCode {
-    match run(&Arguments::parse()) {
-        Ok(done) => {
-            println!("{done}");
-            ExitCode::SUCCESS
-        }
+    let arguments = Arguments::parse();
+    if let Some(details) = &arguments.instantiate {
+        return lint::instantiate(details);
+    }
+    let (said, code) = match run(&arguments) {
+        Ok(answer) => answer,
         Err(error) => {
             eprintln!("build-fmu: {error}");
-            ExitCode::FAILURE
+            return ExitCode::FAILURE;
         }
-    }
+    };
+    println!("{said}");
+    code
 }
 
-/// Does what is asked; answers with one line for people.
-fn run(arguments: &Arguments) -> Result<String, String> {
-    let file = arguments.scene.display().to_string();
-    let text = fs::read_to_string(&arguments.scene)
+/// Does what is asked; answers with text for people and an exit code.
+fn run(arguments: &Arguments) -> Result<(String, ExitCode), String> {
+    let file = arguments.file.as_deref().unwrap_or(Path::new(""));
+    if arguments.rules {
+        return Ok((lint::rules(), ExitCode::SUCCESS));
+    }
+    if arguments.lint {
+        let verdict = lint::lint(file, !arguments.no_run)?;
+        return Ok((verdict.text, u8::from(verdict.has_errors).into()));
+    }
+    Ok((pack(arguments, file)?, ExitCode::SUCCESS))
+}
+
+/// Packs the scene in `path`; answers with one line for people.
+fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
+    let file = path.display().to_string();
+    let text = fs::read_to_string(path)
         .map_err(|error| format!("cannot read the scene {file}: {error}"))?;
     let scene = scene::parse(&text, &file).map_err(|error| error.to_string())?;
     if let Some(path) = &arguments.xml {

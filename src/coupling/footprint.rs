@@ -3,6 +3,8 @@
 //! Integrals are exact to rounding, so the nodal values sum to the total heat or force; those of
 //! tractions away from a centre, where the direction is singular, to about 1e-7 of it.
 
+mod motion;
+
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::body::fem::{Axis, Weight};
@@ -214,6 +216,11 @@ fn gauss_two() -> [(f64, f64); 2] {
 /// `∫ N e^{−2 (x − c)²/w²} dx` for every node (over the circle for a radius), the tails beyond five
 /// radii left out (they are below 1e-21 of the peak).
 fn gaussian(axis: &Axis, centre: f64, radius: f64) -> Vec<f64> {
+    gaussian_moment(axis, centre, radius, |_| 1.0)
+}
+
+/// `∫ N f(u) e^{−2u²} dx` with `u = (x − c)/w`, as [`gaussian`].
+fn gaussian_moment(axis: &Axis, centre: f64, radius: f64, f: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut out = vec![0.0; axis.len()];
     let points = gauss_legendre(10);
     let reach = 5.0 * radius;
@@ -230,7 +237,8 @@ fn gaussian(axis: &Axis, centre: f64, radius: f64) -> Vec<f64> {
             for &(xi, w) in &points {
                 let x = middle + 0.5 * step * xi;
                 let at = axis.shape_in(element, x);
-                let value = (-2.0 * ((x - centre) / radius).powi(2)).exp();
+                let u = (x - centre) / radius;
+                let value = f(u) * (-2.0 * u * u).exp();
                 let measure = match axis.weight {
                     Weight::Uniform => 1.0,
                     Weight::Radial => TAU * x,
@@ -244,7 +252,7 @@ fn gaussian(axis: &Axis, centre: f64, radius: f64) -> Vec<f64> {
     out
 }
 
-/// Sum over tiles of value times the product of the integrals along x and y.
+/// Nodal vector of tiles, from the integrals of their columns and rows.
 fn tiles(
     [x, y]: [&Axis; 2],
     place: &Placement,
@@ -253,8 +261,6 @@ fn tiles(
     values: &[f64],
     image: [bool; 2],
 ) -> Vec<f64> {
-    // Seen in a mirror, the tiles run the other way.
-    let index = |i: usize, n: usize, mirror: bool| if mirror { n - 1 - i } else { i };
     let strips = |axis: &Axis, centre: f64, n: usize, length: f64| -> Vec<Vec<f64>> {
         let end = |i: usize| centre + length * (i as f64 / n as f64 - 0.5);
         let inside = |v: f64| v.clamp(axis.start(), axis.end());
@@ -267,9 +273,17 @@ fn tiles(
     };
     let columns = strips(x, place.x, nx, size[0]);
     let rows = strips(y, place.y, ny, size[1]);
-    let mut out = vec![0.0; x.len() * y.len()];
+    tile_sum(&columns, &rows, values, image)
+}
+
+/// Sum over tiles of value times the product of what stands for their column and their row.
+fn tile_sum(columns: &[Vec<f64>], rows: &[Vec<f64>], values: &[f64], image: [bool; 2]) -> Vec<f64> {
+    // Seen in a mirror, the tiles run the other way.
+    let index = |i: usize, n: usize, mirror: bool| if mirror { n - 1 - i } else { i };
+    let (nx, ny, width) = (columns.len(), rows.len(), columns[0].len());
+    let mut out = vec![0.0; width * rows[0].len()];
     for (j, row) in rows.iter().enumerate() {
-        let mut along_x = vec![0.0; x.len()];
+        let mut along_x = vec![0.0; width];
         for (i, column) in columns.iter().enumerate() {
             let value = values[index(i, nx, image[0]) * ny + index(j, ny, image[1])];
             if value != 0.0 {
@@ -277,7 +291,7 @@ fn tiles(
             }
         }
         for (k, weight) in row.iter().enumerate().filter(|(_, w)| **w != 0.0) {
-            add_scaled(&mut out[k * x.len()..][..x.len()], &along_x, *weight);
+            add_scaled(&mut out[k * width..][..width], &along_x, *weight);
         }
     }
     out

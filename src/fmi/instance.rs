@@ -122,7 +122,8 @@ pub unsafe fn write<T: Copy>(pointer: *mut T, values: &[T], name: &str) -> Answe
     Ok(Status::Ok)
 }
 
-fn null(name: &str) -> Refusal {
+/// The refusal of a null pointer.
+pub fn null(name: &str) -> Refusal {
     Refusal::error(format!("{name} is a null pointer"))
 }
 

@@ -73,7 +73,7 @@ impl Category {
 /// Where messages go, and which of them.
 pub struct Log {
     instance: CString,
-    logger: Option<Logger>,
+    logger: Logger,
     environment: Environment,
     on: bool,
     wanted: BTreeSet<Category>,
@@ -85,7 +85,7 @@ impl Log {
         Self {
             instance: instance.to_owned(),
             logger: callbacks.logger,
-            environment: callbacks.environment,
+            environment: callbacks.component_environment,
             on,
             wanted: BTreeSet::from([Category::All]),
         }

@@ -1,19 +1,23 @@
 //! The FMI 2.0 C ABI, and what belongs to it: legality of calls, log, GUID and XML.
 //!
 //! A call comes in through one of the exported functions (`common`, `variables`, `step`, `states`,
-//! `model_exchange`), passes the gate in [`instance`] (valid pointer, legal in this phase, panics
+//! `derivatives`, `model_exchange`), passes the gate in [`instance`] (valid pointer, legal in this phase, panics
 //! caught) and is done by [`unit::Unit`], which is plain safe Rust. A refused call answers
 //! `fmi2Error` with one line in the log and changes nothing, the phase included, so a master may
 //! correct its arguments and call again.
 
 mod common;
+mod derivatives;
 mod instance;
 mod legality;
 mod log;
 mod model_exchange;
 mod panics;
 mod pin;
+mod rates;
 mod refused;
+mod saved;
+mod state_bytes;
 mod states;
 mod step;
 mod types;

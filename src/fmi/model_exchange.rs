@@ -1,19 +1,124 @@
 //! FMI functions of model exchange, section 3.2 of the standard. A unit is for co-simulation; the
-//! functions exist so that tools which look up all names find them.
+//! functions exist so that tools which look up all names find them. All of them are refused.
 
-use super::refused::{Reason, refused};
-use super::types::{Boolean, EventInfo, Real};
+use super::instance::call;
+use super::legality::Function;
+use super::refused::Reason;
+use super::types::{Boolean, EventInfo, Handle, Real, Status};
 
-refused! { Reason::ModelExchange;
-    fn fmi2EnterEventMode: EnterEventMode();
-    fn fmi2NewDiscreteStates: NewDiscreteStates(*mut EventInfo);
-    fn fmi2EnterContinuousTimeMode: EnterContinuousTimeMode();
-    fn fmi2CompletedIntegratorStep:
-        CompletedIntegratorStep(Boolean, *mut Boolean, *mut Boolean);
-    fn fmi2SetTime: SetTime(Real);
-    fn fmi2SetContinuousStates: SetContinuousStates(*const Real, usize);
-    fn fmi2GetDerivatives: GetDerivatives(*mut Real, usize);
-    fn fmi2GetEventIndicators: GetEventIndicators(*mut Real, usize);
-    fn fmi2GetContinuousStates: GetContinuousStates(*mut Real, usize);
-    fn fmi2GetNominalsOfContinuousStates: GetNominalsOfContinuousStates(*mut Real, usize);
+/// Refuses, with the reason in the log.
+///
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+unsafe fn refuse(component: Handle, function: Function) -> Status {
+    // SAFETY: by contract.
+    unsafe { call(component, function, |_| Err(Reason::ModelExchange.into())) }
+}
+
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterEventMode(component: Handle) -> Status {
+    // SAFETY: by contract.
+    unsafe { refuse(component, Function::EnterEventMode) }
+}
+
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2NewDiscreteStates(
+    component: Handle,
+    _event_info: *mut EventInfo,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { refuse(component, Function::NewDiscreteStates) }
+}
+
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(component: Handle) -> Status {
+    // SAFETY: by contract.
+    unsafe { refuse(component, Function::EnterContinuousTimeMode) }
+}
+
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
+    component: Handle,
+    _no_set_state_prior_to_current_point: Boolean,
+    _enter_event_mode: *mut Boolean,
+    _terminate_simulation: *mut Boolean,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { refuse(component, Function::CompletedIntegratorStep) }
+}
+
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetTime(component: Handle, _time: Real) -> Status {
+    // SAFETY: by contract.
+    unsafe { refuse(component, Function::SetTime) }
+}
+
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetContinuousStates(
+    component: Handle,
+    _states: *const Real,
+    _count: usize,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { refuse(component, Function::SetContinuousStates) }
+}
+
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDerivatives(
+    component: Handle,
+    _derivatives: *mut Real,
+    _count: usize,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { refuse(component, Function::GetDerivatives) }
+}
+
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetEventIndicators(
+    component: Handle,
+    _indicators: *mut Real,
+    _count: usize,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { refuse(component, Function::GetEventIndicators) }
+}
+
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetContinuousStates(
+    component: Handle,
+    _states: *mut Real,
+    _count: usize,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { refuse(component, Function::GetContinuousStates) }
+}
+
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
+    component: Handle,
+    _nominals: *mut Real,
+    _count: usize,
+) -> Status {
+    // SAFETY: by contract.
+    unsafe { refuse(component, Function::GetNominalsOfContinuousStates) }
 }

@@ -6,12 +6,15 @@ use std::ffi::c_int;
 
 use super::instance::{call, write};
 use super::legality::Function;
-use super::refused::{Reason, refused};
+use super::refused::Reason;
 use super::types::{
-    Answer, Boolean, Handle, Integer, LAST_SUCCESSFUL_TIME, Real, Reference, Refusal, Status, Text,
+    Answer, Boolean, Handle, Integer, LAST_SUCCESSFUL_TIME, Real, Refusal, Status, TERMINATED, Text,
 };
 
-/// A refused step leaves the unit as it was: the master may correct inputs or times and try again.
+/// A refused step leaves the unit as it was: the master may correct inputs or times and try again. So
+/// does a discarded one, but what may follow it is a saved state, a reset or the end.
+///
+/// No state is needed but the one that the master asks for, so the last argument changes nothing.
 ///
 /// # Safety
 /// `component` is null or comes from fmi2Instantiate.
@@ -73,10 +76,16 @@ pub unsafe extern "C" fn fmi2GetIntegerStatus(
 pub unsafe extern "C" fn fmi2GetBooleanStatus(
     component: Handle,
     kind: c_int,
-    _value: *mut Boolean,
+    value: *mut Boolean,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { call(component, Function::GetBooleanStatus, |_| no_status(kind)) }
+    unsafe {
+        call(component, Function::GetBooleanStatus, |_| match kind {
+            // A unit never wants to end the simulation.
+            TERMINATED => write(value, &[0], "value"),
+            _ => no_status(kind),
+        })
+    }
 }
 
 /// # Safety
@@ -101,13 +110,10 @@ fn no_status(kind: c_int) -> Answer {
     }))
 }
 
-refused! { Reason::NothingPending;
-    fn fmi2CancelStep: CancelStep();
-}
-
-refused! { Reason::NotOffered;
-    fn fmi2SetRealInputDerivatives:
-        SetRealInputDerivatives(*const Reference, usize, *const Integer, *const Real);
-    fn fmi2GetRealOutputDerivatives:
-        GetRealOutputDerivatives(*const Reference, usize, *const Integer, *mut Real);
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CancelStep(component: Handle) -> Status {
+    // SAFETY: by contract.
+    unsafe { call(component, Function::CancelStep, |_| Err(Reason::NothingPending.into())) }
 }

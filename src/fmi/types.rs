@@ -20,6 +20,8 @@ pub type Byte = c_char;
 pub const CO_SIMULATION: c_int = 1;
 /// `fmi2LastSuccessfulTime` of `fmi2StatusKind`.
 pub const LAST_SUCCESSFUL_TIME: c_int = 2;
+/// `fmi2Terminated` of `fmi2StatusKind`.
+pub const TERMINATED: c_int = 3;
 
 /// `fmi2Status`. `fmi2Pending` is missing: every call is done when it returns.
 #[repr(C)]
@@ -33,17 +35,17 @@ pub enum Status {
 }
 
 /// `fmi2CallbackLogger`: environment, instance name, status, category, `printf` format, …
-pub type Logger = unsafe extern "C" fn(Environment, Text, Status, Text, Text, ...);
+pub type Logger = Option<unsafe extern "C" fn(Environment, Text, Status, Text, Text, ...)>;
 
 /// `fmi2CallbackFunctions`. Memory functions are declared as unused in the XML.
 #[repr(C)]
 #[derive(Clone, Copy)]
 pub struct Callbacks {
-    pub logger: Option<Logger>,
+    pub logger: Logger,
     pub allocate_memory: Option<unsafe extern "C" fn(usize, usize) -> *mut c_void>,
     pub free_memory: Option<unsafe extern "C" fn(*mut c_void)>,
     pub step_finished: Option<unsafe extern "C" fn(Environment, Status)>,
-    pub environment: Environment,
+    pub component_environment: Environment,
 }
 
 /// `fmi2EventInfo` of model exchange.

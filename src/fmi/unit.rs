@@ -8,12 +8,13 @@ use super::legality::{Function, Phase};
 use super::log::Log;
 use super::pin;
 use super::refused::Reason;
+use super::saved::SavedStates;
 use super::types::{Answer, Refusal, Status};
 use super::{guid, uri};
-use crate::model::{Cache, Model, ModelError, State, initial_inputs};
+use crate::model::{Cache, Model, ModelError, State, Tangent, initial_inputs};
 use crate::output::{FieldSeries, OutputError};
 use crate::scene::{self, Scene};
-use crate::variables::{Registry, Slot};
+use crate::variables::{Registry, Slot, Variable};
 
 /// A time is taken for another one if they differ by less than this part of the step …
 const STEP_TOLERANCE: f64 = 1e-9;
@@ -26,18 +27,24 @@ pub struct Unit {
     pub phase: Phase,
     /// What the last fmi2GetString gave pointers to.
     pub texts: Vec<CString>,
+    /// The states that the master has saved and not freed.
+    pub(super) saved: SavedStates,
     pub(super) registry: Arc<Registry>,
+    pub(super) guid: String,
     /// The scene as packed.
-    packed: Scene,
+    pub(super) packed: Scene,
     /// The scene with the parameters that were set.
     pub(super) scene: Scene,
     /// Folder for field files; nothing is written if empty.
     pub(super) directory: String,
-    /// Input values while there is no model.
-    inputs: Vec<f64>,
-    experiment: Experiment,
-    run: Option<Run>,
-    series: Option<FieldSeries>,
+    pub(super) experiment: Experiment,
+    /// Time and inputs, and the unknowns once there is a model.
+    pub(super) state: State,
+    /// Whether the master has set the state's derivatives of inputs since the last step; if not,
+    /// they are what that step ended with, and the next one holds its inputs.
+    pub(super) has_set_derivatives: bool,
+    pub(super) run: Option<Run>,
+    pub(super) series: Option<FieldSeries>,
 }
 
 /// The times that fmi2SetupExperiment tells [s].
@@ -47,26 +54,41 @@ pub struct Experiment {
     pub stop: Option<f64>,
 }
 
-/// A built model with its state.
+/// A built model, and what follows from the present state.
 pub(super) struct Run {
     pub model: Arc<Model>,
-    pub state: State,
     pub cache: Cache,
+    /// Time derivative of the state, once asked for.
+    pub tangent: Option<Tangent>,
     /// Whether the inputs have been checked together since they changed.
-    checked: bool,
+    pub checked: bool,
+}
+
+impl Run {
+    pub fn new(model: Arc<Model>) -> Self {
+        Self { model, cache: Cache::default(), tangent: None, checked: false }
+    }
 }
 
 /// What a unit's resources hold, and what follows from it.
 pub struct Packed {
     scene: Scene,
     registry: Registry,
-    inputs: Vec<f64>,
+    guid: String,
 }
 
 impl Packed {
-    fn of(scene: Scene) -> Self {
-        Self { registry: Registry::of(&scene), inputs: initial_inputs(&scene), scene }
+    fn of(scene: Scene, text: &str) -> Self {
+        let registry = Registry::of(&scene);
+        let guid = guid::guid(text, &registry);
+        Self { scene, registry, guid }
     }
+}
+
+/// Time and inputs at their start, without unknowns.
+fn start_state(packed: &Scene) -> State {
+    let inputs = initial_inputs(packed);
+    State { time: 0.0, inputs, derivatives: Vec::new(), bodies: Vec::new() }
 }
 
 /// Reads the scene of a unit and compares the GUID. Nothing heavy: parameters may still change.
@@ -76,9 +98,9 @@ pub fn read(resources: &str, guid: &str) -> Result<Packed, String> {
     let text = std::fs::read_to_string(&path)
         .map_err(|error| format!("cannot read the unit's scene {file}: {error}"))?;
     let scene = scene::parse(&text, &file).map_err(|error| error.to_string())?;
-    let packed = Packed::of(scene);
-    let own = guid::guid(&text, &packed.registry);
-    if guid != own {
+    let packed = Packed::of(scene, &text);
+    if guid != packed.guid {
+        let own = &packed.guid;
         return Err(format!(
             "the master's GUID {guid} is not {own}, which belongs to {file} and impinge {}: \
              modelDescription.xml, scene and library are not of one unit",
@@ -90,13 +112,16 @@ pub fn read(resources: &str, guid: &str) -> Result<Packed, String> {
 
 impl Unit {
     pub fn new(packed: Packed, log: Log) -> Self {
-        let Packed { scene, registry, inputs } = packed;
+        let Packed { scene, registry, guid } = packed;
         Self {
             log,
             phase: Phase::Instantiated,
             texts: Vec::new(),
+            saved: SavedStates::default(),
             registry: Arc::new(registry),
-            inputs,
+            guid,
+            state: start_state(&scene),
+            has_set_derivatives: false,
             packed: scene.clone(),
             scene,
             directory: String::new(),
@@ -132,6 +157,7 @@ impl Unit {
             return Err(Refusal::error(format!("tolerance {tolerance:?} is not positive")));
         }
         self.experiment = experiment;
+        self.state.time = start;
         Ok(Status::Ok)
     }
 
@@ -148,14 +174,15 @@ impl Unit {
         Ok(Status::Ok)
     }
 
-    /// Back to the start values, as after fmi2Instantiate; log settings stay.
+    /// Back to the start values, as after fmi2Instantiate; log settings and saved states stay.
     pub fn reset(&mut self) -> Answer {
         self.run = None;
         self.series = None;
         self.texts.clear();
         self.scene = self.packed.clone();
         self.directory.clear();
-        self.inputs = initial_inputs(&self.packed);
+        self.state = start_state(&self.packed);
+        self.has_set_derivatives = false;
         self.experiment = Experiment::default();
         self.phase = Phase::Instantiated;
         Ok(Status::Ok)
@@ -163,26 +190,45 @@ impl Unit {
 
     /// Time of the last successful step [s].
     pub fn time(&self) -> f64 {
-        self.run.as_ref().map_or(self.experiment.start, |run| run.state.time)
+        self.state.time
     }
 
     /// Advances from `point` by `step` [s]. The time afterwards is their sum, so that it never
-    /// drifts from the master's.
+    /// drifts from the master's. Inputs whose derivatives have been set follow them; afterwards they
+    /// are what they have become.
     ///
     /// A step that cannot be completed, though nothing was wrong when it began, is discarded.
     pub fn step(&mut self, point: f64, step: f64) -> Answer {
         self.check_step(point, step)?;
         let registry = Arc::clone(&self.registry);
-        let run = self.run()?;
-        if let Err(error) = run.model.step(&mut run.state, &mut run.cache, step) {
+        let has_set = self.has_set_derivatives;
+        let (run, state) = self.run()?;
+        let past = if has_set { None } else { Some(std::mem::take(&mut state.derivatives)) };
+        if let Err(error) = run.model.step(state, &mut run.cache, step) {
+            if let Some(past) = past {
+                state.derivatives = past;
+            }
             let refusal = explain(&registry, error);
             if refusal.status == Status::Discard {
                 self.phase = Phase::StepFailed;
             }
             return Err(refusal);
         }
-        run.state.time = point + step;
+        run.tangent = None;
+        run.checked &= !has_set;
+        state.time = point + step;
+        self.has_set_derivatives = false;
         Ok(self.write_fields())
+    }
+
+    /// Drops the derivatives of inputs that the last step ended with, unless they were set since.
+    pub(super) fn forget_past_derivatives(&mut self) {
+        if !self.has_set_derivatives {
+            self.state.derivatives.clear();
+        }
+        if let Some(run) = &mut self.run {
+            run.tangent = None;
+        }
     }
 
     fn check_step(&self, point: f64, step: f64) -> Answer<()> {
@@ -209,48 +255,49 @@ impl Unit {
         }
     }
 
-    /// The model with its state, built when first needed, with inputs that make sense together.
-    pub(super) fn run(&mut self) -> Answer<&mut Run> {
+    /// The model and the state, built when first needed, with inputs that make sense together.
+    pub(super) fn run(&mut self) -> Answer<(&mut Run, &mut State)> {
         let run = match self.run.take() {
             Some(run) => run,
             None => self.build()?,
         };
         let run = self.run.insert(run);
         if !run.checked {
-            let checked = run.model.check_inputs(&run.state.inputs);
+            let checked = run.model.check_inputs(&self.state.inputs);
             checked.map_err(|error| explain(&self.registry, error))?;
             run.checked = true;
         }
-        Ok(run)
+        Ok((run, &mut self.state))
     }
 
-    fn build(&self) -> Answer<Run> {
-        scene::check(&self.scene).map_err(|error| Refusal::error(error.to_string()))?;
-        let model = Model::shared(&self.scene, self.scene.solver.threads)
+    fn build(&mut self) -> Answer<Run> {
+        let model = self.model_of(&self.scene)?;
+        for note in model.notes() {
+            self.log.send(Status::Ok, &note);
+        }
+        self.state.bodies = model.initial_state().bodies;
+        Ok(Run::new(model))
+    }
+
+    /// The model of a scene with parameters.
+    pub(super) fn model_of(&self, scene: &Scene) -> Answer<Arc<Model>> {
+        scene::check(scene).map_err(|error| Refusal::error(error.to_string()))?;
+        let model = Model::shared(scene, scene.solver.threads)
             .map_err(|error| explain(&self.registry, error))?;
         if model.threads() > 1 {
             pin::keep_loaded();
         }
-        for note in model.notes() {
-            self.log.send(Status::Ok, &note);
-        }
-        let mut state = model.initial_state();
-        state.time = self.experiment.start;
-        state.inputs.clone_from(&self.inputs);
-        Ok(Run { model, state, cache: Cache::default(), checked: false })
-    }
-
-    pub(super) fn inputs(&self) -> &[f64] {
-        self.run.as_ref().map_or(&self.inputs, |run| &run.state.inputs)
+        Ok(model)
     }
 
     pub(super) fn set_input(&mut self, index: usize, value: f64) {
-        let Some(run) = &mut self.run else {
-            self.inputs[index] = value;
+        // Bits, so that a zero of the other sign is read back as it was set.
+        if self.state.inputs[index].to_bits() == value.to_bits() {
             return;
-        };
-        if run.state.inputs[index] != value {
-            run.state.inputs[index] = value;
+        }
+        self.state.inputs[index] = value;
+        self.forget_past_derivatives();
+        if let Some(run) = &mut self.run {
             run.cache.clear();
             run.checked = false;
         }
@@ -261,13 +308,13 @@ impl Unit {
         if scene == self.scene {
             return;
         }
-        if let Some(run) = self.run.take() {
-            self.inputs = run.state.inputs;
-        }
+        self.run = None;
+        self.state.bodies.clear();
         self.scene = scene;
     }
 
-    fn open_series(&mut self) -> Status {
+    /// Opens the files of fields if they are wanted, and writes the present ones.
+    pub(super) fn open_series(&mut self) -> Status {
         let Some(run) = self.run.as_ref().filter(|_| !self.directory.is_empty()) else {
             return Status::Ok;
         };
@@ -284,7 +331,7 @@ impl Unit {
         let (Some(series), Some(run)) = (&mut self.series, &mut self.run) else {
             return Status::Ok;
         };
-        match series.write(&run.model, &run.state, &mut run.cache) {
+        match series.write(&run.model, &self.state, &mut run.cache) {
             Ok(()) => Status::Ok,
             Err(error) => self.warn_of_output(&error),
         }
@@ -300,18 +347,19 @@ impl Unit {
 
 /// An error of the model in words that name the variable at fault.
 pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
-    let ModelError::Input { index, message } = error else {
-        let message = error.to_string();
-        return match error {
-            ModelError::Droplet { .. } => Refusal { status: Status::Discard, message },
-            _ => Refusal::error(message),
-        };
+    let message = error.to_string();
+    let (status, index) = match error {
+        ModelError::Input { index, .. } => (Status::Error, Some(index)),
+        ModelError::Underway { index, .. } => (Status::Discard, Some(index)),
+        ModelError::Overflow { .. } | ModelError::Droplet { .. } => (Status::Discard, None),
+        _ => (Status::Error, None),
     };
-    let at_fault = registry.variables.iter().find(|v| v.slot == Slot::Input(index));
-    Refusal::error(match at_fault {
+    let is_at_fault = |v: &&Variable| index.is_some_and(|index| v.slot == Slot::Input(index));
+    let message = match registry.variables.iter().find(is_at_fault) {
         Some(variable) => format!("{}: {message}", variable.name),
         None => message,
-    })
+    };
+    Refusal { status, message }
 }
 
 #[cfg(test)]
@@ -323,10 +371,10 @@ impl Unit {
             allocate_memory: None,
             free_memory: None,
             step_finished: None,
-            environment: std::ptr::null_mut(),
+            component_environment: std::ptr::null_mut(),
         };
         let text = include_str!("../../tests/fmi/scene.toml");
         let scene = scene::parse(text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
-        Self::new(Packed::of(scene), Log::new(c"unit", &callbacks, true))
+        Self::new(Packed::of(scene, text), Log::new(c"unit", &callbacks, true))
     }
 }

@@ -12,7 +12,7 @@ use crate::variables::{Causality, Registry, Slot, Variable};
 
 /// The FMI types of variables in use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     Real,
     Integer,
     String,
@@ -38,10 +38,10 @@ impl Unit {
     fn real(&mut self, registry: &Registry, variable: &Variable) -> Answer<f64> {
         match &variable.slot {
             Slot::Parameter(parameter) => Ok(parameter.get(&self.scene)),
-            Slot::Input(index) => Ok(self.inputs()[*index]),
+            Slot::Input(index) => Ok(self.state.inputs[*index]),
             Slot::Output(output) => {
-                let run = self.run()?;
-                let value = run.model.output(&run.state, &mut run.cache, output);
+                let (run, state) = self.run()?;
+                let value = run.model.output(state, &mut run.cache, output);
                 value.map_err(|error| {
                     let reason = explain(registry, error).message;
                     Refusal::error(format!("no value of {}: {reason}", variable.name))
@@ -148,7 +148,7 @@ fn variable(registry: &Registry, reference: Reference) -> Answer<&Variable> {
 }
 
 /// The variables of these references, all of one kind.
-fn find<'a>(
+pub(super) fn find<'a>(
     registry: &'a Registry,
     references: &[Reference],
     kind: Kind,

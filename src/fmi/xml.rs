@@ -8,6 +8,7 @@ use quick_xml::events::{BytesDecl, Event};
 
 use super::guid::guid;
 use super::log::Category;
+use super::rates::HIGHEST_OUTPUT_DERIVATIVE;
 use crate::scene::Scene;
 use crate::variables::{Causality, DisplayUnit, Quantity, Registry, Value, Variable};
 
@@ -64,8 +65,13 @@ fn co_simulation(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
         ("modelIdentifier", scene.name.clone()),
         ("needsExecutionTool", "false".into()),
         ("canHandleVariableCommunicationStepSize", "true".into()),
+        ("canInterpolateInputs", "true".into()),
+        ("maxOutputDerivativeOrder", HIGHEST_OUTPUT_DERIVATIVE.to_string()),
         ("canBeInstantiatedOnlyOncePerProcess", "false".into()),
         ("canNotUseMemoryManagementFunctions", "true".into()),
+        ("canGetAndSetFMUstate", "true".into()),
+        ("canSerializeFMUstate", "true".into()),
+        ("providesDirectionalDerivative", "true".into()),
     ];
     leaf(xml, "CoSimulation", &attributes)
 }
@@ -178,7 +184,8 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
 }
 
 /// Outputs with the inputs that they follow at once. At initialisation an output may follow all
-/// parameters and inputs, which is what a list that is left out means.
+/// parameters and inputs, which is what a list that is left out means. Directional derivatives serve
+/// all of these.
 fn structure(xml: &mut Xml, scene: &Scene, registry: &Registry) -> io::Result<()> {
     let dependencies = registry.all_dependencies(scene);
     parent(xml, "Outputs", &[], |xml| {

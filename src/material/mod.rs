@@ -1,6 +1,7 @@
 //! Constitutive laws, one a file. The enum is also the parser of a scene's `material` table.
 
 pub mod stress;
+pub mod stress_rate;
 mod thermoelastic;
 
 pub use thermoelastic::Thermoelastic;

@@ -1,6 +1,7 @@
 //! Numerics without physics: quadrature, shape functions, separable transforms, sparse solvers.
 
 pub mod cholesky;
+pub mod exponential;
 pub mod gauss;
 pub mod lagrange;
 pub mod nested_dissection;

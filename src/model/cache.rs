@@ -60,12 +60,19 @@ impl Cache {
         &mut self.droplets[index]
     }
 
-    /// Makes sure that a body's nodal temperatures are known.
-    pub(super) fn heat(&mut self, model: &Model, state: &State, index: usize) {
+    /// A cache for loads that follow from no inputs: a change of loads, a list entry a body.
+    pub(super) fn of_loads(loads: Vec<SolidLoads>) -> Self {
+        let fresh = |loads| BodyCache { loads, ..Default::default() };
+        let bodies = loads.into_iter().map(fresh).collect();
+        Self { inputs: Vec::new(), bodies, droplets: Vec::new() }
+    }
+
+    /// Makes sure that a body's nodal temperatures are known; `unknowns` are those of all bodies.
+    pub(super) fn heat(&mut self, model: &Model, unknowns: &[Vec<f64>], index: usize) {
         let body = &mut self.bodies[index];
         if body.temperatures.is_none() {
             let solid = &model.bodies[index].solid;
-            body.temperatures = Some(solid.temperatures(&state.bodies[index], &body.loads));
+            body.temperatures = Some(solid.temperatures(&unknowns[index], &body.loads));
         }
     }
 
@@ -73,10 +80,10 @@ impl Cache {
     pub(super) fn solve(
         &mut self,
         model: &Model,
-        state: &State,
+        unknowns: &[Vec<f64>],
         index: usize,
     ) -> Result<(), ModelError> {
-        self.heat(model, state, index);
+        self.heat(model, unknowns, index);
         let body = &mut self.bodies[index];
         if body.deformation.is_none() {
             let solid = &model.bodies[index].solid;

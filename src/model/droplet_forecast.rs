@@ -31,7 +31,8 @@ impl DropletForecast {
     /// Estimates without building the droplet.
     pub(super) fn of(scene: &Scene, name: &str, droplet: &Droplet) -> Self {
         let (particles, time_step) = DropletSph::forecast(&droplets::plan_of(droplet, None));
-        let threads = resolve_threads(scene.solver.threads, particles >= PARTICLES_WORTH_THREADS) as f64;
+        let threads =
+            resolve_threads(scene.solver.threads, particles >= PARTICLES_WORTH_THREADS) as f64;
         let contact = scene.coupling_from(name).and_then(|index| {
             let coupling = &scene.coupling[index];
             let solid = coupling.solid()?;

@@ -2,56 +2,60 @@
 
 use super::contact::Contact;
 use super::droplets::{Below, DropletModel};
+use super::interpolation::InputPath;
 use super::{Model, ModelError, State};
 
 impl Model {
-    /// The unknowns of all bodies after `dt` [s] under the state's inputs, held.
+    /// Advances droplets by `dt` [s], and anew from `state` the solids that they are on.
     ///
     /// A droplet and a solid that are joined take turns: over each part of the step the droplet
     /// advances above the temperatures that the solid's surface had at its beginning, then the solid
     /// under the heat and force that the droplet gave during it, as constant rates. So all heat that
-    /// leaves the one enters the other, and the time error is of first order in the parts.
-    pub(super) fn advanced(&self, state: &State, dt: f64) -> Result<Vec<Vec<f64>>, ModelError> {
-        let mut bodies = state.bodies.clone();
+    /// leaves the one enters the other, and the time error is of first order in the parts. Inputs
+    /// that change act with their values in the middle of a part.
+    pub(super) fn advance_droplets(
+        &self,
+        path: &InputPath,
+        state: &State,
+        bodies: &mut [Vec<f64>],
+        dt: f64,
+    ) -> Result<(), ModelError> {
         let (solids, droplets) = bodies.split_at_mut(self.bodies.len());
-        let mut joined = vec![false; solids.len()];
         for (droplet, unknowns) in self.droplets.iter().zip(droplets) {
             match &droplet.below {
                 Below::Nothing => droplet.advance(unknowns, &[], dt)?,
                 Below::Wall(wall) => {
-                    droplet.advance(unknowns, &state.inputs[wall.inputs.clone()], dt)?;
+                    self.check_underway(&path.at(0, dt), dt)?;
+                    let inputs = path.at(0, 0.5 * dt);
+                    droplet.advance(unknowns, &inputs[wall.inputs.clone()], dt)?;
                 }
                 Below::Solid(contact) => {
-                    joined[contact.solid] = true;
-                    let pair = [unknowns, &mut solids[contact.solid]];
-                    self.advance_joined((droplet, contact), pair, &state.inputs, dt)?;
+                    let solid = &mut solids[contact.solid];
+                    solid.clone_from(&state.bodies[contact.solid]);
+                    self.advance_joined((droplet, contact), [unknowns, solid], path, dt)?;
                 }
             }
         }
-        for (index, body) in self.bodies.iter().enumerate().filter(|(i, _)| !joined[*i]) {
-            let loads = body.loads.assemble(&self.scene, &state.inputs, body.solid.mesh());
-            body.solid.advance(&mut solids[index], &loads, dt);
-        }
-        Ok(bodies)
+        Ok(())
     }
 
     fn advance_joined(
         &self,
         (droplet, contact): (&DropletModel, &Contact),
         [fluid, solid]: [&mut Vec<f64>; 2],
-        inputs: &[f64],
+        path: &InputPath,
         dt: f64,
     ) -> Result<(), ModelError> {
         let body = &self.bodies[contact.solid];
-        let own = body.loads.assemble(&self.scene, inputs, body.solid.mesh());
         let parts = contact.parts(dt);
         let part = dt / parts as f64;
-        for _ in 0..parts {
-            let surface = contact.wall_temperature(&body.solid, solid, &own);
+        for n in 0..parts {
+            let inputs = path.at(0, (n as f64 + 0.5) * part);
+            let mut loads = body.loads.assemble(&self.scene, &inputs, body.solid.mesh());
+            let surface = contact.wall_temperature(&body.solid, solid, &loads);
             droplet.advance(fluid, &surface, part)?;
-            let mut loads = own.clone();
             contact.add(&mut loads, &droplet.droplet.exchange(fluid));
-            body.solid.advance(solid, &loads, part);
+            body.solid.advance(solid, std::slice::from_ref(&loads), part);
         }
         Ok(())
     }

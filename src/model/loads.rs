@@ -1,6 +1,8 @@
 //! From inputs to what acts on a body.
 
-use super::{ModelError, slice};
+use std::ops::Range;
+
+use super::ModelError;
 use crate::body::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
 use crate::coupling::{Pattern, Placement, split_load};
 use crate::scene::{FaceName, Footprint, Load, Scene, Shape};
@@ -71,17 +73,57 @@ impl BodyLoads {
 
     /// What acts on the body under these inputs.
     pub fn assemble(&self, scene: &Scene, inputs: &[f64], mesh: &Mesh) -> SolidLoads {
+        let faces = self.face_values(inputs, self.initial_temperature, mesh);
+        self.sum(scene, mesh, faces, Asked::Value(inputs))
+    }
+
+    /// Rate of what [`assemble`](Self::assemble) gives when the inputs change at `rates`; exact, be
+    /// it amounts or places of footprints that change.
+    pub fn change(&self, scene: &Scene, inputs: &[f64], rates: &[f64], mesh: &Mesh) -> SolidLoads {
+        let faces = self.face_values(rates, 0.0, mesh);
+        self.sum(scene, mesh, faces, Asked::Change { inputs, rates })
+    }
+
+    /// Over how many of its own sizes any footprint moves or grows in a time `dt` [s]; `path` holds
+    /// the inputs and their time derivatives at the beginning.
+    pub fn travel(&self, scene: &Scene, path: &[Vec<f64>], dt: f64) -> f64 {
+        let way = |at: usize| {
+            let mut weight = 1.0;
+            let parts = path.iter().enumerate().skip(1).map(|(k, list)| {
+                weight *= dt / k as f64;
+                weight * list[at].abs()
+            });
+            parts.sum::<f64>()
+        };
+        let travel = |(load, places): &(usize, LoadInputs)| {
+            let load = &scene.load[*load];
+            let moved = [places.x, places.y, places.radius].into_iter().flatten();
+            let radius = placement(load, places, &path[0]).radius;
+            let size = match load.footprint {
+                Footprint::Disc { .. } | Footprint::Gaussian { .. } => radius,
+                Footprint::Rings { count, .. } => radius / count as f64,
+                Footprint::Tiles { count, size } => {
+                    (size[0] / count[0] as f64).min(size[1] / count[1] as f64)
+                }
+            };
+            moved.map(way).sum::<f64>() / size
+        };
+        self.loads.iter().map(travel).fold(0.0, f64::max)
+    }
+
+    /// Adds the parts of all loads to the values of faces.
+    fn sum(&self, scene: &Scene, mesh: &Mesh, faces: Vec<Vec<f64>>, asked: Asked) -> SolidLoads {
         let classes = mesh.parities().len();
         let components = if mesh.geometry == Geometry::Box { 3 } else { 2 };
         let mut out = SolidLoads {
             heat: vec![[Vec::new(), Vec::new()]; classes],
             force: vec![[vec![Vec::new(); components], vec![Vec::new(); components]]; classes],
-            faces: self.face_values(inputs, mesh),
+            faces,
         };
         for (load, places) in &self.loads {
             let load = &scene.load[*load];
             let top = usize::from(load.body_and_face().1 == FaceName::Top);
-            for part in self.parts(load, places, inputs, mesh) {
+            for part in self.parts(load, places, asked, mesh) {
                 for (class, vector) in part.vectors.into_iter().enumerate() {
                     let target = match part.component {
                         None => &mut out.heat[class][top],
@@ -94,10 +136,11 @@ impl BodyLoads {
         out
     }
 
-    fn face_values(&self, inputs: &[f64], mesh: &Mesh) -> Vec<Vec<f64>> {
+    /// Values of the thermal faces, temperatures above `base`.
+    fn face_values(&self, inputs: &[f64], base: f64, mesh: &Mesh) -> Vec<Vec<f64>> {
         let read = |value: &FaceValue| match value.kind {
             FaceInputKind::Flux => inputs[value.index],
-            _ => inputs[value.index] - self.initial_temperature,
+            _ => inputs[value.index] - base,
         };
         let parts = |parity: &Parity| {
             let of_face = |&(axis, ref face, ref image): &(usize, FaceValue, Option<FaceValue>)| {
@@ -118,38 +161,37 @@ impl BodyLoads {
     }
 
     /// The loads' nodal vectors, each with where it goes.
-    fn parts(&self, load: &Load, places: &LoadInputs, inputs: &[f64], mesh: &Mesh) -> Vec<Part> {
-        let place = placement(load, places, inputs);
+    fn parts(&self, load: &Load, places: &LoadInputs, asked: Asked, mesh: &Mesh) -> Vec<Part> {
         let top = load.body_and_face().1 == FaceName::Top;
         let round = mesh.geometry == Geometry::Axisymmetric;
-        let vectors = |pattern: Pattern, flips: [bool; 2], values: &[f64]| {
-            if values.iter().all(|&v| v == 0.0) {
-                return Vec::new();
+        let vectors = |pattern: Pattern, flips: [bool; 2], range: &Range<usize>| match asked {
+            Asked::Value(inputs) => {
+                let place = placement(load, places, inputs);
+                still(mesh, load, (pattern, flips), &place, &inputs[range.clone()])
             }
-            if round {
-                let radii = &mesh.axes[0];
-                return vec![pattern.on_radius(radii, &load.footprint, place.radius, values)];
+            Asked::Change { inputs, rates } => {
+                let place = placement(load, places, inputs);
+                let (values, change) = (&inputs[range.clone()], &rates[range.clone()]);
+                let grown = still(mesh, load, (pattern, flips), &place, change);
+                let motion = (&place, &placement_rate(places, rates));
+                both(grown, moving(mesh, load, (pattern, flips), motion, values))
             }
-            let plane = [&mesh.axes[0], &mesh.axes[1]];
-            split_load(mesh, flips, |image| {
-                pattern.on_plane(plane, &load.footprint, &place, values, image)
-            })
         };
         let axial = if round { 1 } else { 2 };
         // Pressure acts into the body: down on the top, up on the bottom.
         let inward = if top { -1.0 } else { 1.0 };
         let mut parts = Vec::new();
-        let mut push = |values: Option<&[f64]>, component, sign, pattern, flips| {
-            if let Some(values) = values {
-                parts.push(Part { component, sign, vectors: vectors(pattern, flips, values) });
+        let mut push = |range: &Option<Range<usize>>, component, sign, pattern, flips| {
+            if let Some(range) = range {
+                parts.push(Part { component, sign, vectors: vectors(pattern, flips, range) });
             }
         };
         let none = [false; 2];
-        push(slice(inputs, &places.heat_flux), None, 1.0, Pattern::Scalar, none);
-        push(slice(inputs, &places.pressure), Some(axial), inward, Pattern::Scalar, none);
-        push(slice(inputs, &places.shear_x), Some(0), 1.0, Pattern::Scalar, [true, false]);
-        push(slice(inputs, &places.shear_y), Some(1), 1.0, Pattern::Scalar, [false, true]);
-        let radial = slice(inputs, &places.shear_r);
+        push(&places.heat_flux, None, 1.0, Pattern::Scalar, none);
+        push(&places.pressure, Some(axial), inward, Pattern::Scalar, none);
+        push(&places.shear_x, Some(0), 1.0, Pattern::Scalar, [true, false]);
+        push(&places.shear_y, Some(1), 1.0, Pattern::Scalar, [false, true]);
+        let radial = &places.shear_r;
         push(radial, Some(0), 1.0, Pattern::Outward(0), [true, false]);
         if !round {
             push(radial, Some(1), 1.0, Pattern::Outward(1), [false, true]);
@@ -169,8 +211,11 @@ impl BodyLoads {
             (places.radius, load.range.radius),
         ];
         for (at, range) in named {
-            if let (Some(index), Some([low, high])) = (at, range)
-                && !(low..=high).contains(&inputs[index])
+            let Some([low, high]) = range else { continue };
+            // A path may come to its end with a rounding error.
+            let slack = ROUNDING * (high - low);
+            if let Some(index) = at
+                && !(low - slack..=high + slack).contains(&inputs[index])
             {
                 let message = format!(
                     "{} m is outside the range of {} (allowed: {low} to {high} m)",
@@ -197,7 +242,7 @@ impl BodyLoads {
         let centres = [(place.x, places.x), (place.y, places.y)];
         for axis in 0..2 {
             let (centre, input) = centres[axis];
-            let room = limits[axis] * (1.0 + 1e-9);
+            let room = limits[axis] * (1.0 + ROUNDING);
             if centre.abs() + half[axis] > room {
                 let index = input.or(places.radius).unwrap_or_default();
                 let message = format!(
@@ -212,12 +257,74 @@ impl BodyLoads {
     }
 }
 
+/// Part of a length by which a place may miss its limits.
+const ROUNDING: f64 = 1e-9;
+
 /// Nodal vectors of one quantity of a load, one a symmetry class.
 struct Part {
     /// Displacement component that the force acts on; heat if none.
     component: Option<usize>,
     sign: f64,
     vectors: Vec<Vec<f64>>,
+}
+
+/// What is asked of a load: what acts under these inputs, or how that changes with them.
+#[derive(Clone, Copy)]
+enum Asked<'a> {
+    Value(&'a [f64]),
+    Change { inputs: &'a [f64], rates: &'a [f64] },
+}
+
+/// How a quantity fills its footprint, and along which axes a mirror turns it round.
+type Quantity = (Pattern, [bool; 2]);
+
+/// Nodal vectors, one a symmetry class, of values on a footprint at a place; none if all are zero.
+fn still(
+    mesh: &Mesh,
+    load: &Load,
+    (pattern, flips): Quantity,
+    place: &Placement,
+    values: &[f64],
+) -> Vec<Vec<f64>> {
+    if values.iter().all(|&v| v == 0.0) {
+        return Vec::new();
+    }
+    if mesh.geometry == Geometry::Axisymmetric {
+        return vec![pattern.on_radius(&mesh.axes[0], &load.footprint, place.radius, values)];
+    }
+    let plane = [&mesh.axes[0], &mesh.axes[1]];
+    split_load(mesh, flips, |image| pattern.on_plane(plane, &load.footprint, place, values, image))
+}
+
+/// Rate of [`still`] when its place changes.
+fn moving(
+    mesh: &Mesh,
+    load: &Load,
+    (pattern, flips): Quantity,
+    (place, rate): (&Placement, &Placement),
+    values: &[f64],
+) -> Vec<Vec<f64>> {
+    let rests = *rate == Placement { x: 0.0, y: 0.0, radius: 0.0 };
+    if rests || values.iter().all(|&v| v == 0.0) {
+        return Vec::new();
+    }
+    if mesh.geometry == Geometry::Axisymmetric {
+        let growth = [place.radius, rate.radius];
+        return vec![pattern.growth_on_radius(&mesh.axes[0], &load.footprint, growth, values)];
+    }
+    let plane = [&mesh.axes[0], &mesh.axes[1]];
+    split_load(mesh, flips, |image| {
+        pattern.motion_on_plane(plane, &load.footprint, (place, rate), values, image)
+    })
+}
+
+/// Sum of two lists of vectors, class by class; an empty list or vector is zero.
+fn both(mut a: Vec<Vec<f64>>, b: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    a.resize(a.len().max(b.len()), Vec::new());
+    for (target, vector) in a.iter_mut().zip(&b) {
+        add(target, vector, 1.0);
+    }
+    a
 }
 
 fn placement(load: &Load, places: &LoadInputs, inputs: &[f64]) -> Placement {
@@ -227,6 +334,12 @@ fn placement(load: &Load, places: &LoadInputs, inputs: &[f64]) -> Placement {
         y: read(places.y, 0.0),
         radius: read(places.radius, load.footprint.radius().unwrap_or(0.0)),
     }
+}
+
+/// How fast a place changes with the inputs.
+fn placement_rate(places: &LoadInputs, rates: &[f64]) -> Placement {
+    let read = |at: Option<usize>| at.map_or(0.0, |index| rates[index]);
+    Placement { x: read(places.x), y: read(places.y), radius: read(places.radius) }
 }
 
 /// Adds a nodal vector to another, either of which may be empty.

@@ -41,3 +41,38 @@ fn slot_of(scene: &Scene) -> Arc<Mutex<Weak<Model>>> {
     entries.push((scene.clone(), slot.clone()));
     slot
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::parse;
+
+    const SCENE: &str = include_str!("../../tests/fmi/scene.toml");
+
+    #[test]
+    fn equal_scenes_have_one_model_as_long_as_somebody_holds_it() {
+        let scene = parse(SCENE, "scene.toml").unwrap();
+        let first = Model::shared(&scene, 1).unwrap();
+        let second = Model::shared(&scene, 1).unwrap();
+        assert!(Arc::ptr_eq(&first, &second), "the second holder built nothing");
+        let mut warmer = scene.clone();
+        warmer.name = "Other".into();
+        let other = Model::shared(&warmer, 1).unwrap();
+        assert!(!Arc::ptr_eq(&first, &other));
+        let weak = Arc::downgrade(&first);
+        drop((first, second));
+        assert!(weak.upgrade().is_none(), "nobody holds the model");
+    }
+
+    #[test]
+    fn those_who_ask_at_once_get_the_same_model() {
+        let mut scene = parse(SCENE, "scene.toml").unwrap();
+        scene.name = "AtOnce".into();
+        let models: Vec<Arc<Model>> = std::thread::scope(|scope| {
+            let ask = |_| scope.spawn(|| Model::shared(&scene, 1).unwrap());
+            let asked: Vec<_> = (0..4).map(ask).collect();
+            asked.into_iter().map(|thread| thread.join().unwrap()).collect()
+        });
+        assert!(models.iter().all(|model| Arc::ptr_eq(model, &models[0])));
+    }
+}

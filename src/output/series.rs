@@ -12,8 +12,8 @@ use crate::model::{Cache, Model, State};
 /// of a solid) or `.vtp` (the particles of a droplet) a time.
 ///
 /// Files appear whole or not at all, and the list is brought up to date after each time, so a run
-/// that is cut off leaves a readable series. A state whose time is not past the last one (it was
-/// restored) replaces what was written from that time on.
+/// that is cut off leaves a readable series. A state whose time is not past the last one replaces what
+/// was written from that time on.
 pub struct FieldSeries {
     directory: PathBuf,
     /// Names and kinds of their files.
@@ -34,6 +34,12 @@ impl FieldSeries {
             series.write_list(body)?;
         }
         Ok(series)
+    }
+
+    /// Forgets the times after `time` [s]: a state of that time was restored. Their files are replaced
+    /// as the run goes on.
+    pub fn go_back(&mut self, time: f64) {
+        self.times.retain(|&written| written <= time);
     }
 
     /// Adds the fields of one state.

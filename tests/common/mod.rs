@@ -1,8 +1,8 @@
 //! A scene that runs, for tests: set, step, read by name.
 
-use impinge::model::{Cache, Model, State};
+use impinge::model::{Cache, Model, ModelError, State, Tangent};
 use impinge::scene::{self, Scene};
-use impinge::variables::{Registry, Slot};
+use impinge::variables::{Causality, Output, Registry, Slot};
 
 pub struct Trial {
     pub model: Model,
@@ -25,14 +25,25 @@ impl Trial {
     }
 
     pub fn set(&mut self, name: &str, value: f64) {
-        match self.slot(name) {
-            Slot::Input(index) => self.state.inputs[index] = value,
-            _ => panic!("{name} is no input"),
-        }
+        let index = self.input(name);
+        self.state.inputs[index] = value;
+    }
+
+    /// Sets a time derivative of an input.
+    pub fn set_derivative(&mut self, name: &str, order: usize, value: f64) {
+        let index = self.input(name);
+        let count = self.state.inputs.len();
+        let derivatives = &mut self.state.derivatives;
+        derivatives.resize(derivatives.len().max(order), vec![0.0; count]);
+        derivatives[order - 1][index] = value;
     }
 
     pub fn step(&mut self, dt: f64) {
-        self.model.step(&mut self.state, &mut self.cache, dt).unwrap();
+        self.try_step(dt).unwrap();
+    }
+
+    pub fn try_step(&mut self, dt: f64) -> Result<(), ModelError> {
+        self.model.step(&mut self.state, &mut self.cache, dt)
     }
 
     /// Puts a saved state back.
@@ -42,11 +53,53 @@ impl Trial {
     }
 
     pub fn get(&mut self, name: &str) -> f64 {
+        let output = self.output(name);
+        self.model.output(&self.state, &mut self.cache, &output).unwrap()
+    }
+
+    /// Time derivatives of outputs.
+    pub fn rates(&mut self, names: &[String]) -> Vec<f64> {
+        let tangent = self.model.time_tangent(&self.state, &mut self.cache).unwrap();
+        self.follow(tangent, names)
+    }
+
+    /// Changes of outputs when inputs change.
+    pub fn changes(&mut self, names: &[String], inputs: &[(&str, f64)]) -> Vec<f64> {
+        let mut direction = vec![0.0; self.state.inputs.len()];
+        for (name, change) in inputs {
+            direction[self.input(name)] = *change;
+        }
+        let tangent = self.model.input_tangent(&self.state, &direction).unwrap();
+        self.follow(tangent, names)
+    }
+
+    /// Names of all outputs.
+    pub fn outputs(&self) -> Vec<String> {
+        let outputs = self.registry.of_causality(Causality::Output);
+        outputs.map(|i| self.registry.variables[i].name.clone()).collect()
+    }
+
+    /// The output of a name.
+    pub fn output(&self, name: &str) -> Output {
         match self.slot(name) {
-            Slot::Output(output) => {
-                self.model.output(&self.state, &mut self.cache, &output).unwrap()
-            }
+            Slot::Output(output) => output,
             _ => panic!("{name} is no output"),
+        }
+    }
+
+    fn follow(&mut self, mut tangent: Tangent, names: &[String]) -> Vec<f64> {
+        let mut rate = |name: &String| {
+            let output = self.output(name);
+            let rate = self.model.output_rate(&self.state, &mut self.cache, &mut tangent, &output);
+            rate.unwrap()
+        };
+        names.iter().map(&mut rate).collect()
+    }
+
+    pub fn input(&self, name: &str) -> usize {
+        match self.slot(name) {
+            Slot::Input(index) => index,
+            _ => panic!("{name} is no input"),
         }
     }
 

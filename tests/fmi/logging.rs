@@ -1,11 +1,13 @@
 //! Who is told what.
 
 use std::ffi::{CString, c_char, c_int, c_void};
+use std::path::Path;
 use std::ptr::{null, null_mut};
 use std::sync::atomic::{AtomicI32, AtomicPtr, Ordering};
 
 use crate::master::{
-    Arguments, Callbacks, ERROR, Folder, Handle, OK, SCENE, Unit, call, free, library,
+    Arguments, Callbacks, DISCARD, ERROR, Folder, Handle, OK, SCENE, Unit, WARNING, call, free,
+    library,
 };
 
 fn configure(unit: &Unit, on: bool, names: &[&str]) -> c_int {
@@ -76,6 +78,67 @@ fn unknown_categories_are_refused_and_change_nothing() {
         null() => *const *const c_char);
     assert_eq!(status, ERROR);
     unit.expect_message(ERROR, &["categories is a null pointer"]);
+}
+
+#[test]
+fn each_category_comes_with_its_status_and_only_if_it_is_wanted() {
+    type Act = fn(&Unit) -> c_int;
+    let causes: [(&str, c_int, Act); 4] = [
+        ("logStatusWarning", WARNING, |unit| {
+            unit.set_directory(Path::new("/proc/none"));
+            unit.exit()
+        }),
+        ("logStatusError", ERROR, |unit| unit.step(5.0, 1.0)),
+        ("logStatusDiscard", DISCARD, |unit| {
+            let mut value = 0;
+            call!("fmi2GetIntegerStatus", unit.handle => Handle, 2 => c_int,
+                &raw mut value => *mut c_int)
+        }),
+        ("model", OK, Unit::exit),
+    ];
+    for (category, status, cause) in causes {
+        let make = if [WARNING, OK].contains(&status) { Unit::initializing } else { Unit::running };
+        for wanted in causes.map(|(wanted, ..)| wanted) {
+            let unit = make();
+            assert_eq!(configure(&unit, true, &[wanted]), OK);
+            unit.messages.take();
+            assert_eq!(cause(&unit), status, "{category}");
+            let messages = unit.messages.take();
+            let came =
+                messages.iter().any(|m| (m.category.as_str(), m.status) == (category, status));
+            assert_eq!(came, wanted == category, "{category} of {wanted}: {messages:?}");
+            assert!(messages.iter().all(|m| m.category == wanted), "{messages:?}");
+        }
+    }
+}
+
+#[test]
+fn messages_are_short_whatever_they_quote() {
+    let unit = Unit::initializing();
+    unit.messages.take();
+    assert_eq!(configure(&unit, true, &["%s".repeat(5000).as_str()]), ERROR);
+    let messages = unit.messages.take();
+    assert!(messages.len() == 1 && messages[0].text.len() < 1024, "{messages:?}");
+    assert!(messages[0].text.contains("%s%s"), "{messages:?}");
+}
+
+#[test]
+fn a_unit_without_logger_refuses_in_silence() {
+    let folder = Folder::with_scene("mute", SCENE);
+    let callbacks = Callbacks {
+        logger: None,
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        environment: null_mut(),
+    };
+    let handle = Arguments::good(&folder).instantiate_with(&callbacks);
+    assert!(!handle.is_null());
+    assert_eq!(call!("fmi2Terminate", handle => Handle), ERROR);
+    assert_eq!(call!("fmi2EnterInitializationMode", handle => Handle), OK);
+    assert_eq!(call!("fmi2ExitInitializationMode", handle => Handle), OK);
+    assert_eq!(call!("fmi2DoStep", handle => Handle, 9.0 => f64, 1.0 => f64, 0 => c_int), ERROR);
+    free(handle);
 }
 
 #[test]

@@ -1,11 +1,16 @@
 //! The C ABI as a master sees it: the built library is loaded and driven through its symbols.
 
+mod derivatives;
+mod endurance;
 mod exports;
+mod fuzz;
+mod header;
 mod instantiation;
 mod life_cycle;
 mod logging;
 mod master;
 mod model_description;
 mod refusals;
+mod states;
 mod stepping;
 mod threads;

@@ -19,6 +19,8 @@ pub const DISCARD: c_int = 2;
 pub const ERROR: c_int = 3;
 
 pub type Handle = *mut c_void;
+/// `fmi2FMUstate`.
+pub type Saved = *mut c_void;
 type LoggerFn =
     unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char);
 
@@ -215,6 +217,7 @@ pub fn free(handle: Handle) {
 pub struct Unit {
     pub handle: Handle,
     pub messages: Box<Messages>,
+    pub guid: String,
     registry: Registry,
     _folder: Folder,
 }
@@ -227,11 +230,20 @@ impl Drop for Unit {
 
 impl Unit {
     pub fn instantiated() -> Self {
-        let folder = Folder::with_scene("unit", SCENE);
+        Self::of_scene(SCENE)
+    }
+
+    /// An instance of another scene.
+    pub fn of_scene(text: &str) -> Self {
+        let folder = Folder::with_scene("unit", text);
         let messages = Box::<Messages>::default();
-        let handle = Arguments::good(&folder).instantiate(&messages);
+        let registry = Registry::of(&scene::parse(text, "scene.toml").unwrap());
+        let guid = guid::guid(text, &registry);
+        let guid_argument = Some(CString::new(guid.as_str()).unwrap());
+        let arguments = Arguments { guid: guid_argument, ..Arguments::good(&folder) };
+        let handle = arguments.instantiate(&messages);
         assert!(!handle.is_null(), "{:?}", messages.take());
-        Self { handle, messages, registry: registry(), _folder: folder }
+        Self { handle, messages, guid, registry, _folder: folder }
     }
 
     pub fn initializing() -> Self {
@@ -340,6 +352,120 @@ impl Unit {
         assert_eq!(status, OK);
         // SAFETY: valid until the next call on the instance.
         unsafe { CStr::from_ptr(value) }.to_str().unwrap().to_owned()
+    }
+
+    /// Saves the state in a new place.
+    pub fn save(&self) -> Saved {
+        let mut state = ptr::null_mut();
+        assert_eq!(self.save_in(&mut state), OK, "{:?}", self.messages.take());
+        assert!(!state.is_null());
+        state
+    }
+
+    pub fn save_in(&self, state: &mut Saved) -> c_int {
+        call!("fmi2GetFMUstate", self.handle => Handle, state => *mut Saved)
+    }
+
+    pub fn restore(&self, state: Saved) -> c_int {
+        call!("fmi2SetFMUstate", self.handle => Handle, state => Saved)
+    }
+
+    pub fn free_state(&self, state: &mut Saved) -> c_int {
+        call!("fmi2FreeFMUstate", self.handle => Handle, state => *mut Saved)
+    }
+
+    pub fn state_size(&self, state: Saved, size: &mut usize) -> c_int {
+        call!("fmi2SerializedFMUstateSize", self.handle => Handle, state => Saved,
+            size => *mut usize)
+    }
+
+    /// The bytes of a saved state.
+    pub fn serialize(&self, state: Saved) -> Vec<u8> {
+        let mut size = 0;
+        assert_eq!(self.state_size(state, &mut size), OK, "{:?}", self.messages.take());
+        let mut bytes = vec![0; size];
+        assert_eq!(self.serialize_in(state, &mut bytes), OK, "{:?}", self.messages.take());
+        bytes
+    }
+
+    pub fn serialize_in(&self, state: Saved, bytes: &mut [u8]) -> c_int {
+        call!("fmi2SerializeFMUstate", self.handle => Handle, state => Saved,
+            bytes.as_mut_ptr() => *mut u8, bytes.len() => usize)
+    }
+
+    /// The saved state of these bytes, which must be good.
+    pub fn deserialize(&self, bytes: &[u8]) -> Saved {
+        let mut state = ptr::null_mut();
+        assert_eq!(self.deserialize_in(bytes, &mut state), OK, "{:?}", self.messages.take());
+        assert!(!state.is_null());
+        state
+    }
+
+    pub fn deserialize_in(&self, bytes: &[u8], state: &mut Saved) -> c_int {
+        call!("fmi2DeSerializeFMUstate", self.handle => Handle, bytes.as_ptr() => *const u8,
+            bytes.len() => usize, state => *mut Saved)
+    }
+
+    /// The calls on a saved state with null where an answer belongs.
+    pub fn null_state_calls(&self, state: Saved) -> [c_int; 4] {
+        let bytes = self.serialize(state);
+        [
+            call!("fmi2GetFMUstate", self.handle => Handle, ptr::null_mut() => *mut Saved),
+            call!("fmi2SerializedFMUstateSize", self.handle => Handle, state => Saved,
+                ptr::null_mut() => *mut usize),
+            call!("fmi2SerializeFMUstate", self.handle => Handle, state => Saved,
+                ptr::null_mut() => *mut u8, bytes.len() => usize),
+            call!("fmi2DeSerializeFMUstate", self.handle => Handle, bytes.as_ptr() => *const u8,
+                bytes.len() => usize, ptr::null_mut() => *mut Saved),
+        ]
+    }
+
+    /// Changes of outputs with inputs, which must exist.
+    pub fn directional_derivative(&self, outputs: &[u32], inputs: &[u32], by: &[f64]) -> Vec<f64> {
+        let mut found = vec![f64::NAN; outputs.len()];
+        let status = self.directional_derivative_in(outputs, inputs, by, &mut found);
+        assert_eq!(status, OK, "{:?}", self.messages.take());
+        found
+    }
+
+    pub fn directional_derivative_in(
+        &self,
+        outputs: &[u32],
+        inputs: &[u32],
+        by: &[f64],
+        found: &mut [f64],
+    ) -> c_int {
+        call!("fmi2GetDirectionalDerivative", self.handle => Handle,
+            outputs.as_ptr() => *const u32, outputs.len() => usize,
+            inputs.as_ptr() => *const u32, inputs.len() => usize,
+            by.as_ptr() => *const f64, found.as_mut_ptr() => *mut f64)
+    }
+
+    pub fn set_derivative(&self, name: &str, order: c_int, value: f64) -> c_int {
+        let reference = self.reference(name);
+        call!("fmi2SetRealInputDerivatives", self.handle => Handle,
+            &raw const reference => *const u32, 1 => usize, &raw const order => *const c_int,
+            &raw const value => *const f64)
+    }
+
+    pub fn output_derivatives_in(
+        &self,
+        outputs: &[u32],
+        orders: &[c_int],
+        found: &mut [f64],
+    ) -> c_int {
+        call!("fmi2GetRealOutputDerivatives", self.handle => Handle,
+            outputs.as_ptr() => *const u32, outputs.len() => usize,
+            orders.as_ptr() => *const c_int, found.as_mut_ptr() => *mut f64)
+    }
+
+    /// fmi2GetBooleanStatus(fmi2Terminated).
+    pub fn wants_to_end(&self) -> c_int {
+        let mut value = -1;
+        let status = call!("fmi2GetBooleanStatus", self.handle => Handle, 3 => c_int,
+            &raw mut value => *mut c_int);
+        assert_eq!(status, OK);
+        value
     }
 
     /// fmi2GetRealStatus(fmi2LastSuccessfulTime).

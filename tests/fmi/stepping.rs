@@ -70,13 +70,15 @@ fn bad_steps_are_refused_and_change_nothing() {
 }
 
 #[test]
-fn only_the_last_successful_time_is_told() {
+fn only_the_last_successful_time_and_that_a_unit_goes_on_are_told() {
     let unit = Unit::running();
+    assert_eq!((unit.time(), unit.wants_to_end()), (0.0, 0));
     for (name, kind, fragment) in [
         ("fmi2GetStatus", 0, "fmi2DoStepStatus"),
         ("fmi2GetRealStatus", 0, "fmi2DoStepStatus"),
         ("fmi2GetIntegerStatus", 2, "fmi2LastSuccessfulTime"),
-        ("fmi2GetBooleanStatus", 3, "fmi2Terminated"),
+        ("fmi2GetBooleanStatus", 0, "fmi2DoStepStatus"),
+        ("fmi2GetRealStatus", 3, "fmi2Terminated"),
         ("fmi2GetStringStatus", 1, "fmi2PendingStatus"),
         ("fmi2GetStatus", 9, "kind 9 is unknown"),
     ] {

@@ -26,6 +26,35 @@ fn instances_on_threads_do_not_know_of_each_other() {
     assert_ne!(alone[0], alone[1]);
 }
 
+/// Saves, steps under an input that grows and goes back, and so twice.
+fn run_and_repeat(flux: f64) -> [(Vec<u64>, i32, String); 2] {
+    let unit = Unit::initializing();
+    assert_eq!(unit.set("spot.heat_flux", flux), OK);
+    assert_eq!(unit.exit(), OK);
+    assert_eq!(unit.step(0.0, 1e-8), OK);
+    let state = unit.save();
+    [(); 2].map(|()| {
+        assert_eq!(unit.restore(state), OK);
+        assert_eq!(unit.set_derivative("spot.pressure", 1, 1e13), OK);
+        assert_eq!(unit.set_derivative("spot.x", 1, 300.0), OK);
+        assert_eq!(unit.step(1e-8, 4e-8), OK);
+        unit.snapshot()
+    })
+}
+
+#[test]
+fn eight_instances_save_and_go_back_at_once_as_they_do_alone() {
+    let fluxes: Vec<f64> = (1..=8).map(|k| f64::from(k) * 1e6).collect();
+    let alone: Vec<_> = fluxes.iter().map(|&flux| run_and_repeat(flux)).collect();
+    let together: Vec<_> = thread::scope(|scope| {
+        let start = |&flux: &f64| scope.spawn(move || run_and_repeat(flux));
+        let started: Vec<_> = fluxes.iter().map(start).collect();
+        started.into_iter().map(|thread| thread.join().unwrap()).collect()
+    });
+    assert_eq!(alone, together);
+    assert!(alone.iter().all(|[first, again]| first == again));
+}
+
 #[test]
 fn an_instance_may_move_between_threads() {
     struct Sendable(Unit);

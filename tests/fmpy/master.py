@@ -79,7 +79,10 @@ class Unit:
             self[name] = value
 
     def read(self, names):
-        return self.slave.getReal([self.variables[name].valueReference for name in names])
+        return self.slave.getReal(self.references(names))
+
+    def references(self, names):
+        return [self.variables[name].valueReference for name in names]
 
     def all_outputs(self):
         return np.array(self.read(self.outputs))

@@ -5,7 +5,7 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 import pytest
-from fmpy import read_model_description, simulate_fmu
+from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 from master import Unit, run
 
@@ -53,15 +53,6 @@ def test_reset_gives_the_same_trajectory_bit_for_bit(pack):
         unit.slave.reset()
         unit.initialize(LOADS)
         assert np.array_equal(trajectory(unit), first)
-
-
-def test_saving_states_is_refused_while_the_unit_does_not_offer_it(pack):
-    description = read_model_description(pack("plate"))
-    assert not description.coSimulation.canGetAndSetFMUstate
-    with Unit(pack("plate")) as unit:
-        with pytest.raises(FMICallException):
-            unit.slave.getFMUstate()
-        assert any("fmi2GetFMUstate" in line for line in unit.log), unit.log
 
 
 @pytest.mark.parametrize(

@@ -4,12 +4,15 @@
 //! conditions on each face are separable: M and K are sums of Kronecker products of the matrices
 //! of the axes. The modes of the axes diagonalise them once (R. E. Lynch, J. R. Rice and
 //! D. H. Thomas 1964, doi 10.1007/BF01386067), and each product mode then obeys a scalar equation
-//! whose solution under a load held over a step is an exponential. So a step of any length costs a
-//! few operations a node, is L-stable and has no time error; θ is the temperature above the
-//! initial one.
+//! whose solution under a load that is a polynomial in time is an exponential and φ-functions. So a
+//! step of any length costs a few operations a node, is L-stable and has no time error; θ is the
+//! temperature above the initial one.
+
+mod rates;
 
 use super::mesh::{Mesh, MeshFace, Parity};
 use super::modes::{AxisModes, EndCondition};
+use crate::math::exponential;
 use crate::math::separable::{Side, add_product, contract, transform};
 
 /// Thermal condition on an end of an axis.
@@ -57,7 +60,7 @@ struct FaceDrive {
     measure: f64,
 }
 
-/// What drives the heat problem during a step, all held constant.
+/// What drives the heat problem, or a time derivative of it.
 pub struct HeatLoads<'a> {
     /// For each class, heat into the nodes of the bottom and the top of the mesh [W]; empty for none.
     pub surface: &'a [[Vec<f64>; 2]],
@@ -72,16 +75,16 @@ pub struct HeatTotals {
     pub lost: f64,
 }
 
-/// What happened during a step to the even part.
-struct Passage<'a> {
+/// What happened during a step to the even part; or, as rates, what happens at a moment.
+struct Passage {
     /// Change of the modal amplitudes of the free nodes, and their integral over the step.
     change: Vec<f64>,
     integral: Vec<f64>,
-    surface: &'a [Vec<f64>; 2],
-    /// Face values during the step and before it.
-    values: &'a [f64],
-    old_values: Vec<f64>,
-    dt: f64,
+    /// Integral of the surface loads over the step [J].
+    surface: [Vec<f64>; 2],
+    /// Change of the face values, and their integral over the step.
+    value_change: Vec<f64>,
+    values: Vec<f64>,
 }
 
 impl HeatProblem {
@@ -105,33 +108,55 @@ impl HeatProblem {
         self.classes.iter().map(HeatClass::len).sum::<usize>() + self.faces.len() + 2
     }
 
-    /// Advances `state` by `dt` [s] under loads held constant.
-    pub fn advance(&self, state: &mut [f64], loads: &HeatLoads, dt: f64) {
+    /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one
+    /// entry of `loads` for their values at the beginning and one for each derivative.
+    pub fn advance(&self, state: &mut [f64], loads: &[HeatLoads], dt: f64) {
         let (contents, tail) = self.split_mut(state);
         let mut contents = contents;
         for (index, class) in self.classes.iter().enumerate() {
             let (content, rest) = contents.split_at_mut(class.len());
             contents = rest;
-            let surface = &loads.surface[index];
-            let values = &loads.faces[index];
-            let mut driven = values.iter().chain(surface.iter().flatten());
-            let at_rest = driven.all(|&v| v == 0.0) && class.is_zero(content, tail);
-            if at_rest {
+            let driven = |part: &HeatLoads| {
+                let mut values =
+                    part.faces[index].iter().chain(part.surface[index].iter().flatten());
+                values.any(|&v| v != 0.0)
+            };
+            let last = loads.iter().rposition(driven);
+            if last.is_none() && class.is_zero(content, tail) {
                 continue;
             }
-            let old_values = tail[..values.len()].to_vec();
-            let before = self.effective(class, content, &old_values);
-            let source = self.source(class, surface, values);
-            let integral = class.advance(content, &source, self.diffusivity(), dt);
-            if class.parity.is_even() {
+            let source =
+                |k: usize| self.source(class, &loads[k].surface[index], &loads[k].faces[index]);
+            let sources: Vec<Vec<f64>> = (0..=last.unwrap_or(0)).map(source).collect();
+            if !class.parity.is_even() {
                 // Parts that are odd carry no heat in sum.
-                let after = self.effective(class, content, values);
-                let change = after.iter().zip(&before).map(|(a, b)| a - b).collect();
-                let scaled: Vec<f64> = values.iter().map(|v| v * dt).collect();
-                let integral = self.effective(class, &integral, &scaled);
-                let step = Passage { change, integral, surface, values, old_values, dt };
-                self.account(class, tail, &step);
+                class.advance(content, &sources, self.diffusivity(), dt);
+                continue;
             }
+            let faces = |shift: usize| {
+                let lists = loads.iter().map(|part| part.faces[index].as_slice());
+                taylor(lists, shift, dt)
+            };
+            let surface = |side: usize| {
+                let lists = loads.iter().map(|part| part.surface[index][side].as_slice());
+                taylor(lists, 1, dt)
+            };
+            let (end, values) = (faces(0), faces(1));
+            let before = self.effective(class, content, &tail[..end.len()]);
+            let integral = class.advance(content, &sources, self.diffusivity(), dt);
+            let after = self.effective(class, content, &end);
+            let passage = Passage {
+                change: after.iter().zip(&before).map(|(a, b)| a - b).collect(),
+                integral: self.effective(class, &integral, &values),
+                surface: [surface(0), surface(1)],
+                value_change: end.iter().zip(&*tail).map(|(a, b)| a - b).collect(),
+                values,
+            };
+            let HeatTotals { brought_in, lost } = self.passed(class, &passage);
+            let count = end.len();
+            tail[..count].copy_from_slice(&end);
+            tail[count] += brought_in;
+            tail[count + 1] += lost;
         }
     }
 
@@ -267,57 +292,54 @@ impl HeatProblem {
         out
     }
 
-    /// Adds what passed the faces during a step to the totals.
-    fn account(&self, class: &HeatClass, tail: &mut [f64], step: &Passage) {
-        let mut brought = step.dt * step.surface.iter().flatten().sum::<f64>();
+    /// What passed the faces of the whole body.
+    fn passed(&self, class: &HeatClass, passage: &Passage) -> HeatTotals {
+        let mut brought = passage.surface.iter().flatten().sum::<f64>();
         let mut lost = 0.0;
         for (f, &(_, condition)) in self.faces.iter().enumerate() {
             let drive = &class.drives[f];
-            let value = step.values[f];
+            let value = passage.values[f];
             match condition {
-                ThermalFace::Flux => brought += value * drive.measure * step.dt,
+                ThermalFace::Flux => brought += value * drive.measure,
                 ThermalFace::Convective(coefficient) => {
-                    let held = self.held_at(class, f, step);
-                    lost += coefficient * (held - value * drive.measure * step.dt);
+                    let held = self.held_at(class, f, passage);
+                    lost += coefficient * (held - value * drive.measure);
                 }
                 ThermalFace::Prescribed => {
-                    lost += step.dt * class.surface_at_boundary(drive, step.surface);
-                    lost -= self.reaction(class, f, step);
+                    lost += class.surface_at_boundary(drive, &passage.surface);
+                    lost -= self.reaction(class, f, passage);
                 }
             }
             if condition != ThermalFace::Prescribed {
-                lost += self.driven_at_prescribed(class, f, condition, value) * step.dt;
+                lost += self.driven_at_prescribed(class, f, condition, value);
             }
         }
-        let count = self.faces.len();
-        tail[..count].copy_from_slice(step.values);
-        tail[count] += self.copies * brought;
-        tail[count + 1] += self.copies * lost;
+        HeatTotals { brought_in: self.copies * brought, lost: self.copies * lost }
     }
 
-    /// `∫∫ θ dA dt` over a face during a step [K m² s].
-    fn held_at(&self, class: &HeatClass, f: usize, step: &Passage) -> f64 {
-        let free = contract(&step.integral, class.drives[f].area.each_ref().map(Vec::as_slice));
-        let held = |g: usize| step.values[g] * step.dt * class.face_overlap(f, g);
+    /// `∫∫ θ dA dt` over a face [K m² s].
+    fn held_at(&self, class: &HeatClass, f: usize, passage: &Passage) -> f64 {
+        let free = contract(&passage.integral, class.drives[f].area.each_ref().map(Vec::as_slice));
+        let held = |g: usize| passage.values[g] * class.face_overlap(f, g);
         free + self.prescribed().map(held).sum::<f64>()
     }
 
     /// Heat that the nodes of a prescribed face took up or passed on: `bᵀ(ρc M Δθ + k K ∫θ dt)`.
-    fn reaction(&self, class: &HeatClass, f: usize, step: &Passage) -> f64 {
+    fn reaction(&self, class: &HeatClass, f: usize, passage: &Passage) -> f64 {
         let drive = &class.drives[f];
-        let conducted = class.stiffness_terms(drive).map(|t| contract(&step.integral, t));
+        let conducted = class.stiffness_terms(drive).map(|t| contract(&passage.integral, t));
         let mut sum = self.capacity
-            * contract(&step.change, drive.mass.each_ref().map(Vec::as_slice))
+            * contract(&passage.change, drive.mass.each_ref().map(Vec::as_slice))
             + self.conductivity * conducted.iter().sum::<f64>();
         for g in self.prescribed() {
             let (mass, stiffness) = class.boundary_overlap(f, g);
-            sum += self.capacity * mass * (step.values[g] - step.old_values[g]);
-            sum += self.conductivity * stiffness * step.values[g] * step.dt;
+            sum += self.capacity * mass * passage.value_change[g];
+            sum += self.conductivity * stiffness * passage.values[g];
         }
         sum
     }
 
-    /// Heat rate that a flux or an ambient brings straight into prescribed nodes [W].
+    /// Heat that a flux or an ambient brings straight into prescribed nodes.
     fn driven_at_prescribed(
         &self,
         class: &HeatClass,
@@ -367,11 +389,16 @@ impl HeatClass {
         values.iter().chain(content).all(|&v| v == 0.0)
     }
 
-    /// Replaces the content by its value a time `dt` later and returns its integral over the step.
-    ///
-    /// `d' = −λ d + s` gives `d(t) = e^{−λt} d₀ + t φ₁ s`, `∫d = t φ₁ d₀ + t² φ₂ s` with
-    /// `φ₁ = (1 − e^{−z})/z`, `φ₂ = (1 − φ₁)/z`, `z = λ t`.
-    fn advance(&self, content: &mut [f64], source: &[f64], diffusivity: f64, dt: f64) -> Vec<f64> {
+    /// Replaces the content by its value a time `dt` later and returns its integral over the step,
+    /// as [`exponential::weights`] say; `sources` holds the source at the beginning and its time
+    /// derivatives.
+    fn advance(
+        &self,
+        content: &mut [f64],
+        sources: &[Vec<f64>],
+        diffusivity: f64,
+        dt: f64,
+    ) -> Vec<f64> {
         let [x, y, z] = self.modes.each_ref().map(|m| &m.decay);
         let mut integral = vec![0.0; content.len()];
         let mut at = 0;
@@ -379,10 +406,17 @@ impl HeatClass {
             for decay_y in y {
                 for decay_x in x {
                     let exponent = diffusivity * (decay_x + decay_y + decay_z) * dt;
-                    let (decay, first, second) = exponential_weights(exponent);
-                    let (d, s) = (content[at], source[at] * dt);
-                    integral[at] = dt * (first * d + second * s);
-                    content[at] = decay * d + first * s;
+                    let weights = exponential::weights(exponent);
+                    let start = content[at];
+                    let (mut end, mut sum) = (weights[0] * start, weights[1] * start);
+                    let mut power = dt;
+                    for (k, source) in sources.iter().enumerate() {
+                        end += weights[k + 1] * power * source[at];
+                        sum += weights[k + 2] * power * source[at];
+                        power *= dt;
+                    }
+                    content[at] = end;
+                    integral[at] = dt * sum;
                     at += 1;
                 }
             }
@@ -502,23 +536,19 @@ fn face_factor(mesh: &Mesh, face: MeshFace, axis: usize) -> Vec<f64> {
     end
 }
 
-/// `e^{−z}`, `φ₁(z)` and `φ₂(z)` without cancellation.
-fn exponential_weights(z: f64) -> (f64, f64, f64) {
-    let decay = (-z).exp();
-    if z < 1e-2 {
-        // Series of φ₁ and φ₂; the next terms are below 1e-17.
-        let first = 1.0
-            - z / 2.0
-                * (1.0
-                    - z / 3.0
-                        * (1.0 - z / 4.0 * (1.0 - z / 5.0 * (1.0 - z / 6.0 * (1.0 - z / 7.0)))));
-        let second = 0.5
-            * (1.0
-                - z / 3.0 * (1.0 - z / 4.0 * (1.0 - z / 5.0 * (1.0 - z / 6.0 * (1.0 - z / 7.0)))));
-        return (decay, first, second);
+/// `Σ a_k t^{k + shift}/(k + shift)!` of lists that are one as long as the other or empty: the value
+/// at `t` of a polynomial with these derivatives at zero, or its integral with a `shift` of one.
+fn taylor<'a>(lists: impl Iterator<Item = &'a [f64]>, shift: usize, t: f64) -> Vec<f64> {
+    let mut sum: Vec<f64> = Vec::new();
+    let mut weight = if shift == 0 { 1.0 } else { t };
+    for (k, list) in lists.enumerate() {
+        sum.resize(sum.len().max(list.len()), 0.0);
+        for (s, value) in sum.iter_mut().zip(list) {
+            *s += weight * value;
+        }
+        weight *= t / (k + shift + 1) as f64;
     }
-    let first = (1.0 - decay) / z;
-    (decay, first, (1.0 - first) / z)
+    sum
 }
 
 fn multiply(matrix: &faer::Mat<f64>, v: &[f64]) -> Vec<f64> {

@@ -2,10 +2,16 @@
 
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{
+    LltParams, LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
+};
 use faer::linalg::evd::{
     ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch,
 };
-use faer::{Auto, Mat, Par, Side};
+use faer::linalg::triangular_solve::{
+    solve_lower_triangular_in_place, solve_upper_triangular_in_place,
+};
+use faer::{Auto, Mat, Par};
 
 use super::axis::Axis;
 
@@ -89,17 +95,16 @@ fn eigenpairs(
     let restricted = |full: &Mat<f64>| Mat::from_fn(m, m, |i, j| full[(free[i], free[j])]);
     let (mass, stiffness) = (restricted(mass), restricted(stiffness));
     // M = L Lᵀ turns the pencil into the symmetric matrix L⁻¹ K L⁻ᵀ.
-    let factor = mass.llt(Side::Lower).expect("a mass matrix is positive definite");
-    let lower = factor.L().to_owned();
+    let lower = cholesky_factor(mass);
     let mut symmetric = stiffness;
-    lower.as_ref().solve_lower_triangular_in_place(symmetric.as_mut());
+    solve_lower_triangular_in_place(lower.as_ref(), symmetric.as_mut(), Par::Seq);
     let mut symmetric = symmetric.transpose().to_owned();
-    lower.as_ref().solve_lower_triangular_in_place(symmetric.as_mut());
+    solve_lower_triangular_in_place(lower.as_ref(), symmetric.as_mut(), Par::Seq);
     let mut vectors = eigenvectors(&symmetric);
     if insulated {
         deflate_constant(&mut vectors, &lower, m);
     }
-    lower.transpose().solve_upper_triangular_in_place(vectors.as_mut());
+    solve_upper_triangular_in_place(lower.transpose(), vectors.as_mut(), Par::Seq);
 
     let mut shapes = Mat::zeros(axis.len(), m);
     for (i, &node) in free.iter().enumerate() {
@@ -109,6 +114,25 @@ fn eigenpairs(
     }
     let decay = (0..m).map(|k| rayleigh_quotient(axis, ends, &shapes, k)).collect();
     (decay, shapes)
+}
+
+/// The lower triangle L of M = L Lᵀ.
+///
+/// Like all of this file it works on the thread that calls: what faer does by default starts a pool
+/// of threads for the whole process, whatever number of them a scene allows.
+fn cholesky_factor(mut mass: Mat<f64>) -> Mat<f64> {
+    let m = mass.nrows();
+    let parameters: LltParams = Auto::<f64>::auto();
+    let scratch = cholesky_in_place_scratch::<f64>(m, Par::Seq, parameters.into());
+    cholesky_in_place(
+        mass.as_mut(),
+        LltRegularization::default(),
+        Par::Seq,
+        MemStack::new(&mut MemBuffer::new(scratch)),
+        parameters.into(),
+    )
+    .expect("a mass matrix is positive definite");
+    Mat::from_fn(m, m, |i, j| if i < j { 0.0 } else { mass[(i, j)] })
 }
 
 /// Eigenvectors of a symmetric matrix by ascending eigenvalue.

@@ -1,5 +1,7 @@
 //! A solid: heat and elasticity on one mesh, and what can be read from their solution.
 
+mod tangent;
+
 use faer::Mat;
 
 use super::axis::Axis;
@@ -25,7 +27,7 @@ pub struct SolidFem {
     parities: Vec<Parity>,
 }
 
-/// What acts on a solid, held over a step; every list has an entry for each symmetry class.
+/// What acts on a solid, or a derivative of it; every list has an entry for each symmetry class.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SolidLoads {
     /// Heat into the nodes of the bottom and the top of the mesh [W]; empty for none.
@@ -66,6 +68,12 @@ pub struct NodalFields {
 struct Weights {
     first: usize,
     values: Vec<f64>,
+}
+
+impl SolidLoads {
+    fn thermal(&self) -> HeatLoads<'_> {
+        HeatLoads { surface: &self.heat, faces: &self.faces }
+    }
 }
 
 impl SolidFem {
@@ -110,9 +118,10 @@ impl SolidFem {
         self.elastic.as_ref().map_or(0, ElasticProblem::factor_entries)
     }
 
-    /// Advances `state` by `dt` [s] under loads held constant.
-    pub fn advance(&self, state: &mut [f64], loads: &SolidLoads, dt: f64) {
-        let heat = HeatLoads { surface: &loads.heat, faces: &loads.faces };
+    /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one
+    /// entry of `loads` for their values at the beginning and one for each derivative.
+    pub fn advance(&self, state: &mut [f64], loads: &[SolidLoads], dt: f64) {
+        let heat: Vec<HeatLoads> = loads.iter().map(SolidLoads::thermal).collect();
         self.heat.advance(state, &heat, dt);
     }
 
@@ -125,11 +134,15 @@ impl SolidFem {
         self.heat.totals(state)
     }
 
-    /// Temperature at one point [K], without computing the whole field.
-    pub fn temperature_at(&self, state: &[f64], loads: &SolidLoads, point: [f64; 3]) -> f64 {
-        let (place, image) = self.mesh.locate(point);
+    /// Temperature of the stress-free body at time zero [K].
+    pub fn initial_temperature(&self) -> f64 {
         self.initial_temperature
-            + self.heat.temperature_at(&self.mesh, state, &loads.faces, place, image)
+    }
+
+    /// Temperature above the initial one at one point [K], without computing the whole field.
+    pub fn rise_at(&self, state: &[f64], loads: &SolidLoads, point: [f64; 3]) -> f64 {
+        let (place, image) = self.mesh.locate(point);
+        self.heat.temperature_at(&self.mesh, state, &loads.faces, place, image)
     }
 
     pub fn temperatures(&self, state: &[f64], loads: &SolidLoads) -> Temperatures {
@@ -156,9 +169,14 @@ impl SolidFem {
         Ok(result)
     }
 
-    /// Temperature at a point from nodal values [K].
-    pub fn temperature_from(&self, temperatures: &Temperatures, point: [f64; 3]) -> f64 {
-        self.initial_temperature + self.rise_from(temperatures, point)
+    /// Temperature above the initial one at a point from nodal values [K].
+    pub fn rise_from(&self, temperatures: &Temperatures, point: [f64; 3]) -> f64 {
+        let (place, image) = self.mesh.locate(point);
+        let weights = self.node_weights(place);
+        let counts = self.mesh.node_counts();
+        let value = |field: &Vec<f64>| weighted(field, weights.each_ref(), counts, (0, 1));
+        let parts = self.parities.iter().zip(temperatures);
+        parts.map(|(parity, field)| parity.sign(image) * value(field)).sum()
     }
 
     /// Displacement at a point along x, y, z [m].
@@ -379,15 +397,6 @@ impl SolidFem {
     fn stress_of(&self, mut strain: [f64; 6], rise: f64) -> [f64; 6] {
         strain[2] += self.law.layer_strain() * rise;
         self.law.stress(strain, rise)
-    }
-
-    fn rise_from(&self, temperatures: &Temperatures, point: [f64; 3]) -> f64 {
-        let (place, image) = self.mesh.locate(point);
-        let weights = self.node_weights(place);
-        let counts = self.mesh.node_counts();
-        let value = |field: &Vec<f64>| weighted(field, weights.each_ref(), counts, (0, 1));
-        let parts = self.parities.iter().zip(temperatures);
-        parts.map(|(parity, field)| parity.sign(image) * value(field)).sum()
     }
 
     fn node_weights(&self, place: [f64; 3]) -> [Weights; 3] {

@@ -1,6 +1,6 @@
 //! Shape, material, faces, symmetry and mesh of each solid.
 
-use super::{Checker, fits, is_sound, number};
+use super::{Checker, LARGEST, fits, is_sound, number};
 use crate::material::Material;
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
@@ -39,16 +39,25 @@ fn shape(checker: &mut Checker, path: &Path, shape: &Shape) {
 }
 
 fn material(checker: &mut Checker, path: &Path, Material::Thermoelastic(law): &Material) {
-    checker.positive(&path.at("density"), law.density, "the density");
-    checker.positive(&path.at("specific_heat"), law.specific_heat, "the specific heat capacity");
-    checker.positive(&path.at("conductivity"), law.conductivity, "the thermal conductivity");
-    checker.positive(&path.at("young"), law.young, "Young's modulus");
-    let message = match law.poisson {
-        high if high >= 0.5 => "Poisson's ratio must stay below one half",
-        low if low <= -1.0 => "Poisson's ratio must stay above minus one",
+    checker.constant(&path.at("density"), law.density, "the density");
+    checker.constant(&path.at("specific_heat"), law.specific_heat, "the specific heat capacity");
+    checker.constant(&path.at("conductivity"), law.conductivity, "the thermal conductivity");
+    checker.constant(&path.at("young"), law.young, "Young's modulus");
+    let fine = law.expansion.abs() <= LARGEST;
+    let message = "the coefficient of expansion is beyond all bounds";
+    checker.require(fine, &path.at("expansion"), message, format!("-{LARGEST:e} to {LARGEST:e}"));
+    poisson(checker, &path.at("poisson"), law.poisson);
+}
+
+/// Refuses ratios at which resistance to shear or to compression is lost, or lost in rounding.
+fn poisson(checker: &mut Checker, path: &Path, ratio: f64) {
+    const MARGIN: f64 = 1e-9;
+    let message = match ratio {
+        high if high > 0.5 - MARGIN => "Poisson's ratio must stay below one half",
+        low if low < -1.0 + MARGIN => "Poisson's ratio must stay above minus one",
         _ => return,
     };
-    checker.refuse(&path.at("poisson"), message, "-1 < poisson < 0.5");
+    checker.refuse(path, message, "-1 < poisson < 0.5");
 }
 
 fn place_of_face(checker: &mut Checker, path: &Path, solid: &Solid, name: FaceName) {
@@ -73,6 +82,9 @@ fn condition_values(checker: &mut Checker, path: &Path, face: &Face) {
         let path = path.at("convection");
         let message = "a heat transfer coefficient is not negative";
         checker.require(coefficient >= 0.0, &path.at("coefficient"), message, ">= 0");
+        let message = "a heat transfer coefficient is beyond all bounds";
+        let allowed = format!("0 to {LARGEST:e}");
+        checker.require(coefficient <= LARGEST, &path.at("coefficient"), message, allowed);
         checker.temperature(&path.at("ambient"), ambient);
     }
 }

@@ -20,6 +20,11 @@ use super::types::{FaceName, Scene, Shape, Solid};
 /// Largest number of points, rings or tiles along an axis.
 const MOST_CELLS: usize = 1000;
 
+/// Smallest and largest magnitude of constants: products of a few of them and their squares stay well
+/// within the range of numbers.
+const SMALLEST: f64 = 1e-60;
+const LARGEST: f64 = 1e60;
+
 /// Relative slack of comparisons of lengths, for places that were computed.
 const SLACK: f64 = 1e-9;
 
@@ -68,6 +73,16 @@ impl<'a> Checker<'a> {
     /// Refuses numbers that are not above zero.
     fn positive(&mut self, path: &Path, value: f64, what: &str) -> bool {
         self.require(value > 0.0, path, format!("{what} must be positive"), "> 0")
+    }
+
+    /// Refuses constants that are not above zero, or so small or large that computing with them
+    /// leaves the range of numbers.
+    fn constant(&mut self, path: &Path, value: f64, what: &str) {
+        if self.positive(path, value, what) {
+            let fine = (SMALLEST..=LARGEST).contains(&value);
+            let allowed = format!("{SMALLEST:e} to {LARGEST:e}");
+            self.require(fine, path, format!("{what} is beyond all bounds"), allowed);
+        }
     }
 
     /// Refuses kelvins at and below absolute zero.

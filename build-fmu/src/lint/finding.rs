@@ -1,0 +1,109 @@
+//! What a rule reports.
+
+use std::fmt;
+
+use super::rules::Rule;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Severity {
+    Error,
+    Warning,
+}
+
+/// Where a fault is.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Place {
+    /// Path in the unit; empty for the unit as a whole.
+    pub file: String,
+    pub line: Option<u32>,
+    /// Element, variable or symbol; may be empty.
+    pub element: String,
+}
+
+impl Place {
+    /// The unit as a whole.
+    pub fn unit() -> Self {
+        Self::file("")
+    }
+
+    pub fn file(path: &str) -> Self {
+        Self { file: path.into(), line: None, element: String::new() }
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        out.write_str(if self.file.is_empty() { "unit" } else { &self.file })?;
+        if let Some(line) = self.line {
+            write!(out, ":{line}")?;
+        }
+        if self.element.is_empty() { Ok(()) } else { write!(out, " {}", self.element) }
+    }
+}
+
+/// A fault, with what would be right and where the standard says so.
+pub struct Finding {
+    pub severity: Severity,
+    pub place: Place,
+    /// What is wrong.
+    pub wrong: String,
+    /// What is allowed.
+    pub allowed: String,
+    pub rule: &'static Rule,
+}
+
+impl fmt::Display for Finding {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        let severity = match self.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        };
+        let Rule { name, section, .. } = self.rule;
+        write!(
+            out,
+            "{severity}: {}: {}\n  allowed: {} [{name}, FMI 2.0.4 section {section}]",
+            self.place, self.wrong, self.allowed
+        )
+    }
+}
+
+/// A fault that ends the reading of a unit.
+pub struct Fault {
+    pub place: Place,
+    pub wrong: String,
+}
+
+impl Fault {
+    pub fn new(place: Place, wrong: impl Into<String>) -> Self {
+        Self { place, wrong: wrong.into() }
+    }
+}
+
+/// Where a rule reports to.
+pub struct Report<'a> {
+    rule: &'static Rule,
+    found: &'a mut Vec<Finding>,
+}
+
+impl<'a> Report<'a> {
+    pub fn of(rule: &'static Rule, found: &'a mut Vec<Finding>) -> Self {
+        Self { rule, found }
+    }
+
+    pub fn error(&mut self, place: Place, wrong: impl Into<String>, allowed: impl Into<String>) {
+        self.add(Severity::Error, place, wrong.into(), allowed.into());
+    }
+
+    pub fn warning(&mut self, place: Place, wrong: impl Into<String>, allowed: impl Into<String>) {
+        self.add(Severity::Warning, place, wrong.into(), allowed.into());
+    }
+
+    /// The value, or nothing once its fault has been reported.
+    pub fn take<T>(&mut self, result: Result<T, Fault>) -> Option<T> {
+        result.map_err(|fault| self.error(fault.place, fault.wrong, self.rule.says)).ok()
+    }
+
+    fn add(&mut self, severity: Severity, place: Place, wrong: String, allowed: String) {
+        self.found.push(Finding { severity, place, wrong, allowed, rule: self.rule });
+    }
+}

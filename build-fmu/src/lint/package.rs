@@ -1,0 +1,111 @@
+//! The zip file of a unit.
+
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::io::{Cursor, Read};
+use std::path::Path;
+
+use zip::ZipArchive;
+
+use super::finding::{Fault, Place};
+
+type Archive = ZipArchive<Cursor<Vec<u8>>>;
+
+/// An entry as the zip file's directory lists it.
+pub struct Entry {
+    /// The path, bytes as they are.
+    pub path: Vec<u8>,
+}
+
+pub struct Package {
+    /// Every entry; a path may come twice.
+    pub entries: Vec<Entry>,
+    archive: RefCell<Archive>,
+}
+
+impl Package {
+    pub fn open(bytes: Vec<u8>) -> Result<Self, Fault> {
+        let fault = |error: zip::result::ZipError| {
+            Fault::new(Place::unit(), format!("no zip file: {error}"))
+        };
+        let archive = ZipArchive::new(Cursor::new(bytes)).map_err(fault)?;
+        let start = usize::try_from(archive.central_directory_start()).unwrap_or(usize::MAX);
+        let archive_bytes = archive.into_inner().into_inner();
+        let entries = directory(&archive_bytes, start);
+        let archive = ZipArchive::new(Cursor::new(archive_bytes)).map_err(fault)?;
+        Ok(Self { entries, archive: RefCell::new(archive) })
+    }
+
+    /// The paths that are UTF-8.
+    pub fn paths(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().filter_map(|entry| std::str::from_utf8(&entry.path).ok())
+    }
+
+    pub fn has(&self, path: &str) -> bool {
+        self.paths().any(|other| other == path)
+    }
+
+    /// The names that stand in a folder, `folder` ending in a slash: files, and folders with a slash.
+    pub fn names_in(&self, folder: &str) -> BTreeSet<String> {
+        let rest = self.paths().filter_map(|path| path.strip_prefix(folder));
+        let name = |rest: &str| match rest.split_once('/') {
+            Some((name, _)) => format!("{name}/"),
+            None => rest.to_owned(),
+        };
+        rest.filter(|rest| !rest.is_empty()).map(name).collect()
+    }
+
+    pub fn bytes(&self, path: &str) -> Result<Vec<u8>, Fault> {
+        let fault = |error: String| Fault::new(Place::file(path), format!("unreadable: {error}"));
+        if !self.has(path) {
+            return Err(Fault::new(Place::file(path), "missing from the unit"));
+        }
+        let mut archive = self.archive.borrow_mut();
+        let mut file = archive.by_name(path).map_err(|error| fault(error.to_string()))?;
+        let mut bytes = Vec::new();
+        file.read_to_end(&mut bytes).map_err(|error| fault(error.to_string()))?;
+        Ok(bytes)
+    }
+
+    pub fn text(&self, path: &str) -> Result<String, Fault> {
+        String::from_utf8(self.bytes(path)?)
+            .map_err(|error| Fault::new(Place::file(path), format!("not UTF-8: {error}")))
+    }
+
+    /// Writes the entries below `prefix` into `folder`; those that would land elsewhere are left out.
+    pub fn unpack(&self, prefix: &str, folder: &Path) -> Result<(), String> {
+        let below: BTreeSet<&str> =
+            self.paths().filter(|path| path.starts_with(prefix) && !path.ends_with('/')).collect();
+        for path in below {
+            if path.contains('\\') || path.split('/').any(|part| part == "..") {
+                continue;
+            }
+            let target = folder.join(path);
+            let write = || {
+                std::fs::create_dir_all(target.parent().unwrap_or(folder))?;
+                std::fs::write(
+                    &target,
+                    self.bytes(path).map_err(|fault| std::io::Error::other(fault.wrong))?,
+                )
+            };
+            write().map_err(|error: std::io::Error| format!("cannot unpack {path}: {error}"))?;
+        }
+        Ok(())
+    }
+}
+
+/// Walks the central directory. A `ZipArchive` knows every path once, so it would hide duplicates.
+/// Layout: APPNOTE.TXT of PKWARE, section 4.3.12.
+fn directory(bytes: &[u8], start: usize) -> Vec<Entry> {
+    const HEADER: usize = 46;
+    let mut entries = Vec::new();
+    let mut rest = bytes.get(start..).unwrap_or_default();
+    while rest.len() >= HEADER && rest.starts_with(b"PK\x01\x02") {
+        let length = |at: usize| usize::from(u16::from_le_bytes([rest[at], rest[at + 1]]));
+        let (path, extra, comment) = (length(28), length(30), length(32));
+        let Some(found) = rest.get(HEADER..HEADER + path) else { break };
+        entries.push(Entry { path: found.to_owned() });
+        rest = rest.get(HEADER + path + extra + comment..).unwrap_or_default();
+    }
+    entries
+}

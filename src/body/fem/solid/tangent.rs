@@ -1,0 +1,75 @@
+//! How a solid's state and extremes change: all else that is read from it is linear, so the same
+//! functions serve a change of temperatures, deformation and loads.
+
+use super::{Deformation, SolidFem, SolidLoads, Temperatures};
+use crate::material::stress::{max_principal, von_mises};
+use crate::material::stress_rate::{max_principal_rate, von_mises_rate};
+
+impl SolidFem {
+    /// Time derivative of a state, laid out like the state; `rates` is that of the loads.
+    pub fn rates(&self, state: &[f64], loads: &SolidLoads, rates: &SolidLoads) -> Vec<f64> {
+        self.heat.rates(state, &loads.thermal(), &rates.thermal())
+    }
+
+    /// How fast the highest nodal temperature changes when temperatures change by `change`; of nodes
+    /// that share the highest one, the fastest counts.
+    pub fn max_temperature_rate(&self, temperatures: &Temperatures, change: &Temperatures) -> f64 {
+        let mut highest = Highest::default();
+        for image in self.images(&present(temperatures, change)) {
+            let values = self.rise_of_image(temperatures, image);
+            for (value, rate) in values.into_iter().zip(self.rise_of_image(change, image)) {
+                highest.meet(value, || rate);
+            }
+        }
+        highest.rate
+    }
+
+    /// How fast the highest von Mises and the largest principal stress change when temperatures and
+    /// deformation change by `change`; of nodes that share the highest one, the fastest counts.
+    pub fn max_stress_rate(
+        &self,
+        (temperatures, deformation): (&Temperatures, &Deformation),
+        (temperature_change, change): (&Temperatures, &Deformation),
+    ) -> [f64; 2] {
+        let mut highest = [Highest::default(); 2];
+        let (nodal, nodal_change) = (self.nodal_strains(deformation), self.nodal_strains(change));
+        for image in self.images(&present(&deformation.displacement, &change.displacement)) {
+            let stresses = self.stress_of_image(temperatures, &nodal, image);
+            let rates = self.stress_of_image(temperature_change, &nodal_change, image);
+            for (stress, rate) in stresses.into_iter().zip(rates) {
+                highest[0].meet(von_mises(stress), || von_mises_rate(stress, rate));
+                highest[1].meet(max_principal(stress), || max_principal_rate(stress, rate));
+            }
+        }
+        highest.map(|highest| highest.rate)
+    }
+}
+
+/// The highest of some values, and how fast it changes.
+#[derive(Clone, Copy)]
+struct Highest {
+    value: f64,
+    rate: f64,
+}
+
+impl Default for Highest {
+    fn default() -> Self {
+        Self { value: f64::NEG_INFINITY, rate: f64::NEG_INFINITY }
+    }
+}
+
+impl Highest {
+    fn meet(&mut self, value: f64, rate: impl FnOnce() -> f64) {
+        if value > self.value {
+            *self = Self { value, rate: rate() };
+        } else if value == self.value {
+            self.rate = self.rate.max(rate());
+        }
+    }
+}
+
+/// For each class, a list that is empty only if it is so in both.
+fn present(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let either = |(a, b): (&Vec<f64>, &Vec<f64>)| vec![0.0; a.len().max(b.len()).min(1)];
+    a.iter().zip(b).map(either).collect()
+}

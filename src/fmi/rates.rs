@@ -1,0 +1,144 @@
+//! Derivatives of inputs and outputs, in safe Rust.
+
+use std::sync::Arc;
+
+use super::legality::Phase;
+use super::types::{Answer, Integer, Reference, Refusal, Status};
+use super::unit::{Unit, explain};
+use super::values::{Kind, find};
+use crate::model::{HIGHEST_INPUT_DERIVATIVE, start_rates};
+use crate::variables::{Output, Registry, Slot, Variable};
+
+/// Highest order of output derivatives, as the XML declares it.
+pub const HIGHEST_OUTPUT_DERIVATIVE: usize = 1;
+
+impl Unit {
+    /// Changes of outputs when inputs change by `changes`, and in initialization mode parameters too.
+    pub fn directional_derivative(
+        &mut self,
+        unknowns: &[Reference],
+        knowns: &[Reference],
+        changes: &[f64],
+    ) -> Answer<Vec<f64>> {
+        let registry = Arc::clone(&self.registry);
+        let outputs = outputs(&registry, unknowns)?;
+        let mut direction = vec![0.0; self.state.inputs.len()];
+        let mut parameters = Vec::new();
+        for (variable, &change) in find(&registry, knowns, Kind::Real)?.into_iter().zip(changes) {
+            check_finite(&variable.name, change)?;
+            match &variable.slot {
+                Slot::Input(index) => direction[*index] += change,
+                Slot::Parameter(parameter) if self.phase == Phase::InitializationMode => {
+                    parameters.push((parameter, change));
+                }
+                _ => return Err(Refusal::error(format!("{} is no input", variable.name))),
+            }
+        }
+        let mut sum = self.input_rates(&outputs, &direction)?;
+        for (parameter, change) in parameters {
+            let rates = start_rates(&self.scene, &self.state.inputs, parameter, &outputs);
+            let rates = rates.map_err(|error| explain(&registry, error))?;
+            sum.iter_mut().zip(rates).for_each(|(s, rate)| *s += change * rate);
+        }
+        Ok(sum)
+    }
+
+    fn input_rates(&mut self, outputs: &[&Output], direction: &[f64]) -> Answer<Vec<f64>> {
+        let registry = Arc::clone(&self.registry);
+        let (run, state) = self.run()?;
+        let tangent = run.model.input_tangent(state, direction);
+        let mut tangent = tangent.map_err(|error| explain(&registry, error))?;
+        let rate =
+            |output: &&Output| run.model.output_rate(state, &mut run.cache, &mut tangent, output);
+        let found: Result<Vec<f64>, _> = outputs.iter().map(rate).collect();
+        found.map_err(|error| explain(&registry, error))
+    }
+
+    /// Sets time derivatives of inputs for the next step; all or none.
+    pub fn set_input_derivatives(
+        &mut self,
+        references: &[Reference],
+        orders: &[Integer],
+        values: &[f64],
+    ) -> Answer {
+        let registry = Arc::clone(&self.registry);
+        let inputs = inputs(&registry, references)?;
+        for ((_, variable), (&order, &value)) in inputs.iter().zip(orders.iter().zip(values)) {
+            check_order(variable, order, HIGHEST_INPUT_DERIVATIVE)?;
+            check_finite(&format!("derivative of {}", variable.name), value)?;
+        }
+        self.forget_past_derivatives();
+        self.has_set_derivatives = true;
+        for ((index, _), (&order, &value)) in inputs.iter().zip(orders.iter().zip(values)) {
+            let order = order as usize;
+            let count = self.state.inputs.len();
+            let derivatives = &mut self.state.derivatives;
+            derivatives.resize(derivatives.len().max(order), vec![0.0; count]);
+            derivatives[order - 1][*index] = value;
+        }
+        Ok(Status::Ok)
+    }
+
+    /// First time derivatives of outputs.
+    pub fn output_derivatives(
+        &mut self,
+        references: &[Reference],
+        orders: &[Integer],
+    ) -> Answer<Vec<f64>> {
+        let registry = Arc::clone(&self.registry);
+        let outputs = outputs(&registry, references)?;
+        for (&reference, &order) in references.iter().zip(orders) {
+            let variable = &registry.variables[reference as usize];
+            check_order(variable, order, HIGHEST_OUTPUT_DERIVATIVE)?;
+        }
+        let (run, state) = self.run()?;
+        let tangent = match &mut run.tangent {
+            Some(tangent) => tangent,
+            none => {
+                let tangent = run.model.time_tangent(state, &mut run.cache);
+                none.insert(tangent.map_err(|error| explain(&registry, error))?)
+            }
+        };
+        let rate = |output| run.model.output_rate(state, &mut run.cache, tangent, output);
+        let found: Result<Vec<f64>, _> = outputs.into_iter().map(rate).collect();
+        found.map_err(|error| explain(&registry, error))
+    }
+}
+
+fn outputs<'a>(registry: &'a Registry, references: &[Reference]) -> Answer<Vec<&'a Output>> {
+    let output = |variable: &'a Variable| match &variable.slot {
+        Slot::Output(output) => Ok(output),
+        _ => Err(Refusal::error(format!("{} is no output", variable.name))),
+    };
+    find(registry, references, Kind::Real)?.into_iter().map(output).collect()
+}
+
+/// Inputs with their places in a state.
+fn inputs<'a>(
+    registry: &'a Registry,
+    references: &[Reference],
+) -> Answer<Vec<(usize, &'a Variable)>> {
+    let input = |variable: &'a Variable| match variable.slot {
+        Slot::Input(index) => Ok((index, variable)),
+        _ => Err(Refusal::error(format!("{} is no input", variable.name))),
+    };
+    find(registry, references, Kind::Real)?.into_iter().map(input).collect()
+}
+
+fn check_order(variable: &Variable, order: Integer, highest: usize) -> Answer<()> {
+    let allowed = 1..=highest as Integer;
+    match allowed.contains(&order) {
+        true => Ok(()),
+        false => Err(Refusal::error(format!(
+            "derivative of order {order} of {}; allowed: 1 to {highest}",
+            variable.name
+        ))),
+    }
+}
+
+fn check_finite(name: &str, value: f64) -> Answer<()> {
+    match value.is_finite() {
+        true => Ok(()),
+        false => Err(Refusal::error(format!("{name} = {value}: must be finite"))),
+    }
+}

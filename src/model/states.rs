@@ -1,0 +1,54 @@
+//! Whether a state that comes from elsewhere belongs to a model.
+
+use super::{HIGHEST_INPUT_DERIVATIVE, Model, ModelError, State};
+
+impl Model {
+    /// Refuses a state that this model cannot go on from: a wrong number of inputs or bodies,
+    /// unknowns of a length that a body does not take, or numbers that are not finite.
+    pub fn check_state(&self, state: &State) -> Result<(), ModelError> {
+        let refuse = |message: String| Err(ModelError::State(message));
+        let orders = state.derivatives.len();
+        if orders > HIGHEST_INPUT_DERIVATIVE {
+            return refuse(format!(
+                "derivatives of inputs up to order {orders}; the highest is \
+                 {HIGHEST_INPUT_DERIVATIVE}"
+            ));
+        }
+        let wanted = self.layout.len;
+        for values in std::iter::once(&state.inputs).chain(&state.derivatives) {
+            if values.len() != wanted {
+                return refuse(format!(
+                    "values of {} inputs; the scene has {wanted}",
+                    values.len()
+                ));
+            }
+        }
+        let bodies = self.bodies.len() + self.droplets.len();
+        if state.bodies.len() != bodies {
+            let (found, wanted) = (state.bodies.len(), bodies);
+            return refuse(format!("unknowns of {found} bodies; the scene has {wanted}"));
+        }
+        for (body, unknowns) in self.bodies.iter().zip(&state.bodies) {
+            if unknowns.len() != body.solid.state_len() {
+                return refuse(format!(
+                    "{} unknowns of {}; this body has {}",
+                    unknowns.len(),
+                    body.name,
+                    body.solid.state_len()
+                ));
+            }
+        }
+        for (body, unknowns) in self.droplets.iter().zip(&state.bodies[self.bodies.len()..]) {
+            if !body.droplet.accepts(unknowns) {
+                let count = unknowns.len();
+                return refuse(format!("{count} unknowns that are not those of {}", body.name));
+            }
+        }
+        let numbers = state.inputs.iter().chain(state.derivatives.iter().flatten());
+        let mut numbers = numbers.chain(state.bodies.iter().flatten());
+        match state.time.is_finite() && numbers.all(|value| value.is_finite()) {
+            true => Ok(()),
+            false => refuse("a number that is not finite".into()),
+        }
+    }
+}

@@ -1,0 +1,180 @@
+"""The optional capabilities as FMPy uses them: states, and derivatives of inputs and outputs."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import EXAMPLES, SCENES
+from fmpy import read_model_description
+from fmpy.fmi1 import FMICallException
+from master import Unit
+
+STEP = 1e-5
+LOADS = {"spot.heat_flux": 1e8, "spot.pressure": 25e6, "spot.shear_x": 1e6, "spot.x": 4e-5}
+ALL = [*EXAMPLES, *sorted(SCENES.glob("*.toml"))]
+
+
+def go_on(unit, steps=3):
+    """Rows of all outputs over steps of different lengths, with a load that grows and moves."""
+    rows = []
+    for i in range(steps):
+        unit["spot.pressure"] = 25e6 + 1e6 * i
+        names = unit.references(["spot.heat_flux", "spot.x"])
+        unit.slave.setRealInputDerivatives(names, [1, 1], [1e12, -0.5])
+        unit.step(STEP / (i + 1))
+        rows.append(unit.all_outputs())
+    return np.array(rows)
+
+
+def back(unit, state, time):
+    unit.slave.setFMUstate(state)
+    unit.time = time
+
+
+@pytest.mark.parametrize("scene", ALL, ids=lambda p: p.parent.name + "_" + p.stem)
+def test_every_unit_declares_all_capabilities(pack, scene):
+    offers = read_model_description(pack(scene)).coSimulation
+    assert offers.canHandleVariableCommunicationStepSize
+    assert offers.canGetAndSetFMUstate and offers.canSerializeFMUstate
+    assert offers.providesDirectionalDerivative and offers.canInterpolateInputs
+    assert offers.maxOutputDerivativeOrder == 1
+    assert not offers.needsExecutionTool and not offers.canBeInstantiatedOnlyOncePerProcess
+
+
+def test_a_restored_state_goes_on_bit_for_bit(pack):
+    with Unit(pack("plate"), {**LOADS, "plate.conductivity": 12.0}) as unit:
+        unit.step(STEP)
+        state, before = unit.slave.getFMUstate(), unit.all_outputs()
+        first = go_on(unit)
+        back(unit, state, STEP)
+        assert np.array_equal(unit.all_outputs(), before)
+        assert np.array_equal(go_on(unit), first)
+        unit.slave.reset()
+        back(unit, state, STEP)
+        assert np.array_equal(go_on(unit), first)
+        unit.slave.freeFMUstate(state)
+        assert not state.value
+
+
+def test_a_state_goes_on_bit_for_bit_in_another_instance(pack):
+    file = pack("plate")
+    with Unit(file, {**LOADS, "plate.conductivity": 12.0}) as unit:
+        unit.step(STEP)
+        state = unit.slave.serializeFMUstate(unit.slave.getFMUstate())
+        first = go_on(unit)
+    with Unit(file, {"solver.threads": 2}) as other:
+        back(other, other.slave.deSerializeFMUstate(state), STEP)
+        assert other["plate.conductivity"] == 12.0
+        assert np.array_equal(go_on(other), first)
+
+
+RESTART = """
+import sys
+from pathlib import Path
+import numpy as np
+sys.path.insert(0, sys.argv[1])
+from master import Unit
+from test_capabilities import STEP, back, go_on
+with Unit(sys.argv[2]) as unit:
+    back(unit, unit.slave.deSerializeFMUstate(Path(sys.argv[3]).read_bytes()), STEP)
+    np.save(sys.argv[4], go_on(unit))
+"""
+
+
+def test_a_state_goes_on_bit_for_bit_in_another_process(pack, tmp_path):
+    with Unit(pack("plate"), LOADS) as unit:
+        unit.step(STEP)
+        state = unit.slave.serializeFMUstate(unit.slave.getFMUstate())
+        (tmp_path / "state").write_bytes(state)
+        first = go_on(unit)
+    arguments = [Path(__file__).parent, pack("plate"), tmp_path / "state", tmp_path / "rows.npy"]
+    ran = subprocess.run(
+        [sys.executable, "-c", RESTART, *arguments], capture_output=True, text=True, check=False
+    )
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert np.array_equal(np.load(tmp_path / "rows.npy"), first)
+
+
+@pytest.mark.parametrize("damage", ["cut", "flip", "other scene"])
+def test_a_bad_state_is_refused_and_changes_nothing(pack, damage):
+    with Unit(pack("plate"), LOADS) as unit, Unit(pack("tiles")) as other:
+        unit.step(STEP)
+        state = unit.slave.serializeFMUstate(unit.slave.getFMUstate())
+        if damage == "cut":
+            state = state[:-1]
+        elif damage == "flip":
+            state = state[:300] + bytes([state[300] ^ 4]) + state[301:]
+        else:
+            state = other.slave.serializeFMUstate(other.slave.getFMUstate())
+        before = unit.all_outputs()
+        with pytest.raises(FMICallException):
+            unit.slave.deSerializeFMUstate(state)
+        assert any("saved state" in line for line in unit.log), unit.log
+        assert np.array_equal(unit.all_outputs(), before)
+        unit.step(STEP)
+
+
+def test_a_step_can_be_rejected(pack):
+    with Unit(pack("plate"), LOADS) as twice, Unit(pack("plate"), LOADS) as once:
+        state = twice.slave.getFMUstate()
+        twice.step(3 * STEP)
+        back(twice, state, 0.0)
+        for unit in (twice, once):
+            unit.step(STEP)
+        assert np.array_equal(twice.all_outputs(), once.all_outputs())
+
+
+DIRECT = ["spot.pressure", "spot.shear_x", "spot.x", "spot.radius"]
+
+
+def test_directional_derivatives_are_the_slopes_of_outputs(pack):
+    with Unit(pack("plate"), LOADS) as unit:
+        unit.step(STEP)
+        unknowns = unit.references(unit.outputs)
+        for name in DIRECT:
+            value, size = unit[name], 1e-9 if name in ("spot.x", "spot.radius") else 1e3
+            found = unit.slave.getDirectionalDerivative(unknowns, unit.references([name]), [1.0])
+            unit[name] = value + size
+            above = unit.all_outputs()
+            unit[name] = value - size
+            wanted = (above - unit.all_outputs()) / (2 * size)
+            unit[name] = value
+            for quantity in ("stress", "von_mises", "displacement", "temperature", "heat"):
+                rows = [i for i, output in enumerate(unit.outputs) if quantity in output]
+                scale = np.abs(wanted[rows]).max()
+                assert np.abs(np.array(found)[rows] - wanted[rows]).max() <= 1e-4 * scale, name
+
+
+def test_a_ramp_needs_one_step(pack):
+    """A flux that grows linearly: one step with its slope, and many that follow it in stairs."""
+    slope, duration = 1e12, 1e-4
+    flux = 0.5 * slope * duration
+    with Unit(pack("plate")) as ramp:
+        ramp.slave.setRealInputDerivatives(ramp.references(["spot.heat_flux"]), [1], [slope])
+        ramp.step(duration)
+        heat = ramp["plate.heat_in"]
+        rise = ramp["centre.temperature"] - 293.15
+        assert ramp["spot.heat_flux"] == pytest.approx(slope * duration, rel=1e-12)
+    errors = []
+    for steps in (20, 40):
+        with Unit(pack("plate")) as stairs:
+            for i in range(steps):
+                stairs["spot.heat_flux"] = 2 * flux * (i + 0.5) / steps
+                stairs.step(duration / steps)
+            assert stairs["plate.heat_in"] == pytest.approx(heat, rel=1e-12)
+            errors.append(abs(stairs["centre.temperature"] - 293.15 - rise) / rise)
+    assert errors[1] < 1e-3 and errors[0] / errors[1] > 2.5, errors
+
+
+def test_output_derivatives_balance_heat_and_lead_ahead(pack):
+    with Unit(pack("plate"), LOADS) as unit:
+        unit.step(5 * STEP)
+        names = ["plate.heat_in", "plate.heat_stored", "plate.heat_lost", "centre.temperature"]
+        references = unit.references(names)
+        brought, stored, lost, heating = unit.slave.getRealOutputDerivatives(references, [1] * 4)
+        assert brought == pytest.approx(stored + lost, rel=1e-11)
+        before, ahead = unit["centre.temperature"], 1e-9
+        unit.step(ahead)
+        assert (unit["centre.temperature"] - before) / ahead == pytest.approx(heating, rel=1e-3)
