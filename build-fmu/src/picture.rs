@@ -156,6 +156,9 @@ impl<'a> Section<'a> {
     }
 
     fn paint_body(&self, canvas: &mut Canvas) {
+        if self.thickness == 0.0 {
+            return;
+        }
         for row in self.outline.top().max(0.0) as u32..self.outline.bottom().min(HEIGHT) as u32 {
             for column in
                 self.outline.left().max(0.0) as u32..self.outline.right().min(WIDTH) as u32
@@ -331,7 +334,7 @@ mod tests {
             let colour = [pixel.red(), pixel.green(), pixel.blue()];
             colour.iter().zip(wanted).all(|(&a, b)| (i32::from(a) - b).abs() <= 1)
         };
-        let bottom = picture.pixel(WIDTH as u32 / 2, HEIGHT as u32 - 10).unwrap();
+        let bottom = picture.pixel(WIDTH as u32 / 2, HEIGHT as u32 - 40).unwrap();
         (picture.pixels().iter().filter(is_water).count(), bottom.red() != 255)
     }
 

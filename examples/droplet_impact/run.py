@@ -142,9 +142,10 @@ def draw_plate(axes, result: Result):
     plot.plot(stress_times, result.stresses[:, 0] / 1e6, "o-", label=r"$\sigma_{xx}$ at the centre")
     plot.plot(stress_times, result.largest[:, 0] / 1e6, "o-", label="highest von Mises")
     plot.plot(stress_times, result.largest[:, 1] / 1e6, "o-", label="largest principal")
-    plot.set(ylabel="stress / MPa")
+    highest = 1.8e-6 * result.largest.max()
+    plot.set(ylabel="stress / MPa", ylim=(None, highest))
     plot.set_title("Stress of the plate")
-    plot.legend()
+    plot.legend(loc="upper left")
     for plot in axes:
         plot.set(xlabel="time / µs")
 

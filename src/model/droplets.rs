@@ -164,7 +164,9 @@ impl DropletModel {
     /// What a cell of the wall got, or all that lies beyond the cells.
     pub fn wall_output(&self, state: &[f64], cache: &mut DropletCache, output: WallOutput) -> f64 {
         let exchange = self.exchange(state, cache);
-        let Below::Wall(wall) = &self.below else { return 0.0 };
+        let Below::Wall(wall) = &self.below else {
+            panic!("outputs of a wall are registered for the droplet above it")
+        };
         let (amount, area) = match output {
             WallOutput::HeatFlux(cell) => (exchange.heat[cell], wall.areas[cell]),
             WallOutput::Pressure(cell) => (-exchange.impulse[cell][2], wall.areas[cell]),
