@@ -34,7 +34,7 @@ struct Rest {
 pub enum Below {
     Nothing,
     Wall(WallBelow),
-    Solid(Contact),
+    Solid(Box<Contact>),
 }
 
 /// A wall whose cells have their temperatures from inputs.
@@ -71,7 +71,7 @@ impl DropletModel {
         let mut notes = notes(droplet);
         notes.extend(contact.as_ref().map(Contact::note));
         let below = match (contact, wall) {
-            (Some(contact), _) => Below::Solid(contact),
+            (Some(contact), _) => Below::Solid(Box::new(contact)),
             (None, Some(wall)) => Below::Wall(WallBelow {
                 inputs: layout.walls[wall].clone(),
                 areas: areas(&scene.wall[wall].footprint, droplet.dimension),

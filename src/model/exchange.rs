@@ -32,7 +32,7 @@ impl Model {
                 Below::Solid(contact) => {
                     let solid = &mut solids[contact.solid];
                     solid.clone_from(&state.bodies[contact.solid]);
-                    self.advance_joined((droplet, contact), [unknowns, solid], path, dt)?;
+                    self.advance_joined((droplet, contact.as_ref()), [unknowns, solid], path, dt)?;
                 }
             }
         }
