@@ -1,9 +1,7 @@
 //! Sparse matrices by compressed rows.
 
-use super::parallel;
-
 /// A square matrix by rows; columns ascend in every row.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct SparseRows {
     /// Start of each row's entries, and their end.
     start: Vec<usize>,
@@ -11,25 +9,36 @@ pub struct SparseRows {
     values: Vec<f64>,
 }
 
+impl Default for SparseRows {
+    fn default() -> Self {
+        Self { start: vec![0], columns: Vec::new(), values: Vec::new() }
+    }
+}
+
 impl SparseRows {
-    /// A matrix from the entries `(column, value)` of each row; entries of one column add up.
-    pub fn from_rows(rows: Vec<Vec<(usize, f64)>>) -> Self {
-        let mut out = Self { start: vec![0], ..Default::default() };
-        for mut row in rows {
-            row.sort_by_key(|&(column, _)| column);
-            for (column, value) in row {
-                let own = out.columns.len() > out.start[out.start.len() - 1];
-                match (own, out.columns.last(), out.values.last_mut()) {
-                    (true, Some(&last), Some(sum)) if last as usize == column => *sum += value,
-                    _ => {
-                        out.columns.push(column as u32);
-                        out.values.push(value);
-                    }
+    /// Adds a row of entries `(column, value)`; entries of one column add up.
+    pub fn push(&mut self, mut entries: Vec<(usize, f64)>) {
+        let first = self.columns.len();
+        entries.sort_by_key(|&(column, _)| column);
+        for (column, value) in entries {
+            match self.columns[first..].last() {
+                Some(&last) if last as usize == column => {
+                    *self.values.last_mut().expect("as many values as columns") += value;
+                }
+                _ => {
+                    self.columns.push(column as u32);
+                    self.values.push(value);
                 }
             }
-            out.start.push(out.columns.len());
         }
-        out
+        self.start.push(self.columns.len());
+    }
+
+    /// Adds to an entry that is stored already.
+    pub fn add(&mut self, row: usize, column: usize, value: f64) {
+        let range = self.start[row]..self.start[row + 1];
+        let place = self.columns[range.clone()].binary_search(&(column as u32));
+        self.values[range.start + place.expect("the entry is stored")] += value;
     }
 
     pub fn rows(&self) -> usize {
@@ -48,13 +57,6 @@ impl SparseRows {
         entries.map(|(&column, value)| value * x[column as usize]).sum()
     }
 
-    /// `A x`, in equal shares on at most `threads` threads.
-    pub fn multiply(&self, threads: usize, x: &[f64]) -> Vec<f64> {
-        let mut out = vec![0.0; self.rows()];
-        parallel::for_each(threads, &mut out, |row, value| *value = self.row_product(row, x));
-        out
-    }
-
     /// `max_i Σ_j |a_ij|`, within which all eigenvalues lie.
     ///
     /// Source: S. Gerschgorin (1931), Izv. Akad. Nauk SSSR 6, 749–754.
@@ -70,12 +72,14 @@ mod tests {
 
     #[test]
     fn rows_multiply_and_repeated_columns_add_up() {
-        let rows = vec![vec![(2, 1.5), (0, 2.0), (2, 0.5)], vec![], vec![(1, -3.0)]];
-        let matrix = SparseRows::from_rows(rows);
-        assert_eq!((matrix.rows(), matrix.entries()), (3, 3));
-        for threads in [1, 2, 7] {
-            assert_eq!(matrix.multiply(threads, &[1.0, 10.0, 100.0]), [202.0, 0.0, -30.0]);
+        let mut matrix = SparseRows::default();
+        for row in [vec![(2, 1.5), (0, 2.0), (2, 0.5)], vec![], vec![(0, 7.0), (1, -3.0)]] {
+            matrix.push(row);
         }
+        matrix.add(2, 0, -6.0);
+        assert_eq!((matrix.rows(), matrix.entries()), (3, 4));
+        let product = [0, 1, 2].map(|row| matrix.row_product(row, &[1.0, 10.0, 100.0]));
+        assert_eq!(product, [202.0, 0.0, -29.0]);
         assert_eq!(matrix.spectral_bound(), 4.0);
     }
 }

@@ -2,6 +2,7 @@
 
 mod axis;
 mod axisymmetric;
+mod conduction;
 mod dilatation;
 mod elastic;
 mod grading;

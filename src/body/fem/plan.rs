@@ -6,7 +6,7 @@ use super::grading::{Fine, graded_ends};
 use super::heat::ThermalFace;
 use super::mesh::{Geometry, Mesh, MeshFace};
 use crate::material::{Material, Thermoelastic};
-use crate::scene::{Face, FaceName, Shape, Solid, Symmetry};
+use crate::scene::{Face, FaceName, HeatMethod, Shape, Solid, SphSettings, Symmetry};
 
 /// Everything that a solid's model is built from.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +14,8 @@ pub struct Plan {
     pub mesh: Mesh,
     pub law: Thermoelastic,
     pub initial_temperature: f64,
+    /// How particles conduct the heat; `None` where finite elements do.
+    pub sph: Option<SphSettings>,
     /// Conditions other than insulation.
     pub thermal_faces: Vec<(MeshFace, ThermalFace)>,
     /// For each thermal face, the face of the body that lies there and the one whose image does.
@@ -66,6 +68,7 @@ impl Plan {
             mesh,
             law,
             initial_temperature,
+            sph: solid.sph(),
             thermal_faces,
             face_sources,
             supports,
@@ -99,7 +102,8 @@ impl Sizes {
         notes: &mut Vec<String>,
     ) -> Self {
         let given = &solid.mesh;
-        let order = given.order.unwrap_or(DEFAULT_ORDER);
+        let default = if solid.heat == HeatMethod::Sph { 1 } else { DEFAULT_ORDER };
+        let order = given.order.unwrap_or(default);
         let width = lateral_extents(&solid.shape).into_iter().fold(f64::INFINITY, f64::min);
         let feature = refinements.iter().map(|r| r.feature).fold(width, f64::min);
         let reach = (law.diffusivity() * stop_time).sqrt();

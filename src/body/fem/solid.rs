@@ -3,8 +3,9 @@
 use faer::Mat;
 
 use super::axis::Axis;
+use super::conduction::Conduction;
 use super::elastic::{ElasticProblem, Strains};
-use super::heat::{HeatLoads, HeatProblem, HeatTotals};
+use super::heat::{HeatLoads, HeatTotals};
 use super::mesh::{Geometry, Mesh, Parity};
 use super::plan::Plan;
 use super::recovery::{Beyond, recovery_matrix};
@@ -18,7 +19,7 @@ pub struct SolidFem {
     mesh: Mesh,
     law: Thermoelastic,
     initial_temperature: f64,
-    heat: HeatProblem,
+    heat: Conduction,
     elastic: Option<ElasticProblem>,
     /// From strain sampling points to nodes along each axis, of even and of odd components.
     recovery: [[Mat<f64>; 2]; 3],
@@ -73,12 +74,7 @@ impl SolidFem {
     pub fn new(plan: &Plan, threads: usize) -> Result<Self, CholeskyError> {
         let mesh = plan.mesh.clone();
         let law = plan.law.clone();
-        let heat = HeatProblem::new(
-            &mesh,
-            law.heat_capacity(),
-            law.conductivity,
-            plan.thermal_faces.clone(),
-        );
+        let heat = Conduction::new(plan, threads);
         let elastic = plan
             .mechanics
             .then(|| ElasticProblem::new(&mesh, &law, plan.supports.clone(), threads));
@@ -125,11 +121,20 @@ impl SolidFem {
         self.heat.totals(state)
     }
 
+    /// Number of particles without a corrected operator of their own; `None` where finite elements
+    /// conduct the heat.
+    pub fn fallback_particles(&self) -> Option<usize> {
+        self.heat.fallback()
+    }
+
     /// Temperature at one point [K], without computing the whole field.
     pub fn temperature_at(&self, state: &[f64], loads: &SolidLoads, point: [f64; 3]) -> f64 {
+        let Conduction::Modes(modes) = &self.heat else {
+            return self.temperature_from(&self.temperatures(state, loads), point);
+        };
         let (place, image) = self.mesh.locate(point);
         self.initial_temperature
-            + self.heat.temperature_at(&self.mesh, state, &loads.faces, place, image)
+            + modes.temperature_at(&self.mesh, state, &loads.faces, place, image)
     }
 
     pub fn temperatures(&self, state: &[f64], loads: &SolidLoads) -> Temperatures {

@@ -1,0 +1,122 @@
+//! The heat of a solid by the method that its scene names.
+
+use super::heat::{HeatLoads, HeatProblem, HeatTotals, ThermalFace};
+use super::mesh::{Geometry, Mesh};
+use super::plan::Plan;
+use crate::body::particle_heat::{
+    Condition, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
+};
+use crate::scene::{SphOperator, SphSettings};
+
+/// The temperature of a solid and how it advances.
+pub enum Conduction {
+    /// Finite elements, exact in time by their modes.
+    Modes(HeatProblem),
+    /// Smoothed particles on the nodes.
+    Particles(ParticleHeat),
+}
+
+impl Conduction {
+    pub fn new(plan: &Plan, threads: usize) -> Self {
+        match particle_setup(plan) {
+            Some(setup) => Self::Particles(ParticleHeat::new(setup, threads)),
+            None => Self::Modes(HeatProblem::new(
+                &plan.mesh,
+                plan.law.heat_capacity(),
+                plan.law.conductivity,
+                plan.thermal_faces.clone(),
+            )),
+        }
+    }
+
+    /// Length of the part of a body's state that belongs here.
+    pub fn state_len(&self) -> usize {
+        match self {
+            Self::Modes(problem) => problem.state_len(),
+            Self::Particles(problem) => problem.state_len(),
+        }
+    }
+
+    /// Advances `state` by `dt` [s] under loads held constant.
+    pub fn advance(&self, state: &mut [f64], loads: &HeatLoads, dt: f64) {
+        match self {
+            Self::Modes(problem) => problem.advance(state, loads, dt),
+            Self::Particles(problem) => {
+                let sources = Sources { surface: loads.surface, faces: loads.faces };
+                problem.advance(state, &sources, dt);
+            }
+        }
+    }
+
+    /// Heat stored since time zero [J].
+    pub fn stored(&self, state: &[f64]) -> f64 {
+        match self {
+            Self::Modes(problem) => problem.stored(state),
+            Self::Particles(problem) => problem.stored(state),
+        }
+    }
+
+    pub fn totals(&self, state: &[f64]) -> HeatTotals {
+        match self {
+            Self::Modes(problem) => problem.totals(state),
+            Self::Particles(problem) => {
+                let totals = problem.totals(state);
+                HeatTotals { brought_in: totals.brought_in, lost: totals.lost }
+            }
+        }
+    }
+
+    /// Temperature above the initial one at all nodes, class by class [K]; empty for a class that
+    /// is zero.
+    pub fn nodal(&self, state: &[f64], faces: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        match self {
+            Self::Modes(problem) => problem.nodal(state, faces),
+            Self::Particles(problem) => problem.temperatures(state, faces),
+        }
+    }
+
+    /// Number of particles without a corrected operator of their own; `None` for finite elements.
+    pub fn fallback(&self) -> Option<usize> {
+        match self {
+            Self::Modes(_) => None,
+            Self::Particles(problem) => Some(problem.fallback()),
+        }
+    }
+}
+
+/// The particles of a plan; `None` where finite elements conduct the heat.
+pub fn particle_setup(plan: &Plan) -> Option<Setup> {
+    let SphSettings { operator, kernel, support } = plan.sph?;
+    let operator = match operator {
+        SphOperator::Corrected => Operator::Corrected,
+        SphOperator::Plain => Operator::Plain,
+    };
+    let condition = |condition: ThermalFace| match condition {
+        ThermalFace::Flux => Condition::Flux,
+        ThermalFace::Prescribed => Condition::Held,
+        ThermalFace::Convective(coefficient) => Condition::Convective(coefficient),
+    };
+    let faces = plan.thermal_faces.iter().map(|&(face, kind)| Face {
+        axis: face.axis,
+        high: face.high,
+        condition: condition(kind),
+    });
+    Some(Setup {
+        axes: [0, 1, 2].map(|a| lattice_axis(&plan.mesh, a)),
+        settings: Settings { operator, kernel, support },
+        capacity: plan.law.heat_capacity(),
+        conductivity: plan.law.conductivity,
+        faces: faces.collect(),
+        classes: plan.mesh.parities().into_iter().map(|parity| parity.odd).collect(),
+        copies: plan.mesh.copies(),
+    })
+}
+
+fn lattice_axis(mesh: &Mesh, axis: usize) -> LatticeAxis {
+    LatticeAxis {
+        nodes: mesh.axes[axis].nodes.clone(),
+        measures: mesh.axes[axis].integrals(),
+        ends: [End::Mirror; 2],
+        radial: axis == 0 && mesh.geometry == Geometry::Axisymmetric,
+    }
+}
