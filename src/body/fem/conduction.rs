@@ -4,7 +4,7 @@ use super::heat::{HeatLoads, HeatProblem, HeatTotals, ThermalFace};
 use super::mesh::{Geometry, Mesh};
 use super::plan::Plan;
 use crate::body::particle_heat::{
-    Condition, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
+    Condition, Cost, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
 };
 use crate::scene::{SphOperator, SphSettings};
 
@@ -84,8 +84,13 @@ impl Conduction {
     }
 }
 
-/// The particles of a plan; `None` where finite elements conduct the heat.
-pub fn particle_setup(plan: &Plan) -> Option<Setup> {
+/// What the particles of a plan will cost; `None` where finite elements conduct the heat.
+pub fn particle_cost(plan: &Plan) -> Option<Cost> {
+    particle_setup(plan).map(|setup| ParticleHeat::cost(&setup))
+}
+
+/// The particles of a plan.
+fn particle_setup(plan: &Plan) -> Option<Setup> {
     let SphSettings { operator, kernel, support } = plan.sph?;
     let operator = match operator {
         SphOperator::Corrected => Operator::Corrected,

@@ -6,7 +6,7 @@ use super::grading::{Fine, graded_ends};
 use super::heat::ThermalFace;
 use super::mesh::{Geometry, Mesh, MeshFace};
 use crate::material::{Material, Thermoelastic};
-use crate::scene::{Face, FaceName, HeatMethod, Shape, Solid, SphSettings, Symmetry};
+use crate::scene::{Face, FaceName, HeatMethod, Shape, Solid, SphOperator, SphSettings, Symmetry};
 
 /// Everything that a solid's model is built from.
 #[derive(Debug, Clone, PartialEq)]
@@ -60,6 +60,9 @@ impl Plan {
                  traction"
                     .into(),
             );
+        }
+        if let Some(settings) = solid.sph() {
+            notes.push(particle_note(&settings, &mesh));
         }
         let (thermal_faces, face_sources) = thermal_faces(solid, &mesh);
         let supports = supports(solid, &mesh);
@@ -119,6 +122,26 @@ impl Sizes {
         }
         Self { lateral, depth, growth: given.growth.unwrap_or(DEFAULT_GROWTH), order }
     }
+}
+
+fn particle_note(settings: &SphSettings, mesh: &Mesh) -> String {
+    let operator = match settings.operator {
+        SphOperator::Corrected if mesh.axes.iter().all(Axis::is_uniform) => {
+            "the corrected operator, which conserves heat to rounding at equal distances"
+        }
+        SphOperator::Corrected => {
+            "the corrected operator, which conserves heat only approximately on a graded mesh: see \
+             heat_drift"
+        }
+        SphOperator::Plain => {
+            "the plain operator, which conserves heat but misses the conductivity by a share that \
+             no refinement lowers"
+        }
+    };
+    format!(
+        "particles on the nodes conduct the heat by {operator}; supports of {} distances",
+        settings.support
+    )
 }
 
 /// Along which axes half the body stands for the whole.

@@ -28,8 +28,8 @@ pub struct Sighting {
     pub width: f64,
     /// Its temperature as a sum over particles, `(index, factor)`.
     pub terms: Vec<(usize, f64)>,
-    /// Whether a held end has a part in its temperature.
-    pub held: bool,
+    /// Whether the low and the high end are held and have a part in its temperature.
+    pub held: [bool; 2],
     /// How far it lies beyond the low and the high end [m]; 0 within.
     pub beyond: [f64; 2],
 }
@@ -51,7 +51,7 @@ impl LatticeAxis {
                 offset: 0.0,
                 width: 1.0,
                 terms: vec![(0, 1.0)],
-                held: false,
+                held: [false; 2],
                 beyond: [0.0; 2],
             };
             return vec![own];
@@ -65,8 +65,8 @@ impl LatticeAxis {
 
     fn sighting(&self, p: isize, here: f64, scale: f64) -> Sighting {
         let place = self.place(p);
-        let mut terms = Vec::new();
-        let held = self.unfold(p, 1.0, &mut terms);
+        let (mut terms, mut held) = (Vec::new(), [false; 2]);
+        self.unfold(p, 1.0, &mut terms, &mut held);
         let [low, high] = [self.nodes[0], self.nodes[self.nodes.len() - 1]];
         Sighting {
             offset: (place - here) / scale,
@@ -91,25 +91,34 @@ impl LatticeAxis {
         0.5 * (self.place(p + 1) - self.place(p - 1))
     }
 
-    /// Adds the terms of the temperature at the p-th place; returns whether a held end is in it.
-    fn unfold(&self, p: isize, factor: f64, terms: &mut Vec<(usize, f64)>) -> bool {
+    /// Adds the terms of the temperature at the p-th place, and notes the held ends among them.
+    fn unfold(&self, p: isize, factor: f64, terms: &mut Vec<(usize, f64)>, held: &mut [bool; 2]) {
         let last = self.nodes.len() as isize - 1;
-        let (end, mirrored, condition) = match p {
-            p if p < 0 => (0, -p, self.ends[0]),
-            p if p > last => (last, 2 * last - p, self.ends[1]),
+        let (end, mirrored) = match p {
+            p if p < 0 => (0, -p),
+            p if p > last => (1, 2 * last - p),
             p => {
                 terms.push((p as usize, factor));
-                return self.holds(p as usize);
+                held[0] |= p == 0 && self.ends[0] == End::Held;
+                held[1] |= p == last && self.ends[1] == End::Held;
+                return;
             }
         };
-        match condition {
-            End::Mirror => self.unfold(mirrored, factor, terms),
+        match self.ends[end] {
+            End::Mirror => self.unfold(mirrored, factor, terms, held),
             End::Held => {
-                terms.push((end as usize, 2.0 * factor));
-                self.unfold(mirrored, -factor, terms);
-                true
+                let node = if end == 0 { 0 } else { last as usize };
+                terms.push((node, 2.0 * factor));
+                self.unfold(mirrored, -factor, terms, held);
+                held[end] = true;
             }
         }
+    }
+
+    /// Distance of a node from the low or the high end [m].
+    pub fn distance(&self, i: usize, end: usize) -> f64 {
+        let last = self.nodes[self.nodes.len() - 1];
+        if end == 0 { self.nodes[i] - self.nodes[0] } else { last - self.nodes[i] }
     }
 
     /// Whether a node is a held end.
@@ -153,7 +162,7 @@ mod tests {
             assert!((value(sighting, wave) - wave(*place)).abs() < 1e-14, "{place}");
             let beyond = [(-place).max(0.0), (place - 3.0).max(0.0)];
             assert_eq!(sighting.beyond, beyond);
-            assert_eq!(sighting.held, *place >= 3.0 || *place <= -3.0);
+            assert_eq!(sighting.held, [false, *place >= 3.0 || *place <= -3.0]);
         }
     }
 

@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use super::lattice::{End, LatticeAxis};
-use super::rows::{Lattice, Settings};
+use super::rows::{Lattice, Operator, Settings};
 use crate::math::chebyshev::Evolution;
 use crate::math::parallel;
 use crate::math::sparse_rows::SparseRows;
@@ -90,7 +90,7 @@ struct Class {
 }
 
 /// An end of an axis through which heat comes in. What a particle of the face gets is shared with
-/// those below it as the images of an inclined profile would share it, in sum exactly.
+/// those below it as the images of an inclined profile would share it.
 struct Inlet {
     axis: usize,
     high: bool,
@@ -121,10 +121,14 @@ impl ParticleHeat {
             let scale = |&i: &usize| axis.scale(i);
             (0..axis.nodes.len()).min_by(|a, b| scale(a).total_cmp(&scale(b))).unwrap_or(0)
         });
-        let mut row = SparseRows::default();
-        row.push(lattice.row(finest).entries);
-        let bound = row.spectral_bound() * setup.conductivity / setup.capacity;
-        Cost { particles: lattice.particles(), neighbours: row.entries(), bound }
+        let row = |place| {
+            let mut row = SparseRows::default();
+            row.push(lattice.row(place).entries);
+            row
+        };
+        let bound = row(finest).spectral_bound() * setup.conductivity / setup.capacity;
+        let neighbours = row(lattice.counts().map(|count| count / 2)).entries();
+        Cost { particles: lattice.particles(), neighbours, bound }
     }
 
     /// Number of particles whose corrected operator is near singular, so that the plain one stands
@@ -251,26 +255,22 @@ impl Class {
         let count = lattice.particles();
         let diffusivity = setup.conductivity / setup.capacity;
         let mut matrix = SparseRows::default();
-        let mut leak = vec![0.0; count];
-        let mut gradients = Vec::with_capacity(count);
+        let mut edges = Edges::default();
         let mut fallback = 0;
         for first in (0..count).step_by(BATCH) {
             let rows = parallel::map(threads, BATCH.min(count - first), |i| {
                 let place = lattice.place(first + i);
                 (!lattice.is_held(place)).then(|| lattice.row(place))
             });
-            for (i, row) in rows.into_iter().enumerate() {
+            for row in rows {
                 let row = row.unwrap_or_default();
-                let volume = lattice.volume(lattice.place(first + i));
-                for (j, c) in row.held {
-                    leak[j] -= setup.conductivity * volume * c;
-                }
-                gradients.push(row.gradient);
                 fallback += usize::from(row.is_fallback);
+                edges.push(row.gradient, row.held_slope, row.held);
                 matrix.push(row.entries.into_iter().map(|(j, c)| (j, diffusivity * c)).collect());
             }
         }
-        let inlets = inlets(setup, &lattice, &gradients);
+        let inlets = inlets(setup, &lattice, &edges.gradients);
+        let leak = edges.leak(setup, &lattice);
         let mut class = Self { lattice, matrix, bound: 0.0, inlets, leak, fallback };
         class.add_convection(setup);
         class.bound = class.matrix.spectral_bound();
@@ -345,6 +345,77 @@ impl Inlet {
     }
 }
 
+/// What the rows say of the ends of the axes.
+#[derive(Default)]
+struct Edges {
+    gradients: Vec<[[f64; 2]; 3]>,
+    slopes: Vec<[[f64; 2]; 3]>,
+    /// `(row, axis, end, entries)` of what is exchanged with held particles.
+    held: Vec<(usize, usize, usize, Vec<(usize, f64)>)>,
+}
+
+impl Edges {
+    fn push(
+        &mut self,
+        gradient: [[f64; 2]; 3],
+        slope: [[f64; 2]; 3],
+        held: [[Vec<(usize, f64)>; 2]; 3],
+    ) {
+        let row = self.gradients.len();
+        self.gradients.push(gradient);
+        self.slopes.push(slope);
+        for (axis, ends) in held.into_iter().enumerate() {
+            for (end, entries) in ends.into_iter().enumerate().filter(|(_, e)| !e.is_empty()) {
+                self.held.push((row, axis, end, entries));
+            }
+        }
+    }
+
+    /// Heat that leaves through held faces per kelvin of each particle [W/K]: what the pairs of free
+    /// and held particles exchange. With the corrected operator it is brought to `k A` for a unit
+    /// gradient, column by column, which it is by itself at equal distances; the plain operator's
+    /// stays as it is, because that is what its particles lose.
+    fn leak(&self, setup: &Setup, lattice: &Lattice) -> Vec<f64> {
+        let mut leak = vec![0.0; lattice.particles()];
+        for (row, axis, end, entries) in &self.held {
+            let place = lattice.place(*row);
+            let factor = match lattice.settings.operator {
+                Operator::Corrected => self.share_of_slope(lattice, place, *axis, *end),
+                Operator::Plain => 1.0,
+            };
+            for (j, c) in entries {
+                leak[*j] -= setup.conductivity * lattice.volume(place) * factor * c;
+            }
+        }
+        leak
+    }
+
+    /// Area of the face over what the column of a place exchanges with it under a unit gradient.
+    fn share_of_slope(
+        &self,
+        lattice: &Lattice,
+        mut place: [usize; 3],
+        axis: usize,
+        end: usize,
+    ) -> f64 {
+        let area = face_area(lattice, place, axis, end);
+        let column = (0..lattice.counts()[axis]).map(|layer| {
+            place[axis] = layer;
+            lattice.volume(place) * self.slopes[lattice.index(place)][axis][end]
+        });
+        -area / column.sum::<f64>()
+    }
+}
+
+/// Share of a column of particles in the area of a face [m²].
+fn face_area(lattice: &Lattice, place: [usize; 3], axis: usize, end: usize) -> f64 {
+    let own = &lattice.axes[axis];
+    let at = own.nodes[if end == 0 { 0 } else { own.nodes.len() - 1 }];
+    let round = if own.radial { std::f64::consts::TAU * at } else { 1.0 };
+    let others = (0..3).filter(|&a| a != axis);
+    others.map(|a| lattice.axes[a].measures[place[a]]).product::<f64>() * round
+}
+
 /// The lattice with the ends that faces and symmetry give it.
 fn lattice(setup: &Setup, odd: [bool; 2]) -> Lattice {
     let mut axes = setup.axes.clone();
@@ -374,13 +445,7 @@ impl Inlet {
     fn new(lattice: &Lattice, gradients: &[[[f64; 2]; 3]], axis: usize, high: bool) -> Self {
         let surface = face_particles(lattice, axis, high);
         let own = &lattice.axes[axis];
-        let end = own.nodes[if high { own.nodes.len() - 1 } else { 0 }];
-        let round = if own.radial { std::f64::consts::TAU * end } else { 1.0 };
-        let area = |i: &usize| {
-            let place = lattice.place(*i);
-            let others = (0..3).filter(|&a| a != axis);
-            others.map(|a| lattice.axes[a].measures[place[a]]).product::<f64>() * round
-        };
+        let area = |&i: &usize| face_area(lattice, lattice.place(i), axis, usize::from(high));
         let areas = surface.iter().map(area).collect();
         let shares = |&i: &usize| {
             let mut place = lattice.place(i);
@@ -397,8 +462,13 @@ impl Inlet {
                 }
                 list.push((below, lattice.volume(place) * gradient));
             }
-            let sum: f64 = list.iter().map(|(_, share)| share).sum();
-            list.iter_mut().for_each(|(_, share)| *share /= sum);
+            // Per area of the face, not of their sum: exact for inclined profiles on any lattice. The
+            // plain operator misses the second moment of its kernel; its shares make one whole.
+            let whole = match lattice.settings.operator {
+                Operator::Corrected => area(&i),
+                Operator::Plain => list.iter().map(|(_, share)| share).sum(),
+            };
+            list.iter_mut().for_each(|(_, share)| *share /= whole);
             list
         };
         let shares = surface.iter().map(shares).collect();

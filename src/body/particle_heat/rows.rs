@@ -33,8 +33,11 @@ pub struct Lattice {
 pub struct Row {
     /// `(particle, factor)`; entries of one particle add up.
     pub entries: Vec<(usize, f64)>,
-    /// The part of the entries that is exchanged with held particles and images beyond them.
-    pub held: Vec<(usize, f64)>,
+    /// The part of the entries that is exchanged with held particles and images beyond them, by the
+    /// axis and end that hold.
+    pub held: [[Vec<(usize, f64)>; 2]; 3],
+    /// What this part is where temperature is the distance from the held end [1/m].
+    pub held_slope: [[f64; 2]; 3],
     /// What a unit gradient [K/m] out of the low and high end of each axis adds [1/m²].
     pub gradient: [[f64; 2]; 3],
     /// Whether the plain operator stands in for the corrected one.
@@ -151,10 +154,18 @@ impl Lattice {
                 }
             }
         }
-        if x.held || y.held || z.held {
-            row.held.extend_from_slice(&row.entries[first..]);
+        let along = [x, y, z];
+        let ends = (0..3).flat_map(|a| [(a, 0), (a, 1)]).filter(|&(a, end)| along[a].held[end]);
+        for (rank, (a, end)) in ends.enumerate() {
+            if rank == 0 {
+                row.held[a][end].extend_from_slice(&row.entries[first..]);
+            }
+            let axis = &self.axes[a];
+            let distance = |&(node, factor): &(usize, f64)| factor * axis.distance(node, end);
+            let other: f64 = along[a].terms.iter().map(distance).sum();
+            row.held_slope[a][end] += c * (other - axis.distance(place[a], end));
         }
-        for (gradient, sighting) in row.gradient.iter_mut().zip([x, y, z]) {
+        for (gradient, sighting) in row.gradient.iter_mut().zip(along) {
             for (sum, distance) in gradient.iter_mut().zip(sighting.beyond) {
                 // An image beyond an end that passes a gradient g is warmer by 2 g d.
                 *sum += 2.0 * c * distance;
