@@ -126,7 +126,7 @@ impl ParticleHeat {
             row.push(lattice.row(place).entries);
             row
         };
-        let bound = row(finest).spectral_bound() * setup.conductivity / setup.capacity;
+        let bound = row(finest).spectral_bound() / setup.capacity;
         let neighbours = row(lattice.counts().map(|count| count / 2)).entries();
         Cost { particles: lattice.particles(), neighbours, bound }
     }
@@ -253,7 +253,6 @@ impl ParticleHeat {
 impl Class {
     fn new(setup: &Setup, lattice: Lattice, threads: usize) -> Self {
         let count = lattice.particles();
-        let diffusivity = setup.conductivity / setup.capacity;
         let mut matrix = SparseRows::default();
         let mut edges = Edges::default();
         let mut fallback = 0;
@@ -266,11 +265,12 @@ impl Class {
                 let row = row.unwrap_or_default();
                 fallback += usize::from(row.is_fallback);
                 edges.push(row.gradient, row.held_slope, row.held);
-                matrix.push(row.entries.into_iter().map(|(j, c)| (j, diffusivity * c)).collect());
+                let rate = |(j, c)| (j, c / setup.capacity);
+                matrix.push(row.entries.into_iter().map(rate).collect());
             }
         }
         let inlets = inlets(setup, &lattice, &edges.gradients);
-        let leak = edges.leak(setup, &lattice);
+        let leak = edges.leak(&lattice);
         let mut class = Self { lattice, matrix, bound: 0.0, inlets, leak, fallback };
         class.add_convection(setup);
         class.bound = class.matrix.spectral_bound();
@@ -375,7 +375,7 @@ impl Edges {
     /// and held particles exchange. With the corrected operator it is brought to `k A` for a unit
     /// gradient, column by column, which it is by itself at equal distances; the plain operator's
     /// stays as it is, because that is what its particles lose.
-    fn leak(&self, setup: &Setup, lattice: &Lattice) -> Vec<f64> {
+    fn leak(&self, lattice: &Lattice) -> Vec<f64> {
         let mut leak = vec![0.0; lattice.particles()];
         for (row, axis, end, entries) in &self.held {
             let place = lattice.place(*row);
@@ -384,13 +384,13 @@ impl Edges {
                 Operator::Plain => 1.0,
             };
             for (j, c) in entries {
-                leak[*j] -= setup.conductivity * lattice.volume(place) * factor * c;
+                leak[*j] -= lattice.volume(place) * factor * c;
             }
         }
         leak
     }
 
-    /// Area of the face over what the column of a place exchanges with it under a unit gradient.
+    /// What passes a face under a unit gradient over what the column of a place exchanges with it.
     fn share_of_slope(
         &self,
         lattice: &Lattice,
@@ -403,7 +403,7 @@ impl Edges {
             place[axis] = layer;
             lattice.volume(place) * self.slopes[lattice.index(place)][axis][end]
         });
-        -area / column.sum::<f64>()
+        -lattice.conductivity * area / column.sum::<f64>()
     }
 }
 
@@ -425,7 +425,7 @@ fn lattice(setup: &Setup, odd: [bool; 2]) -> Lattice {
     for (axis, _) in axes.iter_mut().zip(odd).filter(|&(_, odd)| odd) {
         axis.ends[0] = End::Held;
     }
-    Lattice { axes, settings: setup.settings }
+    Lattice { axes, settings: setup.settings, conductivity: setup.conductivity }
 }
 
 /// Particles of an end of an axis, in ascending order.
@@ -465,7 +465,7 @@ impl Inlet {
             // Per area of the face, not of their sum: exact for inclined profiles on any lattice. The
             // plain operator misses the second moment of its kernel; its shares make one whole.
             let whole = match lattice.settings.operator {
-                Operator::Corrected => area(&i),
+                Operator::Corrected => lattice.conductivity * area(&i),
                 Operator::Plain => list.iter().map(|(_, share)| share).sum(),
             };
             list.iter_mut().for_each(|(_, share)| *share /= whole);

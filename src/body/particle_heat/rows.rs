@@ -1,7 +1,9 @@
 //! The second derivative at each particle of a lattice as a list of coefficients.
 
 use super::lattice::{LatticeAxis, Sighting};
-use super::operators::{Neighbour, Tensor, corrected, plain, renormalisation};
+use super::operators::{
+    Neighbour, Tensor, conductivity_between, corrected, plain, renormalisation,
+};
 use crate::kernel::Kernel;
 
 /// How the heat equation is brought to particles.
@@ -26,9 +28,11 @@ pub enum Operator {
 pub struct Lattice {
     pub axes: [LatticeAxis; 3],
     pub settings: Settings,
+    /// k [W/(m K)]
+    pub conductivity: f64,
 }
 
-/// `∇²T` at one particle [K/m²]: `Σ_j c_j (T_j − T_i)`, images among the j.
+/// `∇·(k ∇T)` at one particle [W/m³]: `Σ_j c_j (T_j − T_i)`, images among the j.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Row {
     /// `(particle, factor)`; entries of one particle add up.
@@ -36,12 +40,27 @@ pub struct Row {
     /// The part of the entries that is exchanged with held particles and images beyond them, by the
     /// axis and end that hold.
     pub held: [[Vec<(usize, f64)>; 2]; 3],
-    /// What this part is where temperature is the distance from the held end [1/m].
+    /// What this part is where temperature is the distance from the held end [W/m³ per K/m].
     pub held_slope: [[f64; 2]; 3],
-    /// What a unit gradient [K/m] out of the low and high end of each axis adds [1/m²].
+    /// What a unit gradient out of the low and high end of each axis adds [W/m³ per K/m].
     pub gradient: [[f64; 2]; 3],
     /// Whether the plain operator stands in for the corrected one.
     pub is_fallback: bool,
+}
+
+/// Largest ratio of distances of particles for which supports are round. Measured on a disc flux
+/// into boxes of many gradings: at 2, 3 and 4 the errors of the surface are alike, the drift of heat
+/// is least at 3 in all.
+const ROUND_ASPECT: f64 = 3.0;
+/// How far an elongated support reaches across, in distances of particles.
+const NARROW_REACH: f64 = 1.9;
+
+/// A share in the Laplacian: a tensor for the second derivatives and a slope along the first axis.
+struct Part {
+    tensor: Tensor,
+    slope: f64,
+    /// By how much the support is narrower along each axis.
+    narrow: [f64; 3],
 }
 
 impl Lattice {
@@ -78,9 +97,8 @@ impl Lattice {
     /// that its support holds as many neighbours along every axis however the lattice is graded.
     pub fn row(&self, place: [usize; 3]) -> Row {
         let axes: Vec<usize> = (0..3).filter(|&a| self.axes[a].is_modelled()).collect();
-        let reach = self.settings.support;
-        let seen = [0, 1, 2].map(|a| self.axes[a].sightings(place[a], reach));
-        let (mut neighbours, mut sightings) = (Vec::new(), Vec::new());
+        let seen = [0, 1, 2].map(|a| self.axes[a].sightings(place[a], self.settings.support));
+        let mut around = Vec::new();
         for z in &seen[2] {
             for y in &seen[1] {
                 for x in &seen[0] {
@@ -89,54 +107,97 @@ impl Lattice {
                     for (slot, &a) in offset.iter_mut().zip(&axes) {
                         *slot = along[a].offset;
                     }
-                    let volume = along.iter().map(|s| s.width).product();
-                    let view = (self.settings.kernel, reach, axes.len());
-                    if let Some(neighbour) = Neighbour::new(offset, volume, view) {
-                        neighbours.push(neighbour);
-                        sightings.push(along);
-                    }
+                    around.push((offset, along));
                 }
             }
         }
-        let (coefficients, is_fallback) = self.coefficients(place, &axes, &neighbours);
-        let mut row = Row { is_fallback, ..Default::default() };
-        for (c, along) in coefficients.into_iter().zip(sightings) {
-            self.add(&mut row, place, c, along);
+        let conductivity = conductivity_between(self.conductivity, self.conductivity);
+        let mut row = Row::default();
+        for part in self.parts(place, &axes) {
+            let (mut neighbours, mut sightings) = (Vec::new(), Vec::new());
+            for &(offset, along) in &around {
+                if let Some(weight) = self.weight(offset, along, &part, axes.len()) {
+                    neighbours.push(Neighbour { offset, weight, conductivity });
+                    sightings.push(along);
+                }
+            }
+            let (coefficients, is_fallback) = self.coefficients(&neighbours, &part, axes.len());
+            row.is_fallback |= is_fallback;
+            for (c, along) in coefficients.into_iter().zip(sightings) {
+                self.add(&mut row, place, c, along);
+            }
         }
         row
     }
 
-    /// Coefficients of `Σ_a ∂²/∂x_a²` of all neighbours, and whether they are the fall-back's. On a
-    /// radius r the term `1/r ∂/∂r` comes in, which is `∂²/∂r²` on the axis.
-    fn coefficients(
-        &self,
-        place: [usize; 3],
-        axes: &[usize],
-        neighbours: &[Neighbour],
-    ) -> (Vec<f64>, bool) {
-        let mut tensor: Tensor = [[0.0; 3]; 3];
+    /// The derivatives whose sum is the Laplacian, each with its support.
+    ///
+    /// In the particle's own units a lattice of unlike distances conducts unlike along its axes. A
+    /// round support then brings an error of fourth order along the wide distances that grows as the
+    /// square of their ratio. Supports elongated along the axis of each derivative, which reach no
+    /// further than next neighbours across it, have none: for offsets of −1, 0 and 1 the fourth
+    /// moment is the second. Up to [`ROUND_ASPECT`] round supports are the better ones.
+    fn parts(&self, place: [usize; 3], axes: &[usize]) -> Vec<Part> {
+        let scale = |a: usize| self.axes[a].scale(place[a]);
+        let mut whole = Part { tensor: [[0.0; 3]; 3], slope: 0.0, narrow: [1.0; 3] };
         for (slot, &a) in axes.iter().enumerate() {
-            tensor[slot][slot] = self.axes[a].scale(place[a]).powi(-2);
+            whole.tensor[slot][slot] = scale(a).powi(-2);
         }
         let radius = self.axes[0].nodes[place[0]];
-        let radial = self.axes[0].radial;
-        if radial && radius == 0.0 {
-            tensor[0][0] *= 2.0;
+        if self.axes[0].radial {
+            // 1/r ∂/∂r, which is ∂²/∂r² on the axis.
+            match radius {
+                0.0 => whole.tensor[0][0] *= 2.0,
+                _ => whole.slope = 1.0 / (radius * scale(0)),
+            }
         }
-        let dimension = axes.len();
+        let scales = || axes.iter().map(|&a| scale(a));
+        let aspect = scales().fold(0.0, f64::max) / scales().fold(f64::INFINITY, f64::min);
+        if aspect <= ROUND_ASPECT || self.settings.operator == Operator::Plain {
+            return vec![whole];
+        }
+        let narrow = (self.settings.support / NARROW_REACH).max(1.0);
+        let along = |slot: usize| {
+            let mut part = Part { tensor: [[0.0; 3]; 3], slope: 0.0, narrow: [narrow; 3] };
+            part.tensor[slot][slot] = whole.tensor[slot][slot];
+            part.slope = if slot == 0 { whole.slope } else { 0.0 };
+            part.narrow[slot] = 1.0;
+            part
+        };
+        (0..axes.len()).map(along).collect()
+    }
+
+    fn weight(
+        &self,
+        offset: [f64; 3],
+        along: [&Sighting; 3],
+        part: &Part,
+        dimension: usize,
+    ) -> Option<f64> {
+        let volume = along.iter().map(|s| s.width).product();
+        let pressed = [0, 1, 2].map(|a| offset[a] * part.narrow[a]);
+        let view = (self.settings.kernel, self.settings.support, dimension);
+        Neighbour::new(pressed, volume, view).map(|neighbour| neighbour.weight)
+    }
+
+    /// Coefficients of a part for all neighbours, and whether they are the fall-back's.
+    fn coefficients(
+        &self,
+        neighbours: &[Neighbour],
+        part: &Part,
+        dimension: usize,
+    ) -> (Vec<f64>, bool) {
         let exact = match self.settings.operator {
-            Operator::Corrected => corrected(neighbours, dimension, &tensor),
+            Operator::Corrected => corrected(neighbours, dimension, &part.tensor),
             Operator::Plain => None,
         };
         let is_fallback = exact.is_none() && self.settings.operator == Operator::Corrected;
-        let mut out = exact.unwrap_or_else(|| plain(neighbours, dimension, &tensor));
-        if radial
-            && radius > 0.0
+        let mut out = exact.unwrap_or_else(|| plain(neighbours, dimension, &part.tensor));
+        if part.slope != 0.0
             && let Some(b) = renormalisation(neighbours, dimension)
         {
-            let slope = [1.0 / (radius * self.axes[0].scale(place[0])), 0.0, 0.0];
-            for (c, extra) in out.iter_mut().zip(b.derivative(neighbours, slope)) {
-                *c += extra;
+            for (c, extra) in out.iter_mut().zip(b.derivative(neighbours, [part.slope, 0.0, 0.0])) {
+                *c += self.conductivity * extra;
             }
         }
         (out, is_fallback)

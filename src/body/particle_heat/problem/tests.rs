@@ -228,3 +228,29 @@ fn a_radius_is_a_round_body() {
     }
     assert!(errors.windows(2).all(|pair| pair[1].1 < 0.3 * pair[0].1), "{errors:?}");
 }
+
+#[test]
+fn nothing_grows_on_lattices_of_any_grading() {
+    // Any value at any particle; insulated, the differences can only die away.
+    for (growth, fine) in [(1.0, 0.05), (1.3, 1.0), (1.3, 0.1), (1.7, 1.0)] {
+        for insulated in [true, false] {
+            let axes = [axis(1e-3, 5, growth), axis(1e-3, 3, 1.0), axis(fine * 1e-3, 6, growth)];
+            let held = [(0, true, Condition::Held), (2, false, Condition::Held)];
+            let faces = if insulated { &[] } else { &held[..] };
+            let mut setup = setup(axes, Operator::Corrected, faces);
+            (setup.capacity, setup.conductivity) = (1e6, 1.0);
+            let problem = ParticleHeat::new(setup, 1);
+            let mut state: Vec<f64> =
+                (0..problem.state_len()).map(|i| (1.7 * (i * i) as f64).sin()).collect();
+            let values = [vec![0.0; faces.len()]];
+            let sources = Sources { surface: &[[Vec::new(), Vec::new()]], faces: &values };
+            problem.advance(&mut state, &sources, 10.0);
+            let values = &state[..state.len() - 2];
+            let [least, most] = values
+                .iter()
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &v| [a.min(v), b.max(v)]);
+            assert!(most - least < 1e-9, "growth {growth}, {fine}: {least} to {most}");
+            assert!(insulated || most.abs() < 1e-9, "growth {growth}, {fine}: {most}");
+        }
+    }
+}
