@@ -130,7 +130,7 @@ fn mesh(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {
     if let Some(growth) = mesh.growth {
         let fine = (1.0..=2.0).contains(&growth);
         let message = "neighbouring elements grow by a modest ratio";
-        checker.require(fine, &path.at("growth"), message, "1 (equal elements) <= growth <= 2");
+        checker.require(fine, &path.at("growth"), message, "1 <= growth <= 2");
     }
     if let Some(order) = mesh.order {
         let fine = order == 1 || order == 2;
