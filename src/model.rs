@@ -329,7 +329,7 @@ const ENTRIES_2D: f64 = 3.1;
 const SOLVE_RATE: f64 = 1.2e9;
 const FACTOR_RATE: f64 = 2.5e10;
 /// Products of particles' matrices: entries a second on one thread, and rows built a second.
-const PRODUCT_RATE: f64 = 6e8;
+const PRODUCT_RATE: f64 = 9e8;
 const ROW_RATE: f64 = 2.5e4;
 
 fn forecast_body(scene: &Scene, name: &str) -> BodyForecast {

@@ -56,9 +56,9 @@ mod tests {
     fn a_matrix_times_its_inverse_is_the_identity() {
         let a = [[0.0, 2.0, 1.0, 9.0], [3.0, -1.0, 0.5, 9.0], [1.0, 4.0, -2.0, 9.0], [9.0; 4]];
         let found = inverse(&a, 3).unwrap();
-        for i in 0..3 {
+        for (i, row) in a.iter().enumerate().take(3) {
             for j in 0..3 {
-                let entry: f64 = (0..3).map(|k| a[i][k] * found.matrix[k][j]).sum();
+                let entry: f64 = (0..3).map(|k| row[k] * found.matrix[k][j]).sum();
                 assert!((entry - f64::from(u8::from(i == j))).abs() < 1e-15, "{entry}");
             }
         }

@@ -115,7 +115,7 @@ fn laplacian_on_a_small_lattice() {
 
 #[test]
 fn laplacian_on_disordered_points() {
-    for (dimension, intervals) in [(2, [10, 20, 40, 80]), (3, [6, 9, 12, 18])] {
+    for (dimension, intervals) in [(2, [10, 20, 40, 80]), (3, [8, 12, 16, 24])] {
         let title =
             format!("Laplacian of sin 2x · cos 3y · e^z on shaken points, {dimension}-D, H = 3Δx");
         let quantities = [
@@ -135,24 +135,23 @@ fn laplacian_on_disordered_points() {
             let inner =
                 |p: &[f64; 3]| p[..dimension].iter().all(|x| (x - 0.5).abs() < 0.5 - 3.2 * spacing);
             let inside: Vec<usize> = (0..points.len()).filter(|&i| inner(&points[i])).collect();
-            let mut errors = Vec::new();
+            let (mut errors, mut left) = (Vec::new(), 0);
             for operator in OPERATORS {
                 let (values, fallback) = laplacians(&points, (dimension, spacing), operator, f);
-                assert_eq!(fallback, 0);
+                left += fallback;
                 let pick = |list: &[f64]| inside.iter().map(|&i| list[i]).collect::<Vec<f64>>();
                 errors.push(relative_norm(&values, &wanted));
-                errors.push(match inside.is_empty() {
-                    true => f64::NAN,
-                    false => relative_norm(&pick(&values), &pick(&wanted)),
-                });
+                errors.push(relative_norm(&pick(&values), &pick(&wanted)));
             }
-            study.add(&format!("{n} intervals a side"), spacing, errors);
+            study.add(&format!("{n} intervals a side, {left} fall back"), spacing, errors);
         }
         study.print();
-        study.require(&[0], 0.9, 0.3);
-        assert!(study.order(1) > 0.9, "{}", study.order(1));
-        // Disorder makes the plain operator miss by an error that grows with refinement or stays.
-        assert!(study.order(2) < 0.5 && study.order(3) < 0.5);
+        study.require(&[1], 0.9, 0.05);
+        // Points that see nobody on one side have errors of first order with a wide spread, and some
+        // of them fall back to the plain operator.
+        assert!(study.finest(0) < 0.3 * study.finest(2));
+        // Disorder makes the plain operator miss by an error that no refinement lowers.
+        assert!(study.order(2) < 0.2 && study.order(3) < 0.2);
     }
 }
 
@@ -224,9 +223,9 @@ fn rises(trial: &mut Trial, count: usize) -> Vec<f64> {
     (0..count).map(|i| trial.get(&format!("p{i}.temperature")) - 293.15).collect()
 }
 
-/// A column of cubes under a flux, as particles.
+/// A column under a flux, as particles at equal distances.
 fn column(spacing: f64, thickness: f64, settings: &str, points: &[[f64; 3]]) -> Trial {
-    let width = 8.0 * spacing;
+    let width = 4.0 * spacing;
     let shape = format!("box = [{width:e}, {width:e}, {thickness:e}]");
     let mesh = format!("spacing = {spacing:e}, growth = 1.0");
     let probes = line_of_probes("p", points, "\"temperature\"");
@@ -270,7 +269,7 @@ fn uniform_flux_and_heated_slab() {
             study.require(&[0, 1, 2, 3], 1.8, 1e-2);
         } else {
             // What is left is the share by which the kernel sums of the lattice miss the conductivity.
-            assert!(study.order(1) < 0.7 && study.finest(1) > 5e-3, "{}", study.finest(1));
+            assert!(study.order(3) < 0.7, "{}", study.order(3));
         }
     }
 }
@@ -332,7 +331,7 @@ fn disc_flux_beside_finite_elements() {
                 study.add(&format!("h = {:.1} µm", spacing * 1e6), spacing, errors);
             }
             study.print();
-            study.require(&[0, 2], 1.2, 1e-2);
+            study.require(&[0, 2], 1.0, 1e-2);
             if method == "sph" {
                 study.require(&[3], 0.8, 2e-2);
             }
@@ -341,8 +340,8 @@ fn disc_flux_beside_finite_elements() {
     keep("plate.csv", "box,sph,spacing,surface,deep,norm,drift,build,steps", table);
 }
 
-/// The balance of heat against resolution: the plain operator keeps it and misses the temperature,
-/// the corrected one the other way round, where distances are unlike.
+/// The balance of heat against resolution: the corrected operator loses it where distances are
+/// unlike, and less so the finer; at equal distances both operators keep it.
 #[test]
 fn drift_against_resolution() {
     let exact = DiscFlux { body: BODY, flux: 1e8, radius: 50e-6 };
@@ -357,8 +356,8 @@ fn drift_against_resolution() {
     for (column, (title, settings, graded)) in runs.into_iter().enumerate() {
         let title = format!("Particles under a disc flux, 62.5 µs, {title} distances");
         let mut study = Study::new(&title, &["heat drift", "surface temperature"]);
-        for spacing in [20e-6, 10e-6, 5e-6] {
-            let growth = if graded { 1.0 + 0.3 * spacing / 20e-6 } else { 1.0 };
+        for spacing in [12e-6, 6e-6, 3e-6] {
+            let growth = if graded { 1.0 + 0.2 * spacing / 12e-6 } else { 1.0 };
             let mesh = format!("spacing = {spacing:e}, growth = {growth}");
             let text =
                 alumina("box = [300e-6, 300e-6, 150e-6]", &mesh, "", &(SPOT.to_owned() + &probe));
@@ -370,14 +369,15 @@ fn drift_against_resolution() {
             study.add(&format!("Δx = {:.1} µm", spacing * 1e6), spacing, vec![drift, surface]);
         }
         study.print();
-        match column {
-            0 => study.require(&[0, 1], 1.0, 2e-2),
-            1 => study.require(&[1], 1.0, 2e-2),
-            _ => assert!(study.finest(1) > 5e-3, "{}", study.finest(1)),
-        }
-        if column > 0 {
+        study.require(&[1], 1.5, 1e-2);
+        if graded {
+            study.require(&[0], 1.0, 1e-2);
+        } else {
             assert!(study.finest(0) < 1e-10, "{}", study.finest(0));
         }
     }
+    // At equal distances both operators differ by one factor, 3e-4 off one in 3-D.
+    let [corrected, plain] = [5, 8].map(|row: usize| table[row][3].abs());
+    assert!(plain > corrected + 1e-4, "{corrected} {plain}");
     keep("drift.csv", "run,spacing,drift,surface", table);
 }

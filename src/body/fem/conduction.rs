@@ -11,21 +11,21 @@ use crate::scene::{SphOperator, SphSettings};
 /// The temperature of a solid and how it advances.
 pub enum Conduction {
     /// Finite elements, exact in time by their modes.
-    Modes(HeatProblem),
+    Modes(Box<HeatProblem>),
     /// Smoothed particles on the nodes.
-    Particles(ParticleHeat),
+    Particles(Box<ParticleHeat>),
 }
 
 impl Conduction {
     pub fn new(plan: &Plan, threads: usize) -> Self {
         match particle_setup(plan) {
-            Some(setup) => Self::Particles(ParticleHeat::new(setup, threads)),
-            None => Self::Modes(HeatProblem::new(
+            Some(setup) => Self::Particles(Box::new(ParticleHeat::new(setup, threads))),
+            None => Self::Modes(Box::new(HeatProblem::new(
                 &plan.mesh,
                 plan.law.heat_capacity(),
                 plan.law.conductivity,
                 plan.thermal_faces.clone(),
-            )),
+            ))),
         }
     }
 

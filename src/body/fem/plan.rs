@@ -124,6 +124,13 @@ impl Sizes {
     }
 }
 
+impl Sizes {
+    /// Largest element where `usual` would do: without growth all are of one `size`.
+    fn coarsest(&self, usual: f64, size: f64) -> f64 {
+        if self.growth == 1.0 { size } else { usual }
+    }
+}
+
 fn particle_note(settings: &SphSettings, mesh: &Mesh) -> String {
     let operator = match settings.operator {
         SphOperator::Corrected if mesh.axes.iter().all(Axis::is_uniform) => {
@@ -203,7 +210,7 @@ fn build_mesh(
                 Fine { from: from - margin, to: to + margin, size: element * sizes.lateral }
             })
             .collect();
-        let coarsest = end / LATERAL_ELEMENTS;
+        let coarsest = sizes.coarsest(end / LATERAL_ELEMENTS, element * sizes.lateral);
         graded_ends(start, end, &fine, sizes.growth, coarsest)
     };
     let height = {
@@ -214,7 +221,7 @@ fn build_mesh(
             .map(|top| if top { 0.0 } else { -thickness })
             .map(|z| Fine { from: z - size, to: z + size, size })
             .collect();
-        let coarsest = (thickness / THICKNESS_ELEMENTS).max(size);
+        let coarsest = sizes.coarsest((thickness / THICKNESS_ELEMENTS).max(size), size);
         let ends = graded_ends(-thickness, 0.0, &fine, sizes.growth, coarsest);
         Axis::from_element_ends(&ends, sizes.order, Weight::Uniform)
     };

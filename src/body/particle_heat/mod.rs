@@ -3,6 +3,7 @@
 //! The particles stand on a lattice and do not move, so that the heat equation is one sparse matrix
 //! (`rows`, from `operators`), with mirror images of the particles beyond the faces (`lattice`).
 
+mod edges;
 mod lattice;
 pub mod operators;
 mod problem;

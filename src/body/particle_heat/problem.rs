@@ -2,8 +2,9 @@
 
 use std::sync::OnceLock;
 
+use super::edges::{Edges, Inlet, face_particles};
 use super::lattice::{End, LatticeAxis};
-use super::rows::{Lattice, Operator, Settings};
+use super::rows::{Lattice, Settings};
 use crate::math::chebyshev::Evolution;
 use crate::math::parallel;
 use crate::math::sparse_rows::SparseRows;
@@ -87,19 +88,6 @@ struct Class {
     /// Heat that leaves through held and convective faces, per kelvin of each particle [W/K].
     leak: Vec<f64>,
     fallback: usize,
-}
-
-/// An end of an axis through which heat comes in. What a particle of the face gets is shared with
-/// those below it as the images of an inclined profile would share it.
-struct Inlet {
-    axis: usize,
-    high: bool,
-    /// Particles of the face.
-    surface: Vec<usize>,
-    /// Their shares in its area [m²].
-    areas: Vec<f64>,
-    /// For each particle of the face, `(particle, share)` of what comes in there; empty if held.
-    shares: Vec<Vec<(usize, f64)>>,
 }
 
 /// Particles whose rows are computed at a time.
@@ -262,14 +250,14 @@ impl Class {
                 (!lattice.is_held(place)).then(|| lattice.row(place))
             });
             for row in rows {
-                let row = row.unwrap_or_default();
+                let mut row = row.unwrap_or_default();
                 fallback += usize::from(row.is_fallback);
-                edges.push(row.gradient, row.held_slope, row.held);
+                edges.push(&mut row);
                 let rate = |(j, c)| (j, c / setup.capacity);
                 matrix.push(row.entries.into_iter().map(rate).collect());
             }
         }
-        let inlets = inlets(setup, &lattice, &edges.gradients);
+        let inlets = edges.inlets(&setup.faces, &lattice);
         let leak = edges.leak(&lattice);
         let mut class = Self { lattice, matrix, bound: 0.0, inlets, leak, fallback };
         class.add_convection(setup);
@@ -288,7 +276,9 @@ impl Class {
                     for &(j, share) in shares {
                         let capacity = setup.capacity * self.lattice.volume(self.lattice.place(j));
                         self.matrix.add(j, i, -coefficient * area * share / capacity);
-                        self.leak[i] += coefficient * area * share;
+                    }
+                    if !shares.is_empty() {
+                        self.leak[i] += coefficient * area;
                     }
                 }
             }
@@ -330,92 +320,6 @@ impl Class {
     }
 }
 
-impl Inlet {
-    /// Adds the heat of each particle of the face [W] to those that share it.
-    fn spread(&self, nodal: impl Iterator<Item = f64>, power: &mut [f64], passed: &mut Totals) {
-        for (heat, shares) in nodal.zip(&self.shares) {
-            passed.brought_in += heat;
-            if shares.is_empty() {
-                passed.lost += heat;
-            }
-            for &(particle, share) in shares {
-                power[particle] += heat * share;
-            }
-        }
-    }
-}
-
-/// What the rows say of the ends of the axes.
-#[derive(Default)]
-struct Edges {
-    gradients: Vec<[[f64; 2]; 3]>,
-    slopes: Vec<[[f64; 2]; 3]>,
-    /// `(row, axis, end, entries)` of what is exchanged with held particles.
-    held: Vec<(usize, usize, usize, Vec<(usize, f64)>)>,
-}
-
-impl Edges {
-    fn push(
-        &mut self,
-        gradient: [[f64; 2]; 3],
-        slope: [[f64; 2]; 3],
-        held: [[Vec<(usize, f64)>; 2]; 3],
-    ) {
-        let row = self.gradients.len();
-        self.gradients.push(gradient);
-        self.slopes.push(slope);
-        for (axis, ends) in held.into_iter().enumerate() {
-            for (end, entries) in ends.into_iter().enumerate().filter(|(_, e)| !e.is_empty()) {
-                self.held.push((row, axis, end, entries));
-            }
-        }
-    }
-
-    /// Heat that leaves through held faces per kelvin of each particle [W/K]: what the pairs of free
-    /// and held particles exchange. With the corrected operator it is brought to `k A` for a unit
-    /// gradient, column by column, which it is by itself at equal distances; the plain operator's
-    /// stays as it is, because that is what its particles lose.
-    fn leak(&self, lattice: &Lattice) -> Vec<f64> {
-        let mut leak = vec![0.0; lattice.particles()];
-        for (row, axis, end, entries) in &self.held {
-            let place = lattice.place(*row);
-            let factor = match lattice.settings.operator {
-                Operator::Corrected => self.share_of_slope(lattice, place, *axis, *end),
-                Operator::Plain => 1.0,
-            };
-            for (j, c) in entries {
-                leak[*j] -= lattice.volume(place) * factor * c;
-            }
-        }
-        leak
-    }
-
-    /// What passes a face under a unit gradient over what the column of a place exchanges with it.
-    fn share_of_slope(
-        &self,
-        lattice: &Lattice,
-        mut place: [usize; 3],
-        axis: usize,
-        end: usize,
-    ) -> f64 {
-        let area = face_area(lattice, place, axis, end);
-        let column = (0..lattice.counts()[axis]).map(|layer| {
-            place[axis] = layer;
-            lattice.volume(place) * self.slopes[lattice.index(place)][axis][end]
-        });
-        -lattice.conductivity * area / column.sum::<f64>()
-    }
-}
-
-/// Share of a column of particles in the area of a face [m²].
-fn face_area(lattice: &Lattice, place: [usize; 3], axis: usize, end: usize) -> f64 {
-    let own = &lattice.axes[axis];
-    let at = own.nodes[if end == 0 { 0 } else { own.nodes.len() - 1 }];
-    let round = if own.radial { std::f64::consts::TAU * at } else { 1.0 };
-    let others = (0..3).filter(|&a| a != axis);
-    others.map(|a| lattice.axes[a].measures[place[a]]).product::<f64>() * round
-}
-
 /// The lattice with the ends that faces and symmetry give it.
 fn lattice(setup: &Setup, odd: [bool; 2]) -> Lattice {
     let mut axes = setup.axes.clone();
@@ -426,54 +330,6 @@ fn lattice(setup: &Setup, odd: [bool; 2]) -> Lattice {
         axis.ends[0] = End::Held;
     }
     Lattice { axes, settings: setup.settings, conductivity: setup.conductivity }
-}
-
-/// Particles of an end of an axis, in ascending order.
-fn face_particles(lattice: &Lattice, axis: usize, high: bool) -> Vec<usize> {
-    let end = if high { lattice.counts()[axis] - 1 } else { 0 };
-    (0..lattice.particles()).filter(|&i| lattice.place(i)[axis] == end).collect()
-}
-
-/// Both ends of z, where loads act, and all other faces that heat comes in by.
-fn inlets(setup: &Setup, lattice: &Lattice, gradients: &[[[f64; 2]; 3]]) -> Vec<Inlet> {
-    let faces = setup.faces.iter().filter(|f| f.axis < 2 && f.condition != Condition::Held);
-    let ends = faces.map(|f| (f.axis, f.high)).chain([(2, false), (2, true)]);
-    ends.map(|(axis, high)| Inlet::new(lattice, gradients, axis, high)).collect()
-}
-
-impl Inlet {
-    fn new(lattice: &Lattice, gradients: &[[[f64; 2]; 3]], axis: usize, high: bool) -> Self {
-        let surface = face_particles(lattice, axis, high);
-        let own = &lattice.axes[axis];
-        let area = |&i: &usize| face_area(lattice, lattice.place(i), axis, usize::from(high));
-        let areas = surface.iter().map(area).collect();
-        let shares = |&i: &usize| {
-            let mut place = lattice.place(i);
-            if lattice.is_held(place) {
-                return Vec::new();
-            }
-            let mut list = Vec::new();
-            for layer in 0..lattice.counts()[axis] {
-                place[axis] = if high { own.nodes.len() - 1 - layer } else { layer };
-                let below = lattice.index(place);
-                let gradient = gradients[below][axis][usize::from(high)];
-                if gradient == 0.0 {
-                    break;
-                }
-                list.push((below, lattice.volume(place) * gradient));
-            }
-            // Per area of the face, not of their sum: exact for inclined profiles on any lattice. The
-            // plain operator misses the second moment of its kernel; its shares make one whole.
-            let whole = match lattice.settings.operator {
-                Operator::Corrected => lattice.conductivity * area(&i),
-                Operator::Plain => list.iter().map(|(_, share)| share).sum(),
-            };
-            list.iter_mut().for_each(|(_, share)| *share /= whole);
-            list
-        };
-        let shares = surface.iter().map(shares).collect();
-        Self { axis, high, surface, areas, shares }
-    }
 }
 
 #[cfg(test)]

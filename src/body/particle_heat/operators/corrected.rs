@@ -3,9 +3,10 @@ use crate::math::small_inverse::inverse;
 
 /// Largest κ₁ of the systems for B and L, in coordinates of the order of the distances between
 /// particles, at which a correction is used. Full supports have about 3 (2-D and 3-D), faces and
-/// corners of a lattice up to some hundreds; beyond this limit neighbours are all but missing in
-/// some direction, and the coefficients would be large and of both signs.
-pub const CONDITION_LIMIT: f64 = 1e4;
+/// corners of lattices and shaken clouds some tens. Beyond this limit neighbours are all but missing
+/// in some direction, and the coefficients, of both signs, add up to some hundreds of what they are
+/// in a full support.
+pub const CONDITION_LIMIT: f64 = 1e3;
 
 /// Coefficients of `K : ∇∇f`, exact for every quadratic f on any set of neighbours whose offsets are
 /// of order one; `None` where a system is near singular ([`CONDITION_LIMIT`]).

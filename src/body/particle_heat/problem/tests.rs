@@ -254,3 +254,31 @@ fn nothing_grows_on_lattices_of_any_grading() {
         }
     }
 }
+
+#[test]
+fn a_convective_face_cools_at_second_order_on_graded_lattices() {
+    // The slowest mode of a slab, cos(b x/L) with b tan b = hL/k = 2, decays as exp(−b² at/L²).
+    let mut b: f64 = 1.0;
+    for _ in 0..20 {
+        b -= (b * b.tan() - 2.0) / (b.tan() + b / b.cos().powi(2));
+    }
+    let coefficient = 2.0 * WATER.conductivity / 1e-3;
+    let time = 1.0;
+    let decay = (-b * b * WATER.conductivity / WATER.heat_capacity * time / 1e-6).exp();
+    let errors = [10, 20, 40].map(|n| {
+        let axes = [point(), axis(1e-4, 3, 1.0), axis(1e-3, n, 3f64.powf(-1.0 / n as f64))];
+        let nodes = axes[2].nodes.clone();
+        let faces = [(2, true, Condition::Convective(coefficient))];
+        let problem = ParticleHeat::new(setup(axes, Operator::Corrected, &faces), 1);
+        let mode = |i: usize| (b * nodes[i / 4] / 1e-3).cos();
+        let mut state: Vec<f64> = (0..4 * nodes.len()).map(mode).chain([0.0; 2]).collect();
+        let (stored, still) = (problem.stored(&state), [[Vec::new(), Vec::new()]]);
+        problem.advance(&mut state, &Sources { surface: &still, faces: &[vec![0.0]] }, time);
+        let lost = problem.totals(&state).lost / (stored * (1.0 - decay)) - 1.0;
+        let worst = (0..4 * nodes.len()).map(|i| (state[i] - decay * mode(i)).abs());
+        [worst.fold(0.0, f64::max), lost.abs()]
+    });
+    for pair in errors.windows(2) {
+        assert!((0..2).all(|q| (pair[0][q] / pair[1][q]).log2() > 1.6), "{errors:?}");
+    }
+}
