@@ -1,3 +1,4 @@
 //! Bodies: one discretisation a folder.
 
 pub mod fem;
+pub mod particle_heat;
