@@ -83,9 +83,9 @@ fn a_graded_mesh_says_by_how_much_the_balance_fails() {
 #[test]
 fn a_support_of_next_neighbours_falls_back_and_says_so() {
     let mut trial = Trial::new(&block(BOX, EQUAL, "support = 1.2", "", SPOT));
-    // A quarter of the box: 13 × 13 × 5 nodes.
-    assert_eq!(trial.get("block.fallback_particles"), 845.0);
-    let told = trial.model.notes().iter().any(|note| note.contains("845 of 845 particles"));
+    // A quarter of the box: 8 × 6 × 5 nodes.
+    assert_eq!(trial.get("block.fallback_particles"), 240.0);
+    let told = trial.model.notes().iter().any(|note| note.contains("240 of 240 particles"));
     assert!(told, "{:?}", trial.model.notes());
 }
 

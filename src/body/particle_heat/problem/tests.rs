@@ -278,7 +278,9 @@ fn a_convective_face_cools_at_second_order_on_graded_lattices() {
         let worst = (0..4 * nodes.len()).map(|i| (state[i] - decay * mode(i)).abs());
         [worst.fold(0.0, f64::max), lost.abs()]
     });
-    for pair in errors.windows(2) {
-        assert!((0..2).all(|q| (pair[0][q] / pair[1][q]).log2() > 1.6), "{errors:?}");
+    // First to last: the error of the temperature changes its sign on the way.
+    for q in 0..2 {
+        assert!((errors[0][q] / errors[2][q]).log2() / 2.0 > 1.8, "{errors:?}");
     }
+    assert!(errors[2].iter().all(|&error| error < 1e-4), "{errors:?}");
 }
