@@ -23,10 +23,11 @@ pub use start_rates::start_rates;
 pub use tangent::Tangent;
 
 pub use crate::body::fem::NodalFields;
-use crate::body::fem::{Geometry, Plan, Refinement, SolidFem};
+use crate::body::fem::{Geometry, Plan, Refinement, SolidFem, particle_cost};
 pub use crate::body::sph::ParticleFields;
 use crate::body::sph::{DropletSph, Failure};
 use crate::material::stress::{max_principal, von_mises};
+use crate::math::chebyshev::products;
 use crate::math::cholesky::CholeskyError;
 use crate::scene::{Droplet, FaceName, Footprint, Grid, Load, Scene, SceneError, Solid};
 use crate::variables::{BodyTotal, Component, InputLayout, Output, Registry, Slot};
@@ -113,6 +114,8 @@ pub struct BodyForecast {
     pub spacing: [[f64; 2]; 3],
     /// Order of the shape functions.
     pub order: usize,
+    /// Set where particles conduct the heat.
+    pub particles: Option<ParticleForecast>,
     /// Memory of the model [B].
     pub memory: f64,
     /// Time to build the model, and of a step whose stresses are read [s].
@@ -120,6 +123,18 @@ pub struct BodyForecast {
     pub step_time: f64,
     /// What was chosen or left out, and why.
     pub notes: Vec<String>,
+}
+
+/// What particles will do in a communication step of the default experiment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ParticleForecast {
+    /// Neighbours of a particle, itself included.
+    pub neighbours: usize,
+    /// Equal sub-steps, and products with the sparse matrix in each.
+    pub sub_steps: usize,
+    pub products: usize,
+    /// Sub-steps that the stability of the explicit Euler method would take.
+    pub euler_steps: f64,
 }
 
 /// Models with fewer nodes or particles than these are quicker on one thread.
@@ -297,11 +312,11 @@ impl Model {
 
     /// What was chosen or left out, and why: a sentence each.
     pub fn notes(&self) -> Vec<String> {
-        let solids = self.bodies.iter().map(|body| (&body.name, &body.plan.notes));
-        let droplets = self.droplets.iter().map(|body| (&body.name, &body.notes));
-        let all = solids.chain(droplets);
-        all.flat_map(|(name, notes)| notes.iter().map(move |note| format!("{name}: {note}")))
-            .collect()
+        let solids = self.bodies.iter().flat_map(BodyModel::notes);
+        let droplets = self.droplets.iter();
+        let droplets = droplets
+            .flat_map(|body| body.notes.iter().map(move |note| format!("{}: {note}", body.name)));
+        solids.chain(droplets).collect()
     }
 
     fn place(&self, body: &str) -> usize {
@@ -353,6 +368,8 @@ impl Model {
             BodyTotal::HeatIn => solid.heat_totals(unknowns).brought_in,
             BodyTotal::HeatLost => solid.heat_totals(unknowns).lost,
             BodyTotal::HeatStored => solid.heat_stored(unknowns),
+            BodyTotal::HeatDrift => solid.heat_drift(unknowns),
+            BodyTotal::FallbackParticles => solid.fallback_particles().unwrap_or(0) as f64,
             BodyTotal::MaxTemperature => {
                 cache.heat(self, &state.bodies, index);
                 cache.max_temperature(solid, index)
@@ -363,6 +380,20 @@ impl Model {
                 if total == BodyTotal::MaxVonMises { von_mises } else { principal }
             }
         })
+    }
+}
+
+impl BodyModel {
+    fn notes(&self) -> Vec<String> {
+        let fallback = self.solid.fallback_particles().filter(|&count| count > 0).map(|count| {
+            format!(
+                "{count} of {} particles conduct by the plain operator: their corrected one is near \
+                 singular",
+                self.plan.mesh.nodes()
+            )
+        });
+        let notes = self.plan.notes.iter().cloned().chain(fallback);
+        notes.map(|note| format!("{}: {note}", self.name)).collect()
     }
 }
 
@@ -394,6 +425,9 @@ const ENTRIES_2D: f64 = 3.1;
 /// factoring.
 const SOLVE_RATE: f64 = 1.2e9;
 const FACTOR_RATE: f64 = 2.5e10;
+/// Products of particles' matrices: entries a second on one thread, and rows built a second.
+const PRODUCT_RATE: f64 = 9e8;
+const ROW_RATE: f64 = 2.5e4;
 
 fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
     let plan = plan(scene, name, solid);
@@ -409,15 +443,28 @@ fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
         let steps = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
         steps.fold([f64::INFINITY, 0.0], |[low, high], step| [low.min(step), high.max(step)])
     });
+    let cost = particle_cost(&plan);
+    let particles = cost.map(|cost| {
+        let (sub_steps, products) = products(cost.bound, scene.step);
+        let euler_steps = (0.5 * cost.bound * scene.step).ceil().max(1.0);
+        ParticleForecast { neighbours: cost.neighbours, sub_steps, products, euler_steps }
+    });
+    let links = particles.map_or(0.0, |p| (p.neighbours * unknowns[0]) as f64);
+    let passes = particles.map_or(0.0, |p| (p.sub_steps * p.products) as f64);
+    let rows = if particles.is_some() { unknowns[0] as f64 } else { 0.0 };
     BodyForecast {
         name: name.into(),
         nodes: plan.mesh.node_counts(),
         unknowns,
         spacing,
         order: plan.mesh.order(),
-        memory: 8.0 * (1.2 * entries + 60.0 * n + 20.0 * unknowns[0] as f64),
-        build_time: operations / FACTOR_RATE + 2e-5 * n,
-        step_time: entries / SOLVE_RATE + 5e-7 * n + 1e-7 * unknowns[0] as f64,
+        particles,
+        memory: 8.0 * (1.2 * entries + 60.0 * n + 20.0 * unknowns[0] as f64) + 12.0 * links,
+        build_time: operations / FACTOR_RATE + 2e-5 * n + rows / ROW_RATE,
+        step_time: entries / SOLVE_RATE
+            + 5e-7 * n
+            + 1e-7 * unknowns[0] as f64
+            + passes * links / PRODUCT_RATE,
         notes: plan.notes,
     }
 }

@@ -144,6 +144,23 @@ fn check_says_what_will_be_modelled() {
 }
 
 #[test]
+fn check_says_what_particles_will_do() {
+    let place = Workplace::new();
+    let scene = SCENE.replace("mesh = { spacing", "heat = \"sph\"\nmesh = { spacing");
+    fs::write(place.path("scene.toml"), scene).unwrap();
+    let text = place.call(&["check", "scene.toml"]).succeeds().stdout();
+    for words in [
+        "neighbours; about 1 sub-step of",
+        "products a communication step",
+        "the corrected operator",
+        "plate.heat_drift",
+        "plate.fallback_particles",
+    ] {
+        assert!(text.contains(words), "{words} not in\n{text}");
+    }
+}
+
+#[test]
 fn check_refuses_a_scene_that_is_wrong_or_missing() {
     let place = Workplace::new();
     fs::write(place.path("wrong.toml"), SCENE.replace("stop_time", "stop_tme")).unwrap();

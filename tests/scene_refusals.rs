@@ -190,7 +190,7 @@ fn a_body_is_needed() {
 fn all_problems_are_reported_at_once() {
     let text = edited(PLATE, "density = 3950.0", "desnity = \"heavy\"");
     let text = edited(&text, "young = 300e9", "young = true");
-    let text = edited(&text, "heat = \"fem\"", "heat = \"sph\"");
+    let text = edited(&text, "heat = \"fem\"", "heat = \"peridynamic\"");
     let text = edited(&text, "mesh = { spacing", "mesh = { spacig");
     let text = edited(&text, "carries = [\"heat_flux\", ", "carries = [\"cold_flux\", ");
     let text = edited(&text, "at = [0.0, 0.0, 0.0]", "at = [0.0, nan, 0.0]");

@@ -2,4 +2,6 @@
 
 pub mod fem;
 
+pub mod particle_heat;
+
 pub mod sph;

@@ -2,7 +2,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use impinge::model::forecast;
+use impinge::model::{ParticleForecast, forecast};
 use impinge::scene::{
     self, Coupling, Face, Field, Footprint, Load, Probe, Scene, Shape, Solid, Wall,
 };
@@ -65,6 +65,9 @@ fn notes(scene: &Scene) -> String {
                 let _ = writeln!(text, "    nodes along {axis}: {least} to {most} apart");
             }
         }
+        if let Some(particles) = &body.particles {
+            let _ = writeln!(text, "    {}", conduction(particles, columns * rows * layers));
+        }
         let _ = writeln!(
             text,
             "    about {:.0} MB, {} to build, {} a step whose stresses are read",
@@ -96,6 +99,16 @@ fn notes(scene: &Scene) -> String {
         }
     }
     text
+}
+
+/// What particles do in a communication step.
+fn conduction(forecast: &ParticleForecast, count: usize) -> String {
+    let ParticleForecast { neighbours, sub_steps, products, euler_steps } = forecast;
+    let parts = if *sub_steps == 1 { "sub-step" } else { "sub-steps" };
+    format!(
+        "heat: {count} particles of {neighbours} neighbours; about {sub_steps} {parts} of {products} \
+         products a communication step, where explicit Euler steps would need {euler_steps}"
+    )
 }
 
 fn head(scene: &Scene) -> String {

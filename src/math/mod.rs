@@ -1,5 +1,7 @@
-//! Numerics without physics: quadrature, shape functions, separable transforms, sparse solvers.
+//! Numerics without physics: quadrature, shape functions, separable transforms, sparse solvers,
+//! exponentials of matrices.
 
+pub mod chebyshev;
 pub mod cholesky;
 pub mod exponential;
 pub mod gauss;
@@ -7,4 +9,6 @@ pub mod lagrange;
 pub mod nested_dissection;
 pub mod parallel;
 pub mod separable;
+pub mod small_inverse;
+pub mod sparse_rows;
 pub mod stencil_matrix;

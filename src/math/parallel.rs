@@ -33,6 +33,26 @@ pub fn map<T: Send>(threads: usize, count: usize, f: impl Fn(usize) -> T + Sync)
     })
 }
 
+/// `f(i, &mut items[i])` for every item, in equal shares on at most `threads` threads.
+pub fn for_each<T: Send>(threads: usize, items: &mut [T], f: impl Fn(usize, &mut T) + Sync) {
+    let threads = threads.clamp(1, items.len().max(1));
+    let share = items.len().div_ceil(threads).max(1);
+    let run = |first: usize, part: &mut [T]| {
+        part.iter_mut().enumerate().for_each(|(i, item)| f(first + i, item));
+    };
+    if threads == 1 {
+        return run(0, items);
+    }
+    let run = &run;
+    thread::scope(|scope| {
+        for (t, part) in items.chunks_mut(share).enumerate() {
+            let worker = thread::Builder::new().name(WORKER.into());
+            let work = move || run(t * share, part);
+            worker.spawn_scoped(scope, work).expect("the system starts a thread");
+        }
+    });
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -43,6 +63,9 @@ mod tests {
             for count in [0, 1, 7, 16] {
                 let expected: Vec<usize> = (0..count).map(|i| i * i).collect();
                 assert_eq!(map(threads, count, |i| i * i), expected);
+                let mut squares: Vec<usize> = (0..count).collect();
+                for_each(threads, &mut squares, |i, item| *item *= i);
+                assert_eq!(squares, expected);
             }
         }
     }

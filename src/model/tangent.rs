@@ -114,6 +114,8 @@ impl Model {
             BodyTotal::HeatIn => solid.heat_totals(unknowns).brought_in,
             BodyTotal::HeatLost => solid.heat_totals(unknowns).lost,
             BodyTotal::HeatStored => solid.heat_stored(unknowns),
+            BodyTotal::HeatDrift => solid.heat_drift(unknowns),
+            BodyTotal::FallbackParticles => 0.0,
             BodyTotal::MaxTemperature => {
                 cache.heat(self, &state.bodies, index);
                 change.heat(self, bodies, index);

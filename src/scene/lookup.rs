@@ -77,6 +77,11 @@ impl Shape {
 }
 
 impl Solid {
+    /// How particles conduct heat; `None` where finite elements do.
+    pub fn sph(&self) -> Option<SphSettings> {
+        (self.heat == HeatMethod::Sph).then(|| self.sph.unwrap_or_default())
+    }
+
     /// The conditions on a face, those of `sides` included on the lateral faces of a box.
     pub fn face(&self, name: FaceName) -> Face {
         let own = self.faces.get(&name).copied().unwrap_or_default();

@@ -3,6 +3,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::droplet::{Coupling, Droplet, Wall};
+use crate::kernel::Kernel;
 use crate::material::Material;
 
 /// Everything that a `scene.toml` says.
@@ -64,6 +65,8 @@ pub struct Solid {
     /// Discretisation of the heat equation.
     #[serde(default)]
     pub heat: HeatMethod,
+    /// How particles conduct heat; only with `heat = "sph"`.
+    pub sph: Option<SphSettings>,
     #[serde(default)]
     pub symmetry: Symmetry,
     #[serde(default)]
@@ -109,6 +112,34 @@ pub enum HeatMethod {
     /// Finite elements on the mesh of the mechanics.
     #[default]
     Fem,
+    /// Smoothed particles on the nodes of the mesh.
+    Sph,
+}
+
+/// How particles conduct heat.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SphSettings {
+    pub operator: SphOperator,
+    pub kernel: Kernel,
+    /// Support radius of the kernel in distances of particles.
+    pub support: f64,
+}
+
+impl Default for SphSettings {
+    fn default() -> Self {
+        Self { operator: SphOperator::default(), kernel: Kernel::default(), support: 3.0 }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SphOperator {
+    /// Exact for quadratics on any set of particles (Fatehi & Manzari 2011).
+    #[default]
+    Corrected,
+    /// Conserves heat pair by pair; for equal distances (Cleary & Monaghan 1999).
+    Plain,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]

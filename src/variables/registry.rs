@@ -109,6 +109,8 @@ pub enum BodyTotal {
     HeatIn,
     HeatStored,
     HeatLost,
+    HeatDrift,
+    FallbackParticles,
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -169,7 +171,17 @@ impl Component {
 impl BodyTotal {
     pub const THERMAL: [BodyTotal; 4] =
         [BodyTotal::MaxTemperature, BodyTotal::HeatIn, BodyTotal::HeatStored, BodyTotal::HeatLost];
+    /// What only particles have to tell.
+    pub const OF_PARTICLES: [BodyTotal; 2] = [BodyTotal::HeatDrift, BodyTotal::FallbackParticles];
     pub const MECHANICAL: [BodyTotal; 2] = [BodyTotal::MaxVonMises, BodyTotal::MaxPrincipal];
+
+    /// Whether no input acts on it at once.
+    fn is_accumulated(self) -> bool {
+        self == BodyTotal::HeatIn
+            || self == BodyTotal::HeatStored
+            || self == BodyTotal::HeatLost
+            || BodyTotal::OF_PARTICLES.contains(&self)
+    }
 
     fn key(self) -> &'static str {
         match self {
@@ -179,6 +191,8 @@ impl BodyTotal {
             BodyTotal::HeatIn => "heat_in",
             BodyTotal::HeatStored => "heat_stored",
             BodyTotal::HeatLost => "heat_lost",
+            BodyTotal::HeatDrift => "heat_drift",
+            BodyTotal::FallbackParticles => "fallback_particles",
         }
     }
 
@@ -192,6 +206,13 @@ impl BodyTotal {
             BodyTotal::HeatLost => {
                 "heat that has left through convective and prescribed-temperature faces"
             }
+            BodyTotal::HeatDrift => {
+                "error of the heat balance: heat stored less what came in and was not lost"
+            }
+            BodyTotal::FallbackParticles => {
+                "particles that conduct by the plain operator because the corrected one is near \
+                 singular"
+            }
         }
     }
 
@@ -199,6 +220,7 @@ impl BodyTotal {
         match self {
             BodyTotal::MaxTemperature => Quantity::Temperature,
             BodyTotal::MaxVonMises | BodyTotal::MaxPrincipal => Quantity::Stress,
+            BodyTotal::FallbackParticles => Quantity::Ratio,
             _ => Quantity::Energy,
         }
     }
@@ -274,11 +296,9 @@ impl<'a> Reach<'a> {
             Output::Field { field, component, .. } => {
                 (scene.field[*field].body_and_place().0, component.needs_mechanics(), false)
             }
-            Output::Body { body, total } => (
-                body.as_str(),
-                BodyTotal::MECHANICAL.contains(total),
-                matches!(total, BodyTotal::HeatIn | BodyTotal::HeatStored | BodyTotal::HeatLost),
-            ),
+            Output::Body { body, total } => {
+                (body.as_str(), BodyTotal::MECHANICAL.contains(total), total.is_accumulated())
+            }
             Output::Droplet { body, .. } => (body.as_str(), false, true),
             Output::Wall { wall, .. } => (scene.wall[*wall].under.as_str(), false, true),
         };
@@ -529,10 +549,12 @@ fn outputs(scene: &Scene, list: &mut Vec<Variable>) {
     for (i, field) in scene.field.iter().enumerate() {
         field_variables(i, field, list);
     }
-    for (body, _) in scene.solids() {
+    for (body, solid) in scene.solids() {
         let mechanical: &[BodyTotal] =
             if scene.asks_mechanics(body) { &BodyTotal::MECHANICAL } else { &[] };
-        for &total in BodyTotal::THERMAL.iter().chain(mechanical) {
+        let particles: &[BodyTotal] =
+            if solid.sph().is_some() { &BodyTotal::OF_PARTICLES } else { &[] };
+        for &total in BodyTotal::THERMAL.iter().chain(particles).chain(mechanical) {
             list.push(Variable {
                 name: format!("{body}.{}", total.key()),
                 description: format!("{} ({body})", total.description()),

@@ -7,6 +7,7 @@
 mod common;
 mod elasticity;
 mod heat;
+mod particles;
 mod study;
 mod thermal_stress;
 mod time;

@@ -71,6 +71,14 @@ impl Axis {
         (self.nodes.len() - 1) / self.order
     }
 
+    /// Whether all nodes stand at equal distances.
+    pub fn is_uniform(&self) -> bool {
+        let steps = || self.nodes.windows(2).map(|pair| pair[1] - pair[0]);
+        let [least, most] =
+            steps().fold([f64::INFINITY, 0.0], |[low, high], step| [low.min(step), high.max(step)]);
+        most <= least * (1.0 + 1e-6)
+    }
+
     /// End coordinates of an element.
     pub fn bounds(&self, element: usize) -> [f64; 2] {
         [self.nodes[element * self.order], self.nodes[(element + 1) * self.order]]

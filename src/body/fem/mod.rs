@@ -2,6 +2,7 @@
 
 mod axis;
 mod axisymmetric;
+mod conduction;
 mod dilatation;
 mod elastic;
 mod grading;
@@ -14,6 +15,7 @@ mod recovery;
 mod solid;
 
 pub use axis::{Axis, Weight};
+pub use conduction::particle_cost;
 pub use heat::HeatTotals;
 pub use mesh::{Geometry, Mesh, MeshFace, Parity};
 pub use plan::{Plan, Refinement};

@@ -6,7 +6,7 @@ use super::grading::{Fine, graded_ends};
 use super::heat::ThermalFace;
 use super::mesh::{Geometry, Mesh, MeshFace};
 use crate::material::{Material, Thermoelastic};
-use crate::scene::{Face, FaceName, Shape, Solid, Symmetry};
+use crate::scene::{Face, FaceName, HeatMethod, Shape, Solid, SphOperator, SphSettings, Symmetry};
 
 /// Everything that a solid's model is built from.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +14,8 @@ pub struct Plan {
     pub mesh: Mesh,
     pub law: Thermoelastic,
     pub initial_temperature: f64,
+    /// How particles conduct the heat; `None` where finite elements do.
+    pub sph: Option<SphSettings>,
     /// Conditions other than insulation.
     pub thermal_faces: Vec<(MeshFace, ThermalFace)>,
     /// For each thermal face, the face of the body that lies there and the one whose image does.
@@ -59,6 +61,9 @@ impl Plan {
                     .into(),
             );
         }
+        if let Some(settings) = solid.sph() {
+            notes.push(particle_note(&settings, &mesh));
+        }
         let (thermal_faces, face_sources) = thermal_faces(solid, &mesh);
         let supports = supports(solid, &mesh);
         let initial_temperature = solid.initial_temperature;
@@ -66,6 +71,7 @@ impl Plan {
             mesh,
             law,
             initial_temperature,
+            sph: solid.sph(),
             thermal_faces,
             face_sources,
             supports,
@@ -99,7 +105,8 @@ impl Sizes {
         notes: &mut Vec<String>,
     ) -> Self {
         let given = &solid.mesh;
-        let order = given.order.unwrap_or(DEFAULT_ORDER);
+        let default = if solid.heat == HeatMethod::Sph { 1 } else { DEFAULT_ORDER };
+        let order = given.order.unwrap_or(default);
         let width = lateral_extents(&solid.shape).into_iter().fold(f64::INFINITY, f64::min);
         let feature = refinements.iter().map(|r| r.feature).fold(width, f64::min);
         let reach = (law.diffusivity() * stop_time).sqrt();
@@ -115,6 +122,33 @@ impl Sizes {
         }
         Self { lateral, depth, growth: given.growth.unwrap_or(DEFAULT_GROWTH), order }
     }
+}
+
+impl Sizes {
+    /// Largest element where `usual` would do: without growth all are of one `size`.
+    fn coarsest(&self, usual: f64, size: f64) -> f64 {
+        if self.growth == 1.0 { size } else { usual }
+    }
+}
+
+fn particle_note(settings: &SphSettings, mesh: &Mesh) -> String {
+    let operator = match settings.operator {
+        SphOperator::Corrected if mesh.axes.iter().all(Axis::is_uniform) => {
+            "the corrected operator, which conserves heat to rounding at equal distances"
+        }
+        SphOperator::Corrected => {
+            "the corrected operator, which conserves heat only approximately on a graded mesh: see \
+             heat_drift"
+        }
+        SphOperator::Plain => {
+            "the plain operator, which conserves heat but misses the conductivity by a share that \
+             no refinement lowers"
+        }
+    };
+    format!(
+        "particles on the nodes conduct the heat by {operator}; supports of {} distances",
+        settings.support
+    )
 }
 
 /// Along which axes half the body stands for the whole.
@@ -176,7 +210,7 @@ fn build_mesh(
                 Fine { from: from - margin, to: to + margin, size: element * sizes.lateral }
             })
             .collect();
-        let coarsest = end / LATERAL_ELEMENTS;
+        let coarsest = sizes.coarsest(end / LATERAL_ELEMENTS, element * sizes.lateral);
         graded_ends(start, end, &fine, sizes.growth, coarsest)
     };
     let height = {
@@ -187,7 +221,7 @@ fn build_mesh(
             .map(|top| if top { 0.0 } else { -thickness })
             .map(|z| Fine { from: z - size, to: z + size, size })
             .collect();
-        let coarsest = (thickness / THICKNESS_ELEMENTS).max(size);
+        let coarsest = sizes.coarsest((thickness / THICKNESS_ELEMENTS).max(size), size);
         let ends = graded_ends(-thickness, 0.0, &fine, sizes.growth, coarsest);
         Axis::from_element_ends(&ends, sizes.order, Weight::Uniform)
     };

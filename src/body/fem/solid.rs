@@ -5,8 +5,9 @@ mod tangent;
 use faer::Mat;
 
 use super::axis::Axis;
+use super::conduction::Conduction;
 use super::elastic::{ElasticProblem, Strains};
-use super::heat::{HeatLoads, HeatProblem, HeatTotals};
+use super::heat::{HeatLoads, HeatTotals};
 use super::mesh::{Geometry, Mesh, Parity};
 use super::plan::Plan;
 use super::recovery::{Beyond, recovery_matrix};
@@ -20,7 +21,7 @@ pub struct SolidFem {
     mesh: Mesh,
     law: Thermoelastic,
     initial_temperature: f64,
-    heat: HeatProblem,
+    heat: Conduction,
     elastic: Option<ElasticProblem>,
     /// From strain sampling points to nodes along each axis, of even and of odd components.
     recovery: [[Mat<f64>; 2]; 3],
@@ -81,12 +82,7 @@ impl SolidFem {
     pub fn new(plan: &Plan, threads: usize) -> Result<Self, CholeskyError> {
         let mesh = plan.mesh.clone();
         let law = plan.law.clone();
-        let heat = HeatProblem::new(
-            &mesh,
-            law.heat_capacity(),
-            law.conductivity,
-            plan.thermal_faces.clone(),
-        );
+        let heat = Conduction::new(plan, threads);
         let elastic = plan
             .mechanics
             .then(|| ElasticProblem::new(&mesh, &law, plan.supports.clone(), threads));
@@ -134,15 +130,31 @@ impl SolidFem {
         self.heat.totals(state)
     }
 
+    /// Heat stored less what came in and was not lost [J].
+    pub fn heat_drift(&self, state: &[f64]) -> f64 {
+        let totals = self.heat_totals(state);
+        self.heat_stored(state) - (totals.brought_in - totals.lost)
+    }
+
     /// Temperature of the stress-free body at time zero [K].
     pub fn initial_temperature(&self) -> f64 {
         self.initial_temperature
     }
 
-    /// Temperature above the initial one at one point [K], without computing the whole field.
+    /// Number of particles without a corrected operator of their own; `None` where finite elements
+    /// conduct the heat.
+    pub fn fallback_particles(&self) -> Option<usize> {
+        self.heat.fallback()
+    }
+
+    /// Temperature above the initial one at one point [K], without computing the whole field where
+    /// the modes give it.
     pub fn rise_at(&self, state: &[f64], loads: &SolidLoads, point: [f64; 3]) -> f64 {
+        let Conduction::Modes(modes) = &self.heat else {
+            return self.rise_from(&self.temperatures(state, loads), point);
+        };
         let (place, image) = self.mesh.locate(point);
-        self.heat.temperature_at(&self.mesh, state, &loads.faces, place, image)
+        modes.temperature_at(&self.mesh, state, &loads.faces, place, image)
     }
 
     pub fn temperatures(&self, state: &[f64], loads: &SolidLoads) -> Temperatures {

@@ -4,7 +4,9 @@ use super::{Checker, LARGEST, fits, is_sound, number};
 use crate::material::Material;
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::types::{Convection, Face, FaceName, Mesh, Shape, Solid, Symmetry};
+use crate::scene::types::{
+    Convection, Face, FaceName, HeatMethod, Mesh, Shape, Solid, SphOperator, SphSettings, Symmetry,
+};
 
 pub fn check(checker: &mut Checker) {
     for (name, solid) in checker.scene.solids() {
@@ -21,6 +23,7 @@ pub fn check(checker: &mut Checker) {
         }
         symmetry(checker, &path.at("symmetry"), solid);
         mesh(checker, &path.at("mesh"), &solid.mesh, &solid.shape);
+        sph(checker, &path, solid);
     }
 }
 
@@ -136,15 +139,58 @@ fn mesh(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {
         spacing(checker, path, mesh, shape);
     }
     if let Some(growth) = mesh.growth {
-        let fine = 1.0 < growth && growth <= 2.0;
+        let fine = (1.0..=2.0).contains(&growth);
         let message = "neighbouring elements grow by a modest ratio";
-        checker.require(fine, &path.at("growth"), message, "1 < growth <= 2");
+        checker.require(fine, &path.at("growth"), message, "1 <= growth <= 2");
     }
     if let Some(order) = mesh.order {
         let fine = order == 1 || order == 2;
         let message = "no shape functions of this order";
         checker.require(fine, &path.at("order"), message, "1 (linear), 2 (quadratic)");
     }
+}
+
+/// What particles ask of a body.
+fn sph(checker: &mut Checker, path: &Path, solid: &Solid) {
+    if solid.heat != HeatMethod::Sph {
+        let message = "settings of particles, but finite elements conduct the heat";
+        let allowed = "nothing here, or heat = \"sph\"";
+        checker.require(solid.sph.is_none(), &path.at("sph"), message, allowed);
+        return;
+    }
+    let order = solid.mesh.order.unwrap_or(1);
+    let message =
+        "particles take linear elements, whose nodes have volumes like those of particles";
+    checker.require(order == 1, &path.at("mesh.order"), message, "1");
+    let SphSettings { operator, support, .. } = solid.sph.unwrap_or_default();
+    let message = "the support radius, in distances of particles, reaches too few or too many";
+    let fine = 1.0 < support && support <= MOST_SUPPORT;
+    checker.require(
+        fine,
+        &path.at("sph.support"),
+        message,
+        format!("1 < support <= {MOST_SUPPORT}"),
+    );
+    if operator == SphOperator::Plain {
+        plain_operator(checker, path, solid);
+    }
+}
+
+/// Largest support radius in distances of particles: 9³ neighbours a particle in a box.
+const MOST_SUPPORT: f64 = 5.0;
+
+/// The plain operator is wrong by a finite amount wherever distances differ.
+fn plain_operator(checker: &mut Checker, path: &Path, solid: &Solid) {
+    let mesh = &solid.mesh;
+    let at = path.at("sph.operator");
+    let message = "the plain operator needs particles at equal distances";
+    let equal = mesh.spacing.is_some() && mesh.growth == Some(1.0) && mesh.depth_spacing.is_none();
+    let allowed =
+        "corrected, or a mesh with `spacing`, without `depth_spacing`, with `growth = 1.0`";
+    checker.require(equal, &at, message, allowed);
+    let message = "the plain operator knows no radius";
+    let is_box = matches!(solid.shape, Shape::Box(_));
+    checker.require(is_box, &at, message, "corrected, or a box");
 }
 
 fn spacing(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {

@@ -1,0 +1,141 @@
+//! The heat of a solid by the method that its scene names.
+
+use super::heat::{HeatLoads, HeatProblem, HeatTotals, ThermalFace};
+use super::mesh::{Geometry, Mesh};
+use super::plan::Plan;
+use crate::body::particle_heat::{
+    Condition, Cost, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
+};
+use crate::scene::{SphOperator, SphSettings};
+
+/// The temperature of a solid and how it advances.
+pub enum Conduction {
+    /// Finite elements, exact in time by their modes.
+    Modes(Box<HeatProblem>),
+    /// Smoothed particles on the nodes.
+    Particles(Box<ParticleHeat>),
+}
+
+impl Conduction {
+    pub fn new(plan: &Plan, threads: usize) -> Self {
+        match particle_setup(plan) {
+            Some(setup) => Self::Particles(Box::new(ParticleHeat::new(setup, threads))),
+            None => Self::Modes(Box::new(HeatProblem::new(
+                &plan.mesh,
+                plan.law.heat_capacity(),
+                plan.law.conductivity,
+                plan.thermal_faces.clone(),
+            ))),
+        }
+    }
+
+    /// Length of the part of a body's state that belongs here.
+    pub fn state_len(&self) -> usize {
+        match self {
+            Self::Modes(problem) => problem.state_len(),
+            Self::Particles(problem) => problem.state_len(),
+        }
+    }
+
+    /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one
+    /// entry of `loads` for their values at the beginning and one for each derivative.
+    pub fn advance(&self, state: &mut [f64], loads: &[HeatLoads], dt: f64) {
+        match self {
+            Self::Modes(problem) => problem.advance(state, loads, dt),
+            Self::Particles(problem) => {
+                let sources: Vec<Sources> = loads.iter().map(sources).collect();
+                problem.advance(state, &sources, dt);
+            }
+        }
+    }
+
+    /// Time derivative of a state, laid out like the state; `loads` acts now and `rates` is its time
+    /// derivative.
+    pub fn rates(&self, state: &[f64], loads: &HeatLoads, rates: &HeatLoads) -> Vec<f64> {
+        match self {
+            Self::Modes(problem) => problem.rates(state, loads, rates),
+            Self::Particles(problem) => problem.rates(state, &sources(loads), &sources(rates)),
+        }
+    }
+
+    /// Heat stored since time zero [J].
+    pub fn stored(&self, state: &[f64]) -> f64 {
+        match self {
+            Self::Modes(problem) => problem.stored(state),
+            Self::Particles(problem) => problem.stored(state),
+        }
+    }
+
+    pub fn totals(&self, state: &[f64]) -> HeatTotals {
+        match self {
+            Self::Modes(problem) => problem.totals(state),
+            Self::Particles(problem) => {
+                let totals = problem.totals(state);
+                HeatTotals { brought_in: totals.brought_in, lost: totals.lost }
+            }
+        }
+    }
+
+    /// Temperature above the initial one at all nodes, class by class [K]; empty for a class that
+    /// is zero.
+    pub fn nodal(&self, state: &[f64], faces: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        match self {
+            Self::Modes(problem) => problem.nodal(state, faces),
+            Self::Particles(problem) => problem.temperatures(state, faces),
+        }
+    }
+
+    /// Number of particles without a corrected operator of their own; `None` for finite elements.
+    pub fn fallback(&self) -> Option<usize> {
+        match self {
+            Self::Modes(_) => None,
+            Self::Particles(problem) => Some(problem.fallback()),
+        }
+    }
+}
+
+fn sources<'a>(loads: &HeatLoads<'a>) -> Sources<'a> {
+    Sources { surface: loads.surface, faces: loads.faces }
+}
+
+/// What the particles of a plan will cost; `None` where finite elements conduct the heat.
+pub fn particle_cost(plan: &Plan) -> Option<Cost> {
+    particle_setup(plan).map(|setup| ParticleHeat::cost(&setup))
+}
+
+/// The particles of a plan.
+fn particle_setup(plan: &Plan) -> Option<Setup> {
+    let SphSettings { operator, kernel, support } = plan.sph?;
+    let operator = match operator {
+        SphOperator::Corrected => Operator::Corrected,
+        SphOperator::Plain => Operator::Plain,
+    };
+    let condition = |condition: ThermalFace| match condition {
+        ThermalFace::Flux => Condition::Flux,
+        ThermalFace::Prescribed => Condition::Held,
+        ThermalFace::Convective(coefficient) => Condition::Convective(coefficient),
+    };
+    let faces = plan.thermal_faces.iter().map(|&(face, kind)| Face {
+        axis: face.axis,
+        high: face.high,
+        condition: condition(kind),
+    });
+    Some(Setup {
+        axes: [0, 1, 2].map(|a| lattice_axis(&plan.mesh, a)),
+        settings: Settings { operator, kernel, support },
+        capacity: plan.law.heat_capacity(),
+        conductivity: plan.law.conductivity,
+        faces: faces.collect(),
+        classes: plan.mesh.parities().into_iter().map(|parity| parity.odd).collect(),
+        copies: plan.mesh.copies(),
+    })
+}
+
+fn lattice_axis(mesh: &Mesh, axis: usize) -> LatticeAxis {
+    LatticeAxis {
+        nodes: mesh.axes[axis].nodes.clone(),
+        measures: mesh.axes[axis].integrals(),
+        ends: [End::Mirror; 2],
+        radial: axis == 0 && mesh.geometry == Geometry::Axisymmetric,
+    }
+}

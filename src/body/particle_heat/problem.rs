@@ -1,0 +1,402 @@
+//! The heat problem of a body of particles, from its faces and loads to steps in time.
+
+use std::sync::OnceLock;
+
+use super::edges::{Edges, Inlet, face_particles};
+use super::lattice::{End, LatticeAxis};
+use super::rows::{Lattice, Settings};
+use crate::math::chebyshev::Evolution;
+use crate::math::parallel;
+use crate::math::separable::dot;
+use crate::math::sparse_rows::SparseRows;
+
+/// What the particles are and what surrounds them; ends of the axes are set by the faces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setup {
+    pub axes: [LatticeAxis; 3],
+    pub settings: Settings,
+    /// ρc [J/(m³ K)]
+    pub capacity: f64,
+    /// k [W/(m K)]
+    pub conductivity: f64,
+    pub faces: Vec<Face>,
+    /// Parts that the temperature splits into: odd or even about the low ends of x and y. The first
+    /// is even about both.
+    pub classes: Vec<[bool; 2]>,
+    /// Number of copies of the lattice that make the body.
+    pub copies: f64,
+}
+
+/// An end of an axis with a thermal condition; all others are insulated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face {
+    pub axis: usize,
+    pub high: bool,
+    pub condition: Condition,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Condition {
+    /// Heat flux into the body [W/m²].
+    Flux,
+    /// Prescribed temperature.
+    Held,
+    /// Heat transfer coefficient [W/(m² K)].
+    Convective(f64),
+}
+
+/// What drives the temperature, or a time derivative of it.
+#[derive(Debug, Clone, Copy)]
+pub struct Sources<'a> {
+    /// For each class, heat into the particles of the low and the high end of z [W]; empty for none.
+    pub surface: &'a [[Vec<f64>; 2]],
+    /// For each class and face: flux [W/m²], or temperature above the initial one [K].
+    pub faces: &'a [Vec<f64>],
+}
+
+/// Heat that has passed since time zero [J].
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Totals {
+    pub brought_in: f64,
+    pub lost: f64,
+}
+
+/// What a problem will cost, estimated from its finest particle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cost {
+    pub particles: usize,
+    /// Neighbours of a particle, itself included.
+    pub neighbours: usize,
+    /// Bound of the rates at which differences decay [1/s].
+    pub bound: f64,
+}
+
+/// Everything known before time starts.
+pub struct ParticleHeat {
+    setup: Setup,
+    threads: usize,
+    /// Made when first needed, the even one at once.
+    classes: Vec<OnceLock<Class>>,
+}
+
+/// The part of one symmetry class.
+struct Class {
+    lattice: Lattice,
+    /// Rates [1/s]; rows of held particles are empty.
+    matrix: SparseRows,
+    bound: f64,
+    inlets: Vec<Inlet>,
+    /// Heat that leaves through held and convective faces, per kelvin of each particle [W/K].
+    leak: Vec<f64>,
+    fallback: usize,
+}
+
+/// Particles whose rows are computed at a time.
+const BATCH: usize = 4096;
+
+impl ParticleHeat {
+    /// Finds neighbours and coefficients on at most `threads` threads.
+    pub fn new(setup: Setup, threads: usize) -> Self {
+        let classes = setup.classes.iter().map(|_| OnceLock::new()).collect();
+        let problem = Self { setup, threads, classes };
+        problem.class(0);
+        problem
+    }
+
+    /// What `setup` will cost, without building it.
+    pub fn cost(setup: &Setup) -> Cost {
+        let lattice = lattice(setup, [false; 2]);
+        let finest = lattice.axes.each_ref().map(|axis| {
+            let scale = |&i: &usize| axis.scale(i);
+            (0..axis.nodes.len()).min_by(|a, b| scale(a).total_cmp(&scale(b))).unwrap_or(0)
+        });
+        let row = |place| {
+            let mut row = SparseRows::default();
+            row.push(lattice.row(place).entries);
+            row
+        };
+        let bound = row(finest).spectral_bound() / setup.capacity;
+        let neighbours = row(lattice.counts().map(|count| count / 2)).entries();
+        Cost { particles: lattice.particles(), neighbours, bound }
+    }
+
+    /// Number of particles whose corrected operator is near singular, so that the plain one stands
+    /// in for it.
+    pub fn fallback(&self) -> usize {
+        self.class(0).fallback
+    }
+
+    /// Length of the part of a body's state that belongs here: temperatures of each class above the
+    /// initial one, then the two totals.
+    pub fn state_len(&self) -> usize {
+        self.classes.len() * self.particles() + 2
+    }
+
+    /// Advances `state` by `dt` [s] under sources that are polynomials in time, without error in
+    /// time: one entry of `sources` for their values at the beginning and one for each derivative.
+    pub fn advance(&self, state: &mut [f64], sources: &[Sources], dt: f64) {
+        let count = self.particles();
+        let (contents, totals) = state.split_at_mut(self.classes.len() * count);
+        for (index, content) in contents.chunks_exact_mut(count).enumerate() {
+            let last = sources.iter().rposition(|part| part.acts_on(index));
+            if last.is_some() || content.iter().any(|&v| v != 0.0) {
+                let sources = &sources[..=last.unwrap_or(0)];
+                let passed = self.advance_class(index, content, sources, dt);
+                if index == 0 {
+                    // Parts that are odd carry no heat in sum.
+                    totals[0] += self.setup.copies * passed.brought_in;
+                    totals[1] += self.setup.copies * passed.lost;
+                }
+            }
+        }
+    }
+
+    /// Time derivative of a state, laid out like the state itself; `sources` act now and `rates` are
+    /// their time derivatives. It is what the equations say, with held particles at the present
+    /// values of their faces.
+    pub fn rates(&self, state: &[f64], sources: &Sources, rates: &Sources) -> Vec<f64> {
+        let count = self.particles();
+        let mut out = Vec::with_capacity(state.len());
+        let mut totals = Totals::default();
+        for (index, content) in state.chunks_exact(count).take(self.classes.len()).enumerate() {
+            let driven = sources.acts_on(index) || rates.acts_on(index);
+            if !driven && content.iter().all(|&v| v == 0.0) {
+                out.resize(out.len() + count, 0.0);
+                continue;
+            }
+            let class = self.class(index);
+            let mut held = content.to_vec();
+            self.hold(index, &mut held, &sources.faces[index]);
+            let (mut rate, passed) = self.drive(index, sources, Some(rates));
+            parallel::for_each(self.threads, &mut rate, |row, rate| {
+                *rate += class.matrix.row_product(row, &held);
+            });
+            if index == 0 {
+                let lost = dot(&class.leak, &held) + passed.lost - self.held_heat(class, &rate);
+                totals = Totals {
+                    brought_in: self.setup.copies * passed.brought_in,
+                    lost: self.setup.copies * lost,
+                };
+            }
+            out.extend(rate);
+        }
+        out.extend([totals.brought_in, totals.lost]);
+        out
+    }
+
+    /// Heat stored since time zero [J].
+    pub fn stored(&self, state: &[f64]) -> f64 {
+        let lattice = &self.class(0).lattice;
+        let content = state[..self.particles()].iter().enumerate();
+        let sum: f64 = content.map(|(i, value)| lattice.volume(lattice.place(i)) * value).sum();
+        self.setup.copies * self.setup.capacity * sum
+    }
+
+    pub fn totals(&self, state: &[f64]) -> Totals {
+        let n = state.len();
+        Totals { brought_in: state[n - 2], lost: state[n - 1] }
+    }
+
+    /// Temperature of all particles above the initial one, class by class [K], held ones at the
+    /// present `faces`; empty for a class that is zero.
+    pub fn temperatures(&self, state: &[f64], faces: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let contents = state.chunks_exact(self.particles()).zip(faces).enumerate();
+        contents
+            .map(|(index, (content, values))| {
+                if content.iter().chain(values).all(|&v| v == 0.0) {
+                    return Vec::new();
+                }
+                let mut out = content.to_vec();
+                self.hold(index, &mut out, values);
+                out
+            })
+            .collect()
+    }
+
+    fn particles(&self) -> usize {
+        self.setup.axes.iter().map(|axis| axis.nodes.len()).product()
+    }
+
+    fn class(&self, index: usize) -> &Class {
+        self.classes[index].get_or_init(|| {
+            Class::new(&self.setup, lattice(&self.setup, self.setup.classes[index]), self.threads)
+        })
+    }
+
+    fn advance_class(
+        &self,
+        index: usize,
+        content: &mut [f64],
+        sources: &[Sources],
+        dt: f64,
+    ) -> Totals {
+        let class = self.class(index);
+        let before = self.held_heat(class, content);
+        self.hold(index, content, &sources[0].faces[index]);
+        let mut passed = Totals::default();
+        let mut drives = Vec::with_capacity(sources.len());
+        let mut weight = 1.0;
+        for (k, source) in sources.iter().enumerate() {
+            let (drive, rate) = self.drive(index, source, sources.get(k + 1));
+            drives.push(drive);
+            // ∫ t^k/k! dt
+            weight *= dt / (k + 1) as f64;
+            passed.brought_in += weight * rate.brought_in;
+            passed.lost += weight * rate.lost;
+        }
+        let evolution = Evolution {
+            apply: |row, u: &[f64]| class.matrix.row_product(row, u),
+            bound: class.bound,
+            sources: &drives,
+            threads: self.threads,
+        };
+        let leak = if index == 0 { class.leak.as_slice() } else { &[] };
+        let leaked = evolution.advance(content, leak, dt);
+        passed.lost += leaked - (self.held_heat(class, content) - before);
+        passed
+    }
+
+    /// Rate of the temperatures that `source` causes [K/s], and what it brings in and loses at once
+    /// [W]. Held particles follow their faces, whose rates are in `next`.
+    fn drive(&self, index: usize, source: &Sources, next: Option<&Sources>) -> (Vec<f64>, Totals) {
+        let class = self.class(index);
+        let (mut rate, passed) =
+            class.inflow(&self.setup, &source.surface[index], &source.faces[index]);
+        for (i, power) in rate.iter_mut().enumerate().filter(|(_, power)| **power != 0.0) {
+            *power /= self.setup.capacity * class.lattice.volume(class.lattice.place(i));
+        }
+        if let Some(next) = next {
+            self.hold(index, &mut rate, &next.faces[index]);
+        }
+        (rate, passed)
+    }
+
+    /// Gives held particles the values of their faces. A particle on the edge of two held faces
+    /// belongs to the one listed first.
+    fn hold(&self, index: usize, content: &mut [f64], values: &[f64]) {
+        let lattice = &self.class(index).lattice;
+        let odd = self.setup.classes[index];
+        let held = self.setup.faces.iter().zip(values).rev();
+        for (face, &value) in held.filter(|(face, _)| face.condition == Condition::Held) {
+            for i in face_particles(lattice, face.axis, face.high) {
+                let place = lattice.place(i);
+                let on_plane = (0..2).any(|a| odd[a] && place[a] == 0);
+                content[i] = if on_plane { 0.0 } else { value };
+            }
+        }
+    }
+
+    /// Heat in the held particles of one copy of the lattice [J], or its rate from theirs.
+    fn held_heat(&self, class: &Class, content: &[f64]) -> f64 {
+        let held = content.iter().enumerate().filter_map(|(i, value)| {
+            let place = class.lattice.place(i);
+            class.lattice.is_held(place).then(|| class.lattice.volume(place) * value)
+        });
+        self.setup.capacity * held.sum::<f64>()
+    }
+}
+
+impl Sources<'_> {
+    /// Whether there is anything but zero for a class.
+    fn acts_on(&self, index: usize) -> bool {
+        let mut values = self.faces[index].iter().chain(self.surface[index].iter().flatten());
+        values.any(|&v| v != 0.0)
+    }
+}
+
+impl Class {
+    fn new(setup: &Setup, lattice: Lattice, threads: usize) -> Self {
+        let count = lattice.particles();
+        let mut matrix = SparseRows::default();
+        let mut edges = Edges::default();
+        let mut fallback = 0;
+        for first in (0..count).step_by(BATCH) {
+            let rows = parallel::map(threads, BATCH.min(count - first), |i| {
+                let place = lattice.place(first + i);
+                (!lattice.is_held(place)).then(|| lattice.row(place))
+            });
+            for row in rows {
+                let mut row = row.unwrap_or_default();
+                fallback += usize::from(row.is_fallback);
+                edges.push(&mut row);
+                let rate = |(j, c)| (j, c / setup.capacity);
+                matrix.push(row.entries.into_iter().map(rate).collect());
+            }
+        }
+        let inlets = edges.inlets(&setup.faces, &lattice);
+        let leak = edges.leak(&lattice);
+        let mut class = Self { lattice, matrix, bound: 0.0, inlets, leak, fallback };
+        class.add_convection(setup);
+        class.bound = class.matrix.spectral_bound();
+        class
+    }
+
+    /// What the temperature of convective faces takes from the particles.
+    fn add_convection(&mut self, setup: &Setup) {
+        for face in &setup.faces {
+            let Condition::Convective(coefficient) = face.condition else { continue };
+            for inlet in self.inlets.iter().filter(|i| (i.axis, i.high) == (face.axis, face.high)) {
+                for ((&i, area), shares) in
+                    inlet.surface.iter().zip(&inlet.areas).zip(&inlet.shares)
+                {
+                    for &(j, share) in shares {
+                        let capacity = setup.capacity * self.lattice.volume(self.lattice.place(j));
+                        self.matrix.add(j, i, -coefficient * area * share / capacity);
+                    }
+                    if !shares.is_empty() {
+                        self.leak[i] += coefficient * area;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Heat into each particle that does not depend on temperatures [W], and what is brought in and
+    /// lost at once [W]: on held particles, heat goes straight through.
+    fn inflow(&self, setup: &Setup, surface: &[Vec<f64>; 2], values: &[f64]) -> (Vec<f64>, Totals) {
+        let mut power = vec![0.0; self.lattice.particles()];
+        let mut passed = Totals::default();
+        for inlet in &self.inlets {
+            let nodal = surface[usize::from(inlet.high)].iter().copied();
+            if inlet.axis == 2 {
+                inlet.spread(nodal, &mut power, &mut passed);
+            }
+            let own = |face: &Face| (face.axis, face.high) == (inlet.axis, inlet.high);
+            for (face, &value) in setup.faces.iter().zip(values).filter(|(face, _)| own(face)) {
+                match face.condition {
+                    Condition::Flux => {
+                        inlet.spread(
+                            inlet.areas.iter().map(|a| value * a),
+                            &mut power,
+                            &mut passed,
+                        );
+                    }
+                    Condition::Convective(h) => {
+                        let mut gained = Totals::default();
+                        let heat = inlet.areas.iter().map(|a| h * value * a);
+                        inlet.spread(heat, &mut power, &mut gained);
+                        // What the ambient gives to held particles they pass back to it.
+                        passed.lost -= gained.brought_in - gained.lost;
+                    }
+                    Condition::Held => {}
+                }
+            }
+        }
+        (power, passed)
+    }
+}
+
+/// The lattice with the ends that faces and symmetry give it.
+fn lattice(setup: &Setup, odd: [bool; 2]) -> Lattice {
+    let mut axes = setup.axes.clone();
+    for face in setup.faces.iter().filter(|face| face.condition == Condition::Held) {
+        axes[face.axis].ends[usize::from(face.high)] = End::Held;
+    }
+    for (axis, _) in axes.iter_mut().zip(odd).filter(|&(_, odd)| odd) {
+        axis.ends[0] = End::Held;
+    }
+    Lattice { axes, settings: setup.settings, conductivity: setup.conductivity }
+}
+
+#[cfg(test)]
+mod tests;
