@@ -130,7 +130,7 @@ pub struct BodyForecast {
 pub struct ParticleForecast {
     /// Neighbours of a particle, itself included.
     pub neighbours: usize,
-    /// Equal sub-steps, and products with the sparse matrix in each.
+    /// Equal sub-steps, and products with the sparse matrix in each while inputs are held.
     pub sub_steps: usize,
     pub products: usize,
     /// Sub-steps that the stability of the explicit Euler method would take.
