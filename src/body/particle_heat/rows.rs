@@ -48,9 +48,9 @@ pub struct Row {
     pub is_fallback: bool,
 }
 
-/// Largest ratio of distances of particles for which supports are round. Measured on a disc flux
-/// into boxes of many gradings: at 2, 3 and 4 the errors of the surface are alike, the drift of heat
-/// is least at 3 in all.
+/// Largest ratio of distances of particles for which supports are round: a compromise. Measured on a
+/// disc flux into a box of five gradings, larger ratios lose less heat in most (4 in four of five),
+/// smaller ones are more accurate in depth (at 4 µm 0.1 % at 2, 0.8 % at 3, 1.4 % at 4).
 const ROUND_ASPECT: f64 = 3.0 * (1.0 + 1e-5); // Rounding must not divide a lattice of ratio 3.
 /// How far an elongated support reaches across, in distances of particles.
 const NARROW_REACH: f64 = 1.9;
