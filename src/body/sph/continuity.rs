@@ -117,12 +117,12 @@ impl PairSum for Continuity<'_> {
         let scale = self.normalisation;
         let heating = 2.0 * self.conduction * scale / (1.0 + own[7]);
         let mut moment = [0.0; 6];
-        for n in 0..6 {
-            moment[n] = -scale * sums.moment[n].sum().into();
+        for (total, sum) in moment.iter_mut().zip(sums.moment) {
+            *total = -scale * sum.sum().into();
         }
         let mut gradient = [0.0; 3];
-        for a in 0..3 {
-            gradient[a] = scale * sums.gradient[a].sum().into();
+        for (total, sum) in gradient.iter_mut().zip(sums.gradient) {
+            *total = scale * sum.sum().into();
         }
         ContinuityRates {
             density: scale * (1.0 + own[7]) * sums.divergence.sum().into()
@@ -189,8 +189,8 @@ impl<L: Lanes> Sums<L> {
             let (a, b) = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)][n];
             self.moment[n] = self.moment[n] + e[a] * d[b];
         }
-        for a in 0..3 {
-            self.gradient[a] = self.gradient[a] + jump * e[a];
+        for (sum, e) in self.gradient.iter_mut().zip(e) {
+            *sum = *sum + jump * e;
         }
     }
 }

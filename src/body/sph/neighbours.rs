@@ -196,8 +196,9 @@ fn list(
     let mut wall = 0;
     for &(b, image) in &block.surroundings {
         let near = bounds.mirrored(image);
-        for j in b * BLOCK..((b + 1) * BLOCK).min(points.len()) {
-            if near.distance_squared(points[j]) <= reach * reach {
+        let range = b * BLOCK..((b + 1) * BLOCK).min(points.len());
+        for (j, &point) in range.clone().zip(&points[range]) {
+            if near.distance_squared(point) <= reach * reach {
                 block.sources.push(Source::new(j, image));
             }
         }

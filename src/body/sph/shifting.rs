@@ -110,8 +110,8 @@ pub fn displacement(sums: &CrowdingSums, fullness: f64, way: f64) -> [f64; 3] {
         let length = sums.normal.iter().map(|n| n * n).sum::<f64>().sqrt();
         if length > 0.0 {
             let along: f64 = (0..3).map(|a| shift[a] * sums.normal[a] / length).sum();
-            for a in 0..3 {
-                shift[a] -= along * sums.normal[a] / length;
+            for (shift, normal) in shift.iter_mut().zip(sums.normal) {
+                *shift -= along * normal / length;
             }
         }
     }
