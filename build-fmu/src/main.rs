@@ -99,14 +99,26 @@ fn unit(scene: &Scene, text: &str, library: Vec<u8>) -> Result<Vec<u8>, String> 
     archive::zip(&entries)
 }
 
+/// Writes a file, into folders that are made where they are missing.
 fn write(path: &Path, bytes: &[u8]) -> Result<String, String> {
-    fs::write(path, bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    let folders = path.parent().map_or(Ok(()), fs::create_dir_all);
+    let written = folders.and_then(|()| fs::write(path, bytes));
+    written.map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     Ok(format!("{} ({:.1} kB)", path.display(), bytes.len() as f64 / 1e3))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn missing_folders_are_made() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("out/units/plate.fmu");
+        write(&path, b"unit").unwrap();
+        assert_eq!(fs::read(&path).unwrap(), b"unit");
+        assert!(write(&path.join("below_a_file"), b"").unwrap_err().starts_with("cannot write"));
+    }
 
     const SCENE: &str = include_str!("../../tests/fmi/scene.toml");
 
