@@ -7,10 +7,13 @@ use super::types::{Answer, Integer, Reference, Refusal, Status};
 use super::unit::{Unit, explain};
 use super::values::{Kind, find};
 use crate::model::{HIGHEST_INPUT_DERIVATIVE, start_rates};
+use crate::scene::Scene;
 use crate::variables::{Output, Registry, Slot, Variable};
 
-/// Highest order of output derivatives, as the XML declares it.
-pub const HIGHEST_OUTPUT_DERIVATIVE: usize = 1;
+/// Highest order of output derivatives, as the XML declares it: the steps of particles have none.
+pub fn highest_output_derivative(scene: &Scene) -> usize {
+    if scene.droplets().next().is_some() { 0 } else { 1 }
+}
 
 impl Unit {
     /// Changes of outputs when inputs change by `changes`, and in initialization mode parameters too.
@@ -87,9 +90,10 @@ impl Unit {
     ) -> Answer<Vec<f64>> {
         let registry = Arc::clone(&self.registry);
         let outputs = outputs(&registry, references)?;
+        let highest = highest_output_derivative(&self.scene);
         for (&reference, &order) in references.iter().zip(orders) {
             let variable = &registry.variables[reference as usize];
-            check_order(variable, order, HIGHEST_OUTPUT_DERIVATIVE)?;
+            check_order(variable, order, highest)?;
         }
         let (run, state) = self.run()?;
         let tangent = match &mut run.tangent {
@@ -126,10 +130,13 @@ fn inputs<'a>(
 }
 
 fn check_order(variable: &Variable, order: Integer, highest: usize) -> Answer<()> {
-    let allowed = 1..=highest as Integer;
-    match allowed.contains(&order) {
-        true => Ok(()),
-        false => Err(Refusal::error(format!(
+    match order {
+        _ if highest == 0 => Err(Refusal::error(format!(
+            "no derivative of {}: this unit offers none of its outputs",
+            variable.name
+        ))),
+        _ if (1..=highest as Integer).contains(&order) => Ok(()),
+        _ => Err(Refusal::error(format!(
             "derivative of order {order} of {}; allowed: 1 to {highest}",
             variable.name
         ))),

@@ -8,7 +8,7 @@ use quick_xml::events::{BytesDecl, Event};
 
 use super::guid::guid;
 use super::log::Category;
-use super::rates::HIGHEST_OUTPUT_DERIVATIVE;
+use super::rates::highest_output_derivative;
 use crate::scene::Scene;
 use crate::variables::{Causality, DisplayUnit, Quantity, Registry, Value, Variable};
 
@@ -66,7 +66,7 @@ fn co_simulation(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
         ("needsExecutionTool", "false".into()),
         ("canHandleVariableCommunicationStepSize", "true".into()),
         ("canInterpolateInputs", "true".into()),
-        ("maxOutputDerivativeOrder", HIGHEST_OUTPUT_DERIVATIVE.to_string()),
+        ("maxOutputDerivativeOrder", highest_output_derivative(scene).to_string()),
         ("canBeInstantiatedOnlyOncePerProcess", "false".into()),
         ("canNotUseMemoryManagementFunctions", "true".into()),
         ("canGetAndSetFMUstate", "true".into()),
