@@ -59,9 +59,12 @@ fn disc_pressure() {
             study.print();
             // Three coarse boxes do not yet show an order in σ_zz; the discs do.
             let converging: &[usize] = if name == "disc" { &[2, 3] } else { &[3] };
-            study.require(converging, 1.3, 3e-2);
-            assert!(study.finest(2) < 6e-3);
-            assert!(study.finest(0) < 6e-3 && study.finest(1) < 1e-2);
+            // A disc is a staircase on a Cartesian mesh, of which memory bounds the finest.
+            let coarse = name == "box" && order == 2;
+            let (norm, local) = if coarse { (3e-2, 6e-3) } else { (2e-2, 5e-3) };
+            study.require(converging, 1.3, norm);
+            assert!(study.finest(2) < local);
+            assert!(study.finest(0) < local && study.finest(1) < 1e-2);
         }
     }
 }
