@@ -4,6 +4,7 @@ import ctypes
 import json
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +50,31 @@ def test_the_unit_runs(pack, scene):
     assert len(result) == 6
     for name in result.dtype.names:
         assert np.isfinite(result[name]).all(), name
+
+
+FIELD = """
+[[field]]
+name = "surface"
+on = "block.top"
+grid = [40, 40]
+gives = ["von_mises"]
+"""
+
+
+def test_ten_thousand_variables_open_quickly(pack):
+    """Tiles with a flux and a pressure each, and stresses that follow every pressure at once."""
+    gives = 'gives = ["temperature", "stress", "displacement"]'
+    many = {
+        "count = [2, 3]": "count = [100, 100]",
+        '"pressure", "shear"]': '"pressure"]',
+        gives: gives + FIELD,
+    }
+    file = str(pack("tiles", many))
+    # Not of the clock, which others stop too.
+    begin = time.process_time()
+    with Unit(file) as unit:
+        assert time.process_time() - begin < 2.0
+        assert len(unit.variables) > 20_000
 
 
 STEP, STEPS = 1e-5, 12
