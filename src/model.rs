@@ -12,6 +12,7 @@ mod sharing;
 mod start_rates;
 mod states;
 mod tangent;
+mod timeline;
 
 pub use cache::Cache;
 use contact::Contact;
@@ -23,6 +24,7 @@ use loads::BodyLoads;
 pub use reader::Reader;
 pub use start_rates::start_rates;
 pub use tangent::Tangent;
+pub use timeline::Timeline;
 
 pub use crate::body::fem::NodalFields;
 use crate::body::fem::{Geometry, Plan, Refinement, SolidFem, particle_cost};

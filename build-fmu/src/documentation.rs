@@ -181,7 +181,7 @@ fn meaning(row: &Row) -> String {
     words.join(" ")
 }
 
-fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 

@@ -5,12 +5,14 @@ mod documentation;
 mod library;
 mod lint;
 mod picture;
+mod reference;
 mod words;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use archive::Entries;
 use clap::Parser;
 use impinge::fmi::xml::model_description;
 use impinge::scene::{self, Scene};
@@ -28,11 +30,14 @@ struct Arguments {
     /// The library of impinge [default: the one beside this program]
     #[arg(long, value_name = "PATH")]
     library: Option<PathBuf>,
+    /// Run the default experiment and pack its inputs and outputs too
+    #[arg(long)]
+    reference: bool,
     /// Write only the modelDescription.xml to this file
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "library"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "library", "reference"])]
     xml: Option<PathBuf>,
     /// Check a unit of FMI 2.0, of any tool; its library is loaded to compare the GUID
-    #[arg(long, conflicts_with_all = ["output", "library", "xml"])]
+    #[arg(long, conflicts_with_all = ["output", "library", "reference", "xml"])]
     lint: bool,
     /// Say what is checked
     #[arg(long, requires = "lint")]
@@ -83,14 +88,20 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
         return write(path, model_description(&scene, &text).as_bytes());
     }
     let library = library::read(arguments.library.as_deref())?;
-    let unit = unit(&scene, &text, library)?;
+    let reference = if arguments.reference { reference::entries(&scene)? } else { Entries::new() };
+    let unit = unit(&scene, &text, library, reference)?;
     let path = arguments.output.clone().unwrap_or_else(|| format!("{}.fmu", scene.name).into());
     write(&path, &unit)
 }
 
-/// The bytes of the unit.
-fn unit(scene: &Scene, text: &str, library: Vec<u8>) -> Result<Vec<u8>, String> {
-    let mut entries: archive::Entries = documentation::licences();
+/// The bytes of the unit; `entries` come from the options.
+fn unit(
+    scene: &Scene,
+    text: &str,
+    library: Vec<u8>,
+    mut entries: Entries,
+) -> Result<Vec<u8>, String> {
+    entries.append(&mut documentation::licences());
     entries.insert("modelDescription.xml".into(), model_description(scene, text).into());
     entries.insert("resources/scene.toml".into(), text.into());
     entries.insert("documentation/index.html".into(), documentation::page(scene).into());
@@ -125,7 +136,7 @@ mod tests {
     #[test]
     fn the_same_scene_makes_the_same_bytes() {
         let scene = scene::parse(SCENE, "scene.toml").unwrap();
-        let make = || unit(&scene, SCENE, vec![1, 2, 3]).unwrap();
+        let make = || unit(&scene, SCENE, vec![1, 2, 3], Entries::new()).unwrap();
         assert_eq!(make(), make());
     }
 }

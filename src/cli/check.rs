@@ -2,7 +2,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use impinge::model::{ParticleForecast, forecast};
+use impinge::model::{ParticleForecast, Timeline, forecast};
 use impinge::scene::{
     self, Coupling, Face, Field, Footprint, Load, Probe, Scene, Shape, Solid, Wall,
 };
@@ -12,7 +12,6 @@ use serde::Serialize;
 use super::CliError;
 use super::fold::folded;
 use super::table::table;
-use super::timeline::Timeline;
 use super::units::{decimal, engineering, kelvin};
 
 /// Say what a scene will model, and what is left out and why

@@ -40,7 +40,7 @@ def pack(programs, tmp_path_factory):
     return pack
 
 
-def build(programs, scene, unit):
-    command = [programs / "build-fmu", scene, "-o", unit]
+def build(programs, scene, unit, *options):
+    command = [programs / "build-fmu", scene, "-o", unit, *options]
     made = subprocess.run(command, capture_output=True, text=True, check=False)
     assert made.returncode == 0, made.stderr
