@@ -6,6 +6,7 @@ mod library;
 mod lint;
 mod picture;
 mod reference;
+mod terminals;
 mod words;
 
 use std::fs;
@@ -105,7 +106,9 @@ fn unit(
     entries.insert("modelDescription.xml".into(), model_description(scene, text).into());
     entries.insert("resources/scene.toml".into(), text.into());
     entries.insert("documentation/index.html".into(), documentation::page(scene).into());
-    entries.insert("model.png".into(), picture::png(scene)?);
+    let icon = picture::png(scene)?;
+    entries.append(&mut terminals::entries(scene, &icon)?);
+    entries.insert("model.png".into(), icon);
     entries.insert(library::entry(&scene.name), library);
     archive::zip(&entries)
 }

@@ -27,4 +27,5 @@ mod values;
 mod variables;
 
 pub mod guid;
+pub mod terminals;
 pub mod xml;

@@ -12,8 +12,8 @@ use super::rates::highest_output_derivative;
 use crate::scene::Scene;
 use crate::variables::{Causality, DisplayUnit, Quantity, Registry, Value, Variable};
 
-type Xml = Writer<Vec<u8>>;
-type Attributes = Vec<(&'static str, String)>;
+pub(super) type Xml = Writer<Vec<u8>>;
+pub(super) type Attributes = Vec<(&'static str, String)>;
 
 /// The modelDescription.xml of a checked scene; `scene_text` is what the unit carries.
 pub fn model_description(scene: &Scene, scene_text: &str) -> String {
@@ -45,7 +45,7 @@ fn document(xml: &mut Xml, scene: &Scene, registry: &Registry, guid: String) -> 
     root.extend([
         ("license", env!("CARGO_PKG_LICENSE").into()),
         ("generationTool", concat!("impinge ", env!("CARGO_PKG_VERSION")).into()),
-        ("variableNamingConvention", "structured".into()),
+        ("variableNamingConvention", scene.naming.name().into()),
         ("numberOfEventIndicators", "0".into()),
     ]);
     let used: BTreeSet<Quantity> = registry.variables.iter().filter_map(|v| v.quantity).collect();
@@ -228,12 +228,16 @@ fn whole_number(value: f64) -> String {
     format!("{value:.0}")
 }
 
-fn leaf(xml: &mut Xml, name: &str, attributes: &[(&'static str, String)]) -> io::Result<()> {
+pub(super) fn leaf(
+    xml: &mut Xml,
+    name: &str,
+    attributes: &[(&'static str, String)],
+) -> io::Result<()> {
     let pairs = attributes.iter().map(|(key, value)| (*key, value.as_str()));
     xml.create_element(name).with_attributes(pairs).write_empty().map(drop)
 }
 
-fn parent(
+pub(super) fn parent(
     xml: &mut Xml,
     name: &str,
     attributes: &[(&'static str, String)],
