@@ -26,7 +26,7 @@ pub fn licences() -> Entries {
 
 /// The page of a scene's unit.
 pub fn page(scene: &Scene) -> String {
-    let registry = Registry::of(scene);
+    let (registry, structured) = (Registry::of(scene), Registry::structured(scene));
     let title = escape(&scene.name);
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -43,7 +43,8 @@ pub fn page(scene: &Scene) -> String {
         (Causality::Output, "Outputs", "Values at the end of a communication step."),
         (Causality::Parameter, "Parameters", "They may be set until initialisation ends."),
     ] {
-        let rows = fold(registry.variables.iter().filter(|v| v.causality() == causality));
+        let pairs = registry.variables.iter().zip(&structured.variables);
+        let rows = fold(pairs.filter(|(v, _)| v.causality() == causality));
         if !rows.is_empty() {
             section(&mut html, heading, &format!("<p>{text}</p>\n{}", table(&rows)));
         }
@@ -105,26 +106,30 @@ fn how_to_run(scene: &Scene, registry: &Registry) -> String {
 struct Row<'a> {
     first: &'a Variable,
     last: &'a Variable,
+    /// Structured name of the first one.
+    structured: &'a str,
     same_start: bool,
 }
 
-/// Neighbours that differ only in their indices become one row.
-fn fold<'a>(variables: impl Iterator<Item = &'a Variable>) -> Vec<Row<'a>> {
+/// Neighbours that differ only in their indices become one row. Each variable comes with itself under
+/// its structured name.
+fn fold<'a>(variables: impl Iterator<Item = (&'a Variable, &'a Variable)>) -> Vec<Row<'a>> {
     let mut rows: Vec<Row> = Vec::new();
-    for variable in variables {
+    for (variable, named) in variables {
+        let structured = named.name.as_str();
         match rows.last_mut() {
-            Some(row) if variable.name.contains('[') && base(variable) == base(row.first) => {
+            Some(row) if structured.contains('[') && base(structured) == base(row.structured) => {
                 row.same_start &= variable.start == row.first.start;
                 row.last = variable;
             }
-            _ => rows.push(Row { first: variable, last: variable, same_start: true }),
+            _ => rows.push(Row { first: variable, last: variable, structured, same_start: true }),
         }
     }
     rows
 }
 
-fn base(variable: &Variable) -> &str {
-    variable.name.split('[').next().unwrap_or_default()
+fn base(name: &str) -> &str {
+    name.split('[').next().unwrap_or_default()
 }
 
 fn table(rows: &[Row]) -> String {
@@ -155,8 +160,9 @@ fn name(row: &Row) -> String {
     if std::ptr::eq(row.first, row.last) {
         return row.first.name.clone();
     }
-    let last_index = row.last.name.trim_start_matches(base(row.last));
-    format!("{} … {last_index}", row.first.name)
+    let base = base(&row.first.name);
+    let last = row.last.name.strip_prefix(base).filter(|rest| rest.starts_with('['));
+    format!("{} … {}", row.first.name, last.unwrap_or(&row.last.name))
 }
 
 fn start(row: &Row) -> String {
@@ -200,5 +206,9 @@ mod tests {
         assert!(!html.contains("surface.temperature[2,2]"));
         assert!(html.contains("temperature at point … of the grid on plate.top"));
         assert!(html.contains("<p>hot &amp; &lt;fast&gt;</p>"));
+        scene.naming = impinge::scene::Naming::Flat;
+        let html = page(&scene);
+        assert!(html.contains("surface_temperature_1_1 … surface_temperature_4_4</code>"));
+        assert!(!html.contains("surface_temperature_2_2"));
     }
 }

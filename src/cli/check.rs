@@ -242,7 +242,7 @@ fn place(field: &Field) -> String {
 
 /// The variables by causality: how many, and each with its unit and start value, arrays folded.
 fn variables(scene: &Scene) -> String {
-    let registry = Registry::of(scene);
+    let (registry, structured) = (Registry::of(scene), Registry::structured(scene));
     let kinds = [
         ("Parameters", Causality::Parameter),
         ("Inputs", Causality::Input),
@@ -250,7 +250,7 @@ fn variables(scene: &Scene) -> String {
     ];
     let mut text = String::new();
     for (title, causality) in kinds {
-        let list = folded(&registry, causality);
+        let list = folded(&registry, &structured, causality);
         let values: usize = list.iter().map(|folded| folded.elements.len()).sum();
         let count = match list.len() {
             names if names == values => format!("{names}"),

@@ -77,8 +77,8 @@ fn apart(checker: &mut Checker, owners: &BTreeMap<&str, Path>) {
     for (&name, path) in owners {
         let begins =
             |other: &&str| name.strip_prefix(*other).is_some_and(|rest| rest.starts_with('_'));
-        let others = owners.keys().copied().chain(RESERVED);
-        if let Some(other) = others.filter(begins).next() {
+        let mut others = owners.keys().copied().chain(RESERVED);
+        if let Some(other) = others.find(begins) {
             let message = format!("with flat names it may be taken for a part of `{other}`");
             checker.refuse(path, message, format!("a name that does not begin with `{other}_`"));
         }
