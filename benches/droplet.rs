@@ -5,7 +5,7 @@
 use std::time::Instant;
 
 use impinge::body::sph::{
-    DropletPlan, DropletSph, Fluid, ParticleFields, Placement, Precision, Release,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release,
 };
 use impinge::kernel::Kernel;
 
@@ -41,6 +41,7 @@ fn plan(surface_tension: f64) -> DropletPlan {
         shifting: true,
         gravity: [0.0; 3],
         mirrors: [false; 2],
+        extents: [Extent::Open; 3],
         releases: vec![release],
         wall: None,
     }

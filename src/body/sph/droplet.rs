@@ -70,6 +70,9 @@ pub struct ParticleFields {
 
 impl DropletSph {
     /// `threads` = 0 is taken for 1.
+    ///
+    /// # Panics
+    /// If the plan's planes and periods do not go together, see [`Extent`](super::Extent).
     pub fn new(plan: DropletPlan, threads: usize) -> Self {
         let method = Method::of(&plan, threads.max(1));
         Self { plan, method }
@@ -157,8 +160,12 @@ impl DropletSph {
         let cloud = cloud_of(state, self.cells());
         let units = &self.method.units;
         let reference = self.reference_temperature();
+        let within = |mut x: [f64; 3]| {
+            self.method.images.wrap(&mut x);
+            x.map(|x| x * units.length)
+        };
         ParticleFields {
-            position: cloud.position.iter().map(|x| x.map(|x| x * units.length)).collect(),
+            position: cloud.position.iter().map(|&x| within(x)).collect(),
             velocity: cloud.velocity.iter().map(|v| v.map(|v| v * units.speed)).collect(),
             mass: cloud.mass.iter().map(|m| m * units.mass()).collect(),
             density: cloud.density.iter().map(|r| (1.0 + r) * units.density).collect(),

@@ -1,9 +1,9 @@
 //! Accelerations at the end of a step.
 
-use super::continuity::signs;
+use super::images::{Images, Source};
 use super::lanes::{Lanes, WIDTH, lanes};
 use super::loops::{Local, PairSum};
-use super::neighbours::{Block, Source, WALL};
+use super::neighbours::Block;
 use super::tension::PairForce;
 use crate::kernel::Shape;
 
@@ -13,12 +13,13 @@ use crate::kernel::Shape;
 ///
 /// `(1 + r_i) du_i/dt = Σ V_j F [−(p_i + p_j) x_ij + 2 ν u_ij] + Σ V_j g(q) x_ij/q`
 ///
-/// with the pair force g of surface tension. Images at the wall move against their originals, so that
-/// the fluid sticks; their pair force is a share of the fluid's, the wetting.
+/// with the pair force g of surface tension. Images across z move against their originals, so that
+/// the fluid sticks; the pair force of those at the wall is a share of the fluid's, the wetting.
 ///
 /// Sources: Morris, Fox & Zhu (1997), J. Comput. Phys. 136, 214–226, doi 10.1006/jcph.1997.5776;
 /// Tartakovsky & Meakin (2005), Phys. Rev. E 72, 026301, doi 10.1103/PhysRevE.72.026301.
 pub struct Momentum<'a> {
+    pub images: &'a Images,
     /// Position, velocity, volume and pressure of every particle.
     pub records: &'a [[f64; 8]],
     /// r of every particle.
@@ -30,8 +31,6 @@ pub struct Momentum<'a> {
     pub cohesion: PairForce,
     /// Share of the pair force that the wall has: (1 + cos θ)/2 for a contact angle θ.
     pub wetting: f64,
-    /// Pressure in the image of a particle above its own, for each length of height: 2 g H/c₀².
-    pub weight: f64,
 }
 
 /// Accelerations of one particle by fluid and by the wall.
@@ -42,19 +41,11 @@ impl PairSum for Momentum<'_> {
 
     #[inline(always)]
     fn record(&self, source: Source) -> [f64; 8] {
-        let [x, y, z] = signs(source.image());
-        let wall = source.image() & WALL != 0;
-        let stick = if wall { -1.0 } else { 1.0 };
-        let mut record = self.records[source.particle()];
-        // At the wall all of the velocity turns round, of which z has turned already.
-        let signs = [x, y, z, stick * x, stick * y, if wall { -1.0 } else { 1.0 }, 1.0, 1.0];
-        if wall {
-            record[7] += self.weight * record[2];
-        }
-        for n in 0..8 {
-            record[n] *= signs[n];
-        }
-        record
+        let image = self.images.get(source.code());
+        let [x, y, z, u, v, w, volume, pressure] = self.records[source.particle()];
+        let pressure = pressure + image.overpressure([x, y, z]);
+        let ([x, y, z], [u, v, w]) = (image.place([x, y, z]), image.stuck([u, v, w]));
+        [x, y, z, u, v, w, volume, pressure]
     }
 
     #[inline(always)]

@@ -6,6 +6,7 @@
 
 use std::ops::Range;
 
+use super::images::{Images, Source};
 use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, space_order};
 use crate::math::parallel;
@@ -17,29 +18,6 @@ const SKINS: [f64; 2] = [0.05, 0.3];
 const MARGIN: f64 = 1e-5;
 /// Growth of the surroundings at which the particles are sorted anew.
 const GROWTH: f64 = 1.2;
-
-/// Mirrors of the model as bits of an image: x = 0, y = 0, and the wall z = 0.
-pub const WALL: u8 = 4;
-
-/// A particle, or its image at some mirrors.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Source(u32);
-
-impl Source {
-    fn new(particle: usize, image: u8) -> Self {
-        Self((particle as u32) << 3 | u32::from(image))
-    }
-
-    #[inline(always)]
-    pub fn particle(self) -> usize {
-        (self.0 >> 3) as usize
-    }
-
-    #[inline(always)]
-    pub fn image(self) -> u8 {
-        (self.0 & 7) as u8
-    }
-}
 
 /// Particles that stand together and all that surrounds them.
 pub struct Block {
@@ -55,7 +33,7 @@ pub struct Block {
     places: Vec<u16>,
     /// For each particle the ends of its runs: neighbours, and images at the wall.
     ends: Vec<[u32; 2]>,
-    /// Blocks that hold all sources, with their image.
+    /// Blocks that hold all sources, with the codes of their images.
     surroundings: Vec<(usize, u8)>,
     /// How far neighbours may still move against each other.
     slack: f64,
@@ -102,7 +80,11 @@ impl Neighbours {
 
     /// Neighbours of particles that stand in the order of the tree's blocks; the lists are made when
     /// they are first needed.
+    ///
+    /// # Panics
+    /// If there are more particles than [`Source::MOST`].
     pub fn of_ordered(tree: BlockTree, particles: usize) -> Self {
+        assert!(particles <= Source::MOST, "{particles} particles, at most {}", Source::MOST);
         let block = |b: usize| Block::empty(b * BLOCK, BLOCK.min(particles - b * BLOCK));
         let blocks = (0..particles.div_ceil(BLOCK)).map(block).collect();
         Self { blocks, tree, sorted_sources: 0 }
@@ -118,12 +100,11 @@ impl Neighbours {
     }
 
     /// Makes the lists hold all neighbours of particles at `points` and on their way along `drifts`.
-    /// `mirrors` holds the bits of the mirrors of the model.
     pub fn prepare(
         &mut self,
         points: &[[f64; 3]],
         drifts: &[[f64; 3]],
-        mirrors: u8,
+        images: &Images,
         threads: usize,
     ) {
         let drift = |block: &Block| {
@@ -133,7 +114,7 @@ impl Neighbours {
         let drifts: Vec<Bounds> = self.blocks.iter().map(drift).collect();
         let mut worn = Vec::new();
         for (b, block) in self.blocks.iter_mut().enumerate() {
-            block.slack -= span(&drifts, &block.surroundings);
+            block.slack -= span(&drifts, &block.surroundings, images);
             if block.slack.is_nan() || block.slack < MARGIN {
                 worn.push(b);
             }
@@ -142,7 +123,7 @@ impl Neighbours {
             return;
         }
         self.tree.refit(points);
-        let list = |k: usize| list(worn[k] * BLOCK, points, &drifts, &self.tree, mirrors);
+        let list = |k: usize| list(worn[k] * BLOCK, points, &drifts, &self.tree, images);
         let fresh = parallel::map(threads, worn.len(), list);
         for (&b, block) in worn.iter().zip(fresh) {
             self.blocks[b] = block;
@@ -154,11 +135,10 @@ impl Neighbours {
 }
 
 /// How far particles of some blocks move against each other at most; infinite for no block.
-fn span(drifts: &[Bounds], surroundings: &[(usize, u8)]) -> f64 {
+fn span(drifts: &[Bounds], surroundings: &[(usize, u8)], images: &Images) -> f64 {
+    let drift = |&(block, code): &(usize, u8)| drifts[block].turned(images.get(code));
     let Some(first) = surroundings.first() else { return f64::INFINITY };
-    let start = drifts[first.0].mirrored(first.1);
-    let all =
-        surroundings.iter().fold(start, |all, part| all.joined(&drifts[part.0].mirrored(part.1)));
+    let all = surroundings.iter().fold(drift(first), |all, part| all.joined(&drift(part)));
     (0..3).map(|a| (all.high[a] - all.low[a]).powi(2)).sum::<f64>().sqrt()
 }
 
@@ -168,46 +148,35 @@ fn list(
     points: &[[f64; 3]],
     drifts: &[Bounds],
     tree: &BlockTree,
-    mirrors: u8,
+    images: &Images,
 ) -> Block {
     let mut block = Block::empty(first, BLOCK.min(points.len() - first));
     let own = &points[first..first + block.count];
     let bounds = Bounds::of(own.iter().copied());
     block.centre = bounds.centre();
-    let mut found = Vec::new();
-    // The wall is the highest bit, so its images come last.
-    for image in (0..8).filter(|image| image & !mirrors == 0) {
-        found.clear();
-        tree.near(&bounds, image, 1.0 + SKINS[1], &mut found);
-        block.surroundings.extend(found.iter().map(|&b| (b, image)));
-    }
-    let motion = span(drifts, &block.surroundings);
+    block.surroundings = surroundings(&bounds, tree, images, 1.0 + SKINS[1]);
+    let motion = span(drifts, &block.surroundings, images);
     let skin = (SKIN_STEPS * motion).clamp(SKINS[0], SKINS[1]).max(1.5 * motion);
     let reach = 1.0 + skin;
     if skin > SKINS[1] {
-        block.surroundings.clear();
-        for image in (0..8).filter(|image| image & !mirrors == 0) {
-            found.clear();
-            tree.near(&bounds, image, reach, &mut found);
-            block.surroundings.extend(found.iter().map(|&b| (b, image)));
-        }
+        block.surroundings = surroundings(&bounds, tree, images, reach);
     }
     block.slack = skin - motion;
     let mut wall = 0;
-    for &(b, image) in &block.surroundings {
-        let near = bounds.mirrored(image);
+    for &(b, code) in &block.surroundings {
+        let near = bounds.image(&images.get(code).inverse());
         let range = b * BLOCK..((b + 1) * BLOCK).min(points.len());
         for (j, &point) in range.clone().zip(&points[range]) {
             if near.distance_squared(point) <= reach * reach {
-                block.sources.push(Source::new(j, image));
+                block.sources.push(Source::new(j, code));
             }
         }
-        if image & WALL == 0 {
+        if !images.is_at_wall(code) {
             wall = block.sources.len();
         }
     }
     assert!(block.sources.len() < usize::from(u16::MAX), "too many particles in one place");
-    let local = Places::of(&block.sources, points, block.centre);
+    let local = Places::of(&block.sources, points, block.centre, images);
     block.places.reserve(block.count * 160);
     for point in own {
         let at = [0, 1, 2].map(|a| (point[a] - block.centre[a]) as f32);
@@ -222,17 +191,34 @@ fn list(
     block
 }
 
+/// Blocks whose images come near to `bounds`, those at the wall last.
+fn surroundings(
+    bounds: &Bounds,
+    tree: &BlockTree,
+    images: &Images,
+    reach: f64,
+) -> Vec<(usize, u8)> {
+    let mut all = Vec::new();
+    let mut found = Vec::new();
+    for &code in images.codes() {
+        found.clear();
+        tree.near(bounds, images.get(code), reach, &mut found);
+        all.extend(found.iter().map(|&b| (b, code)));
+    }
+    all
+}
+
 /// Places of the sources of a block about its centre, in single precision.
 struct Places {
     along: [Vec<f32>; 3],
 }
 
 impl Places {
-    fn of(sources: &[Source], points: &[[f64; 3]], centre: [f64; 3]) -> Self {
+    fn of(sources: &[Source], points: &[[f64; 3]], centre: [f64; 3], images: &Images) -> Self {
         let along = |a: usize| {
             let place = |source: &Source| {
-                let at = points[source.particle()][a];
-                let at = if source.image() >> a & 1 == 1 { -at } else { at };
+                let image = images.get(source.code());
+                let at = image.signs[a] * points[source.particle()][a] + image.offset[a];
                 (at - centre[a]) as f32
             };
             sources.iter().map(place).collect()
@@ -328,27 +314,31 @@ fn select_avx512(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::sph::images::Ends;
 
-    const MIRRORS: u8 = 0b101;
+    /// Two mirrors of which one is a wall; a wall, a lid and a period.
+    fn models() -> [Images; 2] {
+        let open = Ends::Planes { near: false, far: None };
+        let mirror = Ends::Planes { near: true, far: None };
+        let walls = Ends::Planes { near: true, far: Some(3.0) };
+        [[mirror, open, mirror], [Ends::Period(3.0), open, walls]]
+            .map(|ends| Images::new(ends, true, [0.0; 3]))
+    }
 
     fn number(i: usize) -> f64 {
         (i as f64 * 0.754877666).fract()
     }
 
     fn ordered(count: usize) -> (Vec<[f64; 3]>, Neighbours) {
-        let point = |i: usize| [3.0 * number(i), 3.0 * number(7 * i + 3), 2.0 * number(13 * i + 5)];
+        let point = |i: usize| [3.0 * number(i), 3.0 * number(7 * i + 3), 3.0 * number(13 * i + 5)];
         let points: Vec<_> = (0..count).map(point).collect();
         let (order, tree) = Neighbours::order(&points);
         let points = order.iter().map(|&i| points[i as usize]).collect();
         (points, Neighbours::of_ordered(tree, count))
     }
 
-    fn image(point: [f64; 3], image: u8) -> [f64; 3] {
-        [0, 1, 2].map(|a| if image >> a & 1 == 1 { -point[a] } else { point[a] })
-    }
-
     /// Asserts that the lists hold all pairs within the support, and tells how many pairs they hold.
-    fn assert_complete(points: &[[f64; 3]], neighbours: &Neighbours) -> usize {
+    fn assert_complete(points: &[[f64; 3]], neighbours: &Neighbours, images: &Images) -> usize {
         let mut listed_pairs = 0;
         for block in &neighbours.blocks {
             for k in 0..block.count {
@@ -357,13 +347,13 @@ mod tests {
                     let listed = part.iter().flatten().filter(|&&place| place > 0);
                     let listed: std::collections::HashSet<(usize, u8)> = listed
                         .map(|&place| block.sources[place as usize - 1])
-                        .map(|source| (source.particle(), source.image()))
+                        .map(|source| (source.particle(), source.code()))
                         .collect();
                     listed_pairs += listed.len();
-                    let images = (0..8).filter(|i| i & !MIRRORS == 0 && (i & WALL != 0) == wall);
-                    for code in images {
+                    let codes = images.codes().iter();
+                    for &code in codes.filter(|&&code| images.is_at_wall(code) == wall) {
                         for (j, point) in points.iter().enumerate() {
-                            let other = image(*point, code);
+                            let other = images.get(code).place(*point);
                             let square: f64 = (0..3).map(|a| (at[a] - other[a]).powi(2)).sum();
                             assert!(
                                 square >= 1.0 || listed.contains(&(j, code)),
@@ -379,47 +369,50 @@ mod tests {
 
     #[test]
     fn the_lists_hold_what_a_loop_over_all_pairs_finds() {
-        for threads in [1, 3] {
+        for (images, threads) in models().into_iter().zip([1, 3]) {
             let (points, mut neighbours) = ordered(700);
-            neighbours.prepare(&points, &vec![[0.0; 3]; 700], MIRRORS, threads);
-            let listed = assert_complete(&points, &neighbours);
+            neighbours.prepare(&points, &vec![[0.0; 3]; 700], &images, threads);
+            let listed = assert_complete(&points, &neighbours, &images);
             let near = |i: usize, code: u8| {
                 let reach = (1.0 + SKINS[0]).powi(2);
                 let square = |p: &[f64; 3]| {
-                    let other = image(*p, code);
+                    let other = images.get(code).place(*p);
                     (0..3).map(|a| (points[i][a] - other[a]).powi(2)).sum::<f64>()
                 };
                 points.iter().filter(|p| square(p) < reach).count()
             };
-            let images = [0, 1, 4, 5];
-            let all: usize = (0..700).flat_map(|i| images.map(|code| near(i, code))).sum();
+            let of_particle = |i| images.codes().iter().map(|&code| near(i, code)).sum::<usize>();
+            let all: usize = (0..700).map(of_particle).sum();
             assert_eq!(listed, all);
         }
     }
 
     #[test]
     fn the_lists_stay_complete_while_particles_move() {
-        let (mut points, mut neighbours) = ordered(700);
         let drift =
             |i: usize, step: usize| [0, 1, 2].map(|a| 0.03 * (number(i + 11 * a + step / 9) - 0.5));
-        for step in 0..40 {
-            let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
-            neighbours.prepare(&points, &drifts, MIRRORS, 1);
-            assert_complete(&points, &neighbours);
-            for (x, d) in points.iter_mut().zip(&drifts) {
-                *x = [0, 1, 2].map(|a| x[a] + d[a]);
+        for images in models() {
+            let (mut points, mut neighbours) = ordered(700);
+            for step in 0..40 {
+                let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
+                neighbours.prepare(&points, &drifts, &images, 1);
+                assert_complete(&points, &neighbours, &images);
+                for (x, d) in points.iter_mut().zip(&drifts) {
+                    *x = [0, 1, 2].map(|a| x[a] + d[a]);
+                }
+                assert_complete(&points, &neighbours, &images);
             }
-            assert_complete(&points, &neighbours);
         }
     }
 
     #[test]
     fn a_common_motion_wears_no_list_out() {
         let (mut points, mut neighbours) = ordered(500);
-        neighbours.prepare(&points, &vec![[0.0; 3]; 500], 0, 1);
+        let images = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
+        neighbours.prepare(&points, &vec![[0.0; 3]; 500], &images, 1);
         let slack = neighbours.blocks[0].slack;
         let drifts = vec![[0.5, -0.2, 0.1]; 500];
-        neighbours.prepare(&points, &drifts, 0, 1);
+        neighbours.prepare(&points, &drifts, &images, 1);
         points.iter_mut().for_each(|x| x[0] += 0.5);
         assert!((neighbours.blocks[0].slack - slack).abs() < 1e-15);
     }

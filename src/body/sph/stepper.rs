@@ -10,9 +10,10 @@ use std::f64::consts::PI;
 use super::cloud::{Cloud, Ledger};
 use super::continuity::Continuity;
 use super::failure::Failure;
+use super::images::Images;
 use super::loops::{Precision, for_all};
 use super::momentum::Momentum;
-use super::neighbours::{Neighbours, WALL};
+use super::neighbours::Neighbours;
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
 use super::tension::PairForce;
@@ -28,6 +29,7 @@ pub struct Method {
     precision: Precision,
     normalisation: f64,
     mirrors: [bool; 2],
+    pub images: Images,
     viscosity: f64,
     conduction: f64,
     diffusion: f64,
@@ -74,6 +76,7 @@ impl Method {
         let (h, c) = (units.length, units.speed);
         let normalisation = plan.kernel.scale(1.0, plan.dimension);
         let tension = fluid.surface_tension / (units.density * c * c * h);
+        let gravity = plan.gravity.map(|g| g * h / (c * c));
         Self {
             units,
             dimension: plan.dimension,
@@ -81,24 +84,20 @@ impl Method {
             precision: plan.precision,
             normalisation,
             mirrors: plan.mirrors,
+            images: Images::of(plan, h, gravity),
             viscosity: fluid.viscosity / (units.density * c * h),
             conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
             diffusion: plan.density_diffusion,
             tension,
             cohesion: PairForce::of(tension, plan.kernel, plan.dimension),
             wetting: plan.wall.as_ref().map_or(0.0, |wall| 0.5 * (1.0 + wall.contact_angle.cos())),
-            gravity: plan.gravity.map(|g| g * h / (c * c)),
+            gravity,
             heat_unit: c * c / fluid.specific_heat,
             spacing: 1.0 / plan.support,
             shifts: plan.shifting,
             wall: plan.wall.as_ref().map(|wall| wall.cells.clone()),
             threads,
         }
-    }
-
-    fn mirror_bits(&self) -> u8 {
-        let wall = if self.wall.is_some() { WALL } else { 0 };
-        u8::from(self.mirrors[0]) | u8::from(self.mirrors[1]) << 1 | wall
     }
 
     /// Largest stable step, over H/c₀.
@@ -129,6 +128,7 @@ impl<'a> Stepper<'a> {
     }
 
     fn sort(&mut self) {
+        self.cloud.position.iter_mut().for_each(|x| self.method.images.wrap(x));
         let (order, tree) = Neighbours::order(&self.cloud.position);
         self.cloud.permute(&order);
         self.neighbours = Neighbours::of_ordered(tree, self.cloud.len());
@@ -136,8 +136,8 @@ impl<'a> Stepper<'a> {
 
     /// Lists neighbours for ways that the particles are about to go.
     fn list(&mut self, drifts: &[[f64; 3]]) {
-        let (mirrors, threads) = (self.method.mirror_bits(), self.method.threads);
-        self.neighbours.prepare(&self.cloud.position, drifts, mirrors, threads);
+        let Method { images, threads, .. } = self.method;
+        self.neighbours.prepare(&self.cloud.position, drifts, images, *threads);
     }
 
     fn fastest(&self) -> f64 {
@@ -186,7 +186,8 @@ impl<'a> Stepper<'a> {
         if self.ledger.way > SHIFT_WAY {
             self.shift();
         }
-        if self.neighbours.are_scattered() {
+        let astray = self.method.images.are_astray(&self.cloud.position);
+        if astray || self.neighbours.are_scattered() {
             self.sort();
         }
         let drifts: Vec<[f64; 3]> =
@@ -237,7 +238,7 @@ impl<'a> Stepper<'a> {
     /// Gives heat [J] and impulse [N s] of a particle and of its images at mirrors to the wall below.
     fn give(&mut self, i: usize, heat: f64, impulse: [f64; 3]) {
         let Some(cells) = &self.method.wall else { return };
-        let [x, y, _] = self.cloud.position[i].map(|x| x * self.method.units.length);
+        let [x, y] = self.place(i);
         let sides = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
         for &right in sides(self.method.mirrors[0]) {
             for &back in sides(self.method.mirrors[1]) {
@@ -245,6 +246,13 @@ impl<'a> Stepper<'a> {
                 deposit(cells, self.ledger, [right * x, back * y], heat, impulse);
             }
         }
+    }
+
+    /// Where the wall is that a particle is above [m].
+    fn place(&self, i: usize) -> [f64; 2] {
+        let mut at = self.cloud.position[i];
+        self.method.images.wrap(&mut at);
+        [at[0], at[1]].map(|x| x * self.method.units.length)
     }
 
     fn change_density_and_heat(&mut self, dt: f64) {
@@ -262,6 +270,7 @@ impl<'a> Stepper<'a> {
             .collect();
         let wall_temperature: Vec<f64> = (0..cloud.len()).map(|i| self.wall_below(i)).collect();
         let pass = Continuity {
+            images: &method.images,
             records: &records,
             annexes: &annexes,
             wall_temperature: &wall_temperature,
@@ -293,11 +302,10 @@ impl<'a> Stepper<'a> {
 
     /// Temperature of the wall below a particle; the particle's own where it has no wall near.
     fn wall_below(&self, i: usize) -> f64 {
-        let [x, y, z] = self.cloud.position[i];
         match &self.method.wall {
-            Some(cells) if z < 1.0 => {
-                let length = self.method.units.length;
-                let share = cells.share(x * length, y * length);
+            Some(cells) if self.cloud.position[i][2] < 1.0 => {
+                let [x, y] = self.place(i);
+                let share = cells.share(x, y);
                 share.cells.iter().map(|&(cell, weight)| weight * self.wall_temperature[cell]).sum()
             }
             _ => self.cloud.temperature[i],
@@ -311,13 +319,13 @@ impl<'a> Stepper<'a> {
             .map(|i| record(cloud, i, velocity[i], pressure(cloud.density[i])))
             .collect();
         let pass = Momentum {
+            images: &method.images,
             records: &records,
             densities: &cloud.density,
             normalisation: method.normalisation,
             viscosity: method.viscosity,
             cohesion: method.cohesion,
             wetting: method.wetting,
-            weight: -2.0 * method.gravity[2],
         };
         self.cloud.acceleration = for_all(
             &pass,
@@ -332,17 +340,12 @@ impl<'a> Stepper<'a> {
     /// images do that pass through each other.
     fn rebound(&mut self) {
         let momentum = self.method.units.mass() * self.method.units.speed;
-        let walled = self.method.wall.is_some();
         for i in 0..self.cloud.len() {
-            for a in 0..2 {
-                if self.method.mirrors[a] && self.cloud.position[i][a] < 0.0 {
-                    self.cloud.position[i][a] *= -1.0;
-                    self.cloud.velocity[i][a] *= -1.0;
-                }
-            }
-            if walled && self.cloud.position[i][2] < 0.0 {
-                self.cloud.position[i][2] *= -1.0;
-                self.cloud.velocity[i][2] *= -1.0;
+            let below = self.cloud.position[i][2] < 0.0;
+            let signs = self.method.images.put_back(&mut self.cloud.position[i]);
+            (0..3).for_each(|a| self.cloud.velocity[i][a] *= signs[a]);
+            // Without a wall there is nothing that gets it.
+            if below && signs[2] < 0.0 {
                 let impulse = -2.0 * momentum * self.cloud.mass[i] * self.cloud.velocity[i][2];
                 self.give(i, 0.0, [0.0, 0.0, impulse]);
             }
@@ -364,6 +367,7 @@ impl<'a> Stepper<'a> {
             (0..cloud.len()).map(|i| record(cloud, i, [0.0; 3], fullness[i])).collect();
         let value = |q: f64| method.kernel.value(q, 1.0, method.dimension) / method.normalisation;
         let pass = Crowding {
+            images: &method.images,
             records: &records,
             normalisation: method.normalisation,
             reference: 1.0 / value(method.spacing),
@@ -383,15 +387,7 @@ impl<'a> Stepper<'a> {
         self.list(&shifts);
         for (x, shift) in self.cloud.position.iter_mut().zip(&shifts) {
             (0..3).for_each(|a| x[a] += shift[a]);
-        }
-        self.put_back();
-    }
-
-    /// Puts back what a shift moved through a plane.
-    fn put_back(&mut self) {
-        let planes = [self.method.mirrors[0], self.method.mirrors[1], self.method.wall.is_some()];
-        for x in &mut self.cloud.position {
-            (0..3).filter(|&a| planes[a]).for_each(|a| x[a] = x[a].abs());
+            method.images.put_back(x);
         }
     }
 
