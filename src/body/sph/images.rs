@@ -9,9 +9,9 @@ const BITS: u8 = 6;
 /// The wall z = 0 is the highest bit, so its images have the highest codes.
 const WALL: u8 = NEAR << 4;
 /// Shortest period, and least distance of planes, over H: images of images lie out of reach.
-const SHORTEST: f64 = 3.0;
+const SHORTEST: f64 = 2.0;
 /// How far beyond its period a particle may go before it is brought back, in periods.
-const ASTRAY: f64 = 0.25;
+const ASTRAY: f64 = 0.1;
 
 /// A particle, or an image of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,7 +115,7 @@ impl Images {
     /// Images of a plan, whose support radius is `length` [m], under a body force over c₀²/H.
     ///
     /// # Panics
-    /// If an axis has a period and a plane, or is shorter than three support radii.
+    /// If an axis has a period and a plane, or is shorter than two support radii.
     pub fn of(plan: &DropletPlan, length: f64, gravity: [f64; 3]) -> Self {
         let walled = plan.wall.is_some();
         let near = [plan.mirrors[0], plan.mirrors[1], walled];
@@ -133,7 +133,10 @@ impl Images {
     pub fn new(ends: [Ends; 3], walled: bool, gravity: [f64; 3]) -> Self {
         for (a, end) in ends.iter().enumerate() {
             if let Ends::Planes { far: Some(length), .. } | Ends::Period(length) = *end {
-                assert!(length >= SHORTEST, "axis {a} is {length:.2} support radii long, not 3");
+                assert!(
+                    length >= SHORTEST,
+                    "axis {a} is {length:.2} support radii long, at least 2"
+                );
             }
         }
         let axis = |a: usize, code: u8| ends[a].image(code >> (2 * a) & (NEAR | FAR));
@@ -281,6 +284,6 @@ mod tests {
     #[test]
     #[should_panic(expected = "support radii")]
     fn an_axis_in_which_images_of_images_act_is_refused() {
-        Images::new([Ends::Period(2.0), OPEN, OPEN], false, [0.0; 3]);
+        Images::new([Ends::Period(1.9), OPEN, OPEN], false, [0.0; 3]);
     }
 }

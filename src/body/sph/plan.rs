@@ -57,7 +57,7 @@ pub struct Fluid {
     pub sound_speed: f64,
 }
 
-/// How far a model goes along an axis: at least three support radii, if it ends.
+/// How far a model goes along an axis: at least two support radii, if it ends.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Extent {
     #[default]
