@@ -41,11 +41,12 @@ impl Flow {
         for &[x, z] in points {
             let [u, w] = velocity([x, z]);
             // Tait's equation of state.
-            let squeezed = 1.0 + 7.0 * pressure([x, z]) / (density * sound_speed * sound_speed);
+            let stiffness = density * sound_speed * sound_speed / 7.0;
+            let here = density * (1.0 + pressure([x, z]) / stiffness).powf(1.0 / 7.0);
             particles.position.push([x, 0.0, z]);
             particles.velocity.push([u, 0.0, w]);
-            particles.mass.push(density * spacing * spacing);
-            particles.density.push(density * squeezed.powf(1.0 / 7.0));
+            particles.mass.push(here * spacing * spacing);
+            particles.density.push(here);
             particles.temperature.push(0.0);
         }
         let drop = DropletSph::new(setup.plan(), 1);
@@ -255,17 +256,19 @@ pub struct Column;
 
 impl Column {
     const GRAVITY: f64 = 9.81;
-    /// Weight a metre of depth [N/m].
-    pub const WEIGHT: f64 = 1000.0 * Self::GRAVITY;
+    const DENSITY: f64 = 1000.0;
+    const SOUND_SPEED: f64 = 45.0;
+    /// Of the pressure, ρgH [Pa].
+    pub const SCALE: f64 = Self::DENSITY * Self::GRAVITY;
 
     pub fn start(rows: usize) -> Flow {
         let spacing = 1.0 / rows as f64;
         let setup = Setup {
             spacing,
             support: 3.0,
-            density: 1000.0,
+            density: Self::DENSITY,
             viscosity: 1e-3,
-            sound_speed: 10.0 * (2.0 * Self::GRAVITY).sqrt(),
+            sound_speed: Self::SOUND_SPEED,
             shifting: true,
             gravity: [0.0, 0.0, -Self::GRAVITY],
             extents: [Extent::Closed(1.0), Extent::Open, Extent::Open],
@@ -279,13 +282,22 @@ impl Column {
         (1.0 / Self::GRAVITY).sqrt()
     }
 
+    /// Under its weight the fluid of Tait's equation of state has the density
+    /// `(ρ/ρ₀)⁶ = 1 + 6g(H − z)/c₀²`.
     pub fn pressure([_, z]: [f64; 2]) -> f64 {
-        Self::WEIGHT * (1.0 - z)
+        let square = Self::SOUND_SPEED * Self::SOUND_SPEED;
+        let sixth_power = 1.0 + 6.0 * Self::GRAVITY * (1.0 - z) / square;
+        Self::DENSITY * square / 7.0 * (sixth_power.powf(7.0 / 6.0) - 1.0)
     }
 
-    /// Force on the wall as a mean over the last step [N/m].
+    /// Force on the wall as a mean over the last step, over the weight.
     pub fn force(flow: &Flow) -> f64 {
         let exchange = flow.drop.exchange(&flow.state);
-        -exchange.impulse[0][2] / exchange.duration
+        -exchange.impulse[0][2] / (exchange.duration * flow.totals().mass * Self::GRAVITY)
+    }
+
+    /// Kinetic energy over ρgH³.
+    pub fn motion(flow: &Flow) -> f64 {
+        flow.totals().kinetic_energy / Self::SCALE
     }
 }
