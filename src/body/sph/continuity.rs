@@ -15,7 +15,9 @@ use crate::kernel::Shape;
 ///
 /// with δ for a smoothing length H/2 and `g_i = B_i Σ V_j F (r_j − r_i) x_ij`,
 /// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. Images at planes slip in the first
-/// equation; in the second those at the wall are as much colder than it as their original is hotter.
+/// equation, and under a body force the density goes on in them as it does at rest, so that a fluid at
+/// rest is not diffused; in the second those at the wall are as much colder than it as their original
+/// is hotter.
 ///
 /// Sources: Antuono, Colagrossi & Marrone (2012), Comput. Phys. Commun. 183, 2570–2580, doi
 /// 10.1016/j.cpc.2012.07.006; Cleary & Monaghan (1999), J. Comput. Phys. 148, 227–264, doi
@@ -57,6 +59,8 @@ impl PairSum for Continuity<'_> {
     fn record(&self, source: Source) -> [f64; 8] {
         let image = self.images.get(source.code());
         let [x, y, z, u, v, w, volume, density] = self.records[source.particle()];
+        // Where the density differs little from that at rest, r is the pressure.
+        let density = density + image.overpressure([x, y, z]);
         let ([x, y, z], [u, v, w]) = (image.place([x, y, z]), image.turn([u, v, w]));
         [x, y, z, u, v, w, volume, density]
     }
@@ -64,7 +68,7 @@ impl PairSum for Continuity<'_> {
     #[inline(always)]
     fn annex(&self, source: Source) -> [f64; 4] {
         let [x, y, z, temperature] = self.annexes[source.particle()];
-        let [x, y, z] = self.images.get(source.code()).turn([x, y, z]);
+        let [x, y, z] = self.images.get(source.code()).gradient([x, y, z]);
         [x, y, z, temperature]
     }
 

@@ -81,6 +81,16 @@ impl Image {
             + self.weight[2] * (self.offset[2] - 2.0 * x[2])
     }
 
+    /// The gradient of the pressure in an image, from that of its original.
+    #[inline(always)]
+    pub fn gradient(&self, g: [f64; 3]) -> [f64; 3] {
+        [
+            self.signs[0] * g[0] + 2.0 * self.weight[0],
+            self.signs[1] * g[1] + 2.0 * self.weight[1],
+            self.signs[2] * g[2] + 2.0 * self.weight[2],
+        ]
+    }
+
     /// The image of which the original is this image.
     pub fn inverse(&self) -> Self {
         let offset = [0, 1, 2].map(|a| -self.signs[a] * self.offset[a]);
@@ -260,6 +270,7 @@ mod tests {
             // As in a fluid at rest.
             let height = image.place(x)[2] - x[2];
             assert!((image.overpressure(x) + 0.1 * height).abs() < 1e-14);
+            assert_eq!(image.gradient([0.0, 0.0, -0.1]), [0.0, 0.0, -0.1]);
         }
         let [lid, wall] = [1, 2].map(|n| images.codes()[n]);
         assert!(images.is_at_wall(wall) && !images.is_at_wall(lid));
