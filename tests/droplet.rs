@@ -34,6 +34,7 @@ fn impact(resolution: f64) -> DropletPlan {
         placement: Placement::Lattice,
         precision: Precision::Single,
         density_diffusion: 0.1,
+        corrected_diffusion: true,
         shifting: true,
         gravity: [0.0; 3],
         mirrors: [true; 2],

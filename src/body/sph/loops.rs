@@ -5,22 +5,32 @@ use num_traits::Float;
 
 use super::lanes::{Annex, Array, Lanes, Record, WIDTH};
 use super::neighbours::{Block, Source};
+use super::order::BLOCK;
 use crate::kernel::{Kernel, Number, Shape};
 use crate::math::parallel;
 use crate::with_kernel_shape;
 
-/// Blocks that share one local copy's memory.
+/// Blocks that share one local copy's memory, and their particles.
 const GROUP: usize = 4;
+pub const PART: usize = GROUP * BLOCK;
 
 /// Something to compute for every particle from its neighbours.
 pub trait PairSum: Sync {
     /// What comes out for one particle.
     type Output: Send;
 
-    /// The numbers of a source that all loops read, its image already taken: position first.
+    /// The numbers of every particle that all loops read: position first.
+    fn records(&self) -> &[[f64; 8]];
+
+    /// Those of an image.
     fn record(&self, source: Source) -> [f64; 8];
 
-    /// Further numbers, where [`Self::ANNEX`].
+    /// Further numbers of every particle, where [`Self::ANNEX`].
+    fn annexes(&self) -> &[[f64; 4]] {
+        &[]
+    }
+
+    /// Those of an image.
     fn annex(&self, _source: Source) -> [f64; 4] {
         [0.0; 4]
     }
@@ -64,42 +74,74 @@ impl<R: Float + Number> Local<R> {
         let far = R::constant(1e3);
         let [x, y, z] = block.centre;
         let centre = [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0];
-        self.records.clear();
-        self.records.push([far, far, far, R::zero(), R::zero(), R::zero(), R::zero(), R::zero()]);
         self.records.resize(block.sources.len() + 1, [R::zero(); 8]);
+        self.records[0] = [far, far, far, R::zero(), R::zero(), R::zero(), R::zero(), R::zero()];
+        let records = pass.records();
         for (local, &source) in self.records[1..].iter_mut().zip(&block.sources) {
-            let record = pass.record(source);
-            for n in 0..8 {
-                local[n] = R::constant(record[n] - centre[n]);
+            if source.is_image() {
+                *local = about(&pass.record(source), &centre);
+            } else {
+                *local = about(&records[source.particle()], &centre);
             }
         }
         if P::ANNEX {
             self.annexes.resize(block.sources.len() + 1, [R::zero(); 4]);
+            self.annexes[0] = [R::zero(); 4];
+            let annexes = pass.annexes();
             for (local, &source) in self.annexes[1..].iter_mut().zip(&block.sources) {
-                let annex = pass.annex(source);
-                for n in 0..4 {
-                    local[n] = R::constant(annex[n]);
+                if source.is_image() {
+                    *local = about(&pass.annex(source), &[0.0; 4]);
+                } else {
+                    *local = about(&annexes[source.particle()], &[0.0; 4]);
                 }
             }
         }
     }
 }
 
+/// Numbers as differences from others.
+#[inline(always)]
+fn about<R: Number, const N: usize>(numbers: &[f64; N], origin: &[f64; N]) -> [R; N] {
+    let mut local = [R::constant(0.0); N];
+    for n in 0..N {
+        local[n] = R::constant(numbers[n] - origin[n]);
+    }
+    local
+}
+
 /// Computes a sum for all particles, in their order.
-pub fn for_all<P: PairSum>(
+pub fn for_all<P: PairSum<Output: Clone + Default>>(
     pass: &P,
     blocks: &[Block],
     kernel: Kernel,
     precision: Precision,
     threads: usize,
 ) -> Vec<P::Output> {
-    let groups: Vec<&[Block]> = blocks.chunks(GROUP).collect();
-    let group =
-        |g: usize| with_kernel_shape!(kernel, S => dispatch::<P, S>(pass, groups[g], precision));
-    let results = parallel::map(threads, groups.len(), group);
-    let mut all = Vec::with_capacity(blocks.iter().map(|block| block.count).sum());
-    results.into_iter().for_each(|part| all.extend(part));
+    let count = blocks.iter().map(|block| block.count).sum();
+    let mut all = vec![P::Output::default(); count];
+    let mut parts: Vec<&mut [P::Output]> = all.chunks_mut(PART).collect();
+    let store = |part: &mut &mut [P::Output], sums: Vec<P::Output>| {
+        part.iter_mut().zip(sums).for_each(|(place, sum)| *place = sum);
+    };
+    for_parts(pass, blocks, (kernel, precision, threads), &mut parts, store);
     all
+}
+
+/// Computes a sum for all particles and gives it, [`PART`] particles at a time, to the part of them
+/// that it belongs to.
+pub fn for_parts<P: PairSum, T: Send>(
+    pass: &P,
+    blocks: &[Block],
+    (kernel, precision, threads): (Kernel, Precision, usize),
+    parts: &mut [T],
+    take: impl Fn(&mut T, Vec<P::Output>) + Sync,
+) {
+    let blocks: Vec<&[Block]> = blocks.chunks(GROUP).collect();
+    parallel::for_each(threads, parts, |p, part| {
+        let sums =
+            with_kernel_shape!(kernel, S => dispatch::<P, S>(pass, blocks[p], precision));
+        take(part, sums);
+    });
 }
 
 /// Takes the widest instructions that the processor has.

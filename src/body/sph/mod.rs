@@ -8,6 +8,7 @@ mod cloud;
 mod continuity;
 mod droplet;
 mod failure;
+mod kick;
 mod lanes;
 mod loops;
 mod momentum;

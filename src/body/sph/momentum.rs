@@ -41,6 +41,11 @@ impl PairSum for Momentum<'_> {
     type Output = Accelerations;
 
     #[inline(always)]
+    fn records(&self) -> &[[f64; 8]] {
+        self.records
+    }
+
+    #[inline(always)]
     fn record(&self, source: Source) -> [f64; 8] {
         let [x, y, z] = signs(source.image());
         let wall = source.image() & WALL != 0;

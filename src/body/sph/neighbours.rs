@@ -36,6 +36,11 @@ impl Source {
     }
 
     #[inline(always)]
+    pub fn is_image(self) -> bool {
+        self.image() != 0
+    }
+
+    #[inline(always)]
     pub fn image(self) -> u8 {
         (self.0 & 7) as u8
     }
@@ -117,36 +122,33 @@ impl Neighbours {
         self.blocks.iter().map(|block| block.sources.len()).sum()
     }
 
-    /// Makes the lists hold all neighbours of particles at `points` and on their way along `drifts`.
-    /// `mirrors` holds the bits of the mirrors of the model.
+    /// Makes the lists hold all neighbours of particles at `points` and on their way along `ways`
+    /// times `factor`. `mirrors` holds the bits of the mirrors of the model.
     pub fn prepare(
         &mut self,
         points: &[[f64; 3]],
-        drifts: &[[f64; 3]],
+        ways: &[[f64; 3]],
+        factor: f64,
         mirrors: u8,
         threads: usize,
     ) {
-        let drift = |block: &Block| {
-            let range = block.first..block.first + block.count;
-            Bounds::of(drifts[range].iter().copied())
-        };
-        let drifts: Vec<Bounds> = self.blocks.iter().map(drift).collect();
-        let mut worn = Vec::new();
-        for (b, block) in self.blocks.iter_mut().enumerate() {
+        let drifts = parallel::map(threads, self.blocks.len(), |b| {
+            let range = b * BLOCK..((b + 1) * BLOCK).min(points.len());
+            Bounds::of(ways[range].iter().map(|way| way.map(|w| factor * w)))
+        });
+        parallel::for_each(threads, &mut self.blocks, |_, block| {
             block.slack -= span(&drifts, &block.surroundings);
-            if block.slack.is_nan() || block.slack < MARGIN {
-                worn.push(b);
-            }
-        }
+        });
+        let is_worn = |block: &&mut Block| block.slack.is_nan() || block.slack < MARGIN;
+        let mut worn: Vec<&mut Block> = self.blocks.iter_mut().filter(is_worn).collect();
         if worn.is_empty() {
             return;
         }
         self.tree.refit(points);
-        let list = |k: usize| list(worn[k] * BLOCK, points, &drifts, &self.tree, mirrors);
-        let fresh = parallel::map(threads, worn.len(), list);
-        for (&b, block) in worn.iter().zip(fresh) {
-            self.blocks[b] = block;
-        }
+        let tree = &self.tree;
+        parallel::for_each(threads, &mut worn, |_, block| {
+            **block = list(block.first, points, &drifts, tree, mirrors);
+        });
         if self.sorted_sources == 0 {
             self.sorted_sources = self.sources();
         }
@@ -381,7 +383,7 @@ mod tests {
     fn the_lists_hold_what_a_loop_over_all_pairs_finds() {
         for threads in [1, 3] {
             let (points, mut neighbours) = ordered(700);
-            neighbours.prepare(&points, &vec![[0.0; 3]; 700], MIRRORS, threads);
+            neighbours.prepare(&points, &vec![[0.0; 3]; 700], 1.0, MIRRORS, threads);
             let listed = assert_complete(&points, &neighbours);
             let near = |i: usize, code: u8| {
                 let reach = (1.0 + SKINS[0]).powi(2);
@@ -404,7 +406,7 @@ mod tests {
             |i: usize, step: usize| [0, 1, 2].map(|a| 0.03 * (number(i + 11 * a + step / 9) - 0.5));
         for step in 0..40 {
             let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
-            neighbours.prepare(&points, &drifts, MIRRORS, 1);
+            neighbours.prepare(&points, &drifts, 1.0, MIRRORS, 1);
             assert_complete(&points, &neighbours);
             for (x, d) in points.iter_mut().zip(&drifts) {
                 *x = [0, 1, 2].map(|a| x[a] + d[a]);
@@ -416,10 +418,10 @@ mod tests {
     #[test]
     fn a_common_motion_wears_no_list_out() {
         let (mut points, mut neighbours) = ordered(500);
-        neighbours.prepare(&points, &vec![[0.0; 3]; 500], 0, 1);
+        neighbours.prepare(&points, &vec![[0.0; 3]; 500], 1.0, 0, 1);
         let slack = neighbours.blocks[0].slack;
         let drifts = vec![[0.5, -0.2, 0.1]; 500];
-        neighbours.prepare(&points, &drifts, 0, 1);
+        neighbours.prepare(&points, &drifts, 1.0, 0, 1);
         points.iter_mut().for_each(|x| x[0] += 0.5);
         assert!((neighbours.blocks[0].slack - slack).abs() < 1e-15);
     }
