@@ -186,11 +186,8 @@ impl<L: Lanes, const HEAT: bool, const MOMENTS: bool> Sums<L, HEAT, MOMENTS> {
         image: L,
     ) {
         for places in neighbours {
-            let annex = if HEAT || MOMENTS {
-                local.gather_annex(places)
-            } else {
-                [L::constant(0.0); 4]
-            };
+            let annex =
+                if HEAT || MOMENTS { local.gather_annex(places) } else { [L::constant(0.0); 4] };
             self.add::<S>(here, local.gather(places), annex, image);
         }
     }

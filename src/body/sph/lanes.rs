@@ -25,6 +25,16 @@ pub trait Lanes: Number {
     fn sqrt(self) -> Self;
     fn to_array(self) -> [Self::Real; WIDTH];
 
+    /// A record of differences from an origin.
+    #[inline(always)]
+    fn about(numbers: &[f64; 8], origin: &[f64; 8]) -> Record<Self::Real> {
+        let mut record = [Self::Real::constant(0.0); 8];
+        for n in 0..8 {
+            record[n] = Self::Real::constant(numbers[n] - origin[n]);
+        }
+        record
+    }
+
     /// The numbers of the records at sixteen places, number by number.
     ///
     /// # Safety
@@ -214,6 +224,17 @@ mod avx512 {
             let mut values = [0.0; WIDTH];
             unsafe { _mm512_storeu_ps(values.as_mut_ptr(), self.0) };
             values
+        }
+
+        #[inline(always)]
+        fn about(numbers: &[f64; 8], origin: &[f64; 8]) -> Record<f32> {
+            let mut record = [0.0; 8];
+            unsafe {
+                let numbers = _mm512_loadu_pd(numbers.as_ptr());
+                let away = _mm512_sub_pd(numbers, _mm512_loadu_pd(origin.as_ptr()));
+                _mm256_storeu_ps(record.as_mut_ptr(), _mm512_cvtpd_ps(away));
+            }
+            record
         }
 
         #[inline(always)]

@@ -11,7 +11,7 @@ use crate::math::parallel;
 use crate::with_kernel_shape;
 
 /// Blocks that share one local copy's memory, and their particles.
-const GROUP: usize = 4;
+const GROUP: usize = 2;
 pub const PART: usize = GROUP * BLOCK;
 
 /// Something to compute for every particle from its neighbours.
@@ -70,7 +70,7 @@ impl<R: Float + Number> Local<R> {
     }
 
     #[inline(always)]
-    fn fill<P: PairSum>(&mut self, pass: &P, block: &Block) {
+    fn fill<P: PairSum, L: Lanes<Real = R>>(&mut self, pass: &P, block: &Block) {
         let far = R::constant(1e3);
         let [x, y, z] = block.centre;
         let centre = [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0];
@@ -79,9 +79,9 @@ impl<R: Float + Number> Local<R> {
         let records = pass.records();
         for (local, &source) in self.records[1..].iter_mut().zip(&block.sources) {
             if source.is_image() {
-                *local = about(&pass.record(source), &centre);
+                *local = L::about(&pass.record(source), &centre);
             } else {
-                *local = about(&records[source.particle()], &centre);
+                *local = L::about(&records[source.particle()], &centre);
             }
         }
         if P::ANNEX {
@@ -89,24 +89,14 @@ impl<R: Float + Number> Local<R> {
             self.annexes[0] = [R::zero(); 4];
             let annexes = pass.annexes();
             for (local, &source) in self.annexes[1..].iter_mut().zip(&block.sources) {
-                if source.is_image() {
-                    *local = about(&pass.annex(source), &[0.0; 4]);
-                } else {
-                    *local = about(&annexes[source.particle()], &[0.0; 4]);
+                let annex =
+                    if source.is_image() { pass.annex(source) } else { annexes[source.particle()] };
+                for n in 0..4 {
+                    local[n] = R::constant(annex[n]);
                 }
             }
         }
     }
-}
-
-/// Numbers as differences from others.
-#[inline(always)]
-fn about<R: Number, const N: usize>(numbers: &[f64; N], origin: &[f64; N]) -> [R; N] {
-    let mut local = [R::constant(0.0); N];
-    for n in 0..N {
-        local[n] = R::constant(numbers[n] - origin[n]);
-    }
-    local
 }
 
 /// Computes a sum for all particles, in their order.
@@ -138,8 +128,7 @@ pub fn for_parts<P: PairSum, T: Send>(
 ) {
     let blocks: Vec<&[Block]> = blocks.chunks(GROUP).collect();
     parallel::for_each(threads, parts, |p, part| {
-        let sums =
-            with_kernel_shape!(kernel, S => dispatch::<P, S>(pass, blocks[p], precision));
+        let sums = with_kernel_shape!(kernel, S => dispatch::<P, S>(pass, blocks[p], precision));
         take(part, sums);
     });
 }
@@ -184,7 +173,7 @@ fn over_blocks<P: PairSum, L: Lanes, S: Shape>(pass: &P, blocks: &[Block]) -> Ve
     let mut local = Local::<L::Real>::default();
     let mut all = Vec::with_capacity(blocks.iter().map(|block| block.count).sum());
     for block in blocks {
-        local.fill(pass, block);
+        local.fill::<P, L>(pass, block);
         for k in 0..block.count {
             all.push(pass.sum::<L, S>(block, k, &local));
         }

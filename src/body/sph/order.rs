@@ -1,7 +1,7 @@
 //! Particles in an order in which near ones stand together: blocks of a balanced k-d tree.
 
 /// Particles in a block; the last block may have fewer.
-pub const BLOCK: usize = 64;
+pub const BLOCK: usize = 128;
 
 /// Corners of a box along x, y, z.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -48,7 +48,7 @@ pub struct Fluid {
     pub viscosity: f64,
     /// [J/(kg K)]
     pub specific_heat: f64,
-    /// [W/(m K)]
+    /// [W/(m K)]; 0 leaves heat out.
     pub conductivity: f64,
     /// [N/m]
     #[serde(default)]

@@ -244,8 +244,7 @@ impl<'a> Stepper<'a> {
     fn kick(&mut self, dt: f64) -> Motion {
         let Method { gravity, threads, .. } = *self.method;
         let kick = |part: &mut Part| kick(part, dt, gravity);
-        let mut motion =
-            Motion::of(parallel::map_each(threads, &mut self.cloud.parts(PART), kick));
+        let mut motion = Motion::of(parallel::map_each(threads, &mut self.cloud.parts(PART), kick));
         if dt == 0.0 {
             return motion;
         }
