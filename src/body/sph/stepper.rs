@@ -251,8 +251,8 @@ impl<'a> Stepper<'a> {
         let images = if self.method.mirrors[0] { 2.0 } else { 1.0 }
             * if self.method.mirrors[1] { 2.0 } else { 1.0 };
         let momentum = self.method.units.mass() * self.method.units.speed;
-        for n in 0..3 {
-            self.ledger.impulse_of_gravity[n] += images * momentum * motion.mass * dt * gravity[n];
+        for (impulse, gravity) in self.ledger.impulse_of_gravity.iter_mut().zip(gravity) {
+            *impulse += images * momentum * motion.mass * dt * gravity;
         }
         for i in std::mem::take(&mut motion.pushed) {
             let by_wall = self.cloud.acceleration[i][1];
