@@ -4,6 +4,7 @@
 //! x and z and counts everything per metre of depth along y.
 
 mod blue_noise;
+mod candidates;
 mod cloud;
 mod continuity;
 mod droplet;

@@ -4,8 +4,7 @@
 //! Lengths are in units of the support radius. The lists reach farther than the kernel by a skin, so
 //! that they serve until neighbours have moved against each other by its width.
 
-use std::ops::Range;
-
+use super::candidates::{Candidates, Near, Spots};
 use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, space_order};
 use crate::math::parallel;
@@ -146,8 +145,10 @@ impl Neighbours {
         }
         self.tree.refit(points);
         let tree = &self.tree;
+        let blocks: Vec<&[[f64; 3]]> = points.chunks(BLOCK).collect();
+        let spots = parallel::map(threads, blocks.len(), |b| Spots::of(blocks[b]));
         parallel::for_each(threads, &mut worn, |_, block| {
-            **block = list(block.first, points, &drifts, tree, mirrors);
+            **block = list(block.first, points, &spots, &drifts, tree, mirrors);
         });
         if self.sorted_sources == 0 {
             self.sorted_sources = self.sources();
@@ -168,6 +169,7 @@ fn span(drifts: &[Bounds], surroundings: &[(usize, u8)]) -> f64 {
 fn list(
     first: usize,
     points: &[[f64; 3]],
+    spots: &[Spots],
     drifts: &[Bounds],
     tree: &BlockTree,
     mirrors: u8,
@@ -195,26 +197,31 @@ fn list(
         }
     }
     block.slack = skin - motion;
+    let near = Near::to(&bounds, reach);
+    let mut candidates = Candidates::default();
     let mut wall = 0;
     for &(b, image) in &block.surroundings {
-        let near = bounds.mirrored(image);
-        let range = b * BLOCK..((b + 1) * BLOCK).min(points.len());
-        for (j, &point) in range.clone().zip(&points[range]) {
-            if near.distance_squared(point) <= reach * reach {
-                block.sources.push(Source::new(j, image));
-            }
-        }
+        let turned = |a: usize| if image >> a & 1 == 1 { -1.0 } else { 1.0 };
+        let signs = [turned(0), turned(1), turned(2)];
+        let away = |a: usize| signs[a] * spots[b].origin[a] - block.centre[a];
+        let shift = [away(0) as f32, away(1) as f32, away(2) as f32];
+        candidates.take(&spots[b], signs.map(|sign| sign as f32), shift, near);
+        let source = |&k: &u32| Source::new(b * BLOCK + k as usize, image);
+        block.sources.extend(candidates.numbers.iter().map(source));
         if image & WALL == 0 {
             wall = block.sources.len();
         }
     }
     assert!(block.sources.len() < usize::from(u16::MAX), "too many particles in one place");
-    let local = Places::of(&block.sources, points, block.centre);
     block.places.reserve(block.count * 160);
+    let mut places = vec![0; block.sources.len() + WIDTH];
     for point in own {
         let at = [0, 1, 2].map(|a| (point[a] - block.centre[a]) as f32);
         let ends = [0..wall, wall..block.sources.len()].map(|part| {
-            local.near(at, part, (reach * reach) as f32, &mut block.places);
+            let along = candidates.along.each_ref().map(|along| &along[part.clone()]);
+            let first = (part.start + 1) as u16;
+            let found = select(along, at, (reach * reach) as f32, first, &mut places);
+            block.places.extend_from_slice(&places[..found]);
             let full = block.places.len().next_multiple_of(WIDTH);
             block.places.resize(full, 0);
             full as u32
@@ -224,37 +231,8 @@ fn list(
     block
 }
 
-/// Places of the sources of a block about its centre, in single precision.
-struct Places {
-    along: [Vec<f32>; 3],
-}
-
-impl Places {
-    fn of(sources: &[Source], points: &[[f64; 3]], centre: [f64; 3]) -> Self {
-        let along = |a: usize| {
-            let place = |source: &Source| {
-                let at = points[source.particle()][a];
-                let at = if source.image() >> a & 1 == 1 { -at } else { at };
-                (at - centre[a]) as f32
-            };
-            sources.iter().map(place).collect()
-        };
-        Self { along: [along(0), along(1), along(2)] }
-    }
-
-    /// Appends the places within reach of a point.
-    fn near(&self, at: [f32; 3], part: Range<usize>, reach_squared: f32, places: &mut Vec<u16>) {
-        let along = self.along.each_ref().map(|along| &along[part.clone()]);
-        let start = places.len();
-        // Room for all of them, and for the last vector to be written whole.
-        places.resize(start + part.len() + WIDTH, 0);
-        let first = (part.start + 1) as u16;
-        let found = select(along, at, reach_squared, first, &mut places[start..]);
-        places.truncate(start + found);
-    }
-}
-
-/// Writes `first + k` for every k-th point within reach, in order; their number.
+/// Writes `first + k` for every k-th point within reach, in order; their number. There is room for
+/// all of them, and for the last vector to be written whole.
 fn select(
     along: [&[f32]; 3],
     at: [f32; 3],

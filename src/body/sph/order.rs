@@ -59,12 +59,6 @@ impl Bounds {
         [0, 1, 2].map(|a| 0.5 * (self.low[a] + self.high[a]))
     }
 
-    /// Square of the distance to a point, 0 inside.
-    pub fn distance_squared(&self, point: [f64; 3]) -> f64 {
-        let gap = |a: usize| (self.low[a] - point[a]).max(point[a] - self.high[a]).max(0.0);
-        (0..3).map(|a| gap(a) * gap(a)).sum()
-    }
-
     fn gap_squared(&self, other: &Self) -> f64 {
         let gap = |a: usize| (self.low[a] - other.high[a]).max(other.low[a] - self.high[a]);
         (0..3).map(|a| gap(a).max(0.0).powi(2)).sum()
