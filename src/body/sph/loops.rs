@@ -99,16 +99,17 @@ impl<R: Float + Number> Local<R> {
     }
 }
 
-/// Computes a sum for all particles, in their order.
+/// Computes a sum for all particles, in their order; the list `all` lends its memory.
 pub fn for_all<P: PairSum<Output: Clone + Default>>(
     pass: &P,
     blocks: &[Block],
     kernel: Kernel,
     precision: Precision,
     threads: usize,
+    mut all: Vec<P::Output>,
 ) -> Vec<P::Output> {
     let count = blocks.iter().map(|block| block.count).sum();
-    let mut all = vec![P::Output::default(); count];
+    all.resize(count, P::Output::default());
     let mut parts: Vec<&mut [P::Output]> = all.chunks_mut(PART).collect();
     let store = |part: &mut &mut [P::Output], sums: Vec<P::Output>| {
         part.iter_mut().zip(sums).for_each(|(place, sum)| *place = sum);

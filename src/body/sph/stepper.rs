@@ -58,8 +58,10 @@ pub struct Stepper<'a> {
     wall_temperature: &'a [f64],
     /// Whether heat is conducted: not where all temperatures are the same.
     heats: bool,
-    /// What the loops over pairs read of every particle, in memory that all of them use.
+    /// What the loops over pairs read and give, in memory that is kept for the next ones.
     records: Vec<[f64; 8]>,
+    annexes: Vec<[f64; 4]>,
+    accelerations: Vec<[[f64; 3]; 2]>,
 }
 
 /// Share of H/c₀ that a step may take.
@@ -159,6 +161,8 @@ impl<'a> Stepper<'a> {
             wall_temperature,
             heats,
             records: Vec::new(),
+            annexes: Vec::new(),
+            accelerations: Vec::new(),
         };
         stepper.sort();
         stepper
@@ -295,7 +299,8 @@ impl<'a> Stepper<'a> {
             let [x, y, z] = cloud.gradient[i];
             [x, y, z, cloud.temperature[i] + 0.5 * dt * cloud.heating[i]]
         };
-        let (mut annexes, mut wall_temperature) = (Vec::new(), Vec::new());
+        let mut annexes = std::mem::take(&mut self.annexes);
+        let mut wall_temperature = Vec::new();
         if HEAT || MOMENTS {
             fill(&mut annexes, cloud.len(), method.threads, annex);
         }
@@ -331,7 +336,7 @@ impl<'a> Stepper<'a> {
         for (i, by_wall) in heated {
             self.give(i, -heat * self.cloud.mass[i] * dt * by_wall, [0.0; 3]);
         }
-        self.records = records;
+        (self.records, self.annexes) = (records, annexes);
     }
 
     /// Temperature of the wall below a particle; the particle's own where it has no wall near.
@@ -364,13 +369,15 @@ impl<'a> Stepper<'a> {
             wetting: method.wetting,
             weight: -2.0 * method.gravity[2],
         };
-        self.cloud.acceleration = for_all(
+        let acceleration = for_all(
             &pass,
             &self.neighbours.blocks,
             method.kernel,
             method.precision,
             method.threads,
+            std::mem::take(&mut self.accelerations),
         );
+        self.accelerations = std::mem::replace(&mut self.cloud.acceleration, acceleration);
         self.records = records;
     }
 
@@ -420,6 +427,7 @@ impl<'a> Stepper<'a> {
             method.kernel,
             method.precision,
             method.threads,
+            Vec::new(),
         );
         let shifts: Vec<[f64; 3]> = sums
             .iter()
