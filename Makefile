@@ -3,12 +3,13 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+PEERS := .venv-peers
 NAMES := $(sort $(patsubst examples/%/scene.toml,%,$(wildcard examples/*/scene.toml)))
 RELEASE := target/release
 PY_FILES := $(wildcard python tests/fmpy tests/verification benches examples)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo units examples test rust-test python-test fuzz verify bench build clean
+.PHONY: help demo units examples test rust-test python-test fuzz verify bench bench-droplet build clean
 
 help: ## say what there is
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
@@ -52,6 +53,9 @@ verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent fin
 bench: build $(VENV)/ready-verify ## time against an independent finite-element code
 	$(BIN)/python benches/alumina_plate.py
 
+bench-droplet: $(PEERS)/ready ## time droplets against two other particle codes (needs g++ and OpenGL's libraries)
+	$(PEERS)/bin/python benches/droplet_peers.py
+
 build:
 	cargo build --release --workspace
 
@@ -73,7 +77,12 @@ $(VENV)/ready-verify: python/requirements-verify.txt $(VENV)/ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r python/requirements-verify.txt
 	@touch $@
 
+$(PEERS)/ready: python/requirements-peers.txt | $(VENV)/bin/python
+	@$(BIN)/python -m venv $(PEERS)
+	$(PEERS)/bin/python -m pip install --quiet --disable-pip-version-check -r python/requirements-peers.txt
+	@touch $@
+
 clean: ## remove everything that was built
 	cargo clean
-	rm -rf $(VENV) out .pytest_cache .ruff_cache
+	rm -rf $(VENV) $(PEERS) out .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -242,6 +242,7 @@ pub fn plan_of(droplet: &Droplet, cells: Option<WallCells>) -> DropletPlan {
         placement: droplet.placement,
         precision: droplet.precision,
         density_diffusion: droplet.density_diffusion,
+        corrected_diffusion: droplet.corrected_diffusion,
         shifting: droplet.shifting,
         gravity: [0.0, 0.0, -droplet.gravity],
         mirrors: droplet.mirrors(),
@@ -298,6 +299,9 @@ pub fn notes(droplet: &Droplet) -> Vec<String> {
     }
     if droplet.fluid.surface_tension == 0.0 {
         notes.push("surface tension is left out: the scene names none".to_owned());
+    }
+    if droplet.fluid.conductivity == 0.0 {
+        notes.push("heat is left out: the fluid does not conduct any".to_owned());
     }
     notes
 }

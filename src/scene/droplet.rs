@@ -45,6 +45,10 @@ pub struct Droplet {
     /// δ of the density diffusion.
     #[serde(default = "default_density_diffusion")]
     pub density_diffusion: f64,
+    /// Whether renormalised gradients correct the density diffusion, so that it leaves a fluid at
+    /// rest under gravity alone.
+    #[serde(default = "yes")]
+    pub corrected_diffusion: bool,
     /// Whether particles are moved from crowded places to empty ones.
     #[serde(default = "yes")]
     pub shifting: bool,
@@ -71,7 +75,7 @@ pub struct Fluid {
     pub viscosity: f64,
     /// [J/(kg K)]
     pub specific_heat: f64,
-    /// [W/(m K)]
+    /// [W/(m K)]; 0 leaves heat out.
     pub conductivity: f64,
     /// [N/m]
     #[serde(default)]

@@ -23,6 +23,20 @@ pub struct Cloud {
     pub moment: Vec<[f64; 6]>,
 }
 
+/// Consecutive particles, for one thread to change: the numbers of [`Cloud`] from `first` on.
+pub struct Part<'a> {
+    pub first: usize,
+    pub position: &'a mut [[f64; 3]],
+    pub velocity: &'a mut [[f64; 3]],
+    pub mass: &'a [f64],
+    pub density: &'a mut [f64],
+    pub temperature: &'a mut [f64],
+    pub heating: &'a mut [f64],
+    pub acceleration: &'a [[[f64; 3]; 2]],
+    pub gradient: &'a mut [[f64; 3]],
+    pub moment: &'a mut [[f64; 6]],
+}
+
 /// Sums over time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ledger {
@@ -59,6 +73,35 @@ impl Cloud {
     #[inline]
     pub fn volume(&self, i: usize) -> f64 {
         self.mass[i] / (1.0 + self.density[i])
+    }
+
+    /// The particles in parts of `size`, the last one of the rest.
+    pub fn parts(&mut self, size: usize) -> Vec<Part<'_>> {
+        let count = self.len();
+        let mut position = self.position.chunks_mut(size);
+        let mut velocity = self.velocity.chunks_mut(size);
+        let mut mass = self.mass.chunks(size);
+        let mut density = self.density.chunks_mut(size);
+        let mut temperature = self.temperature.chunks_mut(size);
+        let mut heating = self.heating.chunks_mut(size);
+        let mut acceleration = self.acceleration.chunks(size);
+        let mut gradient = self.gradient.chunks_mut(size);
+        let mut moment = self.moment.chunks_mut(size);
+        let part = |first| {
+            Some(Part {
+                first,
+                position: position.next()?,
+                velocity: velocity.next()?,
+                mass: mass.next()?,
+                density: density.next()?,
+                temperature: temperature.next()?,
+                heating: heating.next()?,
+                acceleration: acceleration.next()?,
+                gradient: gradient.next()?,
+                moment: moment.next()?,
+            })
+        };
+        (0..count).step_by(size).map_while(part).collect()
     }
 
     /// Adds a particle at rest density.

@@ -30,6 +30,12 @@ impl Source {
         (self.0 >> BITS) as usize
     }
 
+    /// Whether this is not the particle itself.
+    #[inline(always)]
+    pub fn is_image(self) -> bool {
+        self.code() != 0
+    }
+
     #[inline(always)]
     pub fn code(self) -> u8 {
         (self.0 & ((1 << BITS) - 1)) as u8

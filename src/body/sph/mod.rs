@@ -5,11 +5,13 @@
 //! model; all of them act by images of the particles.
 
 mod blue_noise;
+mod candidates;
 mod cloud;
 mod continuity;
 mod droplet;
 mod failure;
 mod images;
+mod kick;
 mod lanes;
 mod loops;
 mod momentum;

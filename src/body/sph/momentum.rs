@@ -40,6 +40,11 @@ impl PairSum for Momentum<'_> {
     type Output = Accelerations;
 
     #[inline(always)]
+    fn records(&self) -> &[[f64; 8]] {
+        self.records
+    }
+
+    #[inline(always)]
     fn record(&self, source: Source) -> [f64; 8] {
         let image = self.images.get(source.code());
         let [x, y, z, u, v, w, volume, pressure] = self.records[source.particle()];

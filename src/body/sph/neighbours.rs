@@ -4,8 +4,7 @@
 //! Lengths are in units of the support radius. The lists reach farther than the kernel by a skin, so
 //! that they serve until neighbours have moved against each other by its width.
 
-use std::ops::Range;
-
+use super::candidates::{Candidates, Near, Spots};
 use super::images::{Images, Source};
 use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, space_order};
@@ -99,35 +98,35 @@ impl Neighbours {
         self.blocks.iter().map(|block| block.sources.len()).sum()
     }
 
-    /// Makes the lists hold all neighbours of particles at `points` and on their way along `drifts`.
+    /// Makes the lists hold all neighbours of particles at `points` and on their way along `ways`
+    /// times `factor`.
     pub fn prepare(
         &mut self,
         points: &[[f64; 3]],
-        drifts: &[[f64; 3]],
+        ways: &[[f64; 3]],
+        factor: f64,
         images: &Images,
         threads: usize,
     ) {
-        let drift = |block: &Block| {
-            let range = block.first..block.first + block.count;
-            Bounds::of(drifts[range].iter().copied())
-        };
-        let drifts: Vec<Bounds> = self.blocks.iter().map(drift).collect();
-        let mut worn = Vec::new();
-        for (b, block) in self.blocks.iter_mut().enumerate() {
+        let drifts = parallel::map(threads, self.blocks.len(), |b| {
+            let range = b * BLOCK..((b + 1) * BLOCK).min(points.len());
+            Bounds::of(ways[range].iter().map(|way| way.map(|w| factor * w)))
+        });
+        parallel::for_each(threads, &mut self.blocks, |_, block| {
             block.slack -= span(&drifts, &block.surroundings, images);
-            if block.slack.is_nan() || block.slack < MARGIN {
-                worn.push(b);
-            }
-        }
+        });
+        let is_worn = |block: &&mut Block| block.slack.is_nan() || block.slack < MARGIN;
+        let mut worn: Vec<&mut Block> = self.blocks.iter_mut().filter(is_worn).collect();
         if worn.is_empty() {
             return;
         }
         self.tree.refit(points);
-        let list = |k: usize| list(worn[k] * BLOCK, points, &drifts, &self.tree, images);
-        let fresh = parallel::map(threads, worn.len(), list);
-        for (&b, block) in worn.iter().zip(fresh) {
-            self.blocks[b] = block;
-        }
+        let tree = &self.tree;
+        let blocks: Vec<&[[f64; 3]]> = points.chunks(BLOCK).collect();
+        let spots = parallel::map(threads, blocks.len(), |b| Spots::of(blocks[b]));
+        parallel::for_each(threads, &mut worn, |_, block| {
+            **block = list(block.first, points, &spots, &drifts, tree, images);
+        });
         if self.sorted_sources == 0 {
             self.sorted_sources = self.sources();
         }
@@ -146,6 +145,7 @@ fn span(drifts: &[Bounds], surroundings: &[(usize, u8)], images: &Images) -> f64
 fn list(
     first: usize,
     points: &[[f64; 3]],
+    spots: &[Spots],
     drifts: &[Bounds],
     tree: &BlockTree,
     images: &Images,
@@ -162,26 +162,31 @@ fn list(
         block.surroundings = surroundings(&bounds, tree, images, reach);
     }
     block.slack = skin - motion;
+    let near = Near::to(&bounds, reach);
+    let mut candidates = Candidates::default();
     let mut wall = 0;
     for &(b, code) in &block.surroundings {
-        let near = bounds.image(&images.get(code).inverse());
-        let range = b * BLOCK..((b + 1) * BLOCK).min(points.len());
-        for (j, &point) in range.clone().zip(&points[range]) {
-            if near.distance_squared(point) <= reach * reach {
-                block.sources.push(Source::new(j, code));
-            }
-        }
+        let image = images.get(code);
+        let origin = image.place(spots[b].origin);
+        let away = |a: usize| (origin[a] - block.centre[a]) as f32;
+        let shift = [away(0), away(1), away(2)];
+        candidates.take(&spots[b], image.signs.map(|sign| sign as f32), shift, near);
+        let source = |&k: &u32| Source::new(b * BLOCK + k as usize, code);
+        block.sources.extend(candidates.numbers.iter().map(source));
         if !images.is_at_wall(code) {
             wall = block.sources.len();
         }
     }
     assert!(block.sources.len() < usize::from(u16::MAX), "too many particles in one place");
-    let local = Places::of(&block.sources, points, block.centre, images);
     block.places.reserve(block.count * 160);
+    let mut places = vec![0; block.sources.len() + WIDTH];
     for point in own {
         let at = [0, 1, 2].map(|a| (point[a] - block.centre[a]) as f32);
         let ends = [0..wall, wall..block.sources.len()].map(|part| {
-            local.near(at, part, (reach * reach) as f32, &mut block.places);
+            let along = candidates.along.each_ref().map(|along| &along[part.clone()]);
+            let first = (part.start + 1) as u16;
+            let found = select(along, at, (reach * reach) as f32, first, &mut places);
+            block.places.extend_from_slice(&places[..found]);
             let full = block.places.len().next_multiple_of(WIDTH);
             block.places.resize(full, 0);
             full as u32
@@ -208,37 +213,8 @@ fn surroundings(
     all
 }
 
-/// Places of the sources of a block about its centre, in single precision.
-struct Places {
-    along: [Vec<f32>; 3],
-}
-
-impl Places {
-    fn of(sources: &[Source], points: &[[f64; 3]], centre: [f64; 3], images: &Images) -> Self {
-        let along = |a: usize| {
-            let place = |source: &Source| {
-                let image = images.get(source.code());
-                let at = image.signs[a] * points[source.particle()][a] + image.offset[a];
-                (at - centre[a]) as f32
-            };
-            sources.iter().map(place).collect()
-        };
-        Self { along: [along(0), along(1), along(2)] }
-    }
-
-    /// Appends the places within reach of a point.
-    fn near(&self, at: [f32; 3], part: Range<usize>, reach_squared: f32, places: &mut Vec<u16>) {
-        let along = self.along.each_ref().map(|along| &along[part.clone()]);
-        let start = places.len();
-        // Room for all of them, and for the last vector to be written whole.
-        places.resize(start + part.len() + WIDTH, 0);
-        let first = (part.start + 1) as u16;
-        let found = select(along, at, reach_squared, first, &mut places[start..]);
-        places.truncate(start + found);
-    }
-}
-
-/// Writes `first + k` for every k-th point within reach, in order; their number.
+/// Writes `first + k` for every k-th point within reach, in order; their number. There is room for
+/// all of them, and for the last vector to be written whole.
 fn select(
     along: [&[f32]; 3],
     at: [f32; 3],
@@ -302,9 +278,12 @@ fn select_avx512(
             let xy = _mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy));
             let square = _mm512_add_ps(xy, _mm512_mul_ps(dz, dz));
             let near = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, reach);
-            let kept = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(near, numbers));
-            _mm256_storeu_si256(places[found..].as_mut_ptr().cast(), kept);
-            found += near.count_ones() as usize;
+            // Points stand in an order in which far ones come many at a time.
+            if near != 0 {
+                let kept = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(near, numbers));
+                _mm256_storeu_si256(places[found..].as_mut_ptr().cast(), kept);
+                found += near.count_ones() as usize;
+            }
         }
         numbers = _mm512_add_epi32(numbers, ahead);
     }
@@ -371,7 +350,7 @@ mod tests {
     fn the_lists_hold_what_a_loop_over_all_pairs_finds() {
         for (images, threads) in models().into_iter().zip([1, 3]) {
             let (points, mut neighbours) = ordered(700);
-            neighbours.prepare(&points, &vec![[0.0; 3]; 700], &images, threads);
+            neighbours.prepare(&points, &vec![[0.0; 3]; 700], 1.0, &images, threads);
             let listed = assert_complete(&points, &neighbours, &images);
             let near = |i: usize, code: u8| {
                 let reach = (1.0 + SKINS[0]).powi(2);
@@ -395,7 +374,7 @@ mod tests {
             let (mut points, mut neighbours) = ordered(700);
             for step in 0..40 {
                 let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
-                neighbours.prepare(&points, &drifts, &images, 1);
+                neighbours.prepare(&points, &drifts, 1.0, &images, 1);
                 assert_complete(&points, &neighbours, &images);
                 for (x, d) in points.iter_mut().zip(&drifts) {
                     *x = [0, 1, 2].map(|a| x[a] + d[a]);
@@ -409,10 +388,10 @@ mod tests {
     fn a_common_motion_wears_no_list_out() {
         let (mut points, mut neighbours) = ordered(500);
         let images = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
-        neighbours.prepare(&points, &vec![[0.0; 3]; 500], &images, 1);
+        neighbours.prepare(&points, &vec![[0.0; 3]; 500], 1.0, &images, 1);
         let slack = neighbours.blocks[0].slack;
         let drifts = vec![[0.5, -0.2, 0.1]; 500];
-        neighbours.prepare(&points, &drifts, &images, 1);
+        neighbours.prepare(&points, &drifts, 1.0, &images, 1);
         points.iter_mut().for_each(|x| x[0] += 0.5);
         assert!((neighbours.blocks[0].slack - slack).abs() < 1e-15);
     }

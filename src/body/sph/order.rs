@@ -3,7 +3,7 @@
 use super::images::Image;
 
 /// Particles in a block; the last block may have fewer.
-pub const BLOCK: usize = 64;
+pub const BLOCK: usize = 128;
 
 /// Corners of a box along x, y, z.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,12 +63,6 @@ impl Bounds {
 
     pub fn centre(&self) -> [f64; 3] {
         [0, 1, 2].map(|a| 0.5 * (self.low[a] + self.high[a]))
-    }
-
-    /// Square of the distance to a point, 0 inside.
-    pub fn distance_squared(&self, point: [f64; 3]) -> f64 {
-        let gap = |a: usize| (self.low[a] - point[a]).max(point[a] - self.high[a]).max(0.0);
-        (0..3).map(|a| gap(a) * gap(a)).sum()
     }
 
     fn gap_squared(&self, other: &Self) -> f64 {

@@ -23,6 +23,9 @@ pub struct DropletPlan {
     pub precision: Precision,
     /// δ of the density diffusion, for a smoothing length H/2.
     pub density_diffusion: f64,
+    /// Whether density diffusion is corrected by renormalised gradients, which leaves linear
+    /// densities (such as of a fluid at rest under gravity) as they are.
+    pub corrected_diffusion: bool,
     /// Whether particles are moved from crowded places to empty ones.
     pub shifting: bool,
     /// Body force a mass [m/s²].
@@ -47,7 +50,7 @@ pub struct Fluid {
     pub viscosity: f64,
     /// [J/(kg K)]
     pub specific_heat: f64,
-    /// [W/(m K)]
+    /// [W/(m K)]; 0 leaves heat out.
     pub conductivity: f64,
     /// [N/m]
     #[serde(default)]

@@ -30,7 +30,7 @@ pub struct Crowding<'a> {
 }
 
 /// What tells how to move a particle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CrowdingSums {
     pub gradient: [f64; 3],
     /// Σ V_j (λ_j − λ_i) F x_ij.
@@ -41,6 +41,11 @@ pub struct CrowdingSums {
 
 impl PairSum for Crowding<'_> {
     type Output = CrowdingSums;
+
+    #[inline(always)]
+    fn records(&self) -> &[[f64; 8]] {
+        self.records
+    }
 
     #[inline(always)]
     fn record(&self, source: Source) -> [f64; 8] {

@@ -7,11 +7,12 @@
 
 use std::f64::consts::PI;
 
-use super::cloud::{Cloud, Ledger};
-use super::continuity::Continuity;
+use super::cloud::{Cloud, Ledger, Part};
+use super::continuity::{Continuity, ContinuityRates};
 use super::failure::Failure;
 use super::images::Images;
-use super::loops::{Precision, for_all};
+use super::kick::{DENSITIES, Motion, kick};
+use super::loops::{PART, Precision, for_all, for_parts};
 use super::momentum::Momentum;
 use super::neighbours::Neighbours;
 use super::plan::DropletPlan;
@@ -20,6 +21,7 @@ use super::tension::PairForce;
 use super::units::{Units, pressure};
 use super::wall::{WallCells, WallExchange};
 use crate::kernel::Kernel;
+use crate::math::parallel;
 
 /// Numbers of the method that a plan fixes, without dimension.
 pub struct Method {
@@ -33,6 +35,8 @@ pub struct Method {
     viscosity: f64,
     conduction: f64,
     diffusion: f64,
+    /// Whether density diffusion is corrected by renormalised gradients.
+    corrects: bool,
     /// Surface tension over ρ₀c₀²H, and the pair force that makes it.
     tension: f64,
     cohesion: PairForce,
@@ -54,6 +58,12 @@ pub struct Stepper<'a> {
     neighbours: Neighbours,
     /// Temperature of each wall cell above the reference.
     wall_temperature: &'a [f64],
+    /// Whether heat is conducted: not where all temperatures are the same.
+    heats: bool,
+    /// What the loops over pairs read and give, in memory that is kept for the next ones.
+    records: Vec<[f64; 8]>,
+    annexes: Vec<[f64; 4]>,
+    accelerations: Vec<[[f64; 3]; 2]>,
 }
 
 /// Share of H/c₀ that a step may take.
@@ -62,8 +72,6 @@ const COURANT: f64 = 0.2;
 const DIFFUSIVE: f64 = 0.02;
 const FORCED: f64 = 0.18;
 const CAPILLARY: f64 = 0.25;
-/// Densities over that at rest which no weakly compressible flow has.
-const DENSITIES: [f64; 2] = [0.3, 3.0];
 /// Way at the mean speed over H after which particles are moved from crowded places.
 const SHIFT_WAY: f64 = 0.1;
 /// Determinant below which a moment matrix is not inverted.
@@ -88,6 +96,7 @@ impl Method {
             viscosity: fluid.viscosity / (units.density * c * h),
             conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
             diffusion: plan.density_diffusion,
+            corrects: plan.corrected_diffusion && plan.density_diffusion > 0.0,
             tension,
             cohesion: PairForce::of(tension, plan.kernel, plan.dimension),
             wetting: plan.wall.as_ref().map_or(0.0, |wall| 0.5 * (1.0 + wall.contact_angle.cos())),
@@ -98,6 +107,26 @@ impl Method {
             wall: plan.wall.as_ref().map(|wall| wall.cells.clone()),
             threads,
         }
+    }
+
+    /// Changes density and temperature of the k-th particle of a part at its rates.
+    fn change<const MOMENTS: bool>(
+        &self,
+        part: &mut Part,
+        k: usize,
+        rate: &ContinuityRates,
+        dt: f64,
+    ) {
+        if MOMENTS {
+            let moment = filled(rate.moment, self.dimension);
+            part.moment[k] = moment;
+            if self.corrects {
+                part.gradient[k] = renormalised(&moment, rate.gradient);
+            }
+        }
+        part.density[k] += dt * rate.density;
+        part.heating[k] = rate.temperature[0] + rate.temperature[1];
+        part.temperature[k] += dt * part.heating[k];
     }
 
     /// Largest stable step, over H/c₀.
@@ -121,8 +150,19 @@ impl<'a> Stepper<'a> {
         ledger: &'a mut Ledger,
         wall_temperature: &'a [f64],
     ) -> Self {
-        let neighbours = Neighbours::default();
-        let mut stepper = Self { method, cloud, ledger, neighbours, wall_temperature };
+        let temperatures = cloud.temperature.iter().chain(wall_temperature);
+        let heats = method.conduction > 0.0 && differ(temperatures.copied());
+        let mut stepper = Self {
+            method,
+            cloud,
+            ledger,
+            neighbours: Neighbours::default(),
+            wall_temperature,
+            heats,
+            records: Vec::new(),
+            annexes: Vec::new(),
+            accelerations: Vec::new(),
+        };
         stepper.sort();
         stepper
     }
@@ -134,39 +174,25 @@ impl<'a> Stepper<'a> {
         self.neighbours = Neighbours::of_ordered(tree, self.cloud.len());
     }
 
-    /// Lists neighbours for ways that the particles are about to go.
-    fn list(&mut self, drifts: &[[f64; 3]]) {
+    /// Lists neighbours for ways that the particles are about to go: these vectors times `factor`.
+    fn list(&mut self, ways: &[[f64; 3]], factor: f64) {
         let Method { images, threads, .. } = self.method;
-        self.neighbours.prepare(&self.cloud.position, drifts, images, *threads);
-    }
-
-    fn fastest(&self) -> f64 {
-        let squared = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
-        self.cloud.velocity.iter().map(squared).fold(0.0, f64::max).sqrt()
-    }
-
-    fn root_mean_square_speed(&self) -> f64 {
-        let squared = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
-        let sum: f64 = self.cloud.velocity.iter().map(squared).sum();
-        (sum / self.cloud.len() as f64).sqrt()
+        self.neighbours.prepare(&self.cloud.position, ways, factor, images, *threads);
     }
 
     /// Advances by `duration` [s].
     pub fn advance(&mut self, duration: f64) -> Result<(), Failure> {
         let method = self.method;
         let mut rest = duration / method.units.time();
+        let mut motion = self.kick(0.0);
         while rest > 0.0 && self.cloud.len() > 0 {
-            let acceleration = |a: &[[f64; 3]; 2]| {
-                (0..3).map(|n| (a[0][n] + a[1][n] + method.gravity[n]).powi(2)).sum::<f64>()
-            };
-            let most = self.cloud.acceleration.iter().map(acceleration).fold(0.0, f64::max).sqrt();
-            let stable = method.stable_step(self.fastest(), most);
+            let stable = method.stable_step(motion.fastest(), motion.most_accelerated());
             if !stable.is_finite() || stable <= 0.0 {
                 return Err(self.not_finite("velocity"));
             }
             // Equal steps to the end, so that none is tiny.
             let dt = rest / (rest / stable).ceil();
-            self.step(dt)?;
+            motion = self.step(dt)?;
             rest = if dt == rest { 0.0 } else { rest - dt };
             self.ledger.steps += 1.0;
         }
@@ -175,14 +201,13 @@ impl<'a> Stepper<'a> {
 
     /// Accelerations of particles that stand where they are, for a start.
     pub fn prime(&mut self) {
-        self.list(&vec![[0.0; 3]; self.cloud.len()]);
-        let velocity = self.cloud.velocity.clone();
-        self.accelerate(&velocity);
+        self.list(&vec![[0.0; 3]; self.cloud.len()], 1.0);
+        self.accelerate(0.0);
     }
 
-    fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        self.kick(0.5 * dt);
-        self.ledger.way += dt * self.root_mean_square_speed();
+    fn step(&mut self, dt: f64) -> Result<Motion, Failure> {
+        let motion = self.kick(0.5 * dt);
+        self.ledger.way += dt * motion.root_mean_square_speed(self.cloud.len());
         if self.ledger.way > SHIFT_WAY {
             self.shift();
         }
@@ -190,24 +215,28 @@ impl<'a> Stepper<'a> {
         if astray || self.neighbours.are_scattered() {
             self.sort();
         }
-        let drifts: Vec<[f64; 3]> =
-            self.cloud.velocity.iter().map(|v| [dt * v[0], dt * v[1], dt * v[2]]).collect();
-        self.list(&drifts);
+        let velocity = std::mem::take(&mut self.cloud.velocity);
+        self.list(&velocity, dt);
+        self.cloud.velocity = velocity;
         self.drift(0.5 * dt);
         self.change_density_and_heat(dt);
         self.drift(0.5 * dt);
         self.rebound();
-        let ahead: Vec<[f64; 3]> = (0..self.cloud.len()).map(|i| self.ahead(i, 0.5 * dt)).collect();
-        self.accelerate(&ahead);
-        self.kick(0.5 * dt);
+        self.accelerate(0.5 * dt);
+        let motion = self.kick(0.5 * dt);
         self.ledger.time += dt * self.method.units.time();
-        self.check()
+        if !motion.sound {
+            self.check()?;
+        }
+        Ok(motion)
     }
 
     fn drift(&mut self, dt: f64) {
-        for (x, v) in self.cloud.position.iter_mut().zip(&self.cloud.velocity) {
-            (0..3).for_each(|a| x[a] += dt * v[a]);
-        }
+        parallel::for_each(self.method.threads, &mut self.cloud.parts(PART), |_, part| {
+            for (x, v) in part.position.iter_mut().zip(&*part.velocity) {
+                (0..3).for_each(|a| x[a] += dt * v[a]);
+            }
+        });
     }
 
     /// Velocity of a particle after `dt` under the accelerations of the step before.
@@ -217,22 +246,24 @@ impl<'a> Stepper<'a> {
     }
 
     /// Changes velocities by the accelerations, and gives the wall's part to the wall.
-    fn kick(&mut self, dt: f64) {
+    fn kick(&mut self, dt: f64) -> Motion {
+        let Method { gravity, threads, .. } = *self.method;
+        let kick = |part: &mut Part| kick(part, dt, gravity);
+        let mut motion = Motion::of(parallel::map_each(threads, &mut self.cloud.parts(PART), kick));
+        if dt == 0.0 {
+            return motion;
+        }
         let images = if self.method.mirrors[0] { 2.0 } else { 1.0 }
             * if self.method.mirrors[1] { 2.0 } else { 1.0 };
         let momentum = self.method.units.mass() * self.method.units.speed;
-        for i in 0..self.cloud.len() {
-            self.cloud.velocity[i] = self.ahead(i, dt);
-            let mass = self.cloud.mass[i];
-            for n in 0..3 {
-                self.ledger.impulse_of_gravity[n] +=
-                    images * momentum * mass * dt * self.method.gravity[n];
-            }
-            let by_wall = self.cloud.acceleration[i][1];
-            if by_wall != [0.0; 3] {
-                self.give(i, 0.0, by_wall.map(|a| -momentum * mass * dt * a));
-            }
+        for (impulse, gravity) in self.ledger.impulse_of_gravity.iter_mut().zip(gravity) {
+            *impulse += images * momentum * motion.mass * dt * gravity;
         }
+        for i in std::mem::take(&mut motion.pushed) {
+            let by_wall = self.cloud.acceleration[i][1];
+            self.give(i, 0.0, by_wall.map(|a| -momentum * self.cloud.mass[i] * dt * a));
+        }
+        motion
     }
 
     /// Gives heat [J] and impulse [N s] of a particle and of its images at mirrors to the wall below.
@@ -256,20 +287,35 @@ impl<'a> Stepper<'a> {
     }
 
     fn change_density_and_heat(&mut self, dt: f64) {
+        let moments = self.method.corrects || self.method.shifts;
+        match (self.heats, moments) {
+            (false, false) => self.change_density::<false, false>(dt),
+            (false, true) => self.change_density::<false, true>(dt),
+            (true, false) => self.change_density::<true, false>(dt),
+            (true, true) => self.change_density::<true, true>(dt),
+        }
+    }
+
+    fn change_density<const HEAT: bool, const MOMENTS: bool>(&mut self, dt: f64) {
         let method = self.method;
         let cloud = &*self.cloud;
-        let warm = |i: usize| cloud.temperature[i] + 0.5 * dt * cloud.heating[i];
-        let records: Vec<[f64; 8]> = (0..cloud.len())
-            .map(|i| record(cloud, i, cloud.velocity[i], cloud.density[i]))
-            .collect();
-        let annexes: Vec<[f64; 4]> = (0..cloud.len())
-            .map(|i| {
-                let [x, y, z] = cloud.gradient[i];
-                [x, y, z, warm(i)]
-            })
-            .collect();
-        let wall_temperature: Vec<f64> = (0..cloud.len()).map(|i| self.wall_below(i)).collect();
-        let pass = Continuity {
+        let mut records = std::mem::take(&mut self.records);
+        fill(&mut records, cloud.len(), method.threads, |i| {
+            record(cloud, i, cloud.velocity[i], cloud.density[i])
+        });
+        let annex = |i: usize| {
+            let [x, y, z] = cloud.gradient[i];
+            [x, y, z, cloud.temperature[i] + 0.5 * dt * cloud.heating[i]]
+        };
+        let mut annexes = std::mem::take(&mut self.annexes);
+        let mut wall_temperature = Vec::new();
+        if HEAT || MOMENTS {
+            fill(&mut annexes, cloud.len(), method.threads, annex);
+        }
+        if HEAT {
+            fill(&mut wall_temperature, cloud.len(), method.threads, |i| self.wall_below(i));
+        }
+        let pass = Continuity::<HEAT, MOMENTS> {
             images: &method.images,
             records: &records,
             annexes: &annexes,
@@ -278,26 +324,28 @@ impl<'a> Stepper<'a> {
             diffusion: method.diffusion,
             conduction: method.conduction,
         };
-        let rates = for_all(
+        let parts = self.cloud.parts(PART);
+        let mut parts: Vec<_> = parts.into_iter().map(|part| (part, Vec::new())).collect();
+        for_parts(
             &pass,
             &self.neighbours.blocks,
-            method.kernel,
-            method.precision,
-            method.threads,
+            (method.kernel, method.precision, method.threads),
+            &mut parts,
+            |(part, heated), rates| {
+                for (k, rate) in rates.iter().enumerate() {
+                    method.change::<MOMENTS>(part, k, rate, dt);
+                    if HEAT && rate.temperature[1] != 0.0 {
+                        heated.push((part.first + k, rate.temperature[1]));
+                    }
+                }
+            },
         );
+        let heated: Vec<_> = parts.into_iter().flat_map(|(_, heated)| heated).collect();
         let heat = method.units.energy() / method.heat_unit;
-        for (i, rate) in rates.iter().enumerate() {
-            let [by_fluid, by_wall] = rate.temperature;
-            let moment = filled(rate.moment, method.dimension);
-            self.cloud.moment[i] = moment;
-            self.cloud.gradient[i] = renormalised(&moment, rate.gradient);
-            self.cloud.density[i] += dt * rate.density;
-            self.cloud.heating[i] = by_fluid + by_wall;
-            self.cloud.temperature[i] += dt * (by_fluid + by_wall);
-            if by_wall != 0.0 {
-                self.give(i, -heat * self.cloud.mass[i] * dt * by_wall, [0.0; 3]);
-            }
+        for (i, by_wall) in heated {
+            self.give(i, -heat * self.cloud.mass[i] * dt * by_wall, [0.0; 3]);
         }
+        (self.records, self.annexes) = (records, annexes);
     }
 
     /// Temperature of the wall below a particle; the particle's own where it has no wall near.
@@ -312,12 +360,14 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    fn accelerate(&mut self, velocity: &[[f64; 3]]) {
+    /// Accelerations for the velocities after `dt` under those of the step before.
+    fn accelerate(&mut self, dt: f64) {
         let method = self.method;
         let cloud = &*self.cloud;
-        let records: Vec<[f64; 8]> = (0..cloud.len())
-            .map(|i| record(cloud, i, velocity[i], pressure(cloud.density[i])))
-            .collect();
+        let mut records = std::mem::take(&mut self.records);
+        fill(&mut records, cloud.len(), method.threads, |i| {
+            record(cloud, i, self.ahead(i, dt), pressure(cloud.density[i]))
+        });
         let pass = Momentum {
             images: &method.images,
             records: &records,
@@ -327,13 +377,16 @@ impl<'a> Stepper<'a> {
             cohesion: method.cohesion,
             wetting: method.wetting,
         };
-        self.cloud.acceleration = for_all(
+        let acceleration = for_all(
             &pass,
             &self.neighbours.blocks,
             method.kernel,
             method.precision,
             method.threads,
+            std::mem::take(&mut self.accelerations),
         );
+        self.accelerations = std::mem::replace(&mut self.cloud.acceleration, acceleration);
+        self.records = records;
     }
 
     /// A particle that meets its image at a plane exchanges its place with it: exactly what two mirror
@@ -360,7 +413,7 @@ impl<'a> Stepper<'a> {
         }
         let fullness: Vec<f64> = self.cloud.moment.iter().map(least_eigenvalue).collect();
         // After sorting there are no lists yet.
-        self.list(&vec![[0.0; 3]; self.cloud.len()]);
+        self.list(&vec![[0.0; 3]; self.cloud.len()], 1.0);
         let method = self.method;
         let cloud = &*self.cloud;
         let records: Vec<[f64; 8]> =
@@ -378,13 +431,14 @@ impl<'a> Stepper<'a> {
             method.kernel,
             method.precision,
             method.threads,
+            Vec::new(),
         );
         let shifts: Vec<[f64; 3]> = sums
             .iter()
             .zip(&fullness)
             .map(|(sums, &fullness)| displacement(sums, fullness, way))
             .collect();
-        self.list(&shifts);
+        self.list(&shifts, 1.0);
         for (x, shift) in self.cloud.position.iter_mut().zip(&shifts) {
             (0..3).for_each(|a| x[a] += shift[a]);
             method.images.put_back(x);
@@ -412,6 +466,25 @@ impl<'a> Stepper<'a> {
     fn not_finite(&self, quantity: &'static str) -> Failure {
         Failure::NotFinite { quantity, time: self.ledger.time }
     }
+}
+
+/// Fills a list with a number for every particle.
+fn fill<T: Copy + Default + Send>(
+    list: &mut Vec<T>,
+    count: usize,
+    threads: usize,
+    number: impl Fn(usize) -> T + Sync,
+) {
+    list.resize(count, T::default());
+    let mut parts: Vec<&mut [T]> = list.chunks_mut(PART).collect();
+    parallel::for_each(threads, &mut parts, |p, part| {
+        part.iter_mut().enumerate().for_each(|(k, place)| *place = number(p * PART + k));
+    });
+}
+
+/// Whether some numbers are not all the same.
+fn differ(mut numbers: impl Iterator<Item = f64>) -> bool {
+    numbers.next().is_some_and(|first| numbers.any(|number| number != first))
 }
 
 fn record(cloud: &Cloud, i: usize, velocity: [f64; 3], last: f64) -> [f64; 8] {
