@@ -28,6 +28,8 @@ pub struct DropletTotals {
     pub kinetic_energy: f64,
     /// Elastic energy of the weak compression [J].
     pub compression_energy: f64,
+    /// Energy of free and wetted surface, against a dry wall [J].
+    pub surface_energy: f64,
     /// Heat content above the temperature of the first droplet, now and when released [J].
     pub heat: f64,
     pub heat_released: f64,
@@ -248,6 +250,7 @@ fn totals(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud) -
     let images: f64 = plan.mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
     let heat_unit = units.energy() / method.heat_unit;
     let mut totals = DropletTotals {
+        surface_energy: ledger.surface_energy,
         heat_to_wall: ledger.heat_to_wall,
         impulse_to_wall: ledger.impulse_to_wall,
         impulse_of_gravity: ledger.impulse_of_gravity,

@@ -24,6 +24,7 @@ mod stepper;
 mod tension;
 mod units;
 mod wall;
+mod wetting;
 
 pub use droplet::{DropletSph, DropletTotals, ParticleFields};
 pub use failure::Failure;

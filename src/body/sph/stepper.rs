@@ -12,14 +12,15 @@ use super::continuity::{Continuity, ContinuityRates};
 use super::failure::Failure;
 use super::images::Images;
 use super::kick::{DENSITIES, Motion, kick};
-use super::loops::{PART, Precision, for_all, for_parts};
-use super::momentum::Momentum;
+use super::loops::{PART, PairSum, Precision, for_all, for_parts};
+use super::momentum::{Accelerations, Momentum};
 use super::neighbours::Neighbours;
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
-use super::tension::PairForce;
+use super::tension::{Surface, SurfaceEnergy, SurfaceSums};
 use super::units::{Units, pressure};
 use super::wall::{WallCells, WallExchange};
+use super::wetting;
 use crate::kernel::Kernel;
 use crate::math::parallel;
 
@@ -37,9 +38,10 @@ pub struct Method {
     diffusion: f64,
     /// Whether density diffusion is corrected by renormalised gradients.
     corrects: bool,
-    /// Surface tension over ρ₀c₀²H, and the pair force that makes it.
+    /// Surface tension over ρ₀c₀²H, and the energy that makes it.
     tension: f64,
-    cohesion: PairForce,
+    surface: SurfaceEnergy,
+    /// Cosine of the contact angle.
     wetting: f64,
     gravity: [f64; 3],
     /// c₀²/c of the fluid [K], to turn energy of a unit of mass into temperature.
@@ -98,8 +100,8 @@ impl Method {
             diffusion: plan.density_diffusion,
             corrects: plan.corrected_diffusion && plan.density_diffusion > 0.0,
             tension,
-            cohesion: PairForce::of(tension, plan.kernel, plan.dimension),
-            wetting: plan.wall.as_ref().map_or(0.0, |wall| 0.5 * (1.0 + wall.contact_angle.cos())),
+            surface: SurfaceEnergy::of(tension, plan.kernel, 1.0 / plan.support, plan.dimension),
+            wetting: plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos()),
             gravity,
             heat_unit: c * c / fluid.specific_heat,
             spacing: 1.0 / plan.support,
@@ -368,25 +370,84 @@ impl<'a> Stepper<'a> {
         fill(&mut records, cloud.len(), method.threads, |i| {
             record(cloud, i, self.ahead(i, dt), pressure(cloud.density[i]))
         });
-        let pass = Momentum {
-            images: &method.images,
-            records: &records,
-            densities: &cloud.density,
-            normalisation: method.normalisation,
-            viscosity: method.viscosity,
-            cohesion: method.cohesion,
-            wetting: method.wetting,
-        };
-        let acceleration = for_all(
-            &pass,
-            &self.neighbours.blocks,
-            method.kernel,
-            method.precision,
-            method.threads,
-            std::mem::take(&mut self.accelerations),
-        );
+        let mut acceleration = std::mem::take(&mut self.accelerations);
+        if method.tension > 0.0 {
+            let surface = self.surface(&records);
+            self.ledger.surface_energy = self.surface_energy(&surface);
+            let slopes: Vec<[f64; 4]> = surface.iter().map(|sums| sums.slopes).collect();
+            let pass = self.momentum::<true>(&records, &slopes);
+            acceleration = self.over_pairs(&pass, acceleration);
+            self.wet(&mut acceleration);
+        } else {
+            let pass = self.momentum::<false>(&records, &[]);
+            acceleration = self.over_pairs(&pass, acceleration);
+        }
         self.accelerations = std::mem::replace(&mut self.cloud.acceleration, acceleration);
         self.records = records;
+    }
+
+    fn momentum<'b, const TENSE: bool>(
+        &'b self,
+        records: &'b [[f64; 8]],
+        slopes: &'b [[f64; 4]],
+    ) -> Momentum<'b, TENSE> {
+        Momentum {
+            images: &self.method.images,
+            records,
+            slopes,
+            densities: &self.cloud.density,
+            normalisation: self.method.normalisation,
+            viscosity: self.method.viscosity,
+            surface: [self.method.surface.reach, self.method.dimension as f64],
+        }
+    }
+
+    fn over_pairs<P: PairSum<Output: Clone + Default>>(
+        &self,
+        pass: &P,
+        memory: Vec<P::Output>,
+    ) -> Vec<P::Output> {
+        let Method { kernel, precision, threads, .. } = *self.method;
+        for_all(pass, &self.neighbours.blocks, kernel, precision, threads, memory)
+    }
+
+    fn surface(&self, records: &[[f64; 8]]) -> Vec<SurfaceSums> {
+        let pass = Surface {
+            images: &self.method.images,
+            records,
+            normalisation: self.method.normalisation,
+            dimension: self.method.dimension,
+            energy: self.method.surface,
+        };
+        self.over_pairs(&pass, Vec::new())
+    }
+
+    /// Energy of all free and wetted surface, images at mirrors included [J].
+    fn surface_energy(&self, surface: &[SurfaceSums]) -> f64 {
+        let method = self.method;
+        let images: f64 = method.mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
+        let wets = method.wall.is_some();
+        let of_particle = |(i, sums): (usize, &SurfaceSums)| {
+            let height = self.cloud.position[i][2];
+            let wall =
+                if wets { wetting::energy(method.tension, method.wetting, height) } else { 0.0 };
+            self.cloud.volume(i) * (sums.energy + wall)
+        };
+        images * method.units.energy() * surface.iter().enumerate().map(of_particle).sum::<f64>()
+    }
+
+    /// Adds the wall's pull.
+    fn wet(&self, acceleration: &mut [Accelerations]) {
+        let method = self.method;
+        if method.wall.is_none() || method.wetting == 0.0 {
+            return;
+        }
+        for (i, [_, by_wall]) in acceleration.iter_mut().enumerate() {
+            let (height, density) = (self.cloud.position[i][2], self.cloud.density[i]);
+            if height < 1.0 {
+                by_wall[2] += wetting::pull(method.tension, method.wetting, height, density);
+            }
+        }
     }
 
     /// A particle that meets its image at a plane exchanges its place with it: exactly what two mirror
