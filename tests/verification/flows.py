@@ -42,6 +42,7 @@ def plate_errors(axes, table):
         xlabel="error over the largest velocity [%]",
         ylabel="z [m]",
         title="Steady velocities of layers",
+        xlim=(0, 5),
     )
 
 
