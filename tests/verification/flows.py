@@ -134,10 +134,10 @@ def main(tables: Path, folder: Path):
     keep(figure, "flows")
     figure = plt.figure(figsize=(13, 8), layout="constrained")
     square(figure, read("square"))
-    keep(figure, "rotating_square")
+    keep(figure, "flows_square")
     figure = plt.figure(figsize=(9, 9), layout="constrained")
     collapse(figure, read("collapse"))
-    keep(figure, "dam_break")
+    keep(figure, "flows_dam")
 
 
 if __name__ == "__main__":
