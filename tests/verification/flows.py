@@ -42,6 +42,7 @@ def plate_errors(axes, table):
         xlabel="error over the largest velocity [%]",
         ylabel="z [m]",
         title="Steady velocities of layers",
+        xlim=(0, 5),
     )
 
 
@@ -133,10 +134,10 @@ def main(tables: Path, folder: Path):
     keep(figure, "flows")
     figure = plt.figure(figsize=(13, 8), layout="constrained")
     square(figure, read("square"))
-    keep(figure, "rotating_square")
+    keep(figure, "flows_square")
     figure = plt.figure(figsize=(9, 9), layout="constrained")
     collapse(figure, read("collapse"))
-    keep(figure, "dam_break")
+    keep(figure, "flows_dam")
 
 
 if __name__ == "__main__":
