@@ -49,9 +49,10 @@ pub struct Droplet {
     /// rest under gravity alone.
     #[serde(default = "yes")]
     pub corrected_diffusion: bool,
-    /// Whether particles are moved from crowded places to empty ones.
-    #[serde(default = "yes")]
-    pub shifting: bool,
+    /// Whether particles are moved from crowded places to empty ones. Surface tension, which keeps
+    /// their distances too and with which shifting makes pressure, leaves it out if nothing is said.
+    #[serde(default)]
+    pub shifting: Option<bool>,
     /// A copy of the drop for each entry.
     #[serde(default = "one_arrival")]
     pub arrivals: Vec<Arrival>,
@@ -211,6 +212,11 @@ impl Droplet {
     /// Whether all drops arrive at the origin.
     pub fn is_centred(&self) -> bool {
         self.arrivals.iter().all(|arrival| arrival.x == 0.0 && arrival.y == 0.0)
+    }
+
+    /// Whether particles are shifted.
+    pub fn shifts(&self) -> bool {
+        self.shifting.unwrap_or(self.fluid.surface_tension == 0.0)
     }
 
     /// Along which of x and y the half of the model stands for the whole.

@@ -99,13 +99,16 @@ impl PairSum for Crowding<'_> {
     }
 }
 
+/// Displacement for a gradient of 1 and a mean way of 1, both in units of H. Sun et al. (2017) take 2 and
+/// the way at the highest speed, which is about twice the mean one.
+const STRENGTH: f64 = 4.0;
 /// Largest displacement at once, over H.
 const MOST: f64 = 0.02;
 
 /// The displacement of a particle over H, for the way that particles went on average since the last
 /// one. Near a free surface it is along the surface only; at its rim there is none.
 pub fn displacement(sums: &CrowdingSums, fullness: f64, way: f64) -> [f64; 3] {
-    let mut shift = sums.gradient.map(|g| -way * g);
+    let mut shift = sums.gradient.map(|g| -STRENGTH * way * g);
     if fullness < INSIDE {
         return [0.0; 3];
     }

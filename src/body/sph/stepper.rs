@@ -75,7 +75,7 @@ const DIFFUSIVE: f64 = 0.02;
 const FORCED: f64 = 0.18;
 const CAPILLARY: f64 = 0.25;
 /// Way at the mean speed over H after which particles are moved from crowded places.
-const SHIFT_WAY: f64 = 0.1;
+const SHIFT_WAY: f64 = 0.05;
 /// Determinant below which a moment matrix is not inverted.
 const SINGULAR: f64 = 0.05;
 
