@@ -100,8 +100,8 @@ impl Block {
 impl Neighbours {
     /// Puts particles into blocks: the order in which all their numbers have to stand for
     /// [`Self::of_ordered`].
-    pub fn order(points: &[[f64; 3]]) -> (Vec<u32>, BlockTree) {
-        space_order(points)
+    pub fn order(points: &[[f64; 3]], threads: usize) -> (Vec<u32>, BlockTree) {
+        space_order(points, threads)
     }
 
     /// Neighbours of particles that stand in the order of the tree's blocks; the lists are made when
@@ -321,7 +321,7 @@ mod tests {
     fn ordered(count: usize) -> (Vec<[f64; 3]>, Neighbours) {
         let point = |i: usize| [3.0 * number(i), 3.0 * number(7 * i + 3), 2.0 * number(13 * i + 5)];
         let points: Vec<_> = (0..count).map(point).collect();
-        let (order, tree) = Neighbours::order(&points);
+        let (order, tree) = Neighbours::order(&points, 1);
         let points = order.iter().map(|&i| points[i as usize]).collect();
         (points, Neighbours::of_ordered(tree, count))
     }

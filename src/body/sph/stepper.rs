@@ -169,8 +169,8 @@ impl<'a> Stepper<'a> {
     }
 
     fn sort(&mut self) {
-        let (order, tree) = Neighbours::order(&self.cloud.position);
-        self.cloud.permute(&order);
+        let (order, tree) = Neighbours::order(&self.cloud.position, self.method.threads);
+        self.cloud.permute(&order, self.method.threads);
         self.neighbours = Neighbours::of_ordered(tree, self.cloud.len());
     }
 
