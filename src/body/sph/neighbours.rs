@@ -296,12 +296,9 @@ fn select_avx512(
             let xy = _mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy));
             let square = _mm512_add_ps(xy, _mm512_mul_ps(dz, dz));
             let near = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, reach);
-            // Points stand in an order in which far ones come many at a time.
-            if near != 0 {
-                let kept = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(near, numbers));
-                _mm256_storeu_si256(places[found..].as_mut_ptr().cast(), kept);
-                found += near.count_ones() as usize;
-            }
+            let kept = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(near, numbers));
+            _mm256_storeu_si256(places[found..].as_mut_ptr().cast(), kept);
+            found += near.count_ones() as usize;
         }
         numbers = _mm512_add_epi32(numbers, ahead);
     }
