@@ -25,7 +25,7 @@ pub struct DropletForecast {
 /// Memory of a particle with its neighbours [B], and particles that a thread advances by a time step a
 /// second: measured while a drop spreads on a wall, on a processor of 2024 with AVX-512.
 const PARTICLE_MEMORY: f64 = 1.5e3;
-const PARTICLE_RATE: f64 = 1.2e6;
+const PARTICLE_RATE: f64 = 1.4e6;
 
 impl DropletForecast {
     /// Estimates without building the droplet.
