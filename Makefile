@@ -47,6 +47,7 @@ fuzz: ## drive the C ABI with random calls for SECONDS seconds
 verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent finite-element code
 	cargo test --release --features verification --test verification -- --nocapture --test-threads 1
 	$(BIN)/python tests/verification/particles.py target/tmp out/verification/particles.png
+	$(BIN)/python tests/verification/flows.py target/tmp out/verification
 	$(BIN)/python tests/verification/independent_code.py
 
 bench: build $(VENV)/ready-verify ## time against an independent finite-element code

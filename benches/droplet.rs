@@ -6,7 +6,7 @@
 use std::time::Instant;
 
 use impinge::body::sph::{
-    DropletPlan, DropletSph, Fluid, ParticleFields, Placement, Precision, Release,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release,
 };
 use impinge::kernel::Kernel;
 
@@ -43,6 +43,7 @@ fn plan(lean: bool, surface_tension: f64) -> DropletPlan {
         shifting: !lean,
         gravity: [0.0; 3],
         mirrors: [false; 2],
+        extents: [Extent::Open; 3],
         releases: vec![release],
         wall: None,
     }

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use impinge::body::sph::{
-    DropletPlan, DropletSph, Fluid, ParticleFields, Placement, Precision, Release, Wall, WallCells,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
+    WallCells,
 };
 use impinge::kernel::Kernel;
 
@@ -38,6 +39,7 @@ fn impact(resolution: f64) -> DropletPlan {
         shifting: true,
         gravity: [0.0; 3],
         mirrors: [true; 2],
+        extents: [Extent::Open; 3],
         releases: vec![Release {
             time: 0.0,
             centre: [0.0, 0.0, 0.5 * (DIAMETER + spacing)],

@@ -6,7 +6,8 @@ use std::ops::Range;
 use super::ModelError;
 use super::contact::Contact;
 use crate::body::sph::{
-    self, DropletPlan, DropletSph, DropletTotals, ParticleFields, Release, WallCells, WallExchange,
+    self, DropletPlan, DropletSph, DropletTotals, Extent, ParticleFields, Release, WallCells,
+    WallExchange,
 };
 use crate::scene::{Droplet, Footprint, Scene};
 use crate::variables::{DropletTotal, InputLayout, WallOutput};
@@ -245,6 +246,7 @@ pub fn plan_of(droplet: &Droplet, cells: Option<WallCells>) -> DropletPlan {
         shifting: droplet.shifting,
         gravity: [0.0, 0.0, -droplet.gravity],
         mirrors: droplet.mirrors(),
+        extents: [Extent::Open; 3],
         releases: releases.collect(),
         wall: cells.map(|cells| sph::Wall { cells, contact_angle: fluid.contact_angle }),
     }

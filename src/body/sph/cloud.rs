@@ -56,6 +56,8 @@ pub struct Ledger {
     pub impulse_of_gravity: [f64; 3],
     /// Way over H that particles went on average since they were last shifted.
     pub way: f64,
+    /// Of free and wetted surface [J].
+    pub surface_energy: f64,
     /// What the wall got during the last step.
     pub exchange: WallExchange,
 }
@@ -63,7 +65,7 @@ pub struct Ledger {
 /// Numbers of a particle in a flat vector.
 const NUMBERS: usize = 25;
 /// Numbers of the ledger before those of its cells.
-const HEAD: usize = 17;
+const HEAD: usize = 18;
 
 impl Cloud {
     pub fn len(&self) -> usize {
@@ -224,7 +226,7 @@ pub fn flatten(ledger: &Ledger, cloud: &Cloud) -> Vec<f64> {
     state.extend(ledger.impulse_of_gravity);
     state.extend([exchange.duration, exchange.heat_outside]);
     state.extend(exchange.impulse_outside);
-    state.push(ledger.way);
+    state.extend([ledger.way, ledger.surface_energy]);
     state.extend(&exchange.heat);
     state.extend(exchange.impulse.iter().flatten());
     (0..cloud.len()).for_each(|i| state.extend(cloud.numbers(i)));
@@ -244,6 +246,7 @@ pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
         impulse_to_wall: three(5),
         impulse_of_gravity: three(8),
         way: state[16],
+        surface_energy: state[17],
         exchange: WallExchange {
             duration: state[11],
             heat_outside: state[12],
@@ -287,6 +290,7 @@ mod tests {
             time: 1.5,
             released: 2,
             way: 0.25,
+            surface_energy: 3.5,
             impulse_to_wall: [1.0, 2.0, 3.0],
             impulse_of_gravity: [4.0, 5.0, 6.0],
             exchange,

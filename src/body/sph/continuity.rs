@@ -1,8 +1,9 @@
 //! Rates of density and temperature, and gradients of density, at the middle of a step.
 
+use super::images::{Images, Source};
 use super::lanes::{Lanes, WIDTH, lanes};
 use super::loops::{Local, PairSum};
-use super::neighbours::{Block, Source};
+use super::neighbours::Block;
 use crate::kernel::Shape;
 
 /// Continuity with density diffusion (δ-SPH), and conduction.
@@ -13,8 +14,10 @@ use crate::kernel::Shape;
 /// `(1 + r_i) dT_i/dt = 2 κ Σ V_j F (T_i − T_j)`,
 ///
 /// with δ for a smoothing length H/2 and `g_i = B_i Σ V_j F (r_j − r_i) x_ij`,
-/// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. Images at the wall slip in the first
-/// equation; in the second they are as much colder than the wall as their original is hotter.
+/// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. Images at planes slip in the first
+/// equation, and under a body force the density goes on in them as it does at rest, so that a fluid at
+/// rest is not diffused; in the second those at the wall are as much colder than it as their original
+/// is hotter.
 ///
 /// Only with `HEAT` is heat conducted; without `MOMENTS` all g are 0, and neither they nor what B is
 /// made of are summed.
@@ -24,6 +27,7 @@ use crate::kernel::Shape;
 /// 861–872, doi 10.1016/j.cpc.2008.12.004; Cleary & Monaghan (1999), J. Comput. Phys. 148, 227–264,
 /// doi 10.1006/jcph.1998.6118.
 pub struct Continuity<'a, const HEAT: bool, const MOMENTS: bool> {
+    pub images: &'a Images,
     /// Position, velocity, volume and r of every particle.
     pub records: &'a [[f64; 8]],
     /// g and temperature of every particle; nothing where neither is asked for.
@@ -67,20 +71,19 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
 
     #[inline(always)]
     fn record(&self, source: Source) -> [f64; 8] {
-        let [x, y, z] = signs(source.image());
-        let signs = [x, y, z, x, y, z, 1.0, 1.0];
-        let mut record = self.records[source.particle()];
-        for n in 0..8 {
-            record[n] *= signs[n];
-        }
-        record
+        let image = self.images.get(source.code());
+        let [x, y, z, u, v, w, volume, density] = self.records[source.particle()];
+        // Where the density differs little from that at rest, r is the pressure.
+        let density = density + image.overpressure([x, y, z]);
+        let ([x, y, z], [u, v, w]) = (image.place([x, y, z]), image.turn([u, v, w]));
+        [x, y, z, u, v, w, volume, density]
     }
 
     #[inline(always)]
     fn annex(&self, source: Source) -> [f64; 4] {
-        let [x, y, z] = signs(source.image());
-        let annex = self.annexes[source.particle()];
-        [x * annex[0], y * annex[1], z * annex[2], annex[3]]
+        let [x, y, z, temperature] = self.annexes[source.particle()];
+        let [x, y, z] = self.images.get(source.code()).gradient([x, y, z]);
+        [x, y, z, temperature]
     }
 
     #[inline(always)]
@@ -138,12 +141,6 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
         }
         rates
     }
-}
-
-/// −1 along axes that an image turns round.
-#[inline(always)]
-pub fn signs(image: u8) -> [f64; 3] {
-    [1.0 - f64::from(image << 1 & 2), 1.0 - f64::from(image & 2), 1.0 - f64::from(image >> 1 & 2)]
 }
 
 /// The particle whose neighbours are summed, in all lanes.

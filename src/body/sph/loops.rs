@@ -3,8 +3,9 @@
 pub use crate::scene::Precision;
 use num_traits::Float;
 
+use super::images::Source;
 use super::lanes::{Annex, Array, Lanes, Record, WIDTH};
-use super::neighbours::{Block, Source};
+use super::neighbours::Block;
 use super::order::BLOCK;
 use crate::kernel::{Kernel, Number, Shape};
 use crate::math::parallel;

@@ -1,5 +1,6 @@
 //! Particles in an order in which near ones stand together: blocks of a balanced k-d tree.
 
+use super::images::Image;
 use crate::math::parallel;
 
 /// Particles in a block; the last block may have fewer.
@@ -48,13 +49,17 @@ impl Bounds {
         }
     }
 
-    /// The image at the mirrors x = 0, y = 0, z = 0 (bits 1, 2, 4).
-    pub fn mirrored(&self, image: u8) -> Self {
-        let turned = |a: usize| image >> a & 1 == 1;
-        Self {
-            low: [0, 1, 2].map(|a| if turned(a) { -self.high[a] } else { self.low[a] }),
-            high: [0, 1, 2].map(|a| if turned(a) { -self.low[a] } else { self.high[a] }),
-        }
+    pub fn image(&self, image: &Image) -> Self {
+        Self::between(image.place(self.low), image.place(self.high))
+    }
+
+    /// The image of a box of vectors.
+    pub fn turned(&self, image: &Image) -> Self {
+        Self::between(image.turn(self.low), image.turn(self.high))
+    }
+
+    fn between(a: [f64; 3], b: [f64; 3]) -> Self {
+        Self { low: [0, 1, 2].map(|n| a[n].min(b[n])), high: [0, 1, 2].map(|n| a[n].max(b[n])) }
     }
 
     pub fn centre(&self) -> [f64; 3] {
@@ -123,11 +128,11 @@ impl Node {
 }
 
 impl BlockTree {
-    /// Blocks whose box, mirrored, comes nearer to `bounds` than `reach`, in their order.
-    pub fn near(&self, bounds: &Bounds, image: u8, reach: f64, found: &mut Vec<usize>) {
+    /// Blocks of whose boxes the images come nearer to `bounds` than `reach`, in their order.
+    pub fn near(&self, bounds: &Bounds, image: &Image, reach: f64, found: &mut Vec<usize>) {
         if !self.nodes.is_empty() {
-            // The mirror keeps distances, so it may be applied to what is searched for.
-            self.search(0, &bounds.mirrored(image), reach * reach, found);
+            // Images keep distances, so the search may be among the originals.
+            self.search(0, &bounds.image(&image.inverse()), reach * reach, found);
         }
     }
 
@@ -162,10 +167,11 @@ impl BlockTree {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::sph::images::{Ends, Images};
 
     fn points(count: usize) -> Vec<[f64; 3]> {
         let number = |i: usize| (i as f64 * 0.754877666).fract();
-        (0..count).map(|i| [number(i), number(7 * i + 3), 0.3 * number(13 * i + 5)]).collect()
+        (0..count).map(|i| [number(i), 5.0 * number(7 * i + 3), 3.0 * number(13 * i + 5)]).collect()
     }
 
     #[test]
@@ -188,12 +194,14 @@ mod tests {
             Bounds::of(order[range].iter().map(|&i| points[i as usize]))
         };
         let blocks = order.len().div_ceil(BLOCK);
-        for image in [0, 1, 6] {
+        let ends = [Ends::Planes { near: true, far: None }, Ends::Period(5.0), Ends::Period(3.0)];
+        let images = Images::new(ends, false, [0.0; 3]);
+        for image in images.codes().iter().map(|&code| images.get(code)) {
             for b in 0..blocks {
                 let mut found = Vec::new();
-                tree.near(&block(b), image, 0.15, &mut found);
+                tree.near(&block(b), image, 0.5, &mut found);
                 let all: Vec<usize> = (0..blocks)
-                    .filter(|&c| block(c).mirrored(image).gap_squared(&block(b)) <= 0.15 * 0.15)
+                    .filter(|&c| block(c).image(image).gap_squared(&block(b)) <= 0.5 * 0.5)
                     .collect();
                 assert_eq!(found, all);
             }

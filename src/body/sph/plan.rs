@@ -32,6 +32,8 @@ pub struct DropletPlan {
     pub gravity: [f64; 3],
     /// The planes x = 0 and y = 0 mirror the model, which then holds only x ≥ 0 (y ≥ 0).
     pub mirrors: [bool; 2],
+    /// How far the model goes along x, y and z.
+    pub extents: [Extent; 3],
     /// In the order of their times.
     pub releases: Vec<Release>,
     /// Nothing for a droplet in free space.
@@ -56,6 +58,18 @@ pub struct Fluid {
     /// Speed of sound c₀ of the model [m/s]: at least ten times the fastest flow keeps the density
     /// within 1 %.
     pub sound_speed: f64,
+}
+
+/// How far a model goes along an axis: at least two support radii, if it ends.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Extent {
+    #[default]
+    Open,
+    /// Again and again the same after this length [m]; with neither mirror nor wall along this axis.
+    Periodic(f64),
+    /// Between insulated planes at 0 and at this length [m]. The fluid slips along those across x and
+    /// y, and sticks to those across z, of which the one at 0 may be the wall.
+    Closed(f64),
 }
 
 /// One round droplet that starts to move at a time.

@@ -1,9 +1,9 @@
 //! Particles are moved a little from crowded places to empty ones.
 
-use super::continuity::signs;
+use super::images::{Images, Source};
 use super::lanes::{Lanes, lanes};
 use super::loops::{Local, PairSum};
-use super::neighbours::{Block, Source};
+use super::neighbours::Block;
 use crate::kernel::Shape;
 
 /// Weight of the term that acts against pairs (Monaghan 2000), and its power.
@@ -20,6 +20,7 @@ pub const INSIDE: f64 = 0.75;
 /// 10.1016/j.cma.2016.10.028; Marrone, Colagrossi, Le Touzé & Graziani (2010), J. Comput. Phys. 229,
 /// 3652–3663, doi 10.1016/j.jcp.2010.01.019.
 pub struct Crowding<'a> {
+    pub images: &'a Images,
     /// Position, 0, 0, 0, volume and λ of every particle.
     pub records: &'a [[f64; 8]],
     /// σ of the kernel.
@@ -48,12 +49,9 @@ impl PairSum for Crowding<'_> {
 
     #[inline(always)]
     fn record(&self, source: Source) -> [f64; 8] {
-        let [x, y, z] = signs(source.image());
-        let mut record = self.records[source.particle()];
-        record[0] *= x;
-        record[1] *= y;
-        record[2] *= z;
-        record
+        let [x, y, z, none, _, _, volume, fullness] = self.records[source.particle()];
+        let [x, y, z] = self.images.get(source.code()).place([x, y, z]);
+        [x, y, z, none, none, none, volume, fullness]
     }
 
     #[inline(always)]

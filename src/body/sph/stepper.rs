@@ -10,15 +10,17 @@ use std::f64::consts::PI;
 use super::cloud::{Cloud, Ledger, Part};
 use super::continuity::{Continuity, ContinuityRates};
 use super::failure::Failure;
+use super::images::Images;
 use super::kick::{DENSITIES, Motion, kick};
-use super::loops::{PART, Precision, for_all, for_parts};
-use super::momentum::Momentum;
-use super::neighbours::{Neighbours, WALL};
+use super::loops::{PART, PairSum, Precision, for_all, for_parts};
+use super::momentum::{Accelerations, Momentum};
+use super::neighbours::Neighbours;
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
-use super::tension::PairForce;
+use super::tension::{Surface, SurfaceEnergy, SurfaceSums};
 use super::units::{Units, pressure};
 use super::wall::{WallCells, WallExchange};
+use super::wetting;
 use crate::kernel::Kernel;
 use crate::math::parallel;
 
@@ -30,14 +32,16 @@ pub struct Method {
     precision: Precision,
     normalisation: f64,
     mirrors: [bool; 2],
+    pub images: Images,
     viscosity: f64,
     conduction: f64,
     diffusion: f64,
     /// Whether density diffusion is corrected by renormalised gradients.
     corrects: bool,
-    /// Surface tension over ρ₀c₀²H, and the pair force that makes it.
+    /// Surface tension over ρ₀c₀²H, and the energy that makes it.
     tension: f64,
-    cohesion: PairForce,
+    surface: SurfaceEnergy,
+    /// Cosine of the contact angle.
     wetting: f64,
     gravity: [f64; 3],
     /// c₀²/c of the fluid [K], to turn energy of a unit of mass into temperature.
@@ -82,6 +86,7 @@ impl Method {
         let (h, c) = (units.length, units.speed);
         let normalisation = plan.kernel.scale(1.0, plan.dimension);
         let tension = fluid.surface_tension / (units.density * c * c * h);
+        let gravity = plan.gravity.map(|g| g * h / (c * c));
         Self {
             units,
             dimension: plan.dimension,
@@ -89,25 +94,21 @@ impl Method {
             precision: plan.precision,
             normalisation,
             mirrors: plan.mirrors,
+            images: Images::of(plan, h, gravity),
             viscosity: fluid.viscosity / (units.density * c * h),
             conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
             diffusion: plan.density_diffusion,
             corrects: plan.corrected_diffusion && plan.density_diffusion > 0.0,
             tension,
-            cohesion: PairForce::of(tension, plan.kernel, plan.dimension),
-            wetting: plan.wall.as_ref().map_or(0.0, |wall| 0.5 * (1.0 + wall.contact_angle.cos())),
-            gravity: plan.gravity.map(|g| g * h / (c * c)),
+            surface: SurfaceEnergy::of(tension, plan.kernel, 1.0 / plan.support, plan.dimension),
+            wetting: plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos()),
+            gravity,
             heat_unit: c * c / fluid.specific_heat,
             spacing: 1.0 / plan.support,
             shifts: plan.shifting,
             wall: plan.wall.as_ref().map(|wall| wall.cells.clone()),
             threads,
         }
-    }
-
-    fn mirror_bits(&self) -> u8 {
-        let wall = if self.wall.is_some() { WALL } else { 0 };
-        u8::from(self.mirrors[0]) | u8::from(self.mirrors[1]) << 1 | wall
     }
 
     /// Changes density and temperature of the k-th particle of a part at its rates.
@@ -169,6 +170,7 @@ impl<'a> Stepper<'a> {
     }
 
     fn sort(&mut self) {
+        self.cloud.position.iter_mut().for_each(|x| self.method.images.wrap(x));
         let (order, tree) = Neighbours::order(&self.cloud.position, self.method.threads);
         self.cloud.permute(&order, self.method.threads);
         self.neighbours = Neighbours::of_ordered(tree, self.cloud.len());
@@ -176,8 +178,8 @@ impl<'a> Stepper<'a> {
 
     /// Lists neighbours for ways that the particles are about to go: these vectors times `factor`.
     fn list(&mut self, ways: &[[f64; 3]], factor: f64) {
-        let (mirrors, threads) = (self.method.mirror_bits(), self.method.threads);
-        self.neighbours.prepare(&self.cloud.position, ways, factor, mirrors, threads);
+        let Method { images, threads, .. } = self.method;
+        self.neighbours.prepare(&self.cloud.position, ways, factor, images, *threads);
     }
 
     /// Advances by `duration` [s].
@@ -211,7 +213,8 @@ impl<'a> Stepper<'a> {
         if self.ledger.way > SHIFT_WAY {
             self.shift();
         }
-        if self.neighbours.are_scattered() {
+        let astray = self.method.images.are_astray(&self.cloud.position);
+        if astray || self.neighbours.are_scattered() {
             self.sort();
         }
         let velocity = std::mem::take(&mut self.cloud.velocity);
@@ -268,7 +271,7 @@ impl<'a> Stepper<'a> {
     /// Gives heat [J] and impulse [N s] of a particle and of its images at mirrors to the wall below.
     fn give(&mut self, i: usize, heat: f64, impulse: [f64; 3]) {
         let Some(cells) = &self.method.wall else { return };
-        let [x, y, _] = self.cloud.position[i].map(|x| x * self.method.units.length);
+        let [x, y] = self.place(i);
         if cells.are_radial() {
             // All images are equally far out, and push alike along their radius.
             return deposit(cells, self.ledger, [x, y], heat, impulse, self.method.mirrors);
@@ -280,6 +283,13 @@ impl<'a> Stepper<'a> {
                 deposit(cells, self.ledger, [right * x, back * y], heat, impulse, [false; 2]);
             }
         }
+    }
+
+    /// Where the wall is that a particle is above [m].
+    fn place(&self, i: usize) -> [f64; 2] {
+        let mut at = self.cloud.position[i];
+        self.method.images.wrap(&mut at);
+        [at[0], at[1]].map(|x| x * self.method.units.length)
     }
 
     fn change_density_and_heat(&mut self, dt: f64) {
@@ -312,6 +322,7 @@ impl<'a> Stepper<'a> {
             fill(&mut wall_temperature, cloud.len(), method.threads, |i| self.wall_below(i));
         }
         let pass = Continuity::<HEAT, MOMENTS> {
+            images: &method.images,
             records: &records,
             annexes: &annexes,
             wall_temperature: &wall_temperature,
@@ -345,11 +356,10 @@ impl<'a> Stepper<'a> {
 
     /// Temperature of the wall below a particle; the particle's own where it has no wall near.
     fn wall_below(&self, i: usize) -> f64 {
-        let [x, y, z] = self.cloud.position[i];
         match &self.method.wall {
-            Some(cells) if z < 1.0 => {
-                let length = self.method.units.length;
-                let share = cells.share(x * length, y * length);
+            Some(cells) if self.cloud.position[i][2] < 1.0 => {
+                let [x, y] = self.place(i);
+                let share = cells.share(x, y);
                 share.cells.iter().map(|&(cell, weight)| weight * self.wall_temperature[cell]).sum()
             }
             _ => self.cloud.temperature[i],
@@ -364,42 +374,96 @@ impl<'a> Stepper<'a> {
         fill(&mut records, cloud.len(), method.threads, |i| {
             record(cloud, i, self.ahead(i, dt), pressure(cloud.density[i]))
         });
-        let pass = Momentum {
-            records: &records,
-            densities: &cloud.density,
-            normalisation: method.normalisation,
-            viscosity: method.viscosity,
-            cohesion: method.cohesion,
-            wetting: method.wetting,
-            weight: -2.0 * method.gravity[2],
-        };
-        let acceleration = for_all(
-            &pass,
-            &self.neighbours.blocks,
-            method.kernel,
-            method.precision,
-            method.threads,
-            std::mem::take(&mut self.accelerations),
-        );
+        let mut acceleration = std::mem::take(&mut self.accelerations);
+        if method.tension > 0.0 {
+            let surface = self.surface(&records);
+            self.ledger.surface_energy = self.surface_energy(&surface);
+            let slopes: Vec<[f64; 4]> = surface.iter().map(|sums| sums.slopes).collect();
+            let pass = self.momentum::<true>(&records, &slopes);
+            acceleration = self.over_pairs(&pass, acceleration);
+            self.wet(&mut acceleration);
+        } else {
+            let pass = self.momentum::<false>(&records, &[]);
+            acceleration = self.over_pairs(&pass, acceleration);
+        }
         self.accelerations = std::mem::replace(&mut self.cloud.acceleration, acceleration);
         self.records = records;
+    }
+
+    fn momentum<'b, const TENSE: bool>(
+        &'b self,
+        records: &'b [[f64; 8]],
+        slopes: &'b [[f64; 4]],
+    ) -> Momentum<'b, TENSE> {
+        Momentum {
+            images: &self.method.images,
+            records,
+            slopes,
+            densities: &self.cloud.density,
+            normalisation: self.method.normalisation,
+            viscosity: self.method.viscosity,
+            surface: [self.method.surface.reach, self.method.dimension as f64],
+        }
+    }
+
+    fn over_pairs<P: PairSum<Output: Clone + Default>>(
+        &self,
+        pass: &P,
+        memory: Vec<P::Output>,
+    ) -> Vec<P::Output> {
+        let Method { kernel, precision, threads, .. } = *self.method;
+        for_all(pass, &self.neighbours.blocks, kernel, precision, threads, memory)
+    }
+
+    fn surface(&self, records: &[[f64; 8]]) -> Vec<SurfaceSums> {
+        let pass = Surface {
+            images: &self.method.images,
+            records,
+            normalisation: self.method.normalisation,
+            dimension: self.method.dimension,
+            energy: self.method.surface,
+        };
+        self.over_pairs(&pass, Vec::new())
+    }
+
+    /// Energy of all free and wetted surface, images at mirrors included [J].
+    fn surface_energy(&self, surface: &[SurfaceSums]) -> f64 {
+        let method = self.method;
+        let images: f64 = method.mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
+        let wets = method.wall.is_some();
+        let of_particle = |(i, sums): (usize, &SurfaceSums)| {
+            let height = self.cloud.position[i][2];
+            let wall =
+                if wets { wetting::energy(method.tension, method.wetting, height) } else { 0.0 };
+            self.cloud.volume(i) * (sums.energy + wall)
+        };
+        images * method.units.energy() * surface.iter().enumerate().map(of_particle).sum::<f64>()
+    }
+
+    /// Adds the wall's pull.
+    fn wet(&self, acceleration: &mut [Accelerations]) {
+        let method = self.method;
+        if method.wall.is_none() || method.wetting == 0.0 {
+            return;
+        }
+        for (i, [_, by_wall]) in acceleration.iter_mut().enumerate() {
+            let (height, density) = (self.cloud.position[i][2], self.cloud.density[i]);
+            if height < 1.0 {
+                by_wall[2] += wetting::pull(method.tension, method.wetting, height, density);
+            }
+        }
     }
 
     /// A particle that meets its image at a plane exchanges its place with it: exactly what two mirror
     /// images do that pass through each other.
     fn rebound(&mut self) {
         let momentum = self.method.units.mass() * self.method.units.speed;
-        let walled = self.method.wall.is_some();
         for i in 0..self.cloud.len() {
-            for a in 0..2 {
-                if self.method.mirrors[a] && self.cloud.position[i][a] < 0.0 {
-                    self.cloud.position[i][a] *= -1.0;
-                    self.cloud.velocity[i][a] *= -1.0;
-                }
-            }
-            if walled && self.cloud.position[i][2] < 0.0 {
-                self.cloud.position[i][2] *= -1.0;
-                self.cloud.velocity[i][2] *= -1.0;
+            let below = self.cloud.position[i][2] < 0.0;
+            let signs = self.method.images.put_back(&mut self.cloud.position[i]);
+            (0..3).for_each(|a| self.cloud.velocity[i][a] *= signs[a]);
+            // Without a wall there is nothing that gets it.
+            if below && signs[2] < 0.0 {
                 let impulse = -2.0 * momentum * self.cloud.mass[i] * self.cloud.velocity[i][2];
                 self.give(i, 0.0, [0.0, 0.0, impulse]);
             }
@@ -421,6 +485,7 @@ impl<'a> Stepper<'a> {
             (0..cloud.len()).map(|i| record(cloud, i, [0.0; 3], fullness[i])).collect();
         let value = |q: f64| method.kernel.value(q, 1.0, method.dimension) / method.normalisation;
         let pass = Crowding {
+            images: &method.images,
             records: &records,
             normalisation: method.normalisation,
             reference: 1.0 / value(method.spacing),
@@ -441,15 +506,7 @@ impl<'a> Stepper<'a> {
         self.list(&shifts, 1.0);
         for (x, shift) in self.cloud.position.iter_mut().zip(&shifts) {
             (0..3).for_each(|a| x[a] += shift[a]);
-        }
-        self.put_back();
-    }
-
-    /// Puts back what a shift moved through a plane.
-    fn put_back(&mut self) {
-        let planes = [self.method.mirrors[0], self.method.mirrors[1], self.method.wall.is_some()];
-        for x in &mut self.cloud.position {
-            (0..3).filter(|&a| planes[a]).for_each(|a| x[a] = x[a].abs());
+            method.images.put_back(x);
         }
     }
 
