@@ -104,6 +104,7 @@ impl Setup {
             placement: Placement::Lattice,
             precision: Precision::Single,
             density_diffusion: 0.1,
+            corrected_diffusion: true,
             shifting: self.shifting,
             gravity: self.gravity,
             mirrors: [false; 2],

@@ -1,6 +1,7 @@
 //! The particles of a model and its ledger: all that changes, and how it lies in a flat vector.
 
 use super::wall::WallExchange;
+use crate::math::parallel;
 
 /// Particles, each list with an entry for each. Lengths over H, velocities over c₀, masses over
 /// ρ₀H^d.
@@ -120,19 +121,29 @@ impl Cloud {
     }
 
     /// Puts the particles into another order.
-    pub fn permute(&mut self, order: &[u32]) {
-        fn permuted<T: Copy>(list: &mut Vec<T>, order: &[u32]) {
-            *list = order.iter().map(|&i| list[i as usize]).collect();
-        }
-        permuted(&mut self.position, order);
-        permuted(&mut self.velocity, order);
-        permuted(&mut self.mass, order);
-        permuted(&mut self.density, order);
-        permuted(&mut self.temperature, order);
-        permuted(&mut self.heating, order);
-        permuted(&mut self.acceleration, order);
-        permuted(&mut self.gradient, order);
-        permuted(&mut self.moment, order);
+    pub fn permute(&mut self, order: &[u32], threads: usize) {
+        let permute = Permutation { order, threads };
+        permute.apply(&mut self.position);
+        permute.apply(&mut self.velocity);
+        permute.apply(&mut self.mass);
+        permute.apply(&mut self.density);
+        permute.apply(&mut self.temperature);
+        permute.apply(&mut self.heating);
+        permute.apply(&mut self.acceleration);
+        permute.apply(&mut self.gradient);
+        permute.apply(&mut self.moment);
+    }
+
+    fn reserve(&mut self, particles: usize) {
+        self.position.reserve(particles);
+        self.velocity.reserve(particles);
+        self.mass.reserve(particles);
+        self.density.reserve(particles);
+        self.temperature.reserve(particles);
+        self.heating.reserve(particles);
+        self.acceleration.reserve(particles);
+        self.gradient.reserve(particles);
+        self.moment.reserve(particles);
     }
 
     fn numbers(&self, i: usize) -> [f64; NUMBERS] {
@@ -177,6 +188,20 @@ impl Cloud {
         self.acceleration[i] = [[n[10], n[11], n[12]], [n[13], n[14], n[15]]];
         self.gradient[i] = [n[16], n[17], n[18]];
         self.moment[i] = [n[19], n[20], n[21], n[22], n[23], n[24]];
+    }
+}
+
+/// Another order of lists.
+struct Permutation<'a> {
+    order: &'a [u32],
+    threads: usize,
+}
+
+impl Permutation<'_> {
+    fn apply<T: Copy + Send + Sync>(&self, list: &mut Vec<T>) {
+        let before = &*list;
+        let moved = |k: usize| before[self.order[k] as usize];
+        *list = parallel::map(self.threads, self.order.len(), moved);
     }
 }
 
@@ -235,6 +260,7 @@ pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
 /// Reads the particles of a state.
 pub fn cloud_of(state: &[f64], cells: usize) -> Cloud {
     let mut cloud = Cloud::default();
+    cloud.reserve((state.len() - state_len(cells, 0)) / NUMBERS);
     state[state_len(cells, 0)..].as_chunks().0.iter().for_each(|numbers| cloud.take(numbers));
     cloud
 }

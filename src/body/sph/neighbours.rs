@@ -73,8 +73,8 @@ impl Block {
 impl Neighbours {
     /// Puts particles into blocks: the order in which all their numbers have to stand for
     /// [`Self::of_ordered`].
-    pub fn order(points: &[[f64; 3]]) -> (Vec<u32>, BlockTree) {
-        space_order(points)
+    pub fn order(points: &[[f64; 3]], threads: usize) -> (Vec<u32>, BlockTree) {
+        space_order(points, threads)
     }
 
     /// Neighbours of particles that stand in the order of the tree's blocks; the lists are made when
@@ -278,12 +278,9 @@ fn select_avx512(
             let xy = _mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy));
             let square = _mm512_add_ps(xy, _mm512_mul_ps(dz, dz));
             let near = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, reach);
-            // Points stand in an order in which far ones come many at a time.
-            if near != 0 {
-                let kept = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(near, numbers));
-                _mm256_storeu_si256(places[found..].as_mut_ptr().cast(), kept);
-                found += near.count_ones() as usize;
-            }
+            let kept = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(near, numbers));
+            _mm256_storeu_si256(places[found..].as_mut_ptr().cast(), kept);
+            found += near.count_ones() as usize;
         }
         numbers = _mm512_add_epi32(numbers, ahead);
     }
@@ -311,7 +308,7 @@ mod tests {
     fn ordered(count: usize) -> (Vec<[f64; 3]>, Neighbours) {
         let point = |i: usize| [3.0 * number(i), 3.0 * number(7 * i + 3), 3.0 * number(13 * i + 5)];
         let points: Vec<_> = (0..count).map(point).collect();
-        let (order, tree) = Neighbours::order(&points);
+        let (order, tree) = Neighbours::order(&points, 1);
         let points = order.iter().map(|&i| points[i as usize]).collect();
         (points, Neighbours::of_ordered(tree, count))
     }

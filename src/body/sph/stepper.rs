@@ -171,8 +171,8 @@ impl<'a> Stepper<'a> {
 
     fn sort(&mut self) {
         self.cloud.position.iter_mut().for_each(|x| self.method.images.wrap(x));
-        let (order, tree) = Neighbours::order(&self.cloud.position);
-        self.cloud.permute(&order);
+        let (order, tree) = Neighbours::order(&self.cloud.position, self.method.threads);
+        self.cloud.permute(&order, self.method.threads);
         self.neighbours = Neighbours::of_ordered(tree, self.cloud.len());
     }
 
@@ -272,11 +272,15 @@ impl<'a> Stepper<'a> {
     fn give(&mut self, i: usize, heat: f64, impulse: [f64; 3]) {
         let Some(cells) = &self.method.wall else { return };
         let [x, y] = self.place(i);
+        if cells.are_radial() {
+            // All images are equally far out, and push alike along their radius.
+            return deposit(cells, self.ledger, [x, y], heat, impulse, self.method.mirrors);
+        }
         let sides = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
         for &right in sides(self.method.mirrors[0]) {
             for &back in sides(self.method.mirrors[1]) {
                 let impulse = [right * impulse[0], back * impulse[1], impulse[2]];
-                deposit(cells, self.ledger, [right * x, back * y], heat, impulse);
+                deposit(cells, self.ledger, [right * x, back * y], heat, impulse, [false; 2]);
             }
         }
     }
@@ -591,15 +595,27 @@ fn renormalised(&[xx, yy, zz, xy, yz, xz]: &[f64; 6], [a, b, c]: [f64; 3]) -> [f
     ]
 }
 
-/// Adds heat [J] and impulse [N s] at a place of the wall.
-fn deposit(cells: &WallCells, ledger: &mut Ledger, [x, y]: [f64; 2], heat: f64, impulse: [f64; 3]) {
+/// Adds heat [J] and impulse [N s] at a place of the wall and at its images at `mirrors`, which have to
+/// lie in the same cells.
+fn deposit(
+    cells: &WallCells,
+    ledger: &mut Ledger,
+    [x, y]: [f64; 2],
+    heat: f64,
+    impulse: [f64; 3],
+    mirrors: [bool; 2],
+) {
     let exchange: &mut WallExchange = &mut ledger.exchange;
     let share = cells.share(x, y);
+    let images: f64 = mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
+    let (heat, impulse) = (images * heat, impulse.map(|p| images * p));
     ledger.heat_to_wall += heat;
-    (0..3).for_each(|n| ledger.impulse_to_wall[n] += impulse[n]);
+    // What the images give along a mirrored axis cancels.
+    let along = |n: usize| if n < 2 && mirrors[n] { 0.0 } else { impulse[n] };
+    (0..3).for_each(|n| ledger.impulse_to_wall[n] += along(n));
     if share.outside {
         exchange.heat_outside += heat;
-        (0..3).for_each(|n| exchange.impulse_outside[n] += impulse[n]);
+        (0..3).for_each(|n| exchange.impulse_outside[n] += along(n));
         return;
     }
     let radius = x.hypot(y);
