@@ -8,7 +8,8 @@ pub const DENSITIES: [f64; 2] = [0.3, 3.0];
 /// How some particles move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
-    /// Σ v².
+    /// Σ v and Σ v².
+    sums: [f64; 3],
     squares: f64,
     /// Largest v² and a².
     fastest: f64,
@@ -24,13 +25,22 @@ pub struct Motion {
 impl Motion {
     fn none() -> Self {
         let pushed = Vec::new();
-        Self { squares: 0.0, fastest: 0.0, most_accelerated: 0.0, mass: 0.0, sound: true, pushed }
+        Self {
+            sums: [0.0; 3],
+            squares: 0.0,
+            fastest: 0.0,
+            most_accelerated: 0.0,
+            mass: 0.0,
+            sound: true,
+            pushed,
+        }
     }
 
     /// Of all parts, added up in their order.
     pub fn of(parts: Vec<Self>) -> Self {
         let mut all = Self::none();
         for part in parts {
+            (0..3).for_each(|a| all.sums[a] += part.sums[a]);
             all.squares += part.squares;
             all.fastest = all.fastest.max(part.fastest);
             all.most_accelerated = all.most_accelerated.max(part.most_accelerated);
@@ -49,8 +59,12 @@ impl Motion {
         self.most_accelerated.sqrt()
     }
 
-    pub fn root_mean_square_speed(&self, particles: usize) -> f64 {
-        (self.squares / particles as f64).sqrt()
+    /// About the mean velocity, of which mirrored axes have none.
+    pub fn root_mean_square_speed(&self, particles: usize, mirrors: [bool; 2]) -> f64 {
+        let count = particles as f64;
+        let free = [!mirrors[0], !mirrors[1], true];
+        let mean: f64 = (0..3).filter(|&a| free[a]).map(|a| (self.sums[a] / count).powi(2)).sum();
+        (self.squares / count - mean).max(0.0).sqrt()
     }
 }
 
@@ -68,6 +82,7 @@ pub fn kick(part: &mut Part, dt: f64, gravity: [f64; 3]) -> Motion {
             acceleration += rate * rate;
         }
         part.velocity[i] = velocity;
+        (0..3).for_each(|a| motion.sums[a] += velocity[a]);
         motion.squares += speed;
         motion.fastest = motion.fastest.max(speed);
         motion.most_accelerated = motion.most_accelerated.max(acceleration);

@@ -209,7 +209,8 @@ impl<'a> Stepper<'a> {
 
     fn step(&mut self, dt: f64) -> Result<Motion, Failure> {
         let motion = self.kick(0.5 * dt);
-        self.ledger.way += dt * motion.root_mean_square_speed(self.cloud.len());
+        let speed = motion.root_mean_square_speed(self.cloud.len(), self.method.mirrors);
+        self.ledger.way += dt * speed;
         if self.ledger.way > SHIFT_WAY {
             self.shift();
         }
