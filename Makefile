@@ -3,12 +3,13 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
+PEERS := .venv-peers
 NAMES := $(sort $(patsubst examples/%/scene.toml,%,$(wildcard examples/*/scene.toml)))
 RELEASE := target/release
 PY_FILES := $(wildcard python tests/fmpy tests/verification benches examples)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo units examples test rust-test python-test fuzz verify bench build clean
+.PHONY: help demo units examples test rust-test python-test fuzz verify bench bench-droplet build clean
 
 help: ## say what there is
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
@@ -46,11 +47,15 @@ fuzz: ## drive the C ABI with random calls for SECONDS seconds
 verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent finite-element code
 	cargo test --release --features verification --test verification -- --nocapture --test-threads 1
 	$(BIN)/python tests/verification/particles.py target/tmp out/verification/particles.png
+	$(BIN)/python tests/verification/flows.py target/tmp out/verification
 	$(BIN)/python tests/verification/independent_code.py
 
 bench: build $(VENV)/ready-verify ## time against an independent finite-element code, and units beside those of others
 	$(BIN)/python benches/alumina_plate.py
 	$(BIN)/python benches/units.py
+
+bench-droplet: $(PEERS)/ready ## time droplets against two other particle codes (needs g++ and OpenGL's libraries)
+	$(PEERS)/bin/python benches/droplet_peers.py
 
 build:
 	cargo build --release --workspace
@@ -73,7 +78,12 @@ $(VENV)/ready-verify: python/requirements-verify.txt $(VENV)/ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r python/requirements-verify.txt
 	@touch $@
 
+$(PEERS)/ready: python/requirements-peers.txt | $(VENV)/bin/python
+	@$(BIN)/python -m venv $(PEERS)
+	$(PEERS)/bin/python -m pip install --quiet --disable-pip-version-check -r python/requirements-peers.txt
+	@touch $@
+
 clean: ## remove everything that was built
 	cargo clean
-	rm -rf $(VENV) out .pytest_cache .ruff_cache
+	rm -rf $(VENV) $(PEERS) out .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 
 use impinge::body::sph::{
-    DropletPlan, DropletSph, Fluid, ParticleFields, Placement, Precision, Release, Wall, WallCells,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
+    WallCells,
 };
 use impinge::kernel::Kernel;
 
@@ -34,9 +35,11 @@ fn impact(resolution: f64) -> DropletPlan {
         placement: Placement::Lattice,
         precision: Precision::Single,
         density_diffusion: 0.1,
+        corrected_diffusion: true,
         shifting: true,
         gravity: [0.0; 3],
         mirrors: [true; 2],
+        extents: [Extent::Open; 3],
         releases: vec![Release {
             time: 0.0,
             centre: [0.0, 0.0, 0.5 * (DIAMETER + spacing)],
@@ -92,11 +95,55 @@ fn what_the_droplet_loses_the_wall_gains() {
 
 #[test]
 fn threads_change_no_bit() {
-    let alone = run(&DropletSph::new(impact(14.0), 1), 3);
+    let alone = run(&DropletSph::new(impact(24.0), 1), 3);
     for threads in [2, 5] {
-        let together = run(&DropletSph::new(impact(14.0), threads), 3);
+        let together = run(&DropletSph::new(impact(24.0), threads), 3);
         assert!(alone.iter().zip(&together).all(|(a, b)| a.to_bits() == b.to_bits()));
     }
+}
+
+/// Position, velocity and density of all particles.
+fn flow(drop: &DropletSph, state: &[f64]) -> Vec<u64> {
+    let ParticleFields { position, velocity, density, .. } = drop.particles(state);
+    let vectors = position.into_iter().chain(velocity).flatten();
+    vectors.chain(density).map(f64::to_bits).collect()
+}
+
+#[test]
+fn heat_that_is_left_out_changes_no_bit_of_the_flow() {
+    for (corrected_diffusion, shifting) in [(true, true), (false, false)] {
+        let plan = DropletPlan { corrected_diffusion, shifting, ..impact(16.0) };
+        let warm = DropletSph::new(plan.clone(), 1);
+        let fluid = Fluid { conductivity: 0.0, ..WATER };
+        let without = DropletSph::new(DropletPlan { fluid, ..plan }, 1);
+        let [warm_state, state] = [&warm, &without].map(|drop| run(drop, 4));
+        assert_eq!(flow(&warm, &warm_state), flow(&without, &state));
+        assert!(warm.totals(&warm_state).heat_to_wall > 0.0);
+        assert_eq!(without.totals(&state).heat_to_wall, 0.0);
+        assert_eq!(without.totals(&state).temperature_range, [HOT; 2]);
+    }
+}
+
+#[test]
+fn what_the_diffusion_does_not_need_may_be_left_out() {
+    // Shifting needs moments; without either, sums are added up in another order.
+    let plan = DropletPlan { corrected_diffusion: false, ..impact(16.0) };
+    let full = DropletSph::new(plan.clone(), 1);
+    let lean = DropletSph::new(DropletPlan { shifting: false, ..plan }, 1);
+    let corrected = DropletSph::new(impact(16.0), 1);
+    // Not long enough for particles to be shifted.
+    let [full, lean, corrected] = [full, lean, corrected].map(|drop| {
+        let mut state = drop.initial_state();
+        drop.advance(&mut state, &[COLD; RINGS], 2.5e-8).unwrap();
+        assert!(drop.totals(&state).steps > 1.0);
+        drop.particles(&state).density
+    });
+    let apart = |other: &[f64]| {
+        let pairs = full.iter().zip(other);
+        pairs.map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max)
+    };
+    assert!(apart(&lean) < 1e-7, "{:e}", apart(&lean));
+    assert!(apart(&corrected) > 1e-5, "{:e}", apart(&corrected));
 }
 
 #[test]

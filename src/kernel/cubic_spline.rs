@@ -26,4 +26,13 @@ impl Shape for CubicSpline {
         let far = N::constant(-6.0) * t * t / q.max(N::constant(0.25));
         q.choose_below(0.5, near, far)
     }
+
+    #[inline(always)]
+    fn bend_over_q<N: Number>(q: N) -> N {
+        let near = N::constant(18.0) / q.max(N::constant(1e-3));
+        let t = (N::constant(1.0) - q).max(N::constant(0.0));
+        let r = q.max(N::constant(0.25));
+        let far = N::constant(6.0) * t * (N::constant(2.0) * r + t) / (r * r * r);
+        q.choose_below(0.5, near, far)
+    }
 }

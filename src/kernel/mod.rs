@@ -62,6 +62,10 @@ pub trait Shape {
     /// w′(q)/q: zero for q ≥ 1; smooth kernels have a finite limit at q = 0.
     fn slope_over_q<N: Number>(q: N) -> N;
 
+    /// F′(q)/q of F = w′(q)/q, which completes the second derivatives of W:
+    /// `∂²w/∂x_a∂x_b = F δ_ab + (F′/q) x_a x_b`.
+    fn bend_over_q<N: Number>(q: N) -> N;
+
     /// σ_d for d = 1, 2, 3.
     const NORMALISATION: [f64; 3];
 }
@@ -182,6 +186,19 @@ mod tests {
     }
 
     #[test]
+    fn the_bend_is_the_slope_of_the_gradient_factor() {
+        for kernel in Kernel::ALL {
+            with_kernel_shape!(kernel, S => for q in [0.05, 0.2, 0.45, 0.6, 0.75, 0.95, 1.2] {
+                let step = 1e-6;
+                let ahead: f64 = S::slope_over_q(q + step);
+                let slope = (ahead - S::slope_over_q(q - step)) / (2.0 * step);
+                let scale = S::slope_over_q(0.01f64).abs();
+                assert!((slope - S::bend_over_q(q) * q).abs() < 1e-6 * scale, "{kernel:?} at {q}");
+            });
+        }
+    }
+
+    #[test]
     fn the_first_moment_of_the_gradient_is_minus_one() {
         // ∫ r ⊗ ∇W dV = −1, one diagonal entry: ∫ F r² dV / d = −1.
         for_all(|kernel, d| {
@@ -223,6 +240,8 @@ mod tests {
                     check(S::value(q as f32), S::value(q), S::value(0.0f64));
                     let near = S::slope_over_q(0.01f64).abs();
                     check(S::slope_over_q(q as f32), S::slope_over_q(q), near);
+                    let bend = (S::bend_over_q(0.01f64) * 0.01).abs() + near;
+                    check((S::bend_over_q(q as f32)) * q as f32, S::bend_over_q(q) * q, 10.0 * bend);
                 });
             }
         }

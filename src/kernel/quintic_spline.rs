@@ -37,4 +37,20 @@ impl Shape for QuinticSpline {
             / s.max(N::constant(0.5));
         N::constant(9.0) * s.choose_below(1.0, near, far)
     }
+
+    #[inline(always)]
+    fn bend_over_q<N: Number>(q: N) -> N {
+        let s = N::constant(3.0) * q;
+        let near = N::constant(19440.0) - N::constant(12150.0) * s;
+        let power = |reach: f64| {
+            let t = (N::constant(reach) - s).max(N::constant(0.0));
+            [t * t * t, t * t * t * t]
+        };
+        let ([a3, a4], [b3, b4]) = (power(3.0), power(2.0));
+        let value = a4 - N::constant(6.0) * b4;
+        let slope = N::constant(24.0) * b3 - N::constant(4.0) * a3;
+        let t = s.max(N::constant(0.5));
+        let far = N::constant(-405.0) * (slope * t - value) / (t * t * t);
+        s.choose_below(1.0, near, far)
+    }
 }

@@ -23,4 +23,10 @@ impl Shape for WendlandC2 {
         let t = (N::constant(1.0) - q).max(N::constant(0.0));
         N::constant(-20.0) * t * t * t
     }
+
+    #[inline(always)]
+    fn bend_over_q<N: Number>(q: N) -> N {
+        let t = (N::constant(1.0) - q).max(N::constant(0.0));
+        N::constant(60.0) * t * t / q.max(N::constant(1e-3))
+    }
 }

@@ -24,4 +24,11 @@ impl Shape for WendlandC4 {
         let t2 = t * t;
         N::constant(-56.0 / 3.0) * t2 * t2 * t * (N::constant(1.0) + N::constant(5.0) * q)
     }
+
+    #[inline(always)]
+    fn bend_over_q<N: Number>(q: N) -> N {
+        let t = (N::constant(1.0) - q).max(N::constant(0.0));
+        let t2 = t * t;
+        N::constant(560.0) * t2 * t2
+    }
 }

@@ -6,7 +6,8 @@ use std::ops::Range;
 use super::ModelError;
 use super::contact::Contact;
 use crate::body::sph::{
-    self, DropletPlan, DropletSph, DropletTotals, ParticleFields, Release, WallCells, WallExchange,
+    self, DropletPlan, DropletSph, DropletTotals, Extent, ParticleFields, Release, WallCells,
+    WallExchange,
 };
 use crate::scene::{Droplet, Footprint, Scene};
 use crate::variables::{DropletTotal, InputLayout, WallOutput};
@@ -132,6 +133,7 @@ impl DropletModel {
             DropletTotal::Height => totals.height,
             DropletTotal::KineticEnergy => totals.kinetic_energy,
             DropletTotal::CompressionEnergy => totals.compression_energy,
+            DropletTotal::SurfaceEnergy => totals.surface_energy,
             DropletTotal::Mass => totals.mass,
             DropletTotal::Momentum(axis) => totals.momentum[axis],
             DropletTotal::HeatStored => totals.heat - totals.heat_released,
@@ -241,9 +243,11 @@ pub fn plan_of(droplet: &Droplet, cells: Option<WallCells>) -> DropletPlan {
         placement: droplet.placement,
         precision: droplet.precision,
         density_diffusion: droplet.density_diffusion,
-        shifting: droplet.shifting,
+        corrected_diffusion: droplet.corrected_diffusion,
+        shifting: droplet.shifts(),
         gravity: [0.0, 0.0, -droplet.gravity],
         mirrors: droplet.mirrors(),
+        extents: [Extent::Open; 3],
         releases: releases.collect(),
         wall: cells.map(|cells| sph::Wall { cells, contact_angle: fluid.contact_angle }),
     }
@@ -296,6 +300,11 @@ pub fn notes(droplet: &Droplet) -> Vec<String> {
     }
     if droplet.fluid.surface_tension == 0.0 {
         notes.push("surface tension is left out: the scene names none".to_owned());
+    } else if droplet.shifting.is_none() {
+        notes.push("particles are not shifted: surface tension keeps their distances".to_owned());
+    }
+    if droplet.fluid.conductivity == 0.0 {
+        notes.push("heat is left out: the fluid does not conduct any".to_owned());
     }
     notes
 }

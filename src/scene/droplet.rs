@@ -45,9 +45,14 @@ pub struct Droplet {
     /// δ of the density diffusion.
     #[serde(default = "default_density_diffusion")]
     pub density_diffusion: f64,
-    /// Whether particles are moved from crowded places to empty ones.
+    /// Whether renormalised gradients correct the density diffusion, so that it leaves a fluid at
+    /// rest under gravity alone.
     #[serde(default = "yes")]
-    pub shifting: bool,
+    pub corrected_diffusion: bool,
+    /// Whether particles are moved from crowded places to empty ones. Surface tension, which keeps
+    /// their distances too and with which shifting makes pressure, leaves it out if nothing is said.
+    #[serde(default)]
+    pub shifting: Option<bool>,
     /// A copy of the drop for each entry.
     #[serde(default = "one_arrival")]
     pub arrivals: Vec<Arrival>,
@@ -71,7 +76,7 @@ pub struct Fluid {
     pub viscosity: f64,
     /// [J/(kg K)]
     pub specific_heat: f64,
-    /// [W/(m K)]
+    /// [W/(m K)]; 0 leaves heat out.
     pub conductivity: f64,
     /// [N/m]
     #[serde(default)]
@@ -207,6 +212,11 @@ impl Droplet {
     /// Whether all drops arrive at the origin.
     pub fn is_centred(&self) -> bool {
         self.arrivals.iter().all(|arrival| arrival.x == 0.0 && arrival.y == 0.0)
+    }
+
+    /// Whether particles are shifted.
+    pub fn shifts(&self) -> bool {
+        self.shifting.unwrap_or(self.fluid.surface_tension == 0.0)
     }
 
     /// Along which of x and y the half of the model stands for the whole.

@@ -23,6 +23,7 @@ pub enum DropletTotal {
     Height,
     KineticEnergy,
     CompressionEnergy,
+    SurfaceEnergy,
     Mass,
     Momentum(usize),
     HeatStored,
@@ -126,10 +127,11 @@ impl DropletConstant {
 
 impl DropletTotal {
     /// Of any droplet.
-    const FREE: [DropletTotal; 17] = [
+    const FREE: [DropletTotal; 18] = [
         DropletTotal::Height,
         DropletTotal::KineticEnergy,
         DropletTotal::CompressionEnergy,
+        DropletTotal::SurfaceEnergy,
         DropletTotal::Mass,
         DropletTotal::Momentum(0),
         DropletTotal::Momentum(1),
@@ -161,6 +163,7 @@ impl DropletTotal {
             DropletTotal::Height => "height",
             DropletTotal::KineticEnergy => "kinetic_energy",
             DropletTotal::CompressionEnergy => "compression_energy",
+            DropletTotal::SurfaceEnergy => "surface_energy",
             DropletTotal::Mass => "mass",
             DropletTotal::Momentum(axis) => return format!("momentum_{}", AXES[axis]),
             DropletTotal::HeatStored => "heat_stored",
@@ -187,6 +190,7 @@ impl DropletTotal {
             DropletTotal::Height => "height of the highest particle above the wall",
             DropletTotal::KineticEnergy => "kinetic energy",
             DropletTotal::CompressionEnergy => "elastic energy of the weak compression",
+            DropletTotal::SurfaceEnergy => "energy of free and wetted surface, against a dry wall",
             DropletTotal::Mass => "mass released so far",
             DropletTotal::Momentum(axis) => return format!("momentum along {}", AXES[axis]),
             DropletTotal::HeatStored => "heat gained since the release, negative when cooled",
@@ -219,6 +223,7 @@ impl DropletTotal {
             DropletTotal::Height | DropletTotal::SpreadDiameter => Quantity::Length,
             DropletTotal::KineticEnergy
             | DropletTotal::CompressionEnergy
+            | DropletTotal::SurfaceEnergy
             | DropletTotal::HeatStored
             | DropletTotal::HeatDrift
             | DropletTotal::Heat => Quantity::Energy,

@@ -2,10 +2,14 @@
 //!
 //! `make verify` runs this and prints the tables that README.md here keeps.
 
+#[path = "../common/classical_flows.rs"]
+#[allow(dead_code)]
+mod classical_flows;
 #[path = "../common/mod.rs"]
 #[allow(dead_code)]
 mod common;
 mod elasticity;
+mod flows;
 mod heat;
 mod particles;
 mod study;

@@ -1,9 +1,6 @@
 //! Heat by particles: the operators alone, the cases of Park (2024) §2.4.5, and bodies of particles
 //! beside the same bodies of finite elements.
 
-use std::fmt::Write;
-use std::fs;
-use std::path::Path;
 use std::time::Instant;
 
 use impinge::body::particle_heat::operators::{Neighbour, Tensor, corrected, plain};
@@ -15,21 +12,11 @@ use impinge::kernel::Kernel;
 
 use crate::common::Trial;
 use crate::study::{
-    CONDUCTIVITY, HEAT_CAPACITY, Study, alumina, growth, line_of_probes, relative_norm,
+    CONDUCTIVITY, HEAT_CAPACITY, Study, alumina, growth, keep, line_of_probes, relative_norm,
 };
 
 const BODY: Conductor = Conductor { conductivity: CONDUCTIVITY, heat_capacity: HEAT_CAPACITY };
 const OPERATORS: [Operator; 2] = [Operator::Corrected, Operator::Plain];
-
-/// Keeps a table of numbers for `particles.py`, which draws them.
-fn keep(name: &str, header: &str, rows: impl IntoIterator<Item = Vec<f64>>) {
-    let mut text = format!("{header}\n");
-    for row in rows {
-        let cells: Vec<String> = row.iter().map(|value| format!("{value:e}")).collect();
-        let _ = writeln!(text, "{}", cells.join(","));
-    }
-    fs::write(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name), text).unwrap();
-}
 
 /// The Laplacian of f at each point of a cloud in the unit box, and how many points the corrected
 /// operator leaves to the plain one. Every point has the volume `spacing^d`.

@@ -1,5 +1,9 @@
 //! A row of ever finer runs of one case, and its table.
 
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
 /// Alumina (Park §2.4.6.3).
 pub const CONDUCTIVITY: f64 = 10.0;
 pub const HEAT_CAPACITY: f64 = 3950.0 * 900.0;
@@ -47,6 +51,16 @@ pub fn relative_norm(values: &[f64], exact: &[f64]) -> f64 {
 /// Growth of elements for a spacing, so that a mesh of half the spacing is finer everywhere alike.
 pub fn growth(spacing: f64, coarsest: f64) -> f64 {
     1.0 + 0.25 * spacing / coarsest
+}
+
+/// Keeps a table of numbers for the scripts that draw them.
+pub fn keep(name: &str, header: &str, rows: impl IntoIterator<Item = Vec<f64>>) {
+    let mut text = format!("{header}\n");
+    for row in rows {
+        let cells: Vec<String> = row.iter().map(|value| format!("{value:e}")).collect();
+        let _ = writeln!(text, "{}", cells.join(","));
+    }
+    fs::write(Path::new(env!("CARGO_TARGET_TMPDIR")).join(name), text).unwrap();
 }
 
 /// Relative errors of several quantities over spacings that halve from row to row.

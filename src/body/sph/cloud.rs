@@ -1,6 +1,7 @@
 //! The particles of a model and its ledger: all that changes, and how it lies in a flat vector.
 
 use super::wall::WallExchange;
+use crate::math::parallel;
 
 /// Particles, each list with an entry for each. Lengths over H, velocities over c₀, masses over
 /// ρ₀H^d.
@@ -23,6 +24,20 @@ pub struct Cloud {
     pub moment: Vec<[f64; 6]>,
 }
 
+/// Consecutive particles, for one thread to change: the numbers of [`Cloud`] from `first` on.
+pub struct Part<'a> {
+    pub first: usize,
+    pub position: &'a mut [[f64; 3]],
+    pub velocity: &'a mut [[f64; 3]],
+    pub mass: &'a [f64],
+    pub density: &'a mut [f64],
+    pub temperature: &'a mut [f64],
+    pub heating: &'a mut [f64],
+    pub acceleration: &'a [[[f64; 3]; 2]],
+    pub gradient: &'a mut [[f64; 3]],
+    pub moment: &'a mut [[f64; 6]],
+}
+
 /// Sums over time.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ledger {
@@ -41,6 +56,8 @@ pub struct Ledger {
     pub impulse_of_gravity: [f64; 3],
     /// Way over H that particles went on average since they were last shifted.
     pub way: f64,
+    /// Of free and wetted surface [J].
+    pub surface_energy: f64,
     /// What the wall got during the last step.
     pub exchange: WallExchange,
 }
@@ -48,7 +65,7 @@ pub struct Ledger {
 /// Numbers of a particle in a flat vector.
 const NUMBERS: usize = 25;
 /// Numbers of the ledger before those of its cells.
-const HEAD: usize = 17;
+const HEAD: usize = 18;
 
 impl Cloud {
     pub fn len(&self) -> usize {
@@ -59,6 +76,35 @@ impl Cloud {
     #[inline]
     pub fn volume(&self, i: usize) -> f64 {
         self.mass[i] / (1.0 + self.density[i])
+    }
+
+    /// The particles in parts of `size`, the last one of the rest.
+    pub fn parts(&mut self, size: usize) -> Vec<Part<'_>> {
+        let count = self.len();
+        let mut position = self.position.chunks_mut(size);
+        let mut velocity = self.velocity.chunks_mut(size);
+        let mut mass = self.mass.chunks(size);
+        let mut density = self.density.chunks_mut(size);
+        let mut temperature = self.temperature.chunks_mut(size);
+        let mut heating = self.heating.chunks_mut(size);
+        let mut acceleration = self.acceleration.chunks(size);
+        let mut gradient = self.gradient.chunks_mut(size);
+        let mut moment = self.moment.chunks_mut(size);
+        let part = |first| {
+            Some(Part {
+                first,
+                position: position.next()?,
+                velocity: velocity.next()?,
+                mass: mass.next()?,
+                density: density.next()?,
+                temperature: temperature.next()?,
+                heating: heating.next()?,
+                acceleration: acceleration.next()?,
+                gradient: gradient.next()?,
+                moment: moment.next()?,
+            })
+        };
+        (0..count).step_by(size).map_while(part).collect()
     }
 
     /// Adds a particle at rest density.
@@ -75,19 +121,29 @@ impl Cloud {
     }
 
     /// Puts the particles into another order.
-    pub fn permute(&mut self, order: &[u32]) {
-        fn permuted<T: Copy>(list: &mut Vec<T>, order: &[u32]) {
-            *list = order.iter().map(|&i| list[i as usize]).collect();
-        }
-        permuted(&mut self.position, order);
-        permuted(&mut self.velocity, order);
-        permuted(&mut self.mass, order);
-        permuted(&mut self.density, order);
-        permuted(&mut self.temperature, order);
-        permuted(&mut self.heating, order);
-        permuted(&mut self.acceleration, order);
-        permuted(&mut self.gradient, order);
-        permuted(&mut self.moment, order);
+    pub fn permute(&mut self, order: &[u32], threads: usize) {
+        let permute = Permutation { order, threads };
+        permute.apply(&mut self.position);
+        permute.apply(&mut self.velocity);
+        permute.apply(&mut self.mass);
+        permute.apply(&mut self.density);
+        permute.apply(&mut self.temperature);
+        permute.apply(&mut self.heating);
+        permute.apply(&mut self.acceleration);
+        permute.apply(&mut self.gradient);
+        permute.apply(&mut self.moment);
+    }
+
+    fn reserve(&mut self, particles: usize) {
+        self.position.reserve(particles);
+        self.velocity.reserve(particles);
+        self.mass.reserve(particles);
+        self.density.reserve(particles);
+        self.temperature.reserve(particles);
+        self.heating.reserve(particles);
+        self.acceleration.reserve(particles);
+        self.gradient.reserve(particles);
+        self.moment.reserve(particles);
     }
 
     fn numbers(&self, i: usize) -> [f64; NUMBERS] {
@@ -135,6 +191,20 @@ impl Cloud {
     }
 }
 
+/// Another order of lists.
+struct Permutation<'a> {
+    order: &'a [u32],
+    threads: usize,
+}
+
+impl Permutation<'_> {
+    fn apply<T: Copy + Send + Sync>(&self, list: &mut Vec<T>) {
+        let before = &*list;
+        let moved = |k: usize| before[self.order[k] as usize];
+        *list = parallel::map(self.threads, self.order.len(), moved);
+    }
+}
+
 /// Length of the state of a number of particles above a wall of some cells.
 pub fn state_len(cells: usize, particles: usize) -> usize {
     HEAD + 4 * cells + NUMBERS * particles
@@ -156,7 +226,7 @@ pub fn flatten(ledger: &Ledger, cloud: &Cloud) -> Vec<f64> {
     state.extend(ledger.impulse_of_gravity);
     state.extend([exchange.duration, exchange.heat_outside]);
     state.extend(exchange.impulse_outside);
-    state.push(ledger.way);
+    state.extend([ledger.way, ledger.surface_energy]);
     state.extend(&exchange.heat);
     state.extend(exchange.impulse.iter().flatten());
     (0..cloud.len()).for_each(|i| state.extend(cloud.numbers(i)));
@@ -176,6 +246,7 @@ pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
         impulse_to_wall: three(5),
         impulse_of_gravity: three(8),
         way: state[16],
+        surface_energy: state[17],
         exchange: WallExchange {
             duration: state[11],
             heat_outside: state[12],
@@ -189,6 +260,7 @@ pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
 /// Reads the particles of a state.
 pub fn cloud_of(state: &[f64], cells: usize) -> Cloud {
     let mut cloud = Cloud::default();
+    cloud.reserve((state.len() - state_len(cells, 0)) / NUMBERS);
     state[state_len(cells, 0)..].as_chunks().0.iter().for_each(|numbers| cloud.take(numbers));
     cloud
 }
@@ -218,6 +290,7 @@ mod tests {
             time: 1.5,
             released: 2,
             way: 0.25,
+            surface_energy: 3.5,
             impulse_to_wall: [1.0, 2.0, 3.0],
             impulse_of_gravity: [4.0, 5.0, 6.0],
             exchange,

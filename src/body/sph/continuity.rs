@@ -1,8 +1,9 @@
 //! Rates of density and temperature, and gradients of density, at the middle of a step.
 
-use super::lanes::{Lanes, lanes};
+use super::images::{Images, Source};
+use super::lanes::{Lanes, WIDTH, lanes};
 use super::loops::{Local, PairSum};
-use super::neighbours::{Block, Source};
+use super::neighbours::Block;
 use crate::kernel::Shape;
 
 /// Continuity with density diffusion (δ-SPH), and conduction.
@@ -13,18 +14,25 @@ use crate::kernel::Shape;
 /// `(1 + r_i) dT_i/dt = 2 κ Σ V_j F (T_i − T_j)`,
 ///
 /// with δ for a smoothing length H/2 and `g_i = B_i Σ V_j F (r_j − r_i) x_ij`,
-/// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. Images at the wall slip in the first
-/// equation; in the second they are as much colder than the wall as their original is hotter.
+/// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. Images at planes slip in the first
+/// equation, and under a body force the density goes on in them as it does at rest, so that a fluid at
+/// rest is not diffused; in the second those at the wall are as much colder than it as their original
+/// is hotter.
+///
+/// Only with `HEAT` is heat conducted; without `MOMENTS` all g are 0, and neither they nor what B is
+/// made of are summed.
 ///
 /// Sources: Antuono, Colagrossi & Marrone (2012), Comput. Phys. Commun. 183, 2570–2580, doi
-/// 10.1016/j.cpc.2012.07.006; Cleary & Monaghan (1999), J. Comput. Phys. 148, 227–264, doi
-/// 10.1006/jcph.1998.6118.
-pub struct Continuity<'a> {
+/// 10.1016/j.cpc.2012.07.006; with g = 0 Molteni & Colagrossi (2009), Comput. Phys. Commun. 180,
+/// 861–872, doi 10.1016/j.cpc.2008.12.004; Cleary & Monaghan (1999), J. Comput. Phys. 148, 227–264,
+/// doi 10.1006/jcph.1998.6118.
+pub struct Continuity<'a, const HEAT: bool, const MOMENTS: bool> {
+    pub images: &'a Images,
     /// Position, velocity, volume and r of every particle.
     pub records: &'a [[f64; 8]],
-    /// g and temperature of every particle.
+    /// g and temperature of every particle; nothing where neither is asked for.
     pub annexes: &'a [[f64; 4]],
-    /// Temperature of the wall below every particle.
+    /// Temperature of the wall below every particle; nothing without heat.
     pub wall_temperature: &'a [f64],
     /// σ of the kernel.
     pub normalisation: f64,
@@ -34,7 +42,7 @@ pub struct Continuity<'a> {
     pub conduction: f64,
 }
 
-/// Sums for one particle, their factors included.
+/// Sums for one particle, their factors included; 0 where they are not asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContinuityRates {
     /// dr/dt.
@@ -47,26 +55,35 @@ pub struct ContinuityRates {
     pub gradient: [f64; 3],
 }
 
-impl PairSum for Continuity<'_> {
+impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOMENTS> {
     type Output = ContinuityRates;
-    const ANNEX: bool = true;
+    const ANNEX: bool = HEAT || MOMENTS;
+
+    #[inline(always)]
+    fn records(&self) -> &[[f64; 8]] {
+        self.records
+    }
+
+    #[inline(always)]
+    fn annexes(&self) -> &[[f64; 4]] {
+        self.annexes
+    }
 
     #[inline(always)]
     fn record(&self, source: Source) -> [f64; 8] {
-        let [x, y, z] = signs(source.image());
-        let signs = [x, y, z, x, y, z, 1.0, 1.0];
-        let mut record = self.records[source.particle()];
-        for n in 0..8 {
-            record[n] *= signs[n];
-        }
-        record
+        let image = self.images.get(source.code());
+        let [x, y, z, u, v, w, volume, density] = self.records[source.particle()];
+        // Where the density differs little from that at rest, r is the pressure.
+        let density = density + image.overpressure([x, y, z]);
+        let ([x, y, z], [u, v, w]) = (image.place([x, y, z]), image.turn([u, v, w]));
+        [x, y, z, u, v, w, volume, density]
     }
 
     #[inline(always)]
     fn annex(&self, source: Source) -> [f64; 4] {
-        let [x, y, z] = signs(source.image());
-        let annex = self.annexes[source.particle()];
-        [x * annex[0], y * annex[1], z * annex[2], annex[3]]
+        let [x, y, z, temperature] = self.annexes[source.particle()];
+        let [x, y, z] = self.images.get(source.code()).gradient([x, y, z]);
+        [x, y, z, temperature]
     }
 
     #[inline(always)]
@@ -76,8 +93,9 @@ impl PairSum for Continuity<'_> {
         k: usize,
         local: &Local<L::Real>,
     ) -> ContinuityRates {
-        let own = &self.records[block.first + k];
-        let annex = &self.annexes[block.first + k];
+        let i = block.first + k;
+        let own = &self.records[i];
+        let annex = if HEAT || MOMENTS { self.annexes[i] } else { [0.0; 4] };
         let here = Here {
             position: lanes([
                 own[0] - block.centre[0],
@@ -90,54 +108,39 @@ impl PairSum for Continuity<'_> {
             temperature: L::constant(annex[3]),
         };
         let [fluid, wall] = block.neighbours(k);
-        let mut sums = Sums::zero();
-        for places in fluid {
-            sums.add::<S>(
-                &here,
-                local.gather(places),
-                local.gather_annex(places),
-                L::constant(1.0),
-            );
-        }
-        let by_fluid = sums.temperature.sum();
+        let mut sums = Sums::<L, HEAT, MOMENTS>::zero();
+        sums.add_all::<S>(&here, fluid, local, L::constant(1.0));
+        let by_fluid = sums.temperature.sum().into();
+        let mut by_wall = 0.0;
         if !wall.is_empty() {
             sums.temperature = L::constant(0.0);
-            let twice_wall = 2.0 * self.wall_temperature[block.first + k];
+            let twice_wall = if HEAT { 2.0 * self.wall_temperature[i] } else { 0.0 };
             let here = Here { temperature: L::constant(annex[3] - twice_wall), ..here };
-            for places in wall {
-                sums.add::<S>(
-                    &here,
-                    local.gather(places),
-                    local.gather_annex(places),
-                    L::constant(-1.0),
-                );
-            }
+            sums.add_all::<S>(&here, wall, local, L::constant(-1.0));
+            by_wall = sums.temperature.sum().into();
         }
-        let by_wall = if wall.is_empty() { L::Real::default() } else { sums.temperature.sum() };
         let scale = self.normalisation;
         let heating = 2.0 * self.conduction * scale / (1.0 + own[7]);
-        let mut moment = [0.0; 6];
-        for (total, sum) in moment.iter_mut().zip(sums.moment) {
-            *total = -scale * sum.sum().into();
-        }
-        let mut gradient = [0.0; 3];
-        for (total, sum) in gradient.iter_mut().zip(sums.gradient) {
-            *total = scale * sum.sum().into();
-        }
-        ContinuityRates {
+        let mut rates = ContinuityRates {
             density: scale * (1.0 + own[7]) * sums.divergence.sum().into()
                 - scale * self.diffusion * sums.diffusion.sum().into(),
-            temperature: [heating * by_fluid.into(), heating * by_wall.into()],
-            moment,
-            gradient,
+            temperature: [0.0; 2],
+            moment: [0.0; 6],
+            gradient: [0.0; 3],
+        };
+        if HEAT {
+            rates.temperature = [heating * by_fluid, heating * by_wall];
         }
+        if MOMENTS {
+            for (total, sum) in rates.moment.iter_mut().zip(sums.moment) {
+                *total = -scale * sum.sum().into();
+            }
+            for (total, sum) in rates.gradient.iter_mut().zip(sums.gradient) {
+                *total = scale * sum.sum().into();
+            }
+        }
+        rates
     }
-}
-
-/// −1 along axes that an image turns round.
-#[inline(always)]
-pub fn signs(image: u8) -> [f64; 3] {
-    [1.0 - f64::from(image << 1 & 2), 1.0 - f64::from(image & 2), 1.0 - f64::from(image >> 1 & 2)]
 }
 
 /// The particle whose neighbours are summed, in all lanes.
@@ -149,7 +152,7 @@ struct Here<L> {
     temperature: L,
 }
 
-struct Sums<L> {
+struct Sums<L, const HEAT: bool, const MOMENTS: bool> {
     divergence: L,
     diffusion: L,
     temperature: L,
@@ -157,7 +160,7 @@ struct Sums<L> {
     gradient: [L; 3],
 }
 
-impl<L: Lanes> Sums<L> {
+impl<L: Lanes, const HEAT: bool, const MOMENTS: bool> Sums<L, HEAT, MOMENTS> {
     #[inline(always)]
     fn zero() -> Self {
         let zero = L::constant(0.0);
@@ -170,21 +173,44 @@ impl<L: Lanes> Sums<L> {
         }
     }
 
-    /// Adds sixteen neighbours; `image` is −1 where their temperature is to be turned round.
+    /// Adds neighbours; `image` is −1 where their temperature is to be turned round.
+    #[inline(always)]
+    fn add_all<S: Shape>(
+        &mut self,
+        here: &Here<L>,
+        neighbours: &[[u16; WIDTH]],
+        local: &Local<L::Real>,
+        image: L,
+    ) {
+        for places in neighbours {
+            let annex =
+                if HEAT || MOMENTS { local.gather_annex(places) } else { [L::constant(0.0); 4] };
+            self.add::<S>(here, local.gather(places), annex, image);
+        }
+    }
+
     #[inline(always)]
     fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8], annex: [L; 4], image: L) {
         let [x, y, z, vx, vy, vz, volume, density] = neighbour;
         let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
         let u = [here.velocity[0] - vx, here.velocity[1] - vy, here.velocity[2] - vz];
         let slope = volume * S::slope_over_q((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt());
+        let jump = density - here.density;
+        if HEAT {
+            self.temperature = self.temperature + slope * (here.temperature - image * annex[3]);
+        }
+        if !MOMENTS {
+            let along = u[0] * d[0] + u[1] * d[1] + u[2] * d[2];
+            self.divergence = self.divergence + slope * along;
+            self.diffusion = self.diffusion + jump * slope;
+            return;
+        }
         let e = [slope * d[0], slope * d[1], slope * d[2]];
         self.divergence = self.divergence + (u[0] * e[0] + u[1] * e[1] + u[2] * e[2]);
         let along = (here.gradient[0] + annex[0]) * e[0]
             + (here.gradient[1] + annex[1]) * e[1]
             + (here.gradient[2] + annex[2]) * e[2];
-        let jump = density - here.density;
         self.diffusion = self.diffusion + (jump * slope + L::constant(0.5) * along);
-        self.temperature = self.temperature + slope * (here.temperature - image * annex[3]);
         for n in 0..6 {
             let (a, b) = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)][n];
             self.moment[n] = self.moment[n] + e[a] * d[b];

@@ -28,6 +28,8 @@ pub struct DropletTotals {
     pub kinetic_energy: f64,
     /// Elastic energy of the weak compression [J].
     pub compression_energy: f64,
+    /// Energy of free and wetted surface, against a dry wall [J].
+    pub surface_energy: f64,
     /// Heat content above the temperature of the first droplet, now and when released [J].
     pub heat: f64,
     pub heat_released: f64,
@@ -70,6 +72,9 @@ pub struct ParticleFields {
 
 impl DropletSph {
     /// `threads` = 0 is taken for 1.
+    ///
+    /// # Panics
+    /// If the plan's planes and periods do not go together, see [`Extent`](super::Extent).
     pub fn new(plan: DropletPlan, threads: usize) -> Self {
         let method = Method::of(&plan, threads.max(1));
         Self { plan, method }
@@ -157,8 +162,12 @@ impl DropletSph {
         let cloud = cloud_of(state, self.cells());
         let units = &self.method.units;
         let reference = self.reference_temperature();
+        let within = |mut x: [f64; 3]| {
+            self.method.images.wrap(&mut x);
+            x.map(|x| x * units.length)
+        };
         ParticleFields {
-            position: cloud.position.iter().map(|x| x.map(|x| x * units.length)).collect(),
+            position: cloud.position.iter().map(|&x| within(x)).collect(),
             velocity: cloud.velocity.iter().map(|v| v.map(|v| v * units.speed)).collect(),
             mass: cloud.mass.iter().map(|m| m * units.mass()).collect(),
             density: cloud.density.iter().map(|r| (1.0 + r) * units.density).collect(),
@@ -241,6 +250,7 @@ fn totals(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud) -
     let images: f64 = plan.mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
     let heat_unit = units.energy() / method.heat_unit;
     let mut totals = DropletTotals {
+        surface_energy: ledger.surface_energy,
         heat_to_wall: ledger.heat_to_wall,
         impulse_to_wall: ledger.impulse_to_wall,
         impulse_of_gravity: ledger.impulse_of_gravity,

@@ -25,6 +25,16 @@ pub trait Lanes: Number {
     fn sqrt(self) -> Self;
     fn to_array(self) -> [Self::Real; WIDTH];
 
+    /// A record of differences from an origin.
+    #[inline(always)]
+    fn about(numbers: &[f64; 8], origin: &[f64; 8]) -> Record<Self::Real> {
+        let mut record = [Self::Real::constant(0.0); 8];
+        for n in 0..8 {
+            record[n] = Self::Real::constant(numbers[n] - origin[n]);
+        }
+        record
+    }
+
     /// The numbers of the records at sixteen places, number by number.
     ///
     /// # Safety
@@ -214,6 +224,29 @@ mod avx512 {
             let mut values = [0.0; WIDTH];
             unsafe { _mm512_storeu_ps(values.as_mut_ptr(), self.0) };
             values
+        }
+
+        #[inline(always)]
+        fn about(numbers: &[f64; 8], origin: &[f64; 8]) -> Record<f32> {
+            let mut record = [0.0; 8];
+            unsafe {
+                let numbers = _mm512_loadu_pd(numbers.as_ptr());
+                let away = _mm512_sub_pd(numbers, _mm512_loadu_pd(origin.as_ptr()));
+                _mm256_storeu_ps(record.as_mut_ptr(), _mm512_cvtpd_ps(away));
+            }
+            record
+        }
+
+        #[inline(always)]
+        fn sum(self) -> f32 {
+            unsafe {
+                let high = _mm256_castpd_ps(_mm512_extractf64x4_pd::<1>(_mm512_castps_pd(self.0)));
+                let eight = _mm256_add_ps(_mm512_castps512_ps256(self.0), high);
+                let four =
+                    _mm_add_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps::<1>(eight));
+                let two = _mm_add_ps(four, _mm_movehl_ps(four, four));
+                _mm_cvtss_f32(_mm_add_ss(two, _mm_movehdup_ps(two)))
+            }
         }
 
         /// Loads each record at once and transposes them in registers, which is several times

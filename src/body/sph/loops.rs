@@ -3,24 +3,35 @@
 pub use crate::scene::Precision;
 use num_traits::Float;
 
+use super::images::Source;
 use super::lanes::{Annex, Array, Lanes, Record, WIDTH};
-use super::neighbours::{Block, Source};
+use super::neighbours::Block;
+use super::order::BLOCK;
 use crate::kernel::{Kernel, Number, Shape};
 use crate::math::parallel;
 use crate::with_kernel_shape;
 
-/// Blocks that share one local copy's memory.
-const GROUP: usize = 4;
+/// Blocks that share one local copy's memory, and their particles.
+const GROUP: usize = 2;
+pub const PART: usize = GROUP * BLOCK;
 
 /// Something to compute for every particle from its neighbours.
 pub trait PairSum: Sync {
     /// What comes out for one particle.
     type Output: Send;
 
-    /// The numbers of a source that all loops read, its image already taken: position first.
+    /// The numbers of every particle that all loops read: position first.
+    fn records(&self) -> &[[f64; 8]];
+
+    /// Those of an image.
     fn record(&self, source: Source) -> [f64; 8];
 
-    /// Further numbers, where [`Self::ANNEX`].
+    /// Further numbers of every particle, where [`Self::ANNEX`].
+    fn annexes(&self) -> &[[f64; 4]] {
+        &[]
+    }
+
+    /// Those of an image.
     fn annex(&self, _source: Source) -> [f64; 4] {
         [0.0; 4]
     }
@@ -60,23 +71,27 @@ impl<R: Float + Number> Local<R> {
     }
 
     #[inline(always)]
-    fn fill<P: PairSum>(&mut self, pass: &P, block: &Block) {
+    fn fill<P: PairSum, L: Lanes<Real = R>>(&mut self, pass: &P, block: &Block) {
         let far = R::constant(1e3);
         let [x, y, z] = block.centre;
         let centre = [x, y, z, 0.0, 0.0, 0.0, 0.0, 0.0];
-        self.records.clear();
-        self.records.push([far, far, far, R::zero(), R::zero(), R::zero(), R::zero(), R::zero()]);
         self.records.resize(block.sources.len() + 1, [R::zero(); 8]);
+        self.records[0] = [far, far, far, R::zero(), R::zero(), R::zero(), R::zero(), R::zero()];
+        let records = pass.records();
         for (local, &source) in self.records[1..].iter_mut().zip(&block.sources) {
-            let record = pass.record(source);
-            for n in 0..8 {
-                local[n] = R::constant(record[n] - centre[n]);
+            if source.is_image() {
+                *local = L::about(&pass.record(source), &centre);
+            } else {
+                *local = L::about(&records[source.particle()], &centre);
             }
         }
         if P::ANNEX {
             self.annexes.resize(block.sources.len() + 1, [R::zero(); 4]);
+            self.annexes[0] = [R::zero(); 4];
+            let annexes = pass.annexes();
             for (local, &source) in self.annexes[1..].iter_mut().zip(&block.sources) {
-                let annex = pass.annex(source);
+                let annex =
+                    if source.is_image() { pass.annex(source) } else { annexes[source.particle()] };
                 for n in 0..4 {
                     local[n] = R::constant(annex[n]);
                 }
@@ -85,21 +100,39 @@ impl<R: Float + Number> Local<R> {
     }
 }
 
-/// Computes a sum for all particles, in their order.
-pub fn for_all<P: PairSum>(
+/// Computes a sum for all particles, in their order; the list `all` lends its memory.
+pub fn for_all<P: PairSum<Output: Clone + Default>>(
     pass: &P,
     blocks: &[Block],
     kernel: Kernel,
     precision: Precision,
     threads: usize,
+    mut all: Vec<P::Output>,
 ) -> Vec<P::Output> {
-    let groups: Vec<&[Block]> = blocks.chunks(GROUP).collect();
-    let group =
-        |g: usize| with_kernel_shape!(kernel, S => dispatch::<P, S>(pass, groups[g], precision));
-    let results = parallel::map(threads, groups.len(), group);
-    let mut all = Vec::with_capacity(blocks.iter().map(|block| block.count).sum());
-    results.into_iter().for_each(|part| all.extend(part));
+    let count = blocks.iter().map(|block| block.count).sum();
+    all.resize(count, P::Output::default());
+    let mut parts: Vec<&mut [P::Output]> = all.chunks_mut(PART).collect();
+    let store = |part: &mut &mut [P::Output], sums: Vec<P::Output>| {
+        part.iter_mut().zip(sums).for_each(|(place, sum)| *place = sum);
+    };
+    for_parts(pass, blocks, (kernel, precision, threads), &mut parts, store);
     all
+}
+
+/// Computes a sum for all particles and gives it, [`PART`] particles at a time, to the part of them
+/// that it belongs to.
+pub fn for_parts<P: PairSum, T: Send>(
+    pass: &P,
+    blocks: &[Block],
+    (kernel, precision, threads): (Kernel, Precision, usize),
+    parts: &mut [T],
+    take: impl Fn(&mut T, Vec<P::Output>) + Sync,
+) {
+    let blocks: Vec<&[Block]> = blocks.chunks(GROUP).collect();
+    parallel::for_each(threads, parts, |p, part| {
+        let sums = with_kernel_shape!(kernel, S => dispatch::<P, S>(pass, blocks[p], precision));
+        take(part, sums);
+    });
 }
 
 /// Takes the widest instructions that the processor has.
@@ -142,7 +175,7 @@ fn over_blocks<P: PairSum, L: Lanes, S: Shape>(pass: &P, blocks: &[Block]) -> Ve
     let mut local = Local::<L::Real>::default();
     let mut all = Vec::with_capacity(blocks.iter().map(|block| block.count).sum());
     for block in blocks {
-        local.fill(pass, block);
+        local.fill::<P, L>(pass, block);
         for k in 0..block.count {
             all.push(pass.sum::<L, S>(block, k, &local));
         }

@@ -1,13 +1,17 @@
 //! Droplets by weakly compressible smoothed particle hydrodynamics.
 //!
 //! The wall is the plane z = 0, the fluid lies above it. A plane model (two dimensions) lives in
-//! x and z and counts everything per metre of depth along y.
+//! x and z and counts everything per metre of depth along y. Further planes and periods may end a
+//! model; all of them act by images of the particles.
 
 mod blue_noise;
+mod candidates;
 mod cloud;
 mod continuity;
 mod droplet;
 mod failure;
+mod images;
+mod kick;
 mod lanes;
 mod loops;
 mod momentum;
@@ -20,9 +24,10 @@ mod stepper;
 mod tension;
 mod units;
 mod wall;
+mod wetting;
 
 pub use droplet::{DropletSph, DropletTotals, ParticleFields};
 pub use failure::Failure;
 pub use loops::Precision;
-pub use plan::{DropletPlan, Fluid, Placement, Release, Wall};
+pub use plan::{DropletPlan, Extent, Fluid, Placement, Release, Wall};
 pub use wall::{WallCells, WallExchange, WallShare};

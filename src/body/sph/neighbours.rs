@@ -4,8 +4,8 @@
 //! Lengths are in units of the support radius. The lists reach farther than the kernel by a skin, so
 //! that they serve until neighbours have moved against each other by its width.
 
-use std::ops::Range;
-
+use super::candidates::{Candidates, Near, Spots};
+use super::images::{Images, Source};
 use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, space_order};
 use crate::math::parallel;
@@ -17,29 +17,6 @@ const SKINS: [f64; 2] = [0.05, 0.3];
 const MARGIN: f64 = 1e-5;
 /// Growth of the surroundings at which the particles are sorted anew.
 const GROWTH: f64 = 1.2;
-
-/// Mirrors of the model as bits of an image: x = 0, y = 0, and the wall z = 0.
-pub const WALL: u8 = 4;
-
-/// A particle, or its image at some mirrors.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Source(u32);
-
-impl Source {
-    fn new(particle: usize, image: u8) -> Self {
-        Self((particle as u32) << 3 | u32::from(image))
-    }
-
-    #[inline(always)]
-    pub fn particle(self) -> usize {
-        (self.0 >> 3) as usize
-    }
-
-    #[inline(always)]
-    pub fn image(self) -> u8 {
-        (self.0 & 7) as u8
-    }
-}
 
 /// Particles that stand together and all that surrounds them.
 pub struct Block {
@@ -55,7 +32,7 @@ pub struct Block {
     places: Vec<u16>,
     /// For each particle the ends of its runs: neighbours, and images at the wall.
     ends: Vec<[u32; 2]>,
-    /// Blocks that hold all sources, with their image.
+    /// Blocks that hold all sources, with the codes of their images.
     surroundings: Vec<(usize, u8)>,
     /// How far neighbours may still move against each other.
     slack: f64,
@@ -96,13 +73,17 @@ impl Block {
 impl Neighbours {
     /// Puts particles into blocks: the order in which all their numbers have to stand for
     /// [`Self::of_ordered`].
-    pub fn order(points: &[[f64; 3]]) -> (Vec<u32>, BlockTree) {
-        space_order(points)
+    pub fn order(points: &[[f64; 3]], threads: usize) -> (Vec<u32>, BlockTree) {
+        space_order(points, threads)
     }
 
     /// Neighbours of particles that stand in the order of the tree's blocks; the lists are made when
     /// they are first needed.
+    ///
+    /// # Panics
+    /// If there are more particles than [`Source::MOST`].
     pub fn of_ordered(tree: BlockTree, particles: usize) -> Self {
+        assert!(particles <= Source::MOST, "{particles} particles, at most {}", Source::MOST);
         let block = |b: usize| Block::empty(b * BLOCK, BLOCK.min(particles - b * BLOCK));
         let blocks = (0..particles.div_ceil(BLOCK)).map(block).collect();
         Self { blocks, tree, sorted_sources: 0 }
@@ -117,36 +98,35 @@ impl Neighbours {
         self.blocks.iter().map(|block| block.sources.len()).sum()
     }
 
-    /// Makes the lists hold all neighbours of particles at `points` and on their way along `drifts`.
-    /// `mirrors` holds the bits of the mirrors of the model.
+    /// Makes the lists hold all neighbours of particles at `points` and on their way along `ways`
+    /// times `factor`.
     pub fn prepare(
         &mut self,
         points: &[[f64; 3]],
-        drifts: &[[f64; 3]],
-        mirrors: u8,
+        ways: &[[f64; 3]],
+        factor: f64,
+        images: &Images,
         threads: usize,
     ) {
-        let drift = |block: &Block| {
-            let range = block.first..block.first + block.count;
-            Bounds::of(drifts[range].iter().copied())
-        };
-        let drifts: Vec<Bounds> = self.blocks.iter().map(drift).collect();
-        let mut worn = Vec::new();
-        for (b, block) in self.blocks.iter_mut().enumerate() {
-            block.slack -= span(&drifts, &block.surroundings);
-            if block.slack.is_nan() || block.slack < MARGIN {
-                worn.push(b);
-            }
-        }
+        let drifts = parallel::map(threads, self.blocks.len(), |b| {
+            let range = b * BLOCK..((b + 1) * BLOCK).min(points.len());
+            Bounds::of(ways[range].iter().map(|way| way.map(|w| factor * w)))
+        });
+        parallel::for_each(threads, &mut self.blocks, |_, block| {
+            block.slack -= span(&drifts, &block.surroundings, images);
+        });
+        let is_worn = |block: &&mut Block| block.slack.is_nan() || block.slack < MARGIN;
+        let mut worn: Vec<&mut Block> = self.blocks.iter_mut().filter(is_worn).collect();
         if worn.is_empty() {
             return;
         }
         self.tree.refit(points);
-        let list = |k: usize| list(worn[k] * BLOCK, points, &drifts, &self.tree, mirrors);
-        let fresh = parallel::map(threads, worn.len(), list);
-        for (&b, block) in worn.iter().zip(fresh) {
-            self.blocks[b] = block;
-        }
+        let tree = &self.tree;
+        let blocks: Vec<&[[f64; 3]]> = points.chunks(BLOCK).collect();
+        let spots = parallel::map(threads, blocks.len(), |b| Spots::of(blocks[b]));
+        parallel::for_each(threads, &mut worn, |_, block| {
+            **block = list(block.first, points, &spots, &drifts, tree, images);
+        });
         if self.sorted_sources == 0 {
             self.sorted_sources = self.sources();
         }
@@ -154,11 +134,10 @@ impl Neighbours {
 }
 
 /// How far particles of some blocks move against each other at most; infinite for no block.
-fn span(drifts: &[Bounds], surroundings: &[(usize, u8)]) -> f64 {
+fn span(drifts: &[Bounds], surroundings: &[(usize, u8)], images: &Images) -> f64 {
+    let drift = |&(block, code): &(usize, u8)| drifts[block].turned(images.get(code));
     let Some(first) = surroundings.first() else { return f64::INFINITY };
-    let start = drifts[first.0].mirrored(first.1);
-    let all =
-        surroundings.iter().fold(start, |all, part| all.joined(&drifts[part.0].mirrored(part.1)));
+    let all = surroundings.iter().fold(drift(first), |all, part| all.joined(&drift(part)));
     (0..3).map(|a| (all.high[a] - all.low[a]).powi(2)).sum::<f64>().sqrt()
 }
 
@@ -166,53 +145,48 @@ fn span(drifts: &[Bounds], surroundings: &[(usize, u8)]) -> f64 {
 fn list(
     first: usize,
     points: &[[f64; 3]],
+    spots: &[Spots],
     drifts: &[Bounds],
     tree: &BlockTree,
-    mirrors: u8,
+    images: &Images,
 ) -> Block {
     let mut block = Block::empty(first, BLOCK.min(points.len() - first));
     let own = &points[first..first + block.count];
     let bounds = Bounds::of(own.iter().copied());
     block.centre = bounds.centre();
-    let mut found = Vec::new();
-    // The wall is the highest bit, so its images come last.
-    for image in (0..8).filter(|image| image & !mirrors == 0) {
-        found.clear();
-        tree.near(&bounds, image, 1.0 + SKINS[1], &mut found);
-        block.surroundings.extend(found.iter().map(|&b| (b, image)));
-    }
-    let motion = span(drifts, &block.surroundings);
+    block.surroundings = surroundings(&bounds, tree, images, 1.0 + SKINS[1]);
+    let motion = span(drifts, &block.surroundings, images);
     let skin = (SKIN_STEPS * motion).clamp(SKINS[0], SKINS[1]).max(1.5 * motion);
     let reach = 1.0 + skin;
     if skin > SKINS[1] {
-        block.surroundings.clear();
-        for image in (0..8).filter(|image| image & !mirrors == 0) {
-            found.clear();
-            tree.near(&bounds, image, reach, &mut found);
-            block.surroundings.extend(found.iter().map(|&b| (b, image)));
-        }
+        block.surroundings = surroundings(&bounds, tree, images, reach);
     }
     block.slack = skin - motion;
+    let near = Near::to(&bounds, reach);
+    let mut candidates = Candidates::default();
     let mut wall = 0;
-    for &(b, image) in &block.surroundings {
-        let near = bounds.mirrored(image);
-        let range = b * BLOCK..((b + 1) * BLOCK).min(points.len());
-        for (j, &point) in range.clone().zip(&points[range]) {
-            if near.distance_squared(point) <= reach * reach {
-                block.sources.push(Source::new(j, image));
-            }
-        }
-        if image & WALL == 0 {
+    for &(b, code) in &block.surroundings {
+        let image = images.get(code);
+        let origin = image.place(spots[b].origin);
+        let away = |a: usize| (origin[a] - block.centre[a]) as f32;
+        let shift = [away(0), away(1), away(2)];
+        candidates.take(&spots[b], image.signs.map(|sign| sign as f32), shift, near);
+        let source = |&k: &u32| Source::new(b * BLOCK + k as usize, code);
+        block.sources.extend(candidates.numbers.iter().map(source));
+        if !images.is_at_wall(code) {
             wall = block.sources.len();
         }
     }
     assert!(block.sources.len() < usize::from(u16::MAX), "too many particles in one place");
-    let local = Places::of(&block.sources, points, block.centre);
     block.places.reserve(block.count * 160);
+    let mut places = vec![0; block.sources.len() + WIDTH];
     for point in own {
         let at = [0, 1, 2].map(|a| (point[a] - block.centre[a]) as f32);
         let ends = [0..wall, wall..block.sources.len()].map(|part| {
-            local.near(at, part, (reach * reach) as f32, &mut block.places);
+            let along = candidates.along.each_ref().map(|along| &along[part.clone()]);
+            let first = (part.start + 1) as u16;
+            let found = select(along, at, (reach * reach) as f32, first, &mut places);
+            block.places.extend_from_slice(&places[..found]);
             let full = block.places.len().next_multiple_of(WIDTH);
             block.places.resize(full, 0);
             full as u32
@@ -222,37 +196,25 @@ fn list(
     block
 }
 
-/// Places of the sources of a block about its centre, in single precision.
-struct Places {
-    along: [Vec<f32>; 3],
+/// Blocks whose images come near to `bounds`, those at the wall last.
+fn surroundings(
+    bounds: &Bounds,
+    tree: &BlockTree,
+    images: &Images,
+    reach: f64,
+) -> Vec<(usize, u8)> {
+    let mut all = Vec::new();
+    let mut found = Vec::new();
+    for &code in images.codes() {
+        found.clear();
+        tree.near(bounds, images.get(code), reach, &mut found);
+        all.extend(found.iter().map(|&b| (b, code)));
+    }
+    all
 }
 
-impl Places {
-    fn of(sources: &[Source], points: &[[f64; 3]], centre: [f64; 3]) -> Self {
-        let along = |a: usize| {
-            let place = |source: &Source| {
-                let at = points[source.particle()][a];
-                let at = if source.image() >> a & 1 == 1 { -at } else { at };
-                (at - centre[a]) as f32
-            };
-            sources.iter().map(place).collect()
-        };
-        Self { along: [along(0), along(1), along(2)] }
-    }
-
-    /// Appends the places within reach of a point.
-    fn near(&self, at: [f32; 3], part: Range<usize>, reach_squared: f32, places: &mut Vec<u16>) {
-        let along = self.along.each_ref().map(|along| &along[part.clone()]);
-        let start = places.len();
-        // Room for all of them, and for the last vector to be written whole.
-        places.resize(start + part.len() + WIDTH, 0);
-        let first = (part.start + 1) as u16;
-        let found = select(along, at, reach_squared, first, &mut places[start..]);
-        places.truncate(start + found);
-    }
-}
-
-/// Writes `first + k` for every k-th point within reach, in order; their number.
+/// Writes `first + k` for every k-th point within reach, in order; their number. There is room for
+/// all of them, and for the last vector to be written whole.
 fn select(
     along: [&[f32]; 3],
     at: [f32; 3],
@@ -328,27 +290,31 @@ fn select_avx512(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::sph::images::Ends;
 
-    const MIRRORS: u8 = 0b101;
+    /// Two mirrors of which one is a wall; a wall, a lid and a period.
+    fn models() -> [Images; 2] {
+        let open = Ends::Planes { near: false, far: None };
+        let mirror = Ends::Planes { near: true, far: None };
+        let walls = Ends::Planes { near: true, far: Some(3.0) };
+        [[mirror, open, mirror], [Ends::Period(3.0), open, walls]]
+            .map(|ends| Images::new(ends, true, [0.0; 3]))
+    }
 
     fn number(i: usize) -> f64 {
         (i as f64 * 0.754877666).fract()
     }
 
     fn ordered(count: usize) -> (Vec<[f64; 3]>, Neighbours) {
-        let point = |i: usize| [3.0 * number(i), 3.0 * number(7 * i + 3), 2.0 * number(13 * i + 5)];
+        let point = |i: usize| [3.0 * number(i), 3.0 * number(7 * i + 3), 3.0 * number(13 * i + 5)];
         let points: Vec<_> = (0..count).map(point).collect();
-        let (order, tree) = Neighbours::order(&points);
+        let (order, tree) = Neighbours::order(&points, 1);
         let points = order.iter().map(|&i| points[i as usize]).collect();
         (points, Neighbours::of_ordered(tree, count))
     }
 
-    fn image(point: [f64; 3], image: u8) -> [f64; 3] {
-        [0, 1, 2].map(|a| if image >> a & 1 == 1 { -point[a] } else { point[a] })
-    }
-
     /// Asserts that the lists hold all pairs within the support, and tells how many pairs they hold.
-    fn assert_complete(points: &[[f64; 3]], neighbours: &Neighbours) -> usize {
+    fn assert_complete(points: &[[f64; 3]], neighbours: &Neighbours, images: &Images) -> usize {
         let mut listed_pairs = 0;
         for block in &neighbours.blocks {
             for k in 0..block.count {
@@ -357,13 +323,13 @@ mod tests {
                     let listed = part.iter().flatten().filter(|&&place| place > 0);
                     let listed: std::collections::HashSet<(usize, u8)> = listed
                         .map(|&place| block.sources[place as usize - 1])
-                        .map(|source| (source.particle(), source.image()))
+                        .map(|source| (source.particle(), source.code()))
                         .collect();
                     listed_pairs += listed.len();
-                    let images = (0..8).filter(|i| i & !MIRRORS == 0 && (i & WALL != 0) == wall);
-                    for code in images {
+                    let codes = images.codes().iter();
+                    for &code in codes.filter(|&&code| images.is_at_wall(code) == wall) {
                         for (j, point) in points.iter().enumerate() {
-                            let other = image(*point, code);
+                            let other = images.get(code).place(*point);
                             let square: f64 = (0..3).map(|a| (at[a] - other[a]).powi(2)).sum();
                             assert!(
                                 square >= 1.0 || listed.contains(&(j, code)),
@@ -379,47 +345,50 @@ mod tests {
 
     #[test]
     fn the_lists_hold_what_a_loop_over_all_pairs_finds() {
-        for threads in [1, 3] {
+        for (images, threads) in models().into_iter().zip([1, 3]) {
             let (points, mut neighbours) = ordered(700);
-            neighbours.prepare(&points, &vec![[0.0; 3]; 700], MIRRORS, threads);
-            let listed = assert_complete(&points, &neighbours);
+            neighbours.prepare(&points, &vec![[0.0; 3]; 700], 1.0, &images, threads);
+            let listed = assert_complete(&points, &neighbours, &images);
             let near = |i: usize, code: u8| {
                 let reach = (1.0 + SKINS[0]).powi(2);
                 let square = |p: &[f64; 3]| {
-                    let other = image(*p, code);
+                    let other = images.get(code).place(*p);
                     (0..3).map(|a| (points[i][a] - other[a]).powi(2)).sum::<f64>()
                 };
                 points.iter().filter(|p| square(p) < reach).count()
             };
-            let images = [0, 1, 4, 5];
-            let all: usize = (0..700).flat_map(|i| images.map(|code| near(i, code))).sum();
+            let of_particle = |i| images.codes().iter().map(|&code| near(i, code)).sum::<usize>();
+            let all: usize = (0..700).map(of_particle).sum();
             assert_eq!(listed, all);
         }
     }
 
     #[test]
     fn the_lists_stay_complete_while_particles_move() {
-        let (mut points, mut neighbours) = ordered(700);
         let drift =
             |i: usize, step: usize| [0, 1, 2].map(|a| 0.03 * (number(i + 11 * a + step / 9) - 0.5));
-        for step in 0..40 {
-            let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
-            neighbours.prepare(&points, &drifts, MIRRORS, 1);
-            assert_complete(&points, &neighbours);
-            for (x, d) in points.iter_mut().zip(&drifts) {
-                *x = [0, 1, 2].map(|a| x[a] + d[a]);
+        for images in models() {
+            let (mut points, mut neighbours) = ordered(700);
+            for step in 0..40 {
+                let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
+                neighbours.prepare(&points, &drifts, 1.0, &images, 1);
+                assert_complete(&points, &neighbours, &images);
+                for (x, d) in points.iter_mut().zip(&drifts) {
+                    *x = [0, 1, 2].map(|a| x[a] + d[a]);
+                }
+                assert_complete(&points, &neighbours, &images);
             }
-            assert_complete(&points, &neighbours);
         }
     }
 
     #[test]
     fn a_common_motion_wears_no_list_out() {
         let (mut points, mut neighbours) = ordered(500);
-        neighbours.prepare(&points, &vec![[0.0; 3]; 500], 0, 1);
+        let images = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
+        neighbours.prepare(&points, &vec![[0.0; 3]; 500], 1.0, &images, 1);
         let slack = neighbours.blocks[0].slack;
         let drifts = vec![[0.5, -0.2, 0.1]; 500];
-        neighbours.prepare(&points, &drifts, 0, 1);
+        neighbours.prepare(&points, &drifts, 1.0, &images, 1);
         points.iter_mut().for_each(|x| x[0] += 0.5);
         assert!((neighbours.blocks[0].slack - slack).abs() < 1e-15);
     }

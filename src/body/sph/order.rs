@@ -1,7 +1,10 @@
 //! Particles in an order in which near ones stand together: blocks of a balanced k-d tree.
 
+use super::images::Image;
+use crate::math::parallel;
+
 /// Particles in a block; the last block may have fewer.
-pub const BLOCK: usize = 64;
+pub const BLOCK: usize = 128;
 
 /// Corners of a box along x, y, z.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,14 +19,14 @@ pub struct BlockTree {
     nodes: Vec<Node>,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 struct Node {
     bounds: Bounds,
     /// Indices of the two parts, or the block of a leaf.
     parts: Parts,
 }
 
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 enum Parts {
     Two([usize; 2]),
     Block(usize),
@@ -46,23 +49,21 @@ impl Bounds {
         }
     }
 
-    /// The image at the mirrors x = 0, y = 0, z = 0 (bits 1, 2, 4).
-    pub fn mirrored(&self, image: u8) -> Self {
-        let turned = |a: usize| image >> a & 1 == 1;
-        Self {
-            low: [0, 1, 2].map(|a| if turned(a) { -self.high[a] } else { self.low[a] }),
-            high: [0, 1, 2].map(|a| if turned(a) { -self.low[a] } else { self.high[a] }),
-        }
+    pub fn image(&self, image: &Image) -> Self {
+        Self::between(image.place(self.low), image.place(self.high))
+    }
+
+    /// The image of a box of vectors.
+    pub fn turned(&self, image: &Image) -> Self {
+        Self::between(image.turn(self.low), image.turn(self.high))
+    }
+
+    fn between(a: [f64; 3], b: [f64; 3]) -> Self {
+        Self { low: [0, 1, 2].map(|n| a[n].min(b[n])), high: [0, 1, 2].map(|n| a[n].max(b[n])) }
     }
 
     pub fn centre(&self) -> [f64; 3] {
         [0, 1, 2].map(|a| 0.5 * (self.low[a] + self.high[a]))
-    }
-
-    /// Square of the distance to a point, 0 inside.
-    pub fn distance_squared(&self, point: [f64; 3]) -> f64 {
-        let gap = |a: usize| (self.low[a] - point[a]).max(point[a] - self.high[a]).max(0.0);
-        (0..3).map(|a| gap(a) * gap(a)).sum()
     }
 
     fn gap_squared(&self, other: &Self) -> f64 {
@@ -72,44 +73,66 @@ impl Bounds {
 }
 
 /// The order that puts `points` into blocks, and the tree over the blocks.
-pub fn space_order(points: &[[f64; 3]]) -> (Vec<u32>, BlockTree) {
+pub fn space_order(points: &[[f64; 3]], threads: usize) -> (Vec<u32>, BlockTree) {
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     let mut tree = BlockTree::default();
     if !points.is_empty() {
-        tree.grow(points, &mut order, 0);
+        tree.nodes = grown(points, &mut order, 0, threads);
     }
     (order, tree)
 }
 
-impl BlockTree {
-    /// Adds the part of the tree for some of the points, which it puts in order; its node's index.
-    fn grow(&mut self, points: &[[f64; 3]], order: &mut [u32], first_block: usize) -> usize {
-        let bounds = Bounds::of(order.iter().map(|&i| points[i as usize]));
-        let node = self.nodes.len();
-        self.nodes.push(Node { bounds, parts: Parts::Block(first_block) });
-        if order.len() > BLOCK {
-            let blocks = order.len().div_ceil(BLOCK);
-            let left = blocks / 2;
-            let extent = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
-            let axis = (1..3).fold(0, |best, a| if extent[a] > extent[best] { a } else { best });
-            let place = |&i: &u32| points[i as usize][axis];
-            // Ties are broken by the index, so that equal points have one order.
-            order.select_nth_unstable_by(left * BLOCK, |a, b| {
-                place(a).total_cmp(&place(b)).then(a.cmp(b))
-            });
-            let (low, high) = order.split_at_mut(left * BLOCK);
-            let parts =
-                [self.grow(points, low, first_block), self.grow(points, high, first_block + left)];
-            self.nodes[node].parts = Parts::Two(parts);
+/// The part of the tree for some of the points, its root first; puts them in order.
+fn grown(points: &[[f64; 3]], order: &mut [u32], first_block: usize, threads: usize) -> Vec<Node> {
+    let bounds = Bounds::of(order.iter().map(|&i| points[i as usize]));
+    let mut nodes = vec![Node { bounds, parts: Parts::Block(first_block) }];
+    if order.len() > BLOCK {
+        let left = order.len().div_ceil(BLOCK) / 2;
+        let extent = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
+        let axis = (1..3).fold(0, |best, a| if extent[a] > extent[best] { a } else { best });
+        let place = |&i: &u32| points[i as usize][axis];
+        // Ties are broken by the index, so that equal points have one order.
+        order.select_nth_unstable_by(left * BLOCK, |a, b| {
+            place(a).total_cmp(&place(b)).then(a.cmp(b))
+        });
+        let (low, high) = order.split_at_mut(left * BLOCK);
+        let mut halves = [(low, first_block), (high, first_block + left)];
+        let [low, high] = match threads {
+            0 | 1 => halves.map(|(order, first)| grown(points, order, first, 1)),
+            _ => {
+                let grow = |(order, first): &mut (&mut [u32], usize)| {
+                    grown(points, order, *first, threads / 2)
+                };
+                let grown = parallel::map_each(2, &mut halves, grow);
+                grown.try_into().expect("there are two halves")
+            }
+        };
+        let starts = [1, 1 + low.len()];
+        nodes[0].parts = Parts::Two(starts);
+        for (part, start) in [low, high].into_iter().zip(starts) {
+            nodes.extend(part.into_iter().map(|node| node.moved(start)));
         }
-        node
     }
+    nodes
+}
 
-    /// Blocks whose box, mirrored, comes nearer to `bounds` than `reach`, in their order.
-    pub fn near(&self, bounds: &Bounds, image: u8, reach: f64, found: &mut Vec<usize>) {
+impl Node {
+    /// The node in a list in which its part of the tree begins at `start`.
+    fn moved(self, start: usize) -> Self {
+        let parts = match self.parts {
+            Parts::Two(parts) => Parts::Two(parts.map(|part| part + start)),
+            block => block,
+        };
+        Self { parts, ..self }
+    }
+}
+
+impl BlockTree {
+    /// Blocks of whose boxes the images come nearer to `bounds` than `reach`, in their order.
+    pub fn near(&self, bounds: &Bounds, image: &Image, reach: f64, found: &mut Vec<usize>) {
         if !self.nodes.is_empty() {
-            // The mirror keeps distances, so it may be applied to what is searched for.
-            self.search(0, &bounds.mirrored(image), reach * reach, found);
+            // Images keep distances, so the search may be among the originals.
+            self.search(0, &bounds.image(&image.inverse()), reach * reach, found);
         }
     }
 
@@ -144,16 +167,19 @@ impl BlockTree {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::body::sph::images::{Ends, Images};
 
     fn points(count: usize) -> Vec<[f64; 3]> {
         let number = |i: usize| (i as f64 * 0.754877666).fract();
-        (0..count).map(|i| [number(i), number(7 * i + 3), 0.3 * number(13 * i + 5)]).collect()
+        (0..count).map(|i| [number(i), 5.0 * number(7 * i + 3), 3.0 * number(13 * i + 5)]).collect()
     }
 
     #[test]
     fn every_point_stands_in_one_block() {
         for count in [0, 1, 64, 65, 1000] {
-            let (mut order, _) = space_order(&points(count));
+            let (mut order, tree) = space_order(&points(count), 1);
+            let (same, other) = space_order(&points(count), 5);
+            assert!(same == order && other.nodes == tree.nodes);
             order.sort_unstable();
             assert_eq!(order, (0..count as u32).collect::<Vec<_>>());
         }
@@ -162,18 +188,20 @@ mod tests {
     #[test]
     fn the_search_finds_the_blocks_that_a_loop_over_all_finds() {
         let points = points(2000);
-        let (order, tree) = space_order(&points);
+        let (order, tree) = space_order(&points, 1);
         let block = |b: usize| {
             let range = b * BLOCK..((b + 1) * BLOCK).min(order.len());
             Bounds::of(order[range].iter().map(|&i| points[i as usize]))
         };
         let blocks = order.len().div_ceil(BLOCK);
-        for image in [0, 1, 6] {
+        let ends = [Ends::Planes { near: true, far: None }, Ends::Period(5.0), Ends::Period(3.0)];
+        let images = Images::new(ends, false, [0.0; 3]);
+        for image in images.codes().iter().map(|&code| images.get(code)) {
             for b in 0..blocks {
                 let mut found = Vec::new();
-                tree.near(&block(b), image, 0.15, &mut found);
+                tree.near(&block(b), image, 0.5, &mut found);
                 let all: Vec<usize> = (0..blocks)
-                    .filter(|&c| block(c).mirrored(image).gap_squared(&block(b)) <= 0.15 * 0.15)
+                    .filter(|&c| block(c).image(image).gap_squared(&block(b)) <= 0.5 * 0.5)
                     .collect();
                 assert_eq!(found, all);
             }

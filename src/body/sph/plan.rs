@@ -23,12 +23,17 @@ pub struct DropletPlan {
     pub precision: Precision,
     /// δ of the density diffusion, for a smoothing length H/2.
     pub density_diffusion: f64,
+    /// Whether density diffusion is corrected by renormalised gradients, which leaves linear
+    /// densities (such as of a fluid at rest under gravity) as they are.
+    pub corrected_diffusion: bool,
     /// Whether particles are moved from crowded places to empty ones.
     pub shifting: bool,
     /// Body force a mass [m/s²].
     pub gravity: [f64; 3],
     /// The planes x = 0 and y = 0 mirror the model, which then holds only x ≥ 0 (y ≥ 0).
     pub mirrors: [bool; 2],
+    /// How far the model goes along x, y and z.
+    pub extents: [Extent; 3],
     /// In the order of their times.
     pub releases: Vec<Release>,
     /// Nothing for a droplet in free space.
@@ -45,7 +50,7 @@ pub struct Fluid {
     pub viscosity: f64,
     /// [J/(kg K)]
     pub specific_heat: f64,
-    /// [W/(m K)]
+    /// [W/(m K)]; 0 leaves heat out.
     pub conductivity: f64,
     /// [N/m]
     #[serde(default)]
@@ -53,6 +58,18 @@ pub struct Fluid {
     /// Speed of sound c₀ of the model [m/s]: at least ten times the fastest flow keeps the density
     /// within 1 %.
     pub sound_speed: f64,
+}
+
+/// How far a model goes along an axis: at least two support radii, if it ends.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Extent {
+    #[default]
+    Open,
+    /// Again and again the same after this length [m]; with neither mirror nor wall along this axis.
+    Periodic(f64),
+    /// Between insulated planes at 0 and at this length [m]. The fluid slips along those across x and
+    /// y, and sticks to those across z, of which the one at 0 may be the wall.
+    Closed(f64),
 }
 
 /// One round droplet that starts to move at a time.

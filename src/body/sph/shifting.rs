@@ -1,9 +1,9 @@
 //! Particles are moved a little from crowded places to empty ones.
 
-use super::continuity::signs;
+use super::images::{Images, Source};
 use super::lanes::{Lanes, lanes};
 use super::loops::{Local, PairSum};
-use super::neighbours::{Block, Source};
+use super::neighbours::Block;
 use crate::kernel::Shape;
 
 /// Weight of the term that acts against pairs (Monaghan 2000), and its power.
@@ -20,6 +20,7 @@ pub const INSIDE: f64 = 0.75;
 /// 10.1016/j.cma.2016.10.028; Marrone, Colagrossi, Le Touzé & Graziani (2010), J. Comput. Phys. 229,
 /// 3652–3663, doi 10.1016/j.jcp.2010.01.019.
 pub struct Crowding<'a> {
+    pub images: &'a Images,
     /// Position, 0, 0, 0, volume and λ of every particle.
     pub records: &'a [[f64; 8]],
     /// σ of the kernel.
@@ -29,7 +30,7 @@ pub struct Crowding<'a> {
 }
 
 /// What tells how to move a particle.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CrowdingSums {
     pub gradient: [f64; 3],
     /// Σ V_j (λ_j − λ_i) F x_ij.
@@ -42,13 +43,15 @@ impl PairSum for Crowding<'_> {
     type Output = CrowdingSums;
 
     #[inline(always)]
+    fn records(&self) -> &[[f64; 8]] {
+        self.records
+    }
+
+    #[inline(always)]
     fn record(&self, source: Source) -> [f64; 8] {
-        let [x, y, z] = signs(source.image());
-        let mut record = self.records[source.particle()];
-        record[0] *= x;
-        record[1] *= y;
-        record[2] *= z;
-        record
+        let [x, y, z, none, _, _, volume, fullness] = self.records[source.particle()];
+        let [x, y, z] = self.images.get(source.code()).place([x, y, z]);
+        [x, y, z, none, none, none, volume, fullness]
     }
 
     #[inline(always)]
@@ -96,13 +99,16 @@ impl PairSum for Crowding<'_> {
     }
 }
 
+/// Displacement for a gradient of 1 and a mean way of 1, both in units of H. Sun et al. (2017) take 2 and
+/// the way at the highest speed, which is about twice the mean one.
+const STRENGTH: f64 = 4.0;
 /// Largest displacement at once, over H.
 const MOST: f64 = 0.02;
 
 /// The displacement of a particle over H, for the way that particles went on average since the last
 /// one. Near a free surface it is along the surface only; at its rim there is none.
 pub fn displacement(sums: &CrowdingSums, fullness: f64, way: f64) -> [f64; 3] {
-    let mut shift = sums.gradient.map(|g| -way * g);
+    let mut shift = sums.gradient.map(|g| -STRENGTH * way * g);
     if fullness < INSIDE {
         return [0.0; 3];
     }

@@ -7,18 +7,22 @@
 
 use std::f64::consts::PI;
 
-use super::cloud::{Cloud, Ledger};
-use super::continuity::Continuity;
+use super::cloud::{Cloud, Ledger, Part};
+use super::continuity::{Continuity, ContinuityRates};
 use super::failure::Failure;
-use super::loops::{Precision, for_all};
-use super::momentum::Momentum;
-use super::neighbours::{Neighbours, WALL};
+use super::images::Images;
+use super::kick::{DENSITIES, Motion, kick};
+use super::loops::{PART, PairSum, Precision, for_all, for_parts};
+use super::momentum::{Accelerations, Momentum};
+use super::neighbours::Neighbours;
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
-use super::tension::PairForce;
+use super::tension::{Surface, SurfaceEnergy, SurfaceSums};
 use super::units::{Units, pressure};
 use super::wall::{WallCells, WallExchange};
+use super::wetting;
 use crate::kernel::Kernel;
+use crate::math::parallel;
 
 /// Numbers of the method that a plan fixes, without dimension.
 pub struct Method {
@@ -28,12 +32,16 @@ pub struct Method {
     precision: Precision,
     normalisation: f64,
     mirrors: [bool; 2],
+    pub images: Images,
     viscosity: f64,
     conduction: f64,
     diffusion: f64,
-    /// Surface tension over ρ₀c₀²H, and the pair force that makes it.
+    /// Whether density diffusion is corrected by renormalised gradients.
+    corrects: bool,
+    /// Surface tension over ρ₀c₀²H, and the energy that makes it.
     tension: f64,
-    cohesion: PairForce,
+    surface: SurfaceEnergy,
+    /// Cosine of the contact angle.
     wetting: f64,
     gravity: [f64; 3],
     /// c₀²/c of the fluid [K], to turn energy of a unit of mass into temperature.
@@ -52,6 +60,12 @@ pub struct Stepper<'a> {
     neighbours: Neighbours,
     /// Temperature of each wall cell above the reference.
     wall_temperature: &'a [f64],
+    /// Whether heat is conducted: not where all temperatures are the same.
+    heats: bool,
+    /// What the loops over pairs read and give, in memory that is kept for the next ones.
+    records: Vec<[f64; 8]>,
+    annexes: Vec<[f64; 4]>,
+    accelerations: Vec<[[f64; 3]; 2]>,
 }
 
 /// Share of H/c₀ that a step may take.
@@ -60,10 +74,8 @@ const COURANT: f64 = 0.2;
 const DIFFUSIVE: f64 = 0.02;
 const FORCED: f64 = 0.18;
 const CAPILLARY: f64 = 0.25;
-/// Densities over that at rest which no weakly compressible flow has.
-const DENSITIES: [f64; 2] = [0.3, 3.0];
 /// Way at the mean speed over H after which particles are moved from crowded places.
-const SHIFT_WAY: f64 = 0.1;
+const SHIFT_WAY: f64 = 0.05;
 /// Determinant below which a moment matrix is not inverted.
 const SINGULAR: f64 = 0.05;
 
@@ -74,6 +86,7 @@ impl Method {
         let (h, c) = (units.length, units.speed);
         let normalisation = plan.kernel.scale(1.0, plan.dimension);
         let tension = fluid.surface_tension / (units.density * c * c * h);
+        let gravity = plan.gravity.map(|g| g * h / (c * c));
         Self {
             units,
             dimension: plan.dimension,
@@ -81,13 +94,15 @@ impl Method {
             precision: plan.precision,
             normalisation,
             mirrors: plan.mirrors,
+            images: Images::of(plan, h, gravity),
             viscosity: fluid.viscosity / (units.density * c * h),
             conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
             diffusion: plan.density_diffusion,
+            corrects: plan.corrected_diffusion && plan.density_diffusion > 0.0,
             tension,
-            cohesion: PairForce::of(tension, plan.kernel, plan.dimension),
-            wetting: plan.wall.as_ref().map_or(0.0, |wall| 0.5 * (1.0 + wall.contact_angle.cos())),
-            gravity: plan.gravity.map(|g| g * h / (c * c)),
+            surface: SurfaceEnergy::of(tension, plan.kernel, 1.0 / plan.support, plan.dimension),
+            wetting: plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos()),
+            gravity,
             heat_unit: c * c / fluid.specific_heat,
             spacing: 1.0 / plan.support,
             shifts: plan.shifting,
@@ -96,9 +111,24 @@ impl Method {
         }
     }
 
-    fn mirror_bits(&self) -> u8 {
-        let wall = if self.wall.is_some() { WALL } else { 0 };
-        u8::from(self.mirrors[0]) | u8::from(self.mirrors[1]) << 1 | wall
+    /// Changes density and temperature of the k-th particle of a part at its rates.
+    fn change<const MOMENTS: bool>(
+        &self,
+        part: &mut Part,
+        k: usize,
+        rate: &ContinuityRates,
+        dt: f64,
+    ) {
+        if MOMENTS {
+            let moment = filled(rate.moment, self.dimension);
+            part.moment[k] = moment;
+            if self.corrects {
+                part.gradient[k] = renormalised(&moment, rate.gradient);
+            }
+        }
+        part.density[k] += dt * rate.density;
+        part.heating[k] = rate.temperature[0] + rate.temperature[1];
+        part.temperature[k] += dt * part.heating[k];
     }
 
     /// Largest stable step, over H/c₀.
@@ -122,51 +152,49 @@ impl<'a> Stepper<'a> {
         ledger: &'a mut Ledger,
         wall_temperature: &'a [f64],
     ) -> Self {
-        let neighbours = Neighbours::default();
-        let mut stepper = Self { method, cloud, ledger, neighbours, wall_temperature };
+        let temperatures = cloud.temperature.iter().chain(wall_temperature);
+        let heats = method.conduction > 0.0 && differ(temperatures.copied());
+        let mut stepper = Self {
+            method,
+            cloud,
+            ledger,
+            neighbours: Neighbours::default(),
+            wall_temperature,
+            heats,
+            records: Vec::new(),
+            annexes: Vec::new(),
+            accelerations: Vec::new(),
+        };
         stepper.sort();
         stepper
     }
 
     fn sort(&mut self) {
-        let (order, tree) = Neighbours::order(&self.cloud.position);
-        self.cloud.permute(&order);
+        self.cloud.position.iter_mut().for_each(|x| self.method.images.wrap(x));
+        let (order, tree) = Neighbours::order(&self.cloud.position, self.method.threads);
+        self.cloud.permute(&order, self.method.threads);
         self.neighbours = Neighbours::of_ordered(tree, self.cloud.len());
     }
 
-    /// Lists neighbours for ways that the particles are about to go.
-    fn list(&mut self, drifts: &[[f64; 3]]) {
-        let (mirrors, threads) = (self.method.mirror_bits(), self.method.threads);
-        self.neighbours.prepare(&self.cloud.position, drifts, mirrors, threads);
-    }
-
-    fn fastest(&self) -> f64 {
-        let squared = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
-        self.cloud.velocity.iter().map(squared).fold(0.0, f64::max).sqrt()
-    }
-
-    fn root_mean_square_speed(&self) -> f64 {
-        let squared = |v: &[f64; 3]| v.iter().map(|x| x * x).sum::<f64>();
-        let sum: f64 = self.cloud.velocity.iter().map(squared).sum();
-        (sum / self.cloud.len() as f64).sqrt()
+    /// Lists neighbours for ways that the particles are about to go: these vectors times `factor`.
+    fn list(&mut self, ways: &[[f64; 3]], factor: f64) {
+        let Method { images, threads, .. } = self.method;
+        self.neighbours.prepare(&self.cloud.position, ways, factor, images, *threads);
     }
 
     /// Advances by `duration` [s].
     pub fn advance(&mut self, duration: f64) -> Result<(), Failure> {
         let method = self.method;
         let mut rest = duration / method.units.time();
+        let mut motion = self.kick(0.0);
         while rest > 0.0 && self.cloud.len() > 0 {
-            let acceleration = |a: &[[f64; 3]; 2]| {
-                (0..3).map(|n| (a[0][n] + a[1][n] + method.gravity[n]).powi(2)).sum::<f64>()
-            };
-            let most = self.cloud.acceleration.iter().map(acceleration).fold(0.0, f64::max).sqrt();
-            let stable = method.stable_step(self.fastest(), most);
+            let stable = method.stable_step(motion.fastest(), motion.most_accelerated());
             if !stable.is_finite() || stable <= 0.0 {
                 return Err(self.not_finite("velocity"));
             }
             // Equal steps to the end, so that none is tiny.
             let dt = rest / (rest / stable).ceil();
-            self.step(dt)?;
+            motion = self.step(dt)?;
             rest = if dt == rest { 0.0 } else { rest - dt };
             self.ledger.steps += 1.0;
         }
@@ -175,38 +203,43 @@ impl<'a> Stepper<'a> {
 
     /// Accelerations of particles that stand where they are, for a start.
     pub fn prime(&mut self) {
-        self.list(&vec![[0.0; 3]; self.cloud.len()]);
-        let velocity = self.cloud.velocity.clone();
-        self.accelerate(&velocity);
+        self.list(&vec![[0.0; 3]; self.cloud.len()], 1.0);
+        self.accelerate(0.0);
     }
 
-    fn step(&mut self, dt: f64) -> Result<(), Failure> {
-        self.kick(0.5 * dt);
-        self.ledger.way += dt * self.root_mean_square_speed();
+    fn step(&mut self, dt: f64) -> Result<Motion, Failure> {
+        let motion = self.kick(0.5 * dt);
+        let speed = motion.root_mean_square_speed(self.cloud.len(), self.method.mirrors);
+        self.ledger.way += dt * speed;
         if self.ledger.way > SHIFT_WAY {
             self.shift();
         }
-        if self.neighbours.are_scattered() {
+        let astray = self.method.images.are_astray(&self.cloud.position);
+        if astray || self.neighbours.are_scattered() {
             self.sort();
         }
-        let drifts: Vec<[f64; 3]> =
-            self.cloud.velocity.iter().map(|v| [dt * v[0], dt * v[1], dt * v[2]]).collect();
-        self.list(&drifts);
+        let velocity = std::mem::take(&mut self.cloud.velocity);
+        self.list(&velocity, dt);
+        self.cloud.velocity = velocity;
         self.drift(0.5 * dt);
         self.change_density_and_heat(dt);
         self.drift(0.5 * dt);
         self.rebound();
-        let ahead: Vec<[f64; 3]> = (0..self.cloud.len()).map(|i| self.ahead(i, 0.5 * dt)).collect();
-        self.accelerate(&ahead);
-        self.kick(0.5 * dt);
+        self.accelerate(0.5 * dt);
+        let motion = self.kick(0.5 * dt);
         self.ledger.time += dt * self.method.units.time();
-        self.check()
+        if !motion.sound {
+            self.check()?;
+        }
+        Ok(motion)
     }
 
     fn drift(&mut self, dt: f64) {
-        for (x, v) in self.cloud.position.iter_mut().zip(&self.cloud.velocity) {
-            (0..3).for_each(|a| x[a] += dt * v[a]);
-        }
+        parallel::for_each(self.method.threads, &mut self.cloud.parts(PART), |_, part| {
+            for (x, v) in part.position.iter_mut().zip(&*part.velocity) {
+                (0..3).for_each(|a| x[a] += dt * v[a]);
+            }
+        });
     }
 
     /// Velocity of a particle after `dt` under the accelerations of the step before.
@@ -216,52 +249,81 @@ impl<'a> Stepper<'a> {
     }
 
     /// Changes velocities by the accelerations, and gives the wall's part to the wall.
-    fn kick(&mut self, dt: f64) {
+    fn kick(&mut self, dt: f64) -> Motion {
+        let Method { gravity, threads, .. } = *self.method;
+        let kick = |part: &mut Part| kick(part, dt, gravity);
+        let mut motion = Motion::of(parallel::map_each(threads, &mut self.cloud.parts(PART), kick));
+        if dt == 0.0 {
+            return motion;
+        }
         let images = if self.method.mirrors[0] { 2.0 } else { 1.0 }
             * if self.method.mirrors[1] { 2.0 } else { 1.0 };
         let momentum = self.method.units.mass() * self.method.units.speed;
-        for i in 0..self.cloud.len() {
-            self.cloud.velocity[i] = self.ahead(i, dt);
-            let mass = self.cloud.mass[i];
-            for n in 0..3 {
-                self.ledger.impulse_of_gravity[n] +=
-                    images * momentum * mass * dt * self.method.gravity[n];
-            }
-            let by_wall = self.cloud.acceleration[i][1];
-            if by_wall != [0.0; 3] {
-                self.give(i, 0.0, by_wall.map(|a| -momentum * mass * dt * a));
-            }
+        for (impulse, gravity) in self.ledger.impulse_of_gravity.iter_mut().zip(gravity) {
+            *impulse += images * momentum * motion.mass * dt * gravity;
         }
+        for i in std::mem::take(&mut motion.pushed) {
+            let by_wall = self.cloud.acceleration[i][1];
+            self.give(i, 0.0, by_wall.map(|a| -momentum * self.cloud.mass[i] * dt * a));
+        }
+        motion
     }
 
     /// Gives heat [J] and impulse [N s] of a particle and of its images at mirrors to the wall below.
     fn give(&mut self, i: usize, heat: f64, impulse: [f64; 3]) {
         let Some(cells) = &self.method.wall else { return };
-        let [x, y, _] = self.cloud.position[i].map(|x| x * self.method.units.length);
+        let [x, y] = self.place(i);
+        if cells.are_radial() {
+            // All images are equally far out, and push alike along their radius.
+            return deposit(cells, self.ledger, [x, y], heat, impulse, self.method.mirrors);
+        }
         let sides = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
         for &right in sides(self.method.mirrors[0]) {
             for &back in sides(self.method.mirrors[1]) {
                 let impulse = [right * impulse[0], back * impulse[1], impulse[2]];
-                deposit(cells, self.ledger, [right * x, back * y], heat, impulse);
+                deposit(cells, self.ledger, [right * x, back * y], heat, impulse, [false; 2]);
             }
         }
     }
 
+    /// Where the wall is that a particle is above [m].
+    fn place(&self, i: usize) -> [f64; 2] {
+        let mut at = self.cloud.position[i];
+        self.method.images.wrap(&mut at);
+        [at[0], at[1]].map(|x| x * self.method.units.length)
+    }
+
     fn change_density_and_heat(&mut self, dt: f64) {
+        let moments = self.method.corrects || self.method.shifts;
+        match (self.heats, moments) {
+            (false, false) => self.change_density::<false, false>(dt),
+            (false, true) => self.change_density::<false, true>(dt),
+            (true, false) => self.change_density::<true, false>(dt),
+            (true, true) => self.change_density::<true, true>(dt),
+        }
+    }
+
+    fn change_density<const HEAT: bool, const MOMENTS: bool>(&mut self, dt: f64) {
         let method = self.method;
         let cloud = &*self.cloud;
-        let warm = |i: usize| cloud.temperature[i] + 0.5 * dt * cloud.heating[i];
-        let records: Vec<[f64; 8]> = (0..cloud.len())
-            .map(|i| record(cloud, i, cloud.velocity[i], cloud.density[i]))
-            .collect();
-        let annexes: Vec<[f64; 4]> = (0..cloud.len())
-            .map(|i| {
-                let [x, y, z] = cloud.gradient[i];
-                [x, y, z, warm(i)]
-            })
-            .collect();
-        let wall_temperature: Vec<f64> = (0..cloud.len()).map(|i| self.wall_below(i)).collect();
-        let pass = Continuity {
+        let mut records = std::mem::take(&mut self.records);
+        fill(&mut records, cloud.len(), method.threads, |i| {
+            record(cloud, i, cloud.velocity[i], cloud.density[i])
+        });
+        let annex = |i: usize| {
+            let [x, y, z] = cloud.gradient[i];
+            [x, y, z, cloud.temperature[i] + 0.5 * dt * cloud.heating[i]]
+        };
+        let mut annexes = std::mem::take(&mut self.annexes);
+        let mut wall_temperature = Vec::new();
+        if HEAT || MOMENTS {
+            fill(&mut annexes, cloud.len(), method.threads, annex);
+        }
+        if HEAT {
+            fill(&mut wall_temperature, cloud.len(), method.threads, |i| self.wall_below(i));
+        }
+        let pass = Continuity::<HEAT, MOMENTS> {
+            images: &method.images,
             records: &records,
             annexes: &annexes,
             wall_temperature: &wall_temperature,
@@ -269,80 +331,140 @@ impl<'a> Stepper<'a> {
             diffusion: method.diffusion,
             conduction: method.conduction,
         };
-        let rates = for_all(
+        let parts = self.cloud.parts(PART);
+        let mut parts: Vec<_> = parts.into_iter().map(|part| (part, Vec::new())).collect();
+        for_parts(
             &pass,
             &self.neighbours.blocks,
-            method.kernel,
-            method.precision,
-            method.threads,
+            (method.kernel, method.precision, method.threads),
+            &mut parts,
+            |(part, heated), rates| {
+                for (k, rate) in rates.iter().enumerate() {
+                    method.change::<MOMENTS>(part, k, rate, dt);
+                    if HEAT && rate.temperature[1] != 0.0 {
+                        heated.push((part.first + k, rate.temperature[1]));
+                    }
+                }
+            },
         );
+        let heated: Vec<_> = parts.into_iter().flat_map(|(_, heated)| heated).collect();
         let heat = method.units.energy() / method.heat_unit;
-        for (i, rate) in rates.iter().enumerate() {
-            let [by_fluid, by_wall] = rate.temperature;
-            let moment = filled(rate.moment, method.dimension);
-            self.cloud.moment[i] = moment;
-            self.cloud.gradient[i] = renormalised(&moment, rate.gradient);
-            self.cloud.density[i] += dt * rate.density;
-            self.cloud.heating[i] = by_fluid + by_wall;
-            self.cloud.temperature[i] += dt * (by_fluid + by_wall);
-            if by_wall != 0.0 {
-                self.give(i, -heat * self.cloud.mass[i] * dt * by_wall, [0.0; 3]);
-            }
+        for (i, by_wall) in heated {
+            self.give(i, -heat * self.cloud.mass[i] * dt * by_wall, [0.0; 3]);
         }
+        (self.records, self.annexes) = (records, annexes);
     }
 
     /// Temperature of the wall below a particle; the particle's own where it has no wall near.
     fn wall_below(&self, i: usize) -> f64 {
-        let [x, y, z] = self.cloud.position[i];
         match &self.method.wall {
-            Some(cells) if z < 1.0 => {
-                let length = self.method.units.length;
-                let share = cells.share(x * length, y * length);
+            Some(cells) if self.cloud.position[i][2] < 1.0 => {
+                let [x, y] = self.place(i);
+                let share = cells.share(x, y);
                 share.cells.iter().map(|&(cell, weight)| weight * self.wall_temperature[cell]).sum()
             }
             _ => self.cloud.temperature[i],
         }
     }
 
-    fn accelerate(&mut self, velocity: &[[f64; 3]]) {
+    /// Accelerations for the velocities after `dt` under those of the step before.
+    fn accelerate(&mut self, dt: f64) {
         let method = self.method;
         let cloud = &*self.cloud;
-        let records: Vec<[f64; 8]> = (0..cloud.len())
-            .map(|i| record(cloud, i, velocity[i], pressure(cloud.density[i])))
-            .collect();
-        let pass = Momentum {
-            records: &records,
-            densities: &cloud.density,
-            normalisation: method.normalisation,
-            viscosity: method.viscosity,
-            cohesion: method.cohesion,
-            wetting: method.wetting,
-            weight: -2.0 * method.gravity[2],
+        let mut records = std::mem::take(&mut self.records);
+        fill(&mut records, cloud.len(), method.threads, |i| {
+            record(cloud, i, self.ahead(i, dt), pressure(cloud.density[i]))
+        });
+        let mut acceleration = std::mem::take(&mut self.accelerations);
+        if method.tension > 0.0 {
+            let surface = self.surface(&records);
+            self.ledger.surface_energy = self.surface_energy(&surface);
+            let slopes: Vec<[f64; 4]> = surface.iter().map(|sums| sums.slopes).collect();
+            let pass = self.momentum::<true>(&records, &slopes);
+            acceleration = self.over_pairs(&pass, acceleration);
+            self.wet(&mut acceleration);
+        } else {
+            let pass = self.momentum::<false>(&records, &[]);
+            acceleration = self.over_pairs(&pass, acceleration);
+        }
+        self.accelerations = std::mem::replace(&mut self.cloud.acceleration, acceleration);
+        self.records = records;
+    }
+
+    fn momentum<'b, const TENSE: bool>(
+        &'b self,
+        records: &'b [[f64; 8]],
+        slopes: &'b [[f64; 4]],
+    ) -> Momentum<'b, TENSE> {
+        Momentum {
+            images: &self.method.images,
+            records,
+            slopes,
+            densities: &self.cloud.density,
+            normalisation: self.method.normalisation,
+            viscosity: self.method.viscosity,
+            surface: [self.method.surface.reach, self.method.dimension as f64],
+        }
+    }
+
+    fn over_pairs<P: PairSum<Output: Clone + Default>>(
+        &self,
+        pass: &P,
+        memory: Vec<P::Output>,
+    ) -> Vec<P::Output> {
+        let Method { kernel, precision, threads, .. } = *self.method;
+        for_all(pass, &self.neighbours.blocks, kernel, precision, threads, memory)
+    }
+
+    fn surface(&self, records: &[[f64; 8]]) -> Vec<SurfaceSums> {
+        let pass = Surface {
+            images: &self.method.images,
+            records,
+            normalisation: self.method.normalisation,
+            dimension: self.method.dimension,
+            energy: self.method.surface,
         };
-        self.cloud.acceleration = for_all(
-            &pass,
-            &self.neighbours.blocks,
-            method.kernel,
-            method.precision,
-            method.threads,
-        );
+        self.over_pairs(&pass, Vec::new())
+    }
+
+    /// Energy of all free and wetted surface, images at mirrors included [J].
+    fn surface_energy(&self, surface: &[SurfaceSums]) -> f64 {
+        let method = self.method;
+        let images: f64 = method.mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
+        let wets = method.wall.is_some();
+        let of_particle = |(i, sums): (usize, &SurfaceSums)| {
+            let height = self.cloud.position[i][2];
+            let wall =
+                if wets { wetting::energy(method.tension, method.wetting, height) } else { 0.0 };
+            self.cloud.volume(i) * (sums.energy + wall)
+        };
+        images * method.units.energy() * surface.iter().enumerate().map(of_particle).sum::<f64>()
+    }
+
+    /// Adds the wall's pull.
+    fn wet(&self, acceleration: &mut [Accelerations]) {
+        let method = self.method;
+        if method.wall.is_none() || method.wetting == 0.0 {
+            return;
+        }
+        for (i, [_, by_wall]) in acceleration.iter_mut().enumerate() {
+            let (height, density) = (self.cloud.position[i][2], self.cloud.density[i]);
+            if height < 1.0 {
+                by_wall[2] += wetting::pull(method.tension, method.wetting, height, density);
+            }
+        }
     }
 
     /// A particle that meets its image at a plane exchanges its place with it: exactly what two mirror
     /// images do that pass through each other.
     fn rebound(&mut self) {
         let momentum = self.method.units.mass() * self.method.units.speed;
-        let walled = self.method.wall.is_some();
         for i in 0..self.cloud.len() {
-            for a in 0..2 {
-                if self.method.mirrors[a] && self.cloud.position[i][a] < 0.0 {
-                    self.cloud.position[i][a] *= -1.0;
-                    self.cloud.velocity[i][a] *= -1.0;
-                }
-            }
-            if walled && self.cloud.position[i][2] < 0.0 {
-                self.cloud.position[i][2] *= -1.0;
-                self.cloud.velocity[i][2] *= -1.0;
+            let below = self.cloud.position[i][2] < 0.0;
+            let signs = self.method.images.put_back(&mut self.cloud.position[i]);
+            (0..3).for_each(|a| self.cloud.velocity[i][a] *= signs[a]);
+            // Without a wall there is nothing that gets it.
+            if below && signs[2] < 0.0 {
                 let impulse = -2.0 * momentum * self.cloud.mass[i] * self.cloud.velocity[i][2];
                 self.give(i, 0.0, [0.0, 0.0, impulse]);
             }
@@ -357,13 +479,14 @@ impl<'a> Stepper<'a> {
         }
         let fullness: Vec<f64> = self.cloud.moment.iter().map(least_eigenvalue).collect();
         // After sorting there are no lists yet.
-        self.list(&vec![[0.0; 3]; self.cloud.len()]);
+        self.list(&vec![[0.0; 3]; self.cloud.len()], 1.0);
         let method = self.method;
         let cloud = &*self.cloud;
         let records: Vec<[f64; 8]> =
             (0..cloud.len()).map(|i| record(cloud, i, [0.0; 3], fullness[i])).collect();
         let value = |q: f64| method.kernel.value(q, 1.0, method.dimension) / method.normalisation;
         let pass = Crowding {
+            images: &method.images,
             records: &records,
             normalisation: method.normalisation,
             reference: 1.0 / value(method.spacing),
@@ -374,24 +497,17 @@ impl<'a> Stepper<'a> {
             method.kernel,
             method.precision,
             method.threads,
+            Vec::new(),
         );
         let shifts: Vec<[f64; 3]> = sums
             .iter()
             .zip(&fullness)
             .map(|(sums, &fullness)| displacement(sums, fullness, way))
             .collect();
-        self.list(&shifts);
+        self.list(&shifts, 1.0);
         for (x, shift) in self.cloud.position.iter_mut().zip(&shifts) {
             (0..3).for_each(|a| x[a] += shift[a]);
-        }
-        self.put_back();
-    }
-
-    /// Puts back what a shift moved through a plane.
-    fn put_back(&mut self) {
-        let planes = [self.method.mirrors[0], self.method.mirrors[1], self.method.wall.is_some()];
-        for x in &mut self.cloud.position {
-            (0..3).filter(|&a| planes[a]).for_each(|a| x[a] = x[a].abs());
+            method.images.put_back(x);
         }
     }
 
@@ -416,6 +532,25 @@ impl<'a> Stepper<'a> {
     fn not_finite(&self, quantity: &'static str) -> Failure {
         Failure::NotFinite { quantity, time: self.ledger.time }
     }
+}
+
+/// Fills a list with a number for every particle.
+fn fill<T: Copy + Default + Send>(
+    list: &mut Vec<T>,
+    count: usize,
+    threads: usize,
+    number: impl Fn(usize) -> T + Sync,
+) {
+    list.resize(count, T::default());
+    let mut parts: Vec<&mut [T]> = list.chunks_mut(PART).collect();
+    parallel::for_each(threads, &mut parts, |p, part| {
+        part.iter_mut().enumerate().for_each(|(k, place)| *place = number(p * PART + k));
+    });
+}
+
+/// Whether some numbers are not all the same.
+fn differ(mut numbers: impl Iterator<Item = f64>) -> bool {
+    numbers.next().is_some_and(|first| numbers.any(|number| number != first))
 }
 
 fn record(cloud: &Cloud, i: usize, velocity: [f64; 3], last: f64) -> [f64; 8] {
@@ -461,15 +596,27 @@ fn renormalised(&[xx, yy, zz, xy, yz, xz]: &[f64; 6], [a, b, c]: [f64; 3]) -> [f
     ]
 }
 
-/// Adds heat [J] and impulse [N s] at a place of the wall.
-fn deposit(cells: &WallCells, ledger: &mut Ledger, [x, y]: [f64; 2], heat: f64, impulse: [f64; 3]) {
+/// Adds heat [J] and impulse [N s] at a place of the wall and at its images at `mirrors`, which have to
+/// lie in the same cells.
+fn deposit(
+    cells: &WallCells,
+    ledger: &mut Ledger,
+    [x, y]: [f64; 2],
+    heat: f64,
+    impulse: [f64; 3],
+    mirrors: [bool; 2],
+) {
     let exchange: &mut WallExchange = &mut ledger.exchange;
     let share = cells.share(x, y);
+    let images: f64 = mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
+    let (heat, impulse) = (images * heat, impulse.map(|p| images * p));
     ledger.heat_to_wall += heat;
-    (0..3).for_each(|n| ledger.impulse_to_wall[n] += impulse[n]);
+    // What the images give along a mirrored axis cancels.
+    let along = |n: usize| if n < 2 && mirrors[n] { 0.0 } else { impulse[n] };
+    (0..3).for_each(|n| ledger.impulse_to_wall[n] += along(n));
     if share.outside {
         exchange.heat_outside += heat;
-        (0..3).for_each(|n| exchange.impulse_outside[n] += impulse[n]);
+        (0..3).for_each(|n| exchange.impulse_outside[n] += along(n));
         return;
     }
     let radius = x.hypot(y);

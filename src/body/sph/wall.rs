@@ -52,6 +52,11 @@ impl WallCells {
         self.len() == 0
     }
 
+    /// Whether which cells share depends on the distance from the origin alone.
+    pub fn are_radial(&self) -> bool {
+        matches!(self, WallCells::Rings { .. } | WallCells::RadialNodes { .. })
+    }
+
     /// Which cells share what happens at a place [m].
     pub fn share(&self, x: f64, y: f64) -> WallShare {
         match self {

@@ -51,13 +51,12 @@ fn fluid(checker: &mut Checker, path: &Path, fluid: &Fluid) {
     checker.positive(&path.at("density"), fluid.density, "the density");
     checker.positive(&path.at("viscosity"), fluid.viscosity, "the viscosity");
     checker.positive(&path.at("specific_heat"), fluid.specific_heat, "the specific heat capacity");
-    checker.positive(&path.at("conductivity"), fluid.conductivity, "the thermal conductivity");
-    not_negative(
-        checker,
-        &path.at("surface_tension"),
-        fluid.surface_tension,
-        "the surface tension",
-    );
+    for (key, value, what) in [
+        ("conductivity", fluid.conductivity, "the thermal conductivity"),
+        ("surface_tension", fluid.surface_tension, "the surface tension"),
+    ] {
+        not_negative(checker, &path.at(key), value, what);
+    }
     let fine = (0.0..=PI).contains(&fluid.contact_angle);
     let message = "the angle of contact is out of bounds";
     checker.require(fine, &path.at("contact_angle"), message, "0 to 3.14159 (rad)");

@@ -1,0 +1,193 @@
+//! Which particles come near to a box: the coarse half of the search for neighbours.
+
+use super::lanes::WIDTH;
+use super::order::{BLOCK, Bounds};
+
+/// Where the particles of a block stand about one of them, in single precision.
+#[derive(Debug, Clone)]
+pub struct Spots {
+    pub origin: [f64; 3],
+    along: [[f32; BLOCK]; 3],
+}
+
+/// Particles that come near to a box, and their coordinates about its centre.
+#[derive(Debug, Default)]
+pub struct Candidates {
+    /// Numbers in the block that they were last taken from.
+    pub numbers: Vec<u32>,
+    pub along: [Vec<f32>; 3],
+}
+
+/// What is searched: x is near if it comes nearer than `reach` to the box that extends from the
+/// centre by `half` along each axis.
+#[derive(Debug, Clone, Copy)]
+pub struct Near {
+    pub half: [f32; 3],
+    pub reach_squared: f32,
+}
+
+impl Near {
+    /// A little more than asked for, so that rounding leaves nothing out.
+    pub fn to(bounds: &Bounds, reach: f64) -> Self {
+        let half = [0, 1, 2].map(|a| (0.5 * (bounds.high[a] - bounds.low[a])) as f32 + 1e-6);
+        Self { half, reach_squared: (reach * reach) as f32 + 1e-6 }
+    }
+}
+
+impl Spots {
+    /// Of the particles of a block; those that it lacks stand far away.
+    pub fn of(points: &[[f64; 3]]) -> Self {
+        let origin = points[0];
+        let mut along = [[f32::MAX; BLOCK]; 3];
+        for (k, point) in points.iter().enumerate() {
+            for a in 0..3 {
+                along[a][k] = (point[a] - origin[a]) as f32;
+            }
+        }
+        Self { origin, along }
+    }
+}
+
+impl Candidates {
+    /// Takes what is near of a block whose particles stand at `signs · spot + shift` about the centre
+    /// of the box.
+    pub fn take(&mut self, spots: &Spots, signs: [f32; 3], shift: [f32; 3], near: Near) {
+        self.numbers.clear();
+        self.numbers.resize(BLOCK + WIDTH, 0);
+        let start = self.along[0].len();
+        // Room for all, and for the last vector to be written whole.
+        self.along.iter_mut().for_each(|along| along.resize(start + BLOCK + WIDTH, 0.0));
+        let mut along = self.along.each_mut().map(|along| &mut along[start..]);
+        let found = compress(spots, signs, shift, near, &mut self.numbers, &mut along);
+        self.numbers.truncate(found);
+        self.along.iter_mut().for_each(|along| along.truncate(start + found));
+    }
+}
+
+fn compress(
+    spots: &Spots,
+    signs: [f32; 3],
+    shift: [f32; 3],
+    near: Near,
+    numbers: &mut [u32],
+    along: &mut [&mut [f32]; 3],
+) -> usize {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx512f") {
+        // SAFETY: the processor has what the function asks for.
+        return unsafe { compress_avx512(spots, signs, shift, near, numbers, along) };
+    }
+    compress_each(spots, signs, shift, near, numbers, along)
+}
+
+/// One after the other without a branch: written always, kept if near.
+fn compress_each(
+    spots: &Spots,
+    signs: [f32; 3],
+    shift: [f32; 3],
+    near: Near,
+    numbers: &mut [u32],
+    along: &mut [&mut [f32]; 3],
+) -> usize {
+    let mut found = 0;
+    for k in 0..BLOCK {
+        let mut square = 0.0;
+        numbers[found] = k as u32;
+        for a in 0..3 {
+            let at = signs[a] * spots.along[a][k] + shift[a];
+            let gap = (at.abs() - near.half[a]).max(0.0);
+            square += gap * gap;
+            along[a][found] = at;
+        }
+        found += usize::from(square < near.reach_squared);
+    }
+    found
+}
+
+/// Sixteen at once, with the same roundings.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f")]
+fn compress_avx512(
+    spots: &Spots,
+    signs: [f32; 3],
+    shift: [f32; 3],
+    near: Near,
+    numbers: &mut [u32],
+    along: &mut [&mut [f32]; 3],
+) -> usize {
+    use std::arch::x86_64::*;
+    let ahead = _mm512_set1_epi32(WIDTH as i32);
+    let mut number = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    let mut found = 0;
+    for k in (0..BLOCK).step_by(WIDTH) {
+        let mut square = _mm512_setzero_ps();
+        let mut at = [square; 3];
+        for a in 0..3 {
+            // SAFETY: k + 16 is within the block.
+            let spot = unsafe { _mm512_loadu_ps(spots.along[a][k..k + WIDTH].as_ptr()) };
+            let turned = _mm512_mul_ps(_mm512_set1_ps(signs[a]), spot);
+            at[a] = _mm512_add_ps(turned, _mm512_set1_ps(shift[a]));
+            let away = _mm512_sub_ps(_mm512_abs_ps(at[a]), _mm512_set1_ps(near.half[a]));
+            let gap = _mm512_max_ps(away, _mm512_setzero_ps());
+            square = _mm512_add_ps(square, _mm512_mul_ps(gap, gap));
+        }
+        let kept = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, _mm512_set1_ps(near.reach_squared));
+        if kept != 0 {
+            let end = found + WIDTH;
+            let place = numbers[found..end].as_mut_ptr();
+            // SAFETY: the slices are as long as a vector.
+            unsafe { _mm512_storeu_epi32(place.cast(), _mm512_maskz_compress_epi32(kept, number)) };
+            for a in 0..3 {
+                let place = along[a][found..end].as_mut_ptr();
+                unsafe { _mm512_storeu_ps(place, _mm512_maskz_compress_ps(kept, at[a])) };
+            }
+            found += kept.count_ones() as usize;
+        }
+        number = _mm512_add_epi32(number, ahead);
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_taken_is_what_is_near() {
+        let number = |i: usize| (i as f64 * 0.754877666).fract();
+        for count in [1, 30, BLOCK] {
+            let point = |i: usize| [4.0 * number(i), 3.0 * number(7 * i + 3), number(13 * i + 5)];
+            let points: Vec<[f64; 3]> = (0..count).map(point).collect();
+            let bounds = Bounds { low: [-0.5, -0.25, 0.0], high: [0.5, 0.75, 0.5] };
+            let (centre, reach) = (bounds.centre(), 1.2);
+            for signs in [[1.0, 1.0, 1.0], [-1.0, 1.0, -1.0]] {
+                let image = |p: &[f64; 3]| [0, 1, 2].map(|a| signs[a] * p[a]);
+                let spots = Spots::of(&points);
+                let shift = [0, 1, 2].map(|a| (signs[a] * spots.origin[a] - centre[a]) as f32);
+                let (signs, near) = (signs.map(|s| s as f32), Near::to(&bounds, reach));
+                let mut taken = Candidates::default();
+                taken.take(&spots, signs, shift, near);
+                let gap = |x: f64, a: usize| (bounds.low[a] - x).max(x - bounds.high[a]).max(0.0);
+                let is_near = |p: &[f64; 3]| {
+                    let at = image(p);
+                    (0..3).map(|a| gap(at[a], a).powi(2)).sum::<f64>() < reach * reach
+                };
+                let expected: Vec<u32> =
+                    (0..count).filter(|&i| is_near(&points[i])).map(|i| i as u32).collect();
+                assert_eq!(taken.numbers, expected);
+                for (n, &i) in expected.iter().enumerate() {
+                    let at = image(&points[i as usize]);
+                    for a in 0..3 {
+                        let apart = f64::from(taken.along[a][n]) - (at[a] - centre[a]);
+                        assert!(apart.abs() < 1e-6);
+                    }
+                }
+                let (mut numbers, mut along) = (vec![0; 200], [(); 3].map(|_| vec![0.0; 200]));
+                let mut slices = along.each_mut().map(|along| &mut along[..]);
+                let found = compress_each(&spots, signs, shift, near, &mut numbers, &mut slices);
+                assert_eq!(taken.numbers, numbers[..found]);
+                assert!((0..3).all(|a| taken.along[a] == along[a][..found]));
+            }
+        }
+    }
+}

@@ -1,0 +1,99 @@
+//! Changes of velocity, and what tells how fast the particles move after them.
+
+use super::cloud::Part;
+
+/// Densities over that at rest which no weakly compressible flow has.
+pub const DENSITIES: [f64; 2] = [0.3, 3.0];
+
+/// How some particles move.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// Σ v and Σ v².
+    sums: [f64; 3],
+    squares: f64,
+    /// Largest v² and a².
+    fastest: f64,
+    most_accelerated: f64,
+    /// Σ m.
+    pub mass: f64,
+    /// Whether all numbers are finite, and densities those of a weakly compressible flow.
+    pub sound: bool,
+    /// Particles that the wall pushes, in their order.
+    pub pushed: Vec<usize>,
+}
+
+impl Motion {
+    fn none() -> Self {
+        let pushed = Vec::new();
+        Self {
+            sums: [0.0; 3],
+            squares: 0.0,
+            fastest: 0.0,
+            most_accelerated: 0.0,
+            mass: 0.0,
+            sound: true,
+            pushed,
+        }
+    }
+
+    /// Of all parts, added up in their order.
+    pub fn of(parts: Vec<Self>) -> Self {
+        let mut all = Self::none();
+        for part in parts {
+            (0..3).for_each(|a| all.sums[a] += part.sums[a]);
+            all.squares += part.squares;
+            all.fastest = all.fastest.max(part.fastest);
+            all.most_accelerated = all.most_accelerated.max(part.most_accelerated);
+            all.mass += part.mass;
+            all.sound &= part.sound;
+            all.pushed.extend(part.pushed);
+        }
+        all
+    }
+
+    pub fn fastest(&self) -> f64 {
+        self.fastest.sqrt()
+    }
+
+    pub fn most_accelerated(&self) -> f64 {
+        self.most_accelerated.sqrt()
+    }
+
+    /// About the mean velocity, of which mirrored axes have none.
+    pub fn root_mean_square_speed(&self, particles: usize, mirrors: [bool; 2]) -> f64 {
+        let count = particles as f64;
+        let free = [!mirrors[0], !mirrors[1], true];
+        let mean: f64 = (0..3).filter(|&a| free[a]).map(|a| (self.sums[a] / count).powi(2)).sum();
+        (self.squares / count - mean).max(0.0).sqrt()
+    }
+}
+
+/// Changes velocities by the accelerations, of which those by gravity are the same for all.
+pub fn kick(part: &mut Part, dt: f64, gravity: [f64; 3]) -> Motion {
+    let mut motion = Motion::none();
+    for i in 0..part.mass.len() {
+        let [by_fluid, by_wall] = part.acceleration[i];
+        let mut velocity = part.velocity[i];
+        let (mut speed, mut acceleration) = (0.0, 0.0);
+        for a in 0..3 {
+            let rate = by_fluid[a] + by_wall[a] + gravity[a];
+            velocity[a] += dt * rate;
+            speed += velocity[a] * velocity[a];
+            acceleration += rate * rate;
+        }
+        part.velocity[i] = velocity;
+        (0..3).for_each(|a| motion.sums[a] += velocity[a]);
+        motion.squares += speed;
+        motion.fastest = motion.fastest.max(speed);
+        motion.most_accelerated = motion.most_accelerated.max(acceleration);
+        motion.mass += part.mass[i];
+        let [x, y, z] = part.position[i];
+        let finite = (x + y + z + speed + part.temperature[i]).is_finite();
+        let density = 1.0 + part.density[i];
+        motion.sound &= finite && (DENSITIES[0]..DENSITIES[1]).contains(&density);
+        if by_wall != [0.0; 3] {
+            motion.pushed.push(part.first + i);
+        }
+    }
+    motion
+}
