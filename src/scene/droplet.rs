@@ -49,8 +49,9 @@ pub struct Droplet {
     /// rest under gravity alone.
     #[serde(default = "yes")]
     pub corrected_diffusion: bool,
-    /// Whether particles are moved from crowded places to empty ones. Surface tension, which keeps
-    /// their distances too and with which shifting makes pressure, leaves it out if nothing is said.
+    /// Whether particles are moved from crowded places to empty ones. If nothing is said, they are not
+    /// where surface tension rules (up to a Weber number of 1000), which keeps their distances too and
+    /// with which shifting makes pressure.
     #[serde(default)]
     pub shifting: Option<bool>,
     /// A copy of the drop for each entry.
@@ -190,6 +191,9 @@ fn yes() -> bool {
 /// Speed of sound over the fastest flow where the scene names none: density then stays within 1 %.
 const SOUND_OVER_FLOW: f64 = 10.0;
 
+/// Weber number from which inertia rules.
+const INERTIAL: f64 = 1000.0;
+
 impl Droplet {
     /// Gap between a drop's lowest point and the wall at its release [m].
     pub fn gap(&self) -> f64 {
@@ -216,7 +220,9 @@ impl Droplet {
 
     /// Whether particles are shifted.
     pub fn shifts(&self) -> bool {
-        self.shifting.unwrap_or(self.fluid.surface_tension == 0.0)
+        let Fluid { density, surface_tension, .. } = self.fluid;
+        let inertia = density * self.impact_velocity.powi(2) * self.diameter;
+        self.shifting.unwrap_or(inertia > INERTIAL * surface_tension || surface_tension == 0.0)
     }
 
     /// Along which of x and y the half of the model stands for the whole.
