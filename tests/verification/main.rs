@@ -2,6 +2,9 @@
 //!
 //! `make verify` runs this and prints the tables that README.md here keeps.
 
+#[path = "../common/capillary.rs"]
+#[allow(dead_code)]
+mod capillary;
 #[path = "../common/classical_flows.rs"]
 #[allow(dead_code)]
 mod classical_flows;
@@ -13,5 +16,6 @@ mod flows;
 mod heat;
 mod particles;
 mod study;
+mod tension;
 mod thermal_stress;
 mod time;

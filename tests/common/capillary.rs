@@ -1,0 +1,121 @@
+//! Drops that surface tension moves: their set-up for the droplet engine, and their closed forms.
+
+use std::f64::consts::PI;
+
+use impinge::body::sph::{
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
+    WallCells,
+};
+use impinge::kernel::Kernel;
+
+/// Water, radius 1 mm.
+pub const RADIUS: f64 = 1e-3;
+pub const DENSITY: f64 = 1000.0;
+pub const TENSION: f64 = 0.072;
+const SOUND: f64 = 10.0;
+
+/// A drop about the origin at rest, of some particles over its diameter.
+pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
+    DropletPlan {
+        dimension,
+        spacing: 2.0 * RADIUS / across,
+        support: 3.0,
+        kernel: Kernel::WendlandC2,
+        fluid: Fluid {
+            density: DENSITY,
+            viscosity,
+            specific_heat: 4000.0,
+            conductivity: 0.0,
+            surface_tension: TENSION,
+            sound_speed: SOUND,
+        },
+        placement: Placement::Lattice,
+        precision: Precision::Single,
+        density_diffusion: 0.1,
+        corrected_diffusion: true,
+        shifting: false,
+        gravity: [0.0; 3],
+        mirrors: [dimension == 3; 2],
+        extents: [Extent::Open; 3],
+        releases: vec![Release {
+            time: 0.0,
+            centre: [0.0; 3],
+            diameter: 2.0 * RADIUS,
+            velocity: [0.0; 3],
+            temperature: 300.0,
+        }],
+        wall: None,
+    }
+}
+
+/// The drop of a plan stretched along z by a factor, its volume kept; with its state.
+pub fn stretched(plan: DropletPlan, factor: f64) -> (DropletSph, Vec<f64>) {
+    let across = factor.powf(-1.0 / (plan.dimension as f64 - 1.0));
+    let drop = DropletSph::new(plan, 1);
+    let mut particles = drop.particles(&drop.initial_state());
+    for [x, y, z] in &mut particles.position {
+        (*x, *y, *z) = (across * *x, across * *y, factor * *z);
+    }
+    let state = drop.state_of(&particles);
+    (drop, state)
+}
+
+/// T = 2π √(ρR³/8σ) of the oscillation between oblate and prolate (Rayleigh 1879, doi
+/// 10.1098/rspl.1879.0015).
+pub fn period() -> f64 {
+    2.0 * PI * (DENSITY * RADIUS.powi(3) / (8.0 * TENSION)).sqrt()
+}
+
+/// Mean of z² − (x² + y²)/2 over R², 0 for a sphere.
+pub fn elongation(particles: &ParticleFields) -> f64 {
+    let ParticleFields { position, mass, .. } = particles;
+    let part = |(&[x, y, z], m): (&[f64; 3], &f64)| m * (z * z - 0.5 * (x * x + y * y));
+    let sum: f64 = position.iter().zip(mass).map(part).sum();
+    sum / mass.iter().sum::<f64>() / (RADIUS * RADIUS)
+}
+
+/// Mean pressure in the inner part of a drop over Laplace's 2σ/R.
+pub fn core_pressure(particles: &ParticleFields) -> f64 {
+    let inside = |x: &[f64; 3]| x.iter().map(|x| x * x).sum::<f64>() < (0.6 * RADIUS).powi(2);
+    let pairs = particles.position.iter().zip(&particles.pressure);
+    let inner: Vec<f64> = pairs.filter(|(x, _)| inside(x)).map(|(_, p)| *p).collect();
+    inner.iter().sum::<f64>() / inner.len() as f64 / (2.0 * TENSION / RADIUS)
+}
+
+/// Half of a plane drop on a wall that it meets at an angle [rad], at first at a right one.
+pub fn on_wall(across: f64, angle: f64) -> (DropletSph, Vec<f64>) {
+    let cells = WallCells::Tiles { count: [1, 1], size: [10.0 * RADIUS, 1.0] };
+    let drop = DropletSph::new(
+        DropletPlan {
+            mirrors: [true, false],
+            wall: Some(Wall { cells, contact_angle: angle }),
+            ..plan(2, across, 1e-2)
+        },
+        1,
+    );
+    let whole = drop.particles(&drop.initial_state());
+    let above: Vec<usize> = (0..whole.mass.len()).filter(|&i| whole.position[i][2] > 0.0).collect();
+    let of = |list: &[f64]| above.iter().map(|&i| list[i]).collect();
+    let state = drop.state_of(&ParticleFields {
+        position: above.iter().map(|&i| whole.position[i]).collect(),
+        velocity: above.iter().map(|&i| whole.velocity[i]).collect(),
+        mass: of(&whole.mass),
+        density: of(&whole.density),
+        pressure: of(&whole.pressure),
+        temperature: of(&whole.temperature),
+    });
+    (drop, state)
+}
+
+/// Half width of a plane drop over R that meets a wall at an angle: a segment of a circle with the area of
+/// half the circle of radius R.
+pub fn half_width(angle: f64) -> f64 {
+    let radius = (0.5 * PI / (angle - angle.sin() * angle.cos())).sqrt();
+    radius * angle.sin()
+}
+
+/// That of particles.
+pub fn found_half_width(particles: &ParticleFields, spacing: f64) -> f64 {
+    let near = particles.position.iter().filter(|x| x[2] < 3.0 * spacing);
+    (near.map(|x| x[0]).fold(0.0, f64::max) + 0.5 * spacing) / RADIUS
+}
