@@ -7,6 +7,7 @@ use impinge::scene::Scene;
 use impinge::variables::{Causality, Registry, Value, Variable};
 
 use crate::archive::Entries;
+use crate::version::Version;
 use crate::words;
 
 const STYLE: &str = include_str!("documentation.css");
@@ -25,19 +26,20 @@ pub fn licences() -> Entries {
 }
 
 /// The page of a scene's unit.
-pub fn page(scene: &Scene) -> String {
+pub fn page(scene: &Scene, fmi: Version) -> String {
     let registry = Registry::of(scene);
     let title = escape(&scene.name);
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
-         <header>\n<img src=\"../model.png\" alt=\"Section of the scene\" width=\"200\" \
+         <header>\n<img src=\"../{}\" alt=\"Section of the scene\" width=\"200\" \
          height=\"150\">\n<div>\n<h1>{title}</h1>\n<p>{}</p>\n</div>\n</header>\n",
+        fmi.icon(),
         escape(&scene.description)
     );
     section(&mut html, "What is modelled", &modelled(scene));
-    section(&mut html, "How to run it", &how_to_run(scene, &registry));
+    section(&mut html, "How to run it", &how_to_run(scene, &registry, fmi));
     for (causality, heading, text) in [
         (Causality::Input, "Inputs", "Held constant during a communication step."),
         (Causality::Output, "Outputs", "Values at the end of a communication step."),
@@ -73,7 +75,7 @@ fn modelled(scene: &Scene) -> String {
 }
 
 /// A program that sets the first input and plots the first outputs.
-fn how_to_run(scene: &Scene, registry: &Registry) -> String {
+fn how_to_run(scene: &Scene, registry: &Registry, fmi: Version) -> String {
     let first = |causality, count| {
         registry.of_causality(causality).take(count).map(|i| &registry.variables[i])
     };
@@ -95,8 +97,9 @@ fn how_to_run(scene: &Scene, registry: &Registry) -> String {
         outputs.join(", ")
     );
     format!(
-        "<p>Any tool that imports FMI 2.0 co-simulation units can run it. With \
+        "<p>Any tool that imports FMI {} co-simulation units can run it. With \
          <a href=\"https://github.com/CATIA-Systems/FMPy\">FMPy</a>:</p>\n<pre>{}</pre>\n",
+        fmi.name(),
         escape(&program)
     )
 }
@@ -195,7 +198,7 @@ mod tests {
     fn arrays_are_one_row_and_texts_are_escaped() {
         let mut scene = impinge::scene::parse(SCENE, "scene.toml").unwrap();
         scene.description = "hot & <fast>".into();
-        let html = page(&scene);
+        let html = page(&scene, Version::Two);
         assert!(html.contains("<code>surface.temperature[1,1] … [4,4]</code>"), "{html}");
         assert!(!html.contains("surface.temperature[2,2]"));
         assert!(html.contains("temperature at point … of the grid on plate.top"));

@@ -4,18 +4,11 @@ use std::env::{self, consts};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// FMI's name of this platform.
-const PLATFORM: &str = if cfg!(target_os = "windows") {
-    "win64"
-} else if cfg!(target_os = "macos") {
-    "darwin64"
-} else {
-    "linux64"
-};
+use crate::version::Version;
 
 /// Path of the library inside the unit of a model.
-pub fn entry(model: &str) -> String {
-    format!("binaries/{PLATFORM}/{model}{}", consts::DLL_SUFFIX)
+pub fn entry(model: &str, fmi: Version) -> String {
+    format!("binaries/{}/{model}{}", fmi.platform(), consts::DLL_SUFFIX)
 }
 
 /// Reads the library at `path`, or the one beside this program.
