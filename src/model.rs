@@ -240,8 +240,24 @@ impl Model {
         cache: &mut Cache,
         output: &Output,
     ) -> Result<f64, ModelError> {
+        self.prepare(state, cache)?;
+        self.prepared_output(state, cache, output)
+    }
+
+    /// Checks the inputs of a state and brings the cache up to date with it, once for many outputs.
+    pub fn prepare(&self, state: &State, cache: &mut Cache) -> Result<(), ModelError> {
         self.check_inputs(&state.inputs)?;
         cache.meet(self, state);
+        Ok(())
+    }
+
+    /// The value of an output in a state that the cache has been [prepared](Self::prepare) for.
+    pub fn prepared_output(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+        output: &Output,
+    ) -> Result<f64, ModelError> {
         match output {
             Output::Droplet { body, total } => {
                 let index = self.droplet_place(body);

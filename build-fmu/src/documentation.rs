@@ -4,7 +4,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use impinge::scene::Scene;
-use impinge::variables::{Causality, Registry, Value, Variable};
+use impinge::variables::{
+    ArrayRegistry, ArrayVariable, Causality, Content, Registry, Value, Variable,
+};
 
 use crate::archive::Entries;
 use crate::version::Version;
@@ -28,6 +30,7 @@ pub fn licences() -> Entries {
 /// The page of a scene's unit.
 pub fn page(scene: &Scene, fmi: Version) -> String {
     let registry = Registry::of(scene);
+    let arrays = ArrayRegistry::of(scene, &registry);
     let title = escape(&scene.name);
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -39,16 +42,19 @@ pub fn page(scene: &Scene, fmi: Version) -> String {
         escape(&scene.description)
     );
     section(&mut html, "What is modelled", &modelled(scene));
-    section(&mut html, "How to run it", &how_to_run(scene, &registry, fmi));
+    section(&mut html, "How to run it", &how_to_run(scene, &registry, &arrays, fmi));
     for (causality, heading, text) in [
         (Causality::Input, "Inputs", "Held constant during a communication step."),
         (Causality::Output, "Outputs", "Values at the end of a communication step."),
         (Causality::Parameter, "Parameters", "They may be set until initialisation ends."),
     ] {
-        let rows = fold(registry.variables.iter().filter(|v| v.causality() == causality));
+        let rows = rows(&registry, &arrays, causality, fmi);
         if !rows.is_empty() {
             section(&mut html, heading, &format!("<p>{text}</p>\n{}", table(&rows)));
         }
+    }
+    if fmi == Version::Three {
+        coordinates(&mut html, &arrays);
     }
     let _ = write!(
         html,
@@ -57,6 +63,27 @@ pub fn page(scene: &Scene, fmi: Version) -> String {
         env!("CARGO_PKG_VERSION")
     );
     html
+}
+
+/// Where the points of fields are, which units of FMI 3.0 tell as constants.
+fn coordinates(html: &mut String, arrays: &ArrayRegistry) {
+    let constants =
+        arrays.variables.iter().filter(|v| matches!(v.content, Content::Coordinates(_)));
+    let item = |v: &ArrayVariable| {
+        format!("<li><code>{}</code> [m]: {}</li>\n", name(v), escape(&v.description))
+    };
+    let items: String = constants.map(item).collect();
+    if !items.is_empty() {
+        section(html, "Constants", &format!("<ul>\n{items}</ul>\n"));
+    }
+}
+
+/// Name of a variable of FMI 3.0, with the counts of its elements.
+fn name(variable: &ArrayVariable) -> String {
+    match &variable.dimensions[..] {
+        [] => variable.name.clone(),
+        counts => format!("{} ({})", variable.name, join(counts, " × ")),
+    }
 }
 
 fn section(html: &mut String, heading: &str, content: &str) {
@@ -75,17 +102,19 @@ fn modelled(scene: &Scene) -> String {
 }
 
 /// A program that sets the first input and plots the first outputs.
-fn how_to_run(scene: &Scene, registry: &Registry, fmi: Version) -> String {
-    let first = |causality, count| {
-        registry.of_causality(causality).take(count).map(|i| &registry.variables[i])
+fn how_to_run(scene: &Scene, registry: &Registry, arrays: &ArrayRegistry, fmi: Version) -> String {
+    let of = |causality| {
+        let has_causality = move |v: &&ArrayVariable| v.causality(registry) == Some(causality);
+        arrays.variables.iter().filter(has_causality)
     };
-    let start: Vec<String> = first(Causality::Input, 1)
-        .filter_map(|v| {
-            v.real_start().map(|start| format!("\"{}\": {}", v.name, words::number(start)))
-        })
-        .collect();
-    let outputs: Vec<String> =
-        first(Causality::Output, 3).map(|v| format!("\"{}\"", v.name)).collect();
+    let start: Vec<String> =
+        of(Causality::Input).take(1).filter_map(|v| start_of(v, registry, fmi)).collect();
+    let names = of(Causality::Output).flat_map(|v| match fmi {
+        Version::Two => v.elements(registry).iter().map(|element| element.name.clone()).collect(),
+        Version::Three if v.dimensions.is_empty() => vec![v.name.clone()],
+        Version::Three => Vec::new(),
+    });
+    let outputs: Vec<String> = names.take(3).map(|name| format!("\"{name}\"")).collect();
     let program = format!(
         "from fmpy import simulate_fmu\nfrom fmpy.util import plot_result\n\n\
          result = simulate_fmu(\n    \"{}.fmu\",\n    stop_time={:?},\n    output_interval={:?},\n    \
@@ -104,34 +133,54 @@ fn how_to_run(scene: &Scene, registry: &Registry, fmi: Version) -> String {
     )
 }
 
+/// An entry of the dictionary of start values.
+fn start_of(variable: &ArrayVariable, registry: &Registry, fmi: Version) -> Option<String> {
+    let first = &variable.elements(registry)[0];
+    let start = words::number(first.real_start()?);
+    Some(match (fmi, &variable.dimensions[..]) {
+        (Version::Two, _) | (_, []) => format!("\"{}\": {start}", first.name),
+        (_, counts) => {
+            let count = counts.iter().product::<usize>();
+            format!("\"{}\": [{start}] * {count}", variable.name)
+        }
+    })
+}
+
 /// A variable, or all elements of an array.
 struct Row<'a> {
-    first: &'a Variable,
-    last: &'a Variable,
-    same_start: bool,
+    elements: &'a [Variable],
+    name: String,
+    meaning: String,
 }
 
-/// Neighbours that differ only in their indices become one row.
-fn fold<'a>(variables: impl Iterator<Item = &'a Variable>) -> Vec<Row<'a>> {
-    let mut rows: Vec<Row> = Vec::new();
-    for variable in variables {
-        match rows.last_mut() {
-            Some(row) if variable.name.contains('[') && base(variable) == base(row.first) => {
-                row.same_start &= variable.start == row.first.start;
-                row.last = variable;
+/// A row a variable of the version; in FMI 2.0 for all neighbours that differ only in their indices.
+fn rows<'a>(
+    registry: &'a Registry,
+    arrays: &ArrayRegistry,
+    causality: Causality,
+    fmi: Version,
+) -> Vec<Row<'a>> {
+    let of_causality = arrays.variables.iter().filter(|v| v.causality(registry) == Some(causality));
+    let row = |variable: &ArrayVariable| {
+        let elements = variable.elements(registry);
+        let name = match (fmi, &variable.dimensions[..]) {
+            (_, []) => variable.name.clone(),
+            (Version::Two, counts) => {
+                format!("{} … [{}]", elements[0].name, join(counts, ","))
             }
-            _ => rows.push(Row { first: variable, last: variable, same_start: true }),
-        }
-    }
-    rows
+            (Version::Three, _) => name(variable),
+        };
+        Row { elements, name, meaning: variable.description.clone() }
+    };
+    of_causality.map(row).collect()
 }
 
-fn base(variable: &Variable) -> &str {
-    variable.name.split('[').next().unwrap_or_default()
+fn join(counts: &[usize], by: &str) -> String {
+    counts.iter().map(usize::to_string).collect::<Vec<_>>().join(by)
 }
 
 fn table(rows: &[Row]) -> String {
-    let with_start = rows.iter().any(|row| row.first.start.is_some());
+    let with_start = rows.iter().any(|row| row.elements[0].start.is_some());
     let start_head = if with_start { "<th>start</th>" } else { "" };
     let mut html = format!(
         "<table>\n<thead><tr><th>name</th><th>unit</th>{start_head}<th>meaning</th></tr></thead>\n\
@@ -146,42 +195,25 @@ fn table(rows: &[Row]) -> String {
         let _ = writeln!(
             html,
             "<tr><td><code>{}</code></td><td>{}</td>{start}<td>{}</td></tr>",
-            escape(&name(row)),
-            row.first.quantity.map_or("", |quantity| quantity.unit()),
-            escape(&meaning(row))
+            escape(&row.name),
+            row.elements[0].quantity.map_or("", |quantity| quantity.unit()),
+            escape(&row.meaning)
         );
     }
     html + "</tbody>\n</table>\n"
 }
 
-fn name(row: &Row) -> String {
-    if std::ptr::eq(row.first, row.last) {
-        return row.first.name.clone();
-    }
-    let last_index = row.last.name.trim_start_matches(base(row.last));
-    format!("{} … {last_index}", row.first.name)
-}
-
 fn start(row: &Row) -> String {
-    match &row.first.start {
-        Some(_) if !row.same_start => "by element".into(),
+    let first = &row.elements[0].start;
+    match first {
+        Some(_) if row.elements.iter().any(|element| element.start != *first) => {
+            "by element".into()
+        }
         Some(Value::Real(value)) => words::number(*value),
         Some(Value::Integer(value)) => value.to_string(),
         Some(Value::Text(text)) => escape(&format!("{text:?}")),
         None => String::new(),
     }
-}
-
-/// What first and last element have in common, an ellipsis for the words in which they differ.
-fn meaning(row: &Row) -> String {
-    let mut words: Vec<&str> = Vec::new();
-    for (a, b) in row.first.description.split(' ').zip(row.last.description.split(' ')) {
-        let word = if a == b { a } else { "…" };
-        if word != "…" || words.last() != Some(&"…") {
-            words.push(word);
-        }
-    }
-    words.join(" ")
 }
 
 fn escape(text: &str) -> String {
@@ -201,7 +233,16 @@ mod tests {
         let html = page(&scene, Version::Two);
         assert!(html.contains("<code>surface.temperature[1,1] … [4,4]</code>"), "{html}");
         assert!(!html.contains("surface.temperature[2,2]"));
-        assert!(html.contains("temperature at point … of the grid on plate.top"));
+        assert!(html.contains("temperature at point i, j of the grid on plate.top"));
         assert!(html.contains("<p>hot &amp; &lt;fast&gt;</p>"));
+    }
+
+    #[test]
+    fn the_page_of_fmi_3_names_whole_arrays() {
+        let scene = impinge::scene::parse(SCENE, "scene.toml").unwrap();
+        let html = page(&scene, Version::Three);
+        assert!(html.contains("<code>surface.temperature (4 × 4)</code>"), "{html}");
+        assert!(html.contains("imports FMI 3.0") && html.contains("terminalsAndIcons/icon.png"));
+        assert!(!html.contains("[1,1]"));
     }
 }

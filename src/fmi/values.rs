@@ -8,6 +8,7 @@ use std::sync::Arc;
 use super::legality::Phase;
 use super::types::{Answer, Reference, Refusal, Status};
 use super::unit::{Unit, explain};
+use crate::model::ModelError;
 use crate::variables::{Causality, Registry, Slot, Variable};
 
 /// The FMI types of variables in use.
@@ -32,20 +33,23 @@ impl Unit {
     pub fn reals(&mut self, references: &[Reference]) -> Answer<Vec<f64>> {
         let registry = Arc::clone(&self.registry);
         let variables = find(&registry, references, Kind::Real)?;
+        if let Some(output) = variables.iter().find(|v| v.causality() == Causality::Output) {
+            let (run, state) = self.run()?;
+            let prepared = run.model.prepare(state, &mut run.cache);
+            prepared.map_err(|error| no_value(&registry, output, error))?;
+        }
         variables.into_iter().map(|variable| self.real(&registry, variable)).collect()
     }
 
+    /// The model must be prepared if the variable is an output.
     fn real(&mut self, registry: &Registry, variable: &Variable) -> Answer<f64> {
         match &variable.slot {
             Slot::Parameter(parameter) => Ok(parameter.get(&self.scene)),
             Slot::Input(index) => Ok(self.state.inputs[*index]),
             Slot::Output(output) => {
                 let (run, state) = self.run()?;
-                let value = run.model.output(state, &mut run.cache, output);
-                value.map_err(|error| {
-                    let reason = explain(registry, error).message;
-                    Refusal::error(format!("no value of {}: {reason}", variable.name))
-                })
+                let value = run.model.prepared_output(state, &mut run.cache, output);
+                value.map_err(|error| no_value(registry, variable, error))
             }
             Slot::Threads | Slot::OutputDirectory => Err(wrong_kind(variable, Kind::Real)),
         }
@@ -138,6 +142,11 @@ impl Unit {
             Causality::Parameter | Causality::Input => Ok(()),
         }
     }
+}
+
+fn no_value(registry: &Registry, variable: &Variable, error: ModelError) -> Refusal {
+    let reason = explain(registry, error).message;
+    Refusal::error(format!("no value of {}: {reason}", variable.name))
 }
 
 fn variable(registry: &Registry, reference: Reference) -> Answer<&Variable> {

@@ -14,3 +14,4 @@ mod refusals;
 mod states;
 mod stepping;
 mod threads;
+mod three;
