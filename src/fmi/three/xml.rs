@@ -187,7 +187,7 @@ fn typed(elements: &[Variable]) -> (&'static str, Attributes) {
     let mut attributes = Attributes::new();
     attributes.extend(min.map(|bound| ("min", write(bound))));
     attributes.extend(max.map(|bound| ("max", write(bound))));
-    let starts: Vec<String> = elements.iter().filter_map(|e| start_value(e)).collect();
+    let starts: Vec<String> = elements.iter().filter_map(start_value).collect();
     if !starts.is_empty() {
         attributes.push(("start", starts.join(" ")));
     }
