@@ -86,7 +86,7 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     if let Some(path) = &arguments.xml {
         return write(path, arguments.fmi.model_description(&scene, &text).as_bytes());
     }
-    let library = library::read(arguments.library.as_deref())?;
+    let library = library::read(arguments.library.as_deref(), arguments.fmi)?;
     let unit = unit(&scene, &text, library, arguments.fmi)?;
     let path = arguments.output.clone().unwrap_or_else(|| format!("{}.fmu", scene.name).into());
     write(&path, &unit)

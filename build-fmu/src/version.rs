@@ -29,6 +29,14 @@ impl Version {
         }
     }
 
+    /// A function that a library for this version exports.
+    pub fn step_function(self) -> &'static str {
+        match self {
+            Version::Two => "fmi2DoStep",
+            Version::Three => "fmi3DoStep",
+        }
+    }
+
     /// Where the picture of the unit stands.
     pub fn icon(self) -> &'static str {
         match self {

@@ -1,6 +1,7 @@
 """Units of FMI 3.0: valid, run in FMPy with arrays, and the same as those of FMI 2.0 to the bit."""
 
 import subprocess
+import sys
 import zipfile
 from pathlib import Path
 
@@ -100,6 +101,19 @@ def test_fmpy_finds_no_fault(pack, scene):
     assert offers.providesAdjointDerivatives
     droplets = 'kind = "droplet"' in scene.read_text()
     assert offers.maxOutputDerivativeOrder == (0 if droplets else 1)
+
+
+@every_scene
+def test_fmu_manipulation_toolbox_finds_no_fault(pack, scene):
+    tool = Path(sys.executable).parent / "fmutool"
+    check = subprocess.run(
+        [tool, "-input", pack(scene, fmi=3), "-check"], capture_output=True, text=True, check=False
+    )
+    said = check.stdout + check.stderr
+    assert check.returncode == 0, said
+    assert "seems to be compliant with FMI-3.0" in said
+    assert "No semantic error" in said
+    assert "WARNING" not in said and "ERROR" not in said, said
 
 
 def scalar(result, name):

@@ -29,13 +29,9 @@ pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
     // SAFETY: by contract.
     unsafe {
         call(instance, Fmi3::GetDirectionalDerivative, |unit| {
-            let unknowns = elements(unit, unknowns, unknown_count, "unknowns")?;
-            let knowns = elements(unit, knowns, known_count, "knowns")?;
-            check_count("nSeed", seed_count, "knowns", knowns.len())?;
-            check_count("nSensitivity", sensitivity_count, "unknowns", unknowns.len())?;
-            let seed = array(seed, seed_count, "seed")?;
-            let found = unit.directional_derivative(&unknowns, &knowns, seed)?;
-            write(sensitivity, &found, "sensitivity")
+            let lists = [(unknowns, unknown_count), (knowns, known_count)];
+            let seed = (seed, seed_count);
+            differentiate(unit, lists, seed, (sensitivity, sensitivity_count), Way::Forwards)
         })
     }
 }
@@ -60,14 +56,49 @@ pub unsafe extern "C" fn fmi3GetAdjointDerivative(
     // SAFETY: by contract.
     unsafe {
         call(instance, Fmi3::GetAdjointDerivative, |unit| {
-            let unknowns = elements(unit, unknowns, unknown_count, "unknowns")?;
-            let knowns = elements(unit, knowns, known_count, "knowns")?;
-            check_count("nSeed", seed_count, "unknowns", unknowns.len())?;
-            check_count("nSensitivity", sensitivity_count, "knowns", knowns.len())?;
-            let seed = array(seed, seed_count, "seed")?;
-            let found = unit.adjoint_derivative(&unknowns, &knowns, seed)?;
-            write(sensitivity, &found, "sensitivity")
+            let lists = [(unknowns, unknown_count), (knowns, known_count)];
+            let seed = (seed, seed_count);
+            differentiate(unit, lists, seed, (sensitivity, sensitivity_count), Way::Backwards)
         })
+    }
+}
+
+/// J·s or Jᵀ·s.
+#[derive(Clone, Copy)]
+enum Way {
+    Forwards,
+    Backwards,
+}
+
+/// Writes the sensitivity to a seed; `lists` are unknowns and knowns. Arrays come with their lengths.
+///
+/// # Safety
+/// Pointers are null or as the standard asks.
+unsafe fn differentiate(
+    unit: &mut Unit,
+    lists: [(*const Reference, usize); 2],
+    (seed, seed_count): (*const Float64, usize),
+    (sensitivity, sensitivity_count): (*mut Float64, usize),
+    way: Way,
+) -> Answer {
+    // SAFETY: by contract.
+    unsafe {
+        let [(unknowns, unknown_count), (knowns, known_count)] = lists;
+        let unknowns = elements(unit, unknowns, unknown_count, "unknowns")?;
+        let knowns = elements(unit, knowns, known_count, "knowns")?;
+        let sizes = [("unknowns", unknowns.len()), ("knowns", knowns.len())];
+        let [to, from] = match way {
+            Way::Forwards => sizes,
+            Way::Backwards => [sizes[1], sizes[0]],
+        };
+        check_count("nSeed", seed_count, from)?;
+        check_count("nSensitivity", sensitivity_count, to)?;
+        let seed = array(seed, seed_count, "seed")?;
+        let found = match way {
+            Way::Forwards => unit.directional_derivative(&unknowns, &knowns, seed)?,
+            Way::Backwards => unit.adjoint_derivative(&unknowns, &knowns, seed)?,
+        };
+        write(sensitivity, &found, "sensitivity")
     }
 }
 
@@ -90,7 +121,7 @@ pub unsafe extern "C" fn fmi3GetOutputDerivatives(
             let references = array(value_references, value_reference_count, "valueReferences")?;
             let orders = array(orders, value_reference_count, "orders")?;
             let (outputs, orders) = with_orders(unit, references, orders)?;
-            check_count("nValues", value_count, "variables", outputs.len())?;
+            check_count("nValues", value_count, ("variables", outputs.len()))?;
             write(values, &unit.output_derivatives(&outputs, &orders)?, "values")
         })
     }
@@ -124,7 +155,7 @@ unsafe fn elements(
     unit.elements(&unit.arrays(), references)
 }
 
-fn check_count(argument: &str, count: usize, of: &str, size: usize) -> Answer<()> {
+fn check_count(argument: &str, count: usize, (of, size): (&str, usize)) -> Answer<()> {
     if count == size {
         return Ok(());
     }

@@ -3,6 +3,7 @@
 mod arrays;
 mod derivatives;
 mod exports;
+mod fuzz;
 mod instantiation;
 mod life_cycle;
 mod master;
