@@ -8,9 +8,9 @@ use impinge::scene::Scene;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Version {
-    #[value(name = "2", help = "FMI 2.0")]
+    #[value(name = "2")]
     Two,
-    #[value(name = "3", help = "FMI 3.0")]
+    #[value(name = "3")]
     Three,
 }
 
