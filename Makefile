@@ -48,8 +48,9 @@ verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent fin
 	$(BIN)/python tests/verification/particles.py target/tmp out/verification/particles.png
 	$(BIN)/python tests/verification/independent_code.py
 
-bench: build $(VENV)/ready-verify ## time against an independent finite-element code
+bench: build $(VENV)/ready-verify ## time against an independent finite-element code, and units beside those of others
 	$(BIN)/python benches/alumina_plate.py
+	$(BIN)/python benches/units.py
 
 build:
 	cargo build --release --workspace

@@ -7,10 +7,12 @@ mod droplets;
 mod exchange;
 mod interpolation;
 mod loads;
+mod reader;
 mod sharing;
 mod start_rates;
 mod states;
 mod tangent;
+mod timeline;
 
 pub use cache::Cache;
 use contact::Contact;
@@ -19,8 +21,10 @@ use droplets::DropletModel;
 pub use interpolation::HIGHEST_INPUT_DERIVATIVE;
 use interpolation::InputPath;
 use loads::BodyLoads;
+pub use reader::Reader;
 pub use start_rates::start_rates;
 pub use tangent::Tangent;
+pub use timeline::Timeline;
 
 pub use crate::body::fem::NodalFields;
 use crate::body::fem::{Geometry, Plan, Refinement, SolidFem, particle_cost};
@@ -195,7 +199,9 @@ impl Model {
     /// Whether all inputs make sense: finite, temperatures above absolute zero, footprints on their
     /// faces and within their ranges.
     pub fn check_inputs(&self, inputs: &[f64]) -> Result<(), ModelError> {
-        if let Some(index) = inputs.iter().position(|value| !value.is_finite()) {
+        // Without a way out of the loop, many values are looked at in one go.
+        let all_finite = inputs.iter().fold(true, |fine, value| fine & value.is_finite());
+        if !all_finite && let Some(index) = inputs.iter().position(|value| !value.is_finite()) {
             let message = format!("{} is not a finite number", inputs[index]);
             return Err(ModelError::Input { index, message });
         }
@@ -228,7 +234,11 @@ impl Model {
         }
         state.bodies = bodies;
         state.time += dt;
-        (state.inputs, state.derivatives) = path.end(dt);
+        if path.is_held() {
+            state.derivatives.clear();
+        } else {
+            (state.inputs, state.derivatives) = path.end(dt);
+        }
         cache.clear();
         Ok(())
     }
@@ -240,24 +250,22 @@ impl Model {
         cache: &mut Cache,
         output: &Output,
     ) -> Result<f64, ModelError> {
-        self.prepare(state, cache)?;
-        self.prepared_output(state, cache, output)
+        self.reader(state, cache)?.value(output)
     }
 
-    /// Checks the inputs of a state and brings the cache up to date with it, once for many outputs.
-    pub fn prepare(&self, state: &State, cache: &mut Cache) -> Result<(), ModelError> {
+    /// Reads outputs of a state one after another; looks at the inputs once for all of them.
+    pub fn reader<'a>(
+        &'a self,
+        state: &'a State,
+        cache: &'a mut Cache,
+    ) -> Result<Reader<'a>, ModelError> {
         self.check_inputs(&state.inputs)?;
         cache.meet(self, state);
-        Ok(())
+        Ok(Reader { model: self, state, cache })
     }
 
-    /// The value of an output in a state that the cache has been [prepared](Self::prepare) for.
-    pub fn prepared_output(
-        &self,
-        state: &State,
-        cache: &mut Cache,
-        output: &Output,
-    ) -> Result<f64, ModelError> {
+    /// The value of an output where the cache has met the state.
+    fn value(&self, state: &State, cache: &mut Cache, output: &Output) -> Result<f64, ModelError> {
         match output {
             Output::Droplet { body, total } => {
                 let index = self.droplet_place(body);

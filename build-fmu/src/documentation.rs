@@ -29,8 +29,7 @@ pub fn licences() -> Entries {
 
 /// The page of a scene's unit.
 pub fn page(scene: &Scene, fmi: Version) -> String {
-    let registry = Registry::of(scene);
-    let arrays = ArrayRegistry::of(scene, &registry);
+    let (registry, arrays) = (Registry::of(scene), ArrayRegistry::of(scene));
     let title = escape(&scene.name);
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -82,7 +81,10 @@ fn coordinates(html: &mut String, arrays: &ArrayRegistry) {
 fn name(variable: &ArrayVariable) -> String {
     match &variable.dimensions[..] {
         [] => variable.name.clone(),
-        counts => format!("{} ({})", variable.name, join(counts, " × ")),
+        counts => {
+            let counts: Vec<String> = counts.iter().map(usize::to_string).collect();
+            format!("{} ({})", variable.name, counts.join(" × "))
+        }
     }
 }
 
@@ -165,9 +167,7 @@ fn rows<'a>(
         let elements = variable.elements(registry);
         let name = match (fmi, &variable.dimensions[..]) {
             (_, []) => variable.name.clone(),
-            (Version::Two, counts) => {
-                format!("{} … [{}]", elements[0].name, join(counts, ","))
-            }
+            (Version::Two, _) => span(variable, elements),
             (Version::Three, _) => name(variable),
         };
         Row { elements, name, meaning: variable.description.clone() }
@@ -175,8 +175,11 @@ fn rows<'a>(
     of_causality.map(row).collect()
 }
 
-fn join(counts: &[usize], by: &str) -> String {
-    counts.iter().map(usize::to_string).collect::<Vec<_>>().join(by)
+/// First and last element of an array; of the last one only its indices if they stand in brackets.
+fn span(array: &ArrayVariable, elements: &[Variable]) -> String {
+    let [first, .., last] = elements else { return elements[0].name.clone() };
+    let indices = last.name.strip_prefix(&array.name).filter(|rest| rest.starts_with('['));
+    format!("{} … {}", first.name, indices.unwrap_or(&last.name))
 }
 
 fn table(rows: &[Row]) -> String {
@@ -216,7 +219,7 @@ fn start(row: &Row) -> String {
     }
 }
 
-fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
@@ -235,6 +238,10 @@ mod tests {
         assert!(!html.contains("surface.temperature[2,2]"));
         assert!(html.contains("temperature at point i, j of the grid on plate.top"));
         assert!(html.contains("<p>hot &amp; &lt;fast&gt;</p>"));
+        scene.naming = impinge::scene::Naming::Flat;
+        let html = page(&scene, Version::Two);
+        assert!(html.contains("surface_temperature_1_1 … surface_temperature_4_4</code>"));
+        assert!(!html.contains("surface_temperature_2_2"));
     }
 
     #[test]

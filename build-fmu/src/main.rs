@@ -5,6 +5,8 @@ mod documentation;
 mod library;
 mod lint;
 mod picture;
+mod reference;
+mod terminals;
 mod version;
 mod words;
 
@@ -12,6 +14,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+use archive::Entries;
 use clap::Parser;
 use impinge::scene::{self, Scene};
 use version::Version;
@@ -32,11 +35,14 @@ struct Arguments {
     /// The library of impinge [default: the one beside this program]
     #[arg(long, value_name = "PATH")]
     library: Option<PathBuf>,
+    /// Run the default experiment and pack its inputs and outputs too
+    #[arg(long)]
+    reference: bool,
     /// Write only the modelDescription.xml to this file
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "library"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["output", "library", "reference"])]
     xml: Option<PathBuf>,
     /// Check a unit of FMI 2.0, of any tool; its library is loaded to compare the GUID
-    #[arg(long, conflicts_with_all = ["output", "library", "xml"])]
+    #[arg(long, conflicts_with_all = ["output", "library", "reference", "xml"])]
     lint: bool,
     /// Say what is checked
     #[arg(long, requires = "lint")]
@@ -87,18 +93,31 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
         return write(path, arguments.fmi.model_description(&scene, &text).as_bytes());
     }
     let library = library::read(arguments.library.as_deref(), arguments.fmi)?;
-    let unit = unit(&scene, &text, library, arguments.fmi)?;
+    let reference = if arguments.reference {
+        reference::entries(&scene, arguments.fmi)?
+    } else {
+        Entries::new()
+    };
+    let unit = unit(&scene, &text, library, arguments.fmi, reference)?;
     let path = arguments.output.clone().unwrap_or_else(|| format!("{}.fmu", scene.name).into());
     write(&path, &unit)
 }
 
-/// The bytes of the unit.
-fn unit(scene: &Scene, text: &str, library: Vec<u8>, fmi: Version) -> Result<Vec<u8>, String> {
-    let mut entries: archive::Entries = documentation::licences();
+/// The bytes of the unit; `entries` come from the options.
+fn unit(
+    scene: &Scene,
+    text: &str,
+    library: Vec<u8>,
+    fmi: Version,
+    mut entries: Entries,
+) -> Result<Vec<u8>, String> {
+    entries.append(&mut documentation::licences());
     entries.insert("modelDescription.xml".into(), fmi.model_description(scene, text).into());
     entries.insert("resources/scene.toml".into(), text.into());
     entries.insert("documentation/index.html".into(), documentation::page(scene, fmi).into());
-    entries.insert(fmi.icon().into(), picture::png(scene)?);
+    let icon = picture::png(scene)?;
+    entries.append(&mut terminals::entries(scene, fmi, &icon)?);
+    entries.insert(fmi.icon().into(), icon);
     entries.insert(library::entry(&scene.name, fmi), library);
     archive::zip(&entries)
 }
@@ -130,7 +149,7 @@ mod tests {
     fn the_same_scene_makes_the_same_bytes() {
         let scene = scene::parse(SCENE, "scene.toml").unwrap();
         for version in [Version::Two, Version::Three] {
-            let make = || unit(&scene, SCENE, vec![1, 2, 3], version).unwrap();
+            let make = || unit(&scene, SCENE, vec![1, 2, 3], version, Entries::new()).unwrap();
             assert_eq!(make(), make());
         }
     }

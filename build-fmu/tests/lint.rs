@@ -190,10 +190,7 @@ const DEFECTS: [(&str, Change, &[&str], &str); 15] = [
     ),
     (
         "bad dependency index",
-        |unit| {
-            set(unit, "<Outputs>", "dependencies", "99999");
-            set(unit, "<Outputs>", "dependenciesKind", "dependent");
-        },
+        |unit| set(unit, "<Outputs>", "dependencies", "99999"),
         &["dependencies"],
         "dependency 99999: there is no such variable",
     ),
@@ -457,10 +454,7 @@ fn an_encoding_other_than_utf_8_is_a_warning() {
 
 #[test]
 fn a_dependency_that_is_no_input_is_found() {
-    let change = |unit: &mut Entries| {
-        set(unit, "<Outputs>", "dependencies", "1");
-        set(unit, "<Outputs>", "dependenciesKind", "dependent");
-    };
+    let change = |unit: &mut Entries| set(unit, "<Outputs>", "dependencies", "1");
     finds(change, ("warning", "dependencies"), &["is a parameter"]);
     let change = |unit: &mut Entries| {
         let (_, xml) = unit.iter().find(|(path, _)| path == XML).unwrap();
@@ -468,9 +462,11 @@ fn a_dependency_that_is_no_input_is_found() {
         let output =
             xml.split_once("<Unknown index=\"").unwrap().1.split('"').next().unwrap().to_owned();
         set(unit, "<Outputs>", "dependencies", &output);
-        set(unit, "<Outputs>", "dependenciesKind", "dependent");
     };
     finds(change, ("error", "dependencies"), &["is no known"]);
+    let kinds = "dependencies=\"\" dependenciesKind=\"dependent\"";
+    let change = |unit: &mut Entries| replace(unit, "<Outputs>", "dependencies=\"\"", kinds);
+    finds(change, ("error", "dependencies"), &["1 kinds for 0 dependencies"]);
 }
 
 #[test]

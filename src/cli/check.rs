@@ -2,7 +2,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use impinge::model::{ParticleForecast, forecast};
+use impinge::model::{ParticleForecast, Timeline, forecast};
 use impinge::scene::{
     self, Coupling, Face, Field, Footprint, Load, Probe, Scene, Shape, Solid, Wall,
 };
@@ -12,7 +12,6 @@ use serde::Serialize;
 use super::CliError;
 use super::fold::folded;
 use super::table::table;
-use super::timeline::Timeline;
 use super::units::{decimal, engineering, kelvin};
 
 /// Say what a scene will model, and what is left out and why
@@ -243,7 +242,7 @@ fn place(field: &Field) -> String {
 
 /// The variables by causality: how many, and each with its unit and start value, arrays folded.
 fn variables(scene: &Scene) -> String {
-    let registry = Registry::of(scene);
+    let (registry, structured) = (Registry::of(scene), Registry::structured(scene));
     let kinds = [
         ("Parameters", Causality::Parameter),
         ("Inputs", Causality::Input),
@@ -251,7 +250,7 @@ fn variables(scene: &Scene) -> String {
     ];
     let mut text = String::new();
     for (title, causality) in kinds {
-        let list = folded(&registry, causality);
+        let list = folded(&registry, &structured, causality);
         let values: usize = list.iter().map(|folded| folded.elements.len()).sum();
         let count = match list.len() {
             names if names == values => format!("{names}"),

@@ -14,12 +14,14 @@ pub fn array_name(name: &str) -> &str {
     name.split_once('[').map_or(name, |(array, _)| array)
 }
 
-/// The variables of one causality, in the registry's order, arrays folded.
-pub fn folded(registry: &Registry, causality: Causality) -> Vec<Folded> {
+/// The variables of one causality, in the registry's order, arrays folded; `structured` has the names
+/// that tell which variables are an array.
+pub fn folded(registry: &Registry, structured: &Registry, causality: Causality) -> Vec<Folded> {
     let mut list: Vec<Folded> = Vec::new();
+    let array = |reference: usize| array_name(&structured.variables[reference].name);
     for reference in registry.of_causality(causality) {
         let name = &registry.variables[reference].name;
-        match list.last_mut().filter(|last| array_name(&last.name) == array_name(name)) {
+        match list.last_mut().filter(|last| array(last.elements[0]) == array(reference)) {
             Some(last) => {
                 last.name.clone_from(name);
                 last.elements.push(reference);

@@ -8,7 +8,6 @@ mod run;
 mod set;
 mod summary;
 mod table;
-mod timeline;
 mod units;
 
 use std::io::{self, Write};

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use impinge::model::{Cache, Model, State};
+use impinge::model::{Cache, Model, State, Timeline};
 use impinge::output::{CsvTable, FieldSeries, OutputError};
 use impinge::scene::{self, Scene};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -10,7 +10,6 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::CliError;
 use super::set::{self, Assignment, InputValue};
 use super::summary;
-use super::timeline::Timeline;
 use super::units::engineering;
 
 /// Number of times at which fields are written, about, if the user does not say.

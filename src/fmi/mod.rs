@@ -29,5 +29,6 @@ mod values;
 mod variables;
 
 pub mod guid;
+pub mod terminals;
 pub mod three;
 pub mod xml;

@@ -295,12 +295,8 @@ impl Unit {
         Ok(model)
     }
 
-    pub(super) fn set_input(&mut self, index: usize, value: f64) {
-        // Bits, so that a zero of the other sign is read back as it was set.
-        if self.state.inputs[index].to_bits() == value.to_bits() {
-            return;
-        }
-        self.state.inputs[index] = value;
+    /// Drops all that followed from other inputs.
+    pub(super) fn forget_past_inputs(&mut self) {
         self.forget_past_derivatives();
         if let Some(run) = &mut self.run {
             run.cache.clear();

@@ -8,7 +8,6 @@ use std::sync::Arc;
 use super::legality::Phase;
 use super::types::{Answer, Reference, Refusal, Status};
 use super::unit::{Unit, explain};
-use crate::model::ModelError;
 use crate::variables::{Causality, Registry, Slot, Variable};
 
 /// The FMI types of variables in use.
@@ -33,26 +32,33 @@ impl Unit {
     pub fn reals(&mut self, references: &[Reference]) -> Answer<Vec<f64>> {
         let registry = Arc::clone(&self.registry);
         let variables = find(&registry, references, Kind::Real)?;
-        if let Some(output) = variables.iter().find(|v| v.causality() == Causality::Output) {
-            let (run, state) = self.run()?;
-            let prepared = run.model.prepare(state, &mut run.cache);
-            prepared.map_err(|error| no_value(&registry, output, error))?;
-        }
-        variables.into_iter().map(|variable| self.real(&registry, variable)).collect()
-    }
-
-    /// The model must be prepared if the variable is an output.
-    fn real(&mut self, registry: &Registry, variable: &Variable) -> Answer<f64> {
-        match &variable.slot {
+        let mut outputs = self.outputs(&registry, &variables)?.into_iter();
+        let value = |variable: &Variable| match &variable.slot {
             Slot::Parameter(parameter) => Ok(parameter.get(&self.scene)),
             Slot::Input(index) => Ok(self.state.inputs[*index]),
-            Slot::Output(output) => {
-                let (run, state) = self.run()?;
-                let value = run.model.prepared_output(state, &mut run.cache, output);
-                value.map_err(|error| no_value(registry, variable, error))
-            }
+            Slot::Output(_) => Ok(outputs.next().expect("as many as there are outputs")),
             Slot::Threads | Slot::OutputDirectory => Err(wrong_kind(variable, Kind::Real)),
+        };
+        variables.into_iter().map(value).collect()
+    }
+
+    /// Values of those variables that are outputs.
+    fn outputs(&mut self, registry: &Registry, variables: &[&Variable]) -> Answer<Vec<f64>> {
+        let output = |variable: &&Variable| matches!(variable.slot, Slot::Output(_));
+        if !variables.iter().any(output) {
+            return Ok(Vec::new());
         }
+        let (run, state) = self.run()?;
+        let reader = run.model.reader(state, &mut run.cache);
+        let mut reader = reader.map_err(|error| explain(registry, error))?;
+        let value = |variable: &&Variable| {
+            let Slot::Output(output) = &variable.slot else { return None };
+            Some(reader.value(output).map_err(|error| {
+                let reason = explain(registry, error).message;
+                Refusal::error(format!("no value of {}: {reason}", variable.name))
+            }))
+        };
+        variables.iter().filter_map(value).collect()
     }
 
     pub fn integers(&self, references: &[Reference]) -> Answer<Vec<i32>> {
@@ -89,14 +95,23 @@ impl Unit {
             check_bounds(variable, value)?;
         }
         let mut scene = None;
+        let mut has_changed = false;
         for (variable, &value) in variables.iter().zip(values) {
             match &variable.slot {
                 Slot::Parameter(parameter) => {
                     parameter.set(scene.get_or_insert_with(|| self.scene.clone()), value);
                 }
-                Slot::Input(index) => self.set_input(*index, value),
+                // Bits, so that a zero of the other sign is read back as it was set.
+                Slot::Input(index) => {
+                    let input = &mut self.state.inputs[*index];
+                    has_changed |= input.to_bits() != value.to_bits();
+                    *input = value;
+                }
                 Slot::Threads | Slot::OutputDirectory | Slot::Output(_) => {}
             }
+        }
+        if has_changed {
+            self.forget_past_inputs();
         }
         if let Some(scene) = scene {
             self.set_scene(scene);
@@ -142,11 +157,6 @@ impl Unit {
             Causality::Parameter | Causality::Input => Ok(()),
         }
     }
-}
-
-fn no_value(registry: &Registry, variable: &Variable, error: ModelError) -> Refusal {
-    let reason = explain(registry, error).message;
-    Refusal::error(format!("no value of {}: {reason}", variable.name))
 }
 
 fn variable(registry: &Registry, reference: Reference) -> Answer<&Variable> {

@@ -1,6 +1,6 @@
 //! modelDescription.xml of a scene's unit, section 2.2 and 4.3 of the standard.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::io;
 
 use quick_xml::Writer;
@@ -45,7 +45,7 @@ fn document(xml: &mut Xml, scene: &Scene, registry: &Registry, guid: String) -> 
     root.extend([
         ("license", env!("CARGO_PKG_LICENSE").into()),
         ("generationTool", concat!("impinge ", env!("CARGO_PKG_VERSION")).into()),
-        ("variableNamingConvention", "structured".into()),
+        ("variableNamingConvention", scene.naming.name().into()),
         ("numberOfEventIndicators", "0".into()),
     ]);
     let used: BTreeSet<Quantity> = registry.variables.iter().filter_map(|v| v.quantity).collect();
@@ -183,19 +183,29 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
     leaf(xml, element, &attributes)
 }
 
-/// Outputs with the inputs that they follow at once. At initialisation an output may follow all
-/// parameters and inputs, which is what a list that is left out means. Directional derivatives serve
-/// all of these.
+/// More entries than these are not written for the outputs that share one list of dependencies:
+/// XML holds a list for every output, and tools take a second or more to read ten megabytes.
+const MOST_DEPENDENCIES: usize = 100_000;
+
+/// Outputs with the inputs that they follow at once. A list that is left out means all inputs, so it
+/// stands for that list, and for those that would take too much room. Kinds that are left out are all
+/// `dependent`. At initialisation an output may follow all parameters and inputs. Directional
+/// derivatives serve all of these.
 fn structure(xml: &mut Xml, scene: &Scene, registry: &Registry) -> io::Result<()> {
     let dependencies = registry.all_dependencies(scene);
+    let inputs = registry.of_causality(Causality::Input).count();
+    let mut sharing: HashMap<*const usize, usize> = HashMap::new();
+    for (_, list) in &dependencies {
+        *sharing.entry(list.as_ptr()).or_default() += list.len();
+    }
     parent(xml, "Outputs", &[], |xml| {
-        dependencies.iter().try_for_each(|(reference, inputs)| {
-            let indices: Vec<String> = inputs.iter().map(|input| index(*input)).collect();
-            let attributes: Attributes = vec![
-                ("index", index(*reference)),
-                ("dependencies", indices.join(" ")),
-                ("dependenciesKind", vec!["dependent"; indices.len()].join(" ")),
-            ];
+        dependencies.iter().try_for_each(|(reference, list)| {
+            let mut attributes: Attributes = vec![("index", index(*reference))];
+            let is_all = !list.is_empty() && list.len() == inputs;
+            if !is_all && sharing[&list.as_ptr()] <= MOST_DEPENDENCIES {
+                let indices: Vec<String> = list.iter().map(|input| index(*input)).collect();
+                attributes.push(("dependencies", indices.join(" ")));
+            }
             leaf(xml, "Unknown", &attributes)
         })
     })?;

@@ -71,5 +71,6 @@ fn start_values(
     let mut state = model.initial_state();
     state.inputs = inputs.to_vec();
     let mut cache = Cache::default();
-    outputs.iter().map(|output| model.output(&state, &mut cache, output)).collect()
+    let mut reader = model.reader(&state, &mut cache)?;
+    outputs.iter().map(|output| reader.value(output)).collect()
 }

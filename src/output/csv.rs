@@ -45,10 +45,11 @@ impl CsvTable {
         cache: &mut Cache,
     ) -> Result<(), OutputError> {
         let mut row = vec![number(state.time)];
+        let mut reader = model.reader(state, cache)?;
         for column in &self.columns {
             match column {
                 Slot::Input(at) => row.push(number(state.inputs[*at])),
-                Slot::Output(output) => row.push(number(model.output(state, cache, output)?)),
+                Slot::Output(output) => row.push(number(reader.value(output)?)),
                 Slot::Parameter(_) | Slot::Threads | Slot::OutputDirectory => {}
             }
         }

@@ -19,6 +19,9 @@ pub struct Scene {
     pub stop_time: f64,
     /// Communication step of the default experiment [s].
     pub step: f64,
+    /// How the unit's variables are named.
+    #[serde(default)]
+    pub naming: Naming,
     /// The bodies by name.
     pub body: BTreeMap<String, Body>,
     /// Loads on faces; their amounts become FMI inputs.
@@ -42,6 +45,27 @@ pub struct Scene {
     /// Settings of the solver that change cost but not results.
     #[serde(default)]
     pub solver: Solver,
+}
+
+/// Names of a unit's variables.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Naming {
+    /// `spot.heat_flux[1,2]`
+    #[default]
+    Structured,
+    /// `spot_heat_flux_1_2`, for tools that take nothing but identifiers.
+    Flat,
+}
+
+impl Naming {
+    /// Name of the convention in a model description.
+    pub fn name(self) -> &'static str {
+        match self {
+            Naming::Structured => "structured",
+            Naming::Flat => "flat",
+        }
+    }
 }
 
 /// A body by kind.

@@ -1,11 +1,12 @@
 use std::ops::Range;
 
+use super::registry::flat;
 use super::{Causality, Quantity, Registry, Slot, Variable};
-use crate::scene::{Grid, Scene};
+use crate::scene::{Grid, Naming, Scene};
 
 /// All variables of a scene's unit where arrays are variables: time first, then those of the
-/// [`Registry`] in their order, each family `name[i]` or `name[i,j]` as one, then the coordinates of
-/// the points of fields. The value reference of a variable is its place in the list.
+/// [`Registry`] in their order, each family `name[i]` or `name[i,j]` of structured names as one, then
+/// the coordinates of the points of fields. The value reference of a variable is its place in the list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArrayRegistry {
     pub variables: Vec<ArrayVariable>,
@@ -36,8 +37,18 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 const INDICES: [&str; 2] = ["i", "j"];
 
 impl ArrayRegistry {
-    /// Lists the variables of a checked scene; `registry` is its own.
-    pub fn of(scene: &Scene, registry: &Registry) -> Self {
+    /// Lists the variables of a checked scene.
+    pub fn of(scene: &Scene) -> Self {
+        let mut arrays = Self::structured(scene);
+        if scene.naming == Naming::Flat {
+            arrays.variables.iter_mut().for_each(|variable| variable.name = flat(&variable.name));
+        }
+        arrays
+    }
+
+    /// The same variables under their structured names.
+    pub fn structured(scene: &Scene) -> Self {
+        let registry = Registry::structured(scene);
         let time = ArrayVariable {
             name: "time".into(),
             description: "time".into(),
@@ -47,7 +58,7 @@ impl ArrayRegistry {
         let mut variables = vec![time];
         let mut next = 0;
         while next < registry.variables.len() {
-            let members = family(registry, next);
+            let members = family(&registry, next);
             next = members.end;
             variables.push(array(&registry.variables, members));
         }
@@ -188,7 +199,7 @@ mod tests {
     fn registries(text: &str) -> (Registry, ArrayRegistry) {
         let scene = crate::scene::parse(text, "scene.toml").unwrap();
         let registry = Registry::of(&scene);
-        let arrays = ArrayRegistry::of(&scene, &registry);
+        let arrays = ArrayRegistry::of(&scene);
         (registry, arrays)
     }
 
@@ -222,6 +233,20 @@ mod tests {
             let unique: std::collections::BTreeSet<&str> = named.collect();
             assert_eq!(unique.len(), arrays.variables.len());
         }
+    }
+
+    #[test]
+    fn flat_names_make_the_same_arrays() {
+        let (_, structured) = registries(SCENE);
+        let (registry, arrays) = registries(&format!("naming = \"flat\"\n{SCENE}"));
+        assert_eq!(arrays.variables.len(), structured.variables.len());
+        for (own, named) in arrays.variables.iter().zip(&structured.variables) {
+            assert_eq!(own.name, named.name.replace('.', "_"));
+            assert_eq!((&own.dimensions, &own.content), (&named.dimensions, &named.content));
+        }
+        let flux = &arrays.variables[arrays.find("patch_heat_flux").unwrap()];
+        assert_eq!(flux.elements(&registry)[1].name, "patch_heat_flux_1_2");
+        assert!(arrays.find("surface_x").is_some());
     }
 
     #[test]

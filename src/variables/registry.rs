@@ -7,7 +7,7 @@ use super::{
     droplet,
 };
 use crate::scene::{
-    CellShape, CellValues, FaceName, Field, Gives, Load, LoadRange, Probe, Scene, Solid,
+    CellShape, CellValues, FaceName, Field, Gives, Load, LoadRange, Naming, Probe, Scene, Solid,
 };
 
 /// All variables of a scene's unit. The value reference of a variable is its place in the list.
@@ -229,10 +229,19 @@ impl BodyTotal {
 impl Registry {
     /// Lists the variables of a checked scene: parameters, inputs, outputs.
     pub fn of(scene: &Scene) -> Self {
-        let mut list = Vec::new();
-        parameters(scene, &mut list);
-        inputs(scene, &mut list);
-        outputs(scene, &mut list);
+        let mut list = list(scene);
+        if scene.naming == Naming::Flat {
+            list.iter_mut().for_each(|variable| variable.name = flat(&variable.name));
+        }
+        Self::new(list)
+    }
+
+    /// The same variables under their structured names, from which one sees what belongs together.
+    pub fn structured(scene: &Scene) -> Self {
+        Self::new(list(scene))
+    }
+
+    fn new(list: Vec<Variable>) -> Self {
         let by_name = list.iter().enumerate().map(|(i, v)| (v.name.clone(), i)).collect();
         Self { variables: list, by_name }
     }
@@ -276,6 +285,19 @@ impl Registry {
             .filter(|&i| matches!(self.variables[i].slot, Slot::Input(at) if direct[at]))
             .collect()
     }
+}
+
+fn list(scene: &Scene) -> Vec<Variable> {
+    let mut list = Vec::new();
+    parameters(scene, &mut list);
+    inputs(scene, &mut list);
+    outputs(scene, &mut list);
+    list
+}
+
+/// `a.b[1,2]` as `a_b_1_2`.
+pub(super) fn flat(name: &str) -> String {
+    name.trim_end_matches(']').replace(['.', '[', ','], "_")
 }
 
 /// All that decides which inputs an output follows without delay.

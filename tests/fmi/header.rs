@@ -67,8 +67,7 @@ fn a_program_in_c_drives_a_unit() {
 #[test]
 fn a_program_in_c_drives_a_unit_of_fmi_3() {
     let folder = Folder::with_scene("c", SCENE);
-    let registry = registry();
-    let arrays = ArrayRegistry::of(&scene::parse(SCENE, "scene.toml").unwrap(), &registry);
+    let arrays = ArrayRegistry::of(&scene::parse(SCENE, "scene.toml").unwrap());
     let names = ["patch.pressure", "centre.stress_zz", "plate.heat_in"];
     let references = names.map(|name| arrays.find(name).unwrap());
     drive("drive3.c", &folder, &format!("{}/", folder.0.display()), references);

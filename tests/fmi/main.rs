@@ -1,6 +1,7 @@
 //! The C ABI as a master sees it: the built library is loaded and driven through its symbols.
 
 mod derivatives;
+mod droplets;
 mod endurance;
 mod exports;
 mod fuzz;

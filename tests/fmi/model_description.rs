@@ -5,6 +5,7 @@ use std::path::Path;
 
 use impinge::fmi::xml::model_description;
 use impinge::scene;
+use impinge::variables::Registry;
 
 use crate::master::{SCENE, own_guid, registry};
 
@@ -64,6 +65,39 @@ fn outputs_name_the_inputs_that_they_follow_at_once() {
     let names: Vec<String> = traction.split(' ').map(str::to_owned).collect();
     assert!(names.contains(&index("spot.pressure").to_string()), "{traction}");
     assert!(!names.contains(&index("spot.heat_flux").to_string()), "{traction}");
+}
+
+/// The attributes of an output in ModelStructure.
+fn unknown<'a>(xml: &'a str, registry: &Registry, name: &str) -> &'a str {
+    let start = format!("<Unknown index=\"{}\"", registry.find(name).unwrap() + 1);
+    let outputs = xml.split_once("<Outputs>").unwrap().1.split_once("</Outputs>").unwrap().0;
+    let rest = outputs.split_once(&start).unwrap_or_else(|| panic!("no {name}")).1;
+    rest.split_once("/>").unwrap().0
+}
+
+/// Two lists of dependencies may be left out: that of all inputs, because this is what it means, and
+/// one of so many inputs and outputs that a tool would take long to read it.
+#[test]
+fn long_lists_of_dependencies_are_left_out() {
+    let many = SCENE
+        .replace("count = [2, 3]", "count = [100, 100]")
+        .replace("grid = [4, 4]", "grid = [40, 40]");
+    let scene = scene::parse(&many, "scene.toml").unwrap();
+    let (xml, registry) = (model_description(&scene, &many), Registry::of(&scene));
+    assert!(registry.variables.len() > 23_000);
+    assert!(xml.len() < 8_000_000, "{} bytes", xml.len());
+    assert_eq!(unknown(&xml, &registry, "surface.von_mises[40,40]"), "");
+    assert_eq!(unknown(&xml, &registry, "surface.temperature[1,1]"), " dependencies=\"\"");
+
+    let pressed = SCENE
+        .replace("[\"heat_flux\", \"pressure\", \"shear\"]", "[\"pressure\"]")
+        .replace("start = { heat_flux = 5e7 }", "")
+        .replace("[\"heat_flux\", \"pressure\"]", "[\"pressure\"]")
+        .replace("bottom = { convection = { coefficient = 50.0, ambient = 293.15 } }", "");
+    let scene = scene::parse(&pressed, "scene.toml").unwrap();
+    let (xml, registry) = (model_description(&scene, &pressed), Registry::of(&scene));
+    assert_eq!(unknown(&xml, &registry, "surface.von_mises[4,4]"), "");
+    assert_eq!(unknown(&xml, &registry, "plate.heat_in"), " dependencies=\"\"");
 }
 
 #[test]

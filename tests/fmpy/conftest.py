@@ -33,14 +33,14 @@ def pack(programs, tmp_path_factory):
         if (text, fmi) not in done:
             folder = tmp_path_factory.mktemp(re.sub(r"\W", "_", path.stem))
             (folder / "scene.toml").write_text(text)
-            build(programs, folder / "scene.toml", folder / "unit.fmu", fmi)
+            build(programs, folder / "scene.toml", folder / "unit.fmu", "--fmi", str(fmi))
             done[text, fmi] = folder / "unit.fmu"
         return done[text, fmi]
 
     return pack
 
 
-def build(programs, scene, unit, fmi=2):
-    command = [programs / "build-fmu", scene, "-o", unit, "--fmi", str(fmi)]
+def build(programs, scene, unit, *options):
+    command = [programs / "build-fmu", scene, "-o", unit, *options]
     made = subprocess.run(command, capture_output=True, text=True, check=False)
     assert made.returncode == 0, made.stderr

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import EXAMPLES, SCENES
+from conftest import EXAMPLES, SCENES, build
 from fmpy import extract, read_model_description, simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi3 import FMU3Slave
+from fmpy.util import read_csv
 from fmpy.validation import validate_fmu
 
 ALL = [*EXAMPLES, *sorted(SCENES.glob("*.toml"))]
@@ -275,6 +276,37 @@ def test_a_wrong_call_tells_why_and_changes_nothing(make):
         assert "no Event Mode" in unit.log[-1]
         assert np.array_equal(unit.read(unit.outputs), before)
         unit.step()
+
+
+@pytest.mark.parametrize("scene", ["plate", "rings", "tiles", "drop"])
+def test_reference_results_are_read_by_fmpy_and_come_again(programs, scene, tmp_path):
+    file = tmp_path / "unit.fmu"
+    build(programs, SCENES / f"{scene}.toml", file, "--fmi", "3", "--reference")
+    step = float(read_model_description(str(file)).defaultExperiment.stepSize)
+    with Unit(file, tmp_path) as unit:
+        folder = tmp_path / "extra/org.fmi-standard.fmi-ls-ref"
+        stimuli, wanted = (read_csv(folder / f"default_{part}.csv") for part in ("in", "ref"))
+        assert wanted.dtype.names == ("time", *unit.outputs)
+        for name in stimuli.dtype.names[1:]:
+            unit[name] = stimuli[name][0]
+        for row in wanted:
+            if row["time"] > 0:
+                unit.step(step)
+            assert unit.time == pytest.approx(row["time"], rel=1e-12)
+            for name in unit.outputs:
+                assert np.array_equal(unit.read([name]), np.ravel(row[name])), (unit.time, name)
+
+
+def test_flat_names_are_those_of_the_same_arrays(pack):
+    said = "step = 1e-5\n"
+    flat = read_model_description(str(pack("tiles", {said: said + 'naming = "flat"\n'}, fmi=3)))
+    plain = read_model_description(str(pack("tiles", fmi=3)))
+    conventions = [d.variableNamingConvention for d in (flat, plain)]
+    assert conventions == ["flat", "structured"]
+    for one, other in zip(flat.modelVariables, plain.modelVariables, strict=True):
+        assert one.name == other.name.replace(".", "_")
+        assert one.name.isidentifier()
+        assert (one.shape, one.valueReference) == (other.shape, other.valueReference)
 
 
 def test_instances_of_both_versions_share_a_process(pack, make):

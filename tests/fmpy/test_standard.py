@@ -4,6 +4,7 @@ import ctypes
 import json
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +50,31 @@ def test_the_unit_runs(pack, scene):
     assert len(result) == 6
     for name in result.dtype.names:
         assert np.isfinite(result[name]).all(), name
+
+
+FIELD = """
+[[field]]
+name = "surface"
+on = "block.top"
+grid = [40, 40]
+gives = ["von_mises"]
+"""
+
+
+def test_ten_thousand_variables_open_quickly(pack):
+    """Tiles with a flux and a pressure each, and stresses that follow every pressure at once."""
+    gives = 'gives = ["temperature", "stress", "displacement"]'
+    many = {
+        "count = [2, 3]": "count = [100, 100]",
+        '"pressure", "shear"]': '"pressure"]',
+        gives: gives + FIELD,
+    }
+    file = str(pack("tiles", many))
+    # Not of the clock, which others stop too.
+    begin = time.process_time()
+    with Unit(file) as unit:
+        assert time.process_time() - begin < 2.0
+        assert len(unit.variables) > 20_000
 
 
 STEP, STEPS = 1e-5, 12
@@ -129,6 +155,66 @@ def test_ecos_gives_the_same_trajectory(pack, trajectory):
     rows = next(line for line in ran.stdout.splitlines() if line.startswith("rows "))
     # Ecos sums its times up, ours does too: the same bits.
     assert np.array_equal(np.array(json.loads(rows[5:])), trajectory)
+
+
+COSIM = """
+import json, sys
+from libcosimpy.CosimExecution import CosimExecution
+from libcosimpy.CosimManipulator import CosimManipulator
+from libcosimpy.CosimObserver import CosimObserver
+from libcosimpy.CosimSlave import CosimLocalSlave
+unit, step, start, inputs, watched = json.loads(sys.argv[1])
+execution = CosimExecution.from_step_size(round(1e9 * step))
+slave = execution.add_local_slave(CosimLocalSlave(fmu_path=unit, instance_name="unit"))
+for reference, value in start:
+    execution.real_initial_value(slave, reference, value)
+manipulator, observer = CosimManipulator.create_override(), CosimObserver.create_last_value()
+execution.add_manipulator(manipulator)
+execution.add_observer(observer)
+rows = []
+for values in inputs:
+    if values:
+        manipulator.slave_real_values(slave, *map(list, zip(*values)))
+    assert execution.step()
+    rows.append(list(observer.last_real_values(slave, watched)))
+print("rows", json.dumps(rows))
+"""
+
+
+def by_libcosim(file, step, start, inputs, watched):
+    """Rows of the watched outputs after each step; variables are given by reference."""
+    job = json.dumps([str(file), step, start, inputs, watched])
+    ran = subprocess.run(
+        [sys.executable, "-c", COSIM, job], capture_output=True, text=True, check=False
+    )
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    rows = next(line for line in ran.stdout.splitlines() if line.startswith("rows "))
+    return np.array(json.loads(rows[5:]))
+
+
+def test_libcosim_gives_the_same_trajectory(pack, trajectory):
+    file = pack("plate")
+    variables = read_model_description(file).modelVariables
+    reference = {variable.name: variable.valueReference for variable in variables}
+    start = [(reference["plate.conductivity"], 12.0)]
+    given = [spot(i * STEP).items() for i in range(STEPS)]
+    inputs = [[(reference[name], value) for name, value in values] for values in given]
+    rows = by_libcosim(file, STEP, start, inputs, [reference[name] for name in WATCHED])
+    # Libcosim counts nanoseconds, so that its steps differ in the last bit.
+    assert np.allclose(rows, trajectory, rtol=1e-12, atol=0.0)
+
+
+@pytest.mark.parametrize("scene", EXAMPLES, ids=name_of)
+def test_libcosim_runs_the_examples_as_fmpy_does(pack, scene):
+    file, steps = pack(scene), 2
+    step = float(read_model_description(file).defaultExperiment.stepSize)
+    rows = []
+    with Unit(file) as unit:
+        for _ in range(steps):
+            unit.step(step)
+            rows.append(unit.all_outputs())
+        watched = unit.references(unit.outputs)
+    assert np.array_equal(by_libcosim(file, step, [], [[]] * steps, watched), np.array(rows))
 
 
 def test_paths_with_spaces_and_unicode(programs, pack, tmp_path):

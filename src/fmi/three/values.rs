@@ -23,7 +23,7 @@ pub enum Kind {
 impl Unit {
     /// The variables as FMI 3.0 counts them.
     pub fn arrays(&self) -> Arc<ArrayRegistry> {
-        let list = || Arc::new(ArrayRegistry::of(&self.packed, &self.registry));
+        let list = || Arc::new(ArrayRegistry::of(&self.packed));
         Arc::clone(self.arrays.get_or_init(list))
     }
 
@@ -33,12 +33,19 @@ impl Unit {
         let variables = self.of_kind(&arrays, references, Kind::Float64)?;
         check_count(&variables, count)?;
         variables.iter().try_for_each(|variable| self.check_known(variable))?;
+        let ranges = variables.iter().filter_map(|variable| match &variable.content {
+            Content::Elements(range) => Some(range),
+            Content::Time | Content::Coordinates(_) => None,
+        });
+        let elements: Vec<Reference> = ranges.flat_map(places).collect();
+        // In one go, so that inputs are looked at once for all outputs.
+        let mut found = self.reals(&elements)?.into_iter();
         let mut values = Vec::with_capacity(count);
         for variable in variables {
             match &variable.content {
                 Content::Time => values.push(self.time()),
                 Content::Coordinates(coordinates) => values.extend(coordinates),
-                Content::Elements(range) => values.extend(self.reals(&places(range))?),
+                Content::Elements(range) => values.extend(found.by_ref().take(range.len())),
             }
         }
         Ok(values)

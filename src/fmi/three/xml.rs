@@ -22,7 +22,7 @@ use crate::variables::{
 pub fn model_description(scene: &Scene, scene_text: &str) -> String {
     let registry = Registry::of(scene);
     let token = guid(scene_text, &registry);
-    let unit = Description { scene, arrays: ArrayRegistry::of(scene, &registry), registry };
+    let unit = Description { scene, arrays: ArrayRegistry::of(scene), registry };
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     unit.document(&mut xml, token).expect("a vector takes whatever is written");
     let mut text = String::from_utf8(xml.into_inner()).expect("made from strings");
@@ -51,7 +51,7 @@ impl Description<'_> {
         root.extend([
             ("license", env!("CARGO_PKG_LICENSE").into()),
             ("generationTool", concat!("impinge ", env!("CARGO_PKG_VERSION")).into()),
-            ("variableNamingConvention", "structured".into()),
+            ("variableNamingConvention", self.scene.naming.name().into()),
         ]);
         let variables = self.arrays.variables.iter();
         let used: BTreeSet<Quantity> =

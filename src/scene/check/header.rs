@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::Checker;
+use crate::scene::Naming;
 use crate::scene::locate::Path;
 
 /// Prefixes of variables that belong to no body, load, probe, field or wall.
@@ -64,6 +65,23 @@ fn names(checker: &mut Checker) {
     let mut owners = BTreeMap::new();
     for (path, name) in bodies.chain(loads).chain(probes).chain(fields).chain(walls) {
         prefix(checker, &mut owners, path, name);
+    }
+    if scene.naming == Naming::Flat {
+        apart(checker, &owners);
+    }
+}
+
+/// Flat names run prefix and rest together: they could meet where a prefix begins with another one
+/// and `_`.
+fn apart(checker: &mut Checker, owners: &BTreeMap<&str, Path>) {
+    for (&name, path) in owners {
+        let begins =
+            |other: &&str| name.strip_prefix(*other).is_some_and(|rest| rest.starts_with('_'));
+        let mut others = owners.keys().copied().chain(RESERVED);
+        if let Some(other) = others.find(begins) {
+            let message = format!("with flat names it may be taken for a part of `{other}`");
+            checker.refuse(path, message, format!("a name that does not begin with `{other}_`"));
+        }
     }
 }
 

@@ -156,11 +156,17 @@ impl Oracle {
                 offered(world.offers.states, state_call(world, *state, own, shelf))
             }
             Call::Directional { unknowns, knowns, changes, nulls } => {
+                // At time zero parameters are knowns too.
+                let may_be_known = |causality| match causality {
+                    Causality::Input => true,
+                    Causality::Parameter => self.phase == 'm',
+                    Causality::Output => false,
+                };
                 let good = world.offers.directional
                     && !is_null(knowns, *nulls)
                     && (*nulls != Nulls::AllOfMany)
                     && all_of(world, unknowns, Causality::Output)
-                    && all_of(world, knowns, Causality::Input)
+                    && all_are(world, knowns, may_be_known)
                     && changes.iter().all(|change| change.is_finite());
                 let tame = changes.iter().all(|change| change.abs() < 1e9);
                 let done = if tame { self.if_plain(Expected::Done) } else { Expected::Either };
@@ -318,8 +324,13 @@ fn is_null(references: &[u32], nulls: Nulls) -> bool {
 }
 
 fn all_of(world: &World, references: &[u32], causality: Causality) -> bool {
+    all_are(world, references, |other| other == causality)
+}
+
+/// Whether all are reals of a wanted causality.
+fn all_are(world: &World, references: &[u32], wanted: impl Fn(Causality) -> bool) -> bool {
     references.iter().all(|&reference| {
         world.kind(reference) == Some(Kind::Real)
-            && world.variable(reference).is_some_and(|v| v.causality() == causality)
+            && world.variable(reference).is_some_and(|v| wanted(v.causality()))
     })
 }

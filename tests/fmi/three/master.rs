@@ -124,7 +124,7 @@ impl Unit {
         let messages = Box::<Messages>::default();
         let scene = scene::parse(text, "scene.toml").unwrap();
         let registry = Registry::of(&scene);
-        let arrays = ArrayRegistry::of(&scene, &registry);
+        let arrays = ArrayRegistry::of(&scene);
         let handle = Arguments::good(&folder, &guid::guid(text, &registry)).instantiate(&messages);
         assert!(!handle.is_null(), "{:?}", messages.take());
         Self { handle, messages, registry, arrays, _folder: folder }

@@ -1,0 +1,277 @@
+//! terminalsAndIcons.xml: which variables belong together, and where they stand on the unit's icon;
+//! FMI 3.0, section 2.4.9, which units of FMI 2.0 may carry too.
+//!
+//! Every load, wall, probe, field and body is a terminal of its inputs and outputs.
+
+use std::collections::HashMap;
+use std::io;
+
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, Event};
+
+use super::xml::{Attributes, Xml, leaf, parent};
+use crate::scene::Scene;
+use crate::variables::{ArrayRegistry, ArrayVariable, Causality, Registry};
+
+/// Folder of the file and of the icons.
+pub const FOLDER: &str = "terminalsAndIcons";
+
+/// Half extents of the unit's icon, 4 : 3, in its own coordinates, and their scale to millimetres.
+const HALF: [f64; 2] = [100.0, 75.0];
+const MILLIMETRES: f64 = 0.1;
+/// Largest side of a terminal's icon in these coordinates.
+const LARGEST: f64 = 16.0;
+/// Colour of connections, red, green and blue.
+const COLOUR: &str = "196 46 28";
+
+/// A variable as a part of a terminal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Member {
+    pub variable: String,
+    pub terminal: String,
+    /// Name within the terminal; terminals of equal members fit each other.
+    pub name: String,
+    pub causality: Causality,
+}
+
+/// What passes through a terminal, and so which icon it has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Direction {
+    In,
+    Out,
+    Exchange,
+}
+
+impl Member {
+    /// A variable by its name and its structured one; none if it is a parameter.
+    pub fn of(variable: &str, structured: &str, causality: Causality) -> Option<Self> {
+        let (terminal, name) = structured.split_once('.')?;
+        (causality != Causality::Parameter).then(|| Self {
+            variable: variable.to_owned(),
+            terminal: terminal.to_owned(),
+            name: name.to_owned(),
+            causality,
+        })
+    }
+
+    /// All members of a unit of FMI 3.0, whose variables are arrays where they can be.
+    pub fn arrays(scene: &Scene) -> Vec<Self> {
+        let registry = Registry::of(scene);
+        let (arrays, structured) = (ArrayRegistry::of(scene), ArrayRegistry::structured(scene));
+        let pairs = arrays.variables.iter().zip(&structured.variables);
+        let member = |(own, named): (&ArrayVariable, &ArrayVariable)| {
+            Self::of(&own.name, &named.name, own.causality(&registry)?)
+        };
+        pairs.filter_map(member).collect()
+    }
+
+    /// All members of a unit whose variables are scalars.
+    pub fn all(scene: &Scene) -> Vec<Self> {
+        let (registry, structured) = (Registry::of(scene), Registry::structured(scene));
+        let pairs = registry.variables.iter().zip(&structured.variables);
+        pairs.filter_map(|(own, named)| Self::of(&own.name, &named.name, own.causality())).collect()
+    }
+}
+
+impl Direction {
+    pub const ALL: [Direction; 3] = [Direction::In, Direction::Out, Direction::Exchange];
+
+    /// Name of the icon's file, without its ending.
+    pub fn icon(self) -> &'static str {
+        match self {
+            Direction::In => "terminal_in",
+            Direction::Out => "terminal_out",
+            Direction::Exchange => "terminal_exchange",
+        }
+    }
+
+    fn of(members: &[&Member]) -> Self {
+        let has = |causality| members.iter().any(|member| member.causality == causality);
+        match (has(Causality::Input), has(Causality::Output)) {
+            (true, true) => Direction::Exchange,
+            (true, false) => Direction::In,
+            _ => Direction::Out,
+        }
+    }
+}
+
+/// The file for the members of a scene's unit.
+pub fn terminals_and_icons(scene: &Scene, members: &[Member]) -> String {
+    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
+    document(&mut xml, scene, members).expect("a vector takes whatever is written");
+    let mut text = String::from_utf8(xml.into_inner()).expect("made from strings");
+    text.push('\n');
+    text
+}
+
+struct Terminal<'a> {
+    name: &'a str,
+    members: Vec<&'a Member>,
+}
+
+/// The terminals in the order of their first members.
+fn group(members: &[Member]) -> Vec<Terminal<'_>> {
+    let mut terminals: Vec<Terminal> = Vec::new();
+    let mut places: HashMap<&str, usize> = HashMap::new();
+    for member in members {
+        let place = *places.entry(&member.terminal).or_insert_with(|| {
+            terminals.push(Terminal { name: &member.terminal, members: Vec::new() });
+            terminals.len() - 1
+        });
+        terminals[place].members.push(member);
+    }
+    terminals
+}
+
+fn document(xml: &mut Xml, scene: &Scene, members: &[Member]) -> io::Result<()> {
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    let terminals = group(members);
+    parent(xml, "fmiTerminalsAndIcons", &[("fmiVersion", "3.0".into())], |xml| {
+        parent(xml, "GraphicalRepresentation", &[], |xml| {
+            let whole = extent([-HALF[0], -HALF[1]], HALF);
+            let scale = [("suggestedScalingFactorTo_mm", format!("{MILLIMETRES:?}"))];
+            leaf(xml, "CoordinateSystem", &[&whole[..], &scale].concat())?;
+            leaf(xml, "Icon", &whole)
+        })?;
+        if terminals.is_empty() {
+            return Ok(());
+        }
+        let places = places(&terminals);
+        parent(xml, "Terminals", &[], |xml| {
+            let mut both = terminals.iter().zip(&places);
+            both.try_for_each(|(terminal, place)| element(xml, scene, terminal, place))
+        })
+    })
+}
+
+fn element(
+    xml: &mut Xml,
+    scene: &Scene,
+    terminal: &Terminal,
+    place: &Attributes,
+) -> io::Result<()> {
+    let attributes: Attributes = vec![
+        ("name", terminal.name.to_owned()),
+        ("matchingRule", "plug".into()),
+        ("description", description(scene, terminal.name)),
+    ];
+    parent(xml, "Terminal", &attributes, |xml| {
+        for member in &terminal.members {
+            let attributes: Attributes = vec![
+                ("variableName", member.variable.clone()),
+                ("memberName", member.name.clone()),
+                ("variableKind", "signal".into()),
+            ];
+            leaf(xml, "TerminalMemberVariable", &attributes)?;
+        }
+        let look: Attributes = vec![
+            ("defaultConnectionColor", COLOUR.into()),
+            ("defaultConnectionStrokeSize", "1.0".into()),
+        ];
+        let icon = [("iconBaseName", Direction::of(&terminal.members).icon().to_owned())];
+        leaf(xml, "TerminalGraphicalRepresentation", &[&look[..], place, &icon].concat())
+    })
+}
+
+/// Where the terminals' icons stand: what takes something on the left edge, the others on the right,
+/// from top to bottom.
+fn places(terminals: &[Terminal]) -> Vec<Attributes> {
+    let is_left = |terminal: &Terminal| Direction::of(&terminal.members) != Direction::Out;
+    let left = terminals.iter().filter(|terminal| is_left(terminal)).count();
+    let mut above = [0.0, 0.0];
+    let place = |terminal: &Terminal| {
+        let right = usize::from(!is_left(terminal));
+        let count = if right == 1 { terminals.len() - left } else { left } as f64;
+        let pitch = 2.0 * HALF[1] / count;
+        let y = HALF[1] - (above[right] + 0.5) * pitch;
+        above[right] += 1.0;
+        let x = if right == 1 { HALF[0] } else { -HALF[0] };
+        let half = 0.5 * LARGEST.min(0.8 * pitch);
+        extent([x - half, y - half], [x + half, y + half]).to_vec()
+    };
+    terminals.iter().map(place).collect()
+}
+
+fn extent(low: [f64; 2], high: [f64; 2]) -> [(&'static str, String); 4] {
+    let number = |value: f64| format!("{value:?}");
+    [
+        ("x1", number(low[0])),
+        ("y1", number(low[1])),
+        ("x2", number(high[0])),
+        ("y2", number(high[1])),
+    ]
+}
+
+/// What the terminal of this name stands for.
+fn description(scene: &Scene, name: &str) -> String {
+    if let Some(load) = scene.load.iter().find(|load| load.name == name) {
+        return format!("load on {}", load.on);
+    }
+    if let Some(probe) = scene.probe.iter().find(|probe| probe.name == name) {
+        return format!("values at a point of {}", probe.body);
+    }
+    if let Some(wall) = scene.wall.iter().find(|wall| wall.name == name) {
+        return format!("wall under {}", wall.under);
+    }
+    match scene.field.iter().find(|field| field.name == name) {
+        Some(field) => format!("values on a grid of {}", field.body_and_place().0),
+        None => format!("what {name} is given and shows as a whole"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{self, Naming};
+
+    const SCENE: &str = include_str!("../../tests/fmi/scene.toml");
+
+    #[test]
+    fn every_input_and_output_stands_in_one_terminal() {
+        let scene = scene::parse(SCENE, "scene.toml").unwrap();
+        let members = Member::all(&scene);
+        let xml = terminals_and_icons(&scene, &members);
+        for variable in Registry::of(&scene).variables {
+            let count = xml.matches(&format!(" variableName=\"{}\" ", variable.name)).count();
+            let wanted = usize::from(variable.causality() != Causality::Parameter);
+            assert_eq!(count, wanted, "{}", variable.name);
+        }
+        let names: Vec<&str> = group(&members).iter().map(|terminal| terminal.name).collect();
+        assert_eq!(names, ["spot", "patch", "plate", "centre", "surface"]);
+    }
+
+    #[test]
+    fn arrays_are_members_as_a_whole() {
+        let mut scene = scene::parse(SCENE, "scene.toml").unwrap();
+        for (naming, variable) in
+            [(Naming::Structured, "patch.heat_flux"), (Naming::Flat, "patch_heat_flux")]
+        {
+            scene.naming = naming;
+            let members = Member::arrays(&scene);
+            let flux = Member::of(variable, "patch.heat_flux", Causality::Input).unwrap();
+            assert_eq!(members.iter().filter(|member| **member == flux).count(), 1);
+            assert!(members.iter().all(|member| !member.name.contains('[')));
+            let [arrays, all] = [&members, &Member::all(&scene)].map(|members| {
+                group(members).iter().map(|terminal| terminal.name.to_owned()).collect::<Vec<_>>()
+            });
+            assert_eq!(arrays, all);
+        }
+    }
+
+    #[test]
+    fn icons_stand_on_the_edges_and_do_not_overlap() {
+        let scene = scene::parse(SCENE, "scene.toml").unwrap();
+        let members = Member::all(&scene);
+        let places = places(&group(&members));
+        let numbers = |place: &Attributes| -> Vec<f64> {
+            place.iter().map(|(_, value)| value.parse().unwrap()).collect()
+        };
+        let boxes: Vec<Vec<f64>> = places.iter().map(numbers).collect();
+        for (i, a) in boxes.iter().enumerate() {
+            assert_eq!((0.5 * (a[0] + a[2])).abs(), HALF[0]);
+            assert!(a[1] >= -HALF[1] && a[3] <= HALF[1]);
+            let apart = |b: &Vec<f64>| a[2] < b[0] || b[2] < a[0] || a[3] <= b[1] || b[3] <= a[1];
+            assert!(boxes[..i].iter().all(apart), "{boxes:?}");
+        }
+    }
+}

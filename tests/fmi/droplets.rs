@@ -1,0 +1,152 @@
+//! States and derivatives of inputs of units with droplets.
+
+use crate::master::{DISCARD, OK, Unit};
+
+/// Two drops, the second released after 0.4 µs, above a wall of tiles whose temperatures are inputs.
+const WALL: &str = r#"
+name = "Drops"
+stop_time = 2e-6
+step = 1e-7
+[body.drop]
+kind = "droplet"
+diameter = 6e-5
+impact_velocity = 20.0
+initial_temperature = 350.0
+spacing = 1e-5
+fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6 }
+arrivals = [{ time = 0.0 }, { time = 4e-7, x = 8e-5 }]
+[[wall]]
+name = "wall"
+under = "drop"
+footprint = { tiles = { count = [2, 2], size = [2.4e-4, 2e-4] } }
+start = { temperature = 300.0 }
+"#;
+
+/// A drop on a plate that a spot heats.
+const PLATE: &str = r#"
+name = "DropOnPlate"
+stop_time = 2e-6
+step = 1e-7
+[body.drop]
+kind = "droplet"
+diameter = 6e-5
+impact_velocity = 20.0
+initial_temperature = 350.0
+spacing = 1e-5
+fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6 }
+[body.plate]
+kind = "solid"
+shape = { box = [3e-4, 3e-4, 1e-4] }
+material = { model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = 10.0, young = 300e9, poisson = 0.21, expansion = 8.1e-6 }
+initial_temperature = 300.0
+mesh = { spacing = 2e-5, depth_spacing = 2e-5, order = 1 }
+[body.plate.faces]
+sides = { clamped = true }
+[[coupling]]
+from = "drop"
+to = "plate.top"
+interval = 5e-8
+[[load]]
+name = "spot"
+on = "plate.top"
+footprint = { disc = { radius = 4e-5 } }
+carries = ["heat_flux"]
+[[probe]]
+name = "centre"
+in = "plate"
+at = [0.0, 0.0, 0.0]
+gives = ["temperature", "stress"]
+"#;
+
+const STEP: f64 = 1e-7;
+
+fn started(scene: &str) -> Unit {
+    let unit = Unit::of_scene(scene);
+    assert_eq!(unit.setup(0.0, None), OK);
+    assert_eq!(unit.enter(), OK);
+    assert_eq!(unit.exit(), OK, "{:?}", unit.messages.take());
+    unit.messages.take();
+    unit
+}
+
+/// Steps of different lengths under an input that changes; what is seen after each.
+fn go_on(unit: &Unit, input: &str, value: f64) -> Vec<(Vec<u64>, i32, String)> {
+    let steps = [STEP, 0.3 * STEP, 2.5 * STEP];
+    let seen = steps.iter().enumerate().map(|(i, step)| {
+        assert_eq!(unit.set(input, value * (1.0 + 0.1 * i as f64)), OK);
+        assert_eq!(unit.set_derivative(input, 1, value / STEP), OK);
+        assert_eq!(unit.step(unit.time(), *step), OK, "{:?}", unit.messages.take());
+        unit.snapshot()
+    });
+    seen.collect()
+}
+
+fn repeats_to_the_bit(scene: &str, input: &str, value: f64) {
+    let unit = started(scene);
+    for _ in 0..3 {
+        assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
+    }
+    let state = unit.save();
+    let bytes = unit.serialize(state);
+    let first = go_on(&unit, input, value);
+    assert_eq!(unit.restore(state), OK);
+    assert_eq!(go_on(&unit, input, value), first, "in the same instance");
+    assert_eq!(unit.reset(), OK);
+    assert_eq!(unit.restore(state), OK);
+    assert_eq!(go_on(&unit, input, value), first, "after a reset");
+    let other = Unit::of_scene(scene);
+    assert_eq!(other.setup(0.0, None), OK);
+    assert_eq!(other.set_threads(2), OK);
+    assert_eq!(other.restore(other.deserialize(&bytes)), OK, "{:?}", other.messages.take());
+    assert_eq!(go_on(&other, input, value), first, "in another instance");
+}
+
+/// The second drop is released only after the state was saved.
+#[test]
+fn drops_above_a_wall_go_on_from_a_state_to_the_bit() {
+    repeats_to_the_bit(WALL, "wall.temperature[1,1]", 310.0);
+}
+
+#[test]
+fn a_drop_on_a_plate_goes_on_from_a_state_to_the_bit() {
+    repeats_to_the_bit(PLATE, "spot.heat_flux", 1e8);
+}
+
+/// A step of a droplet feels the wall as it is in the middle of the step, whatever the derivatives;
+/// afterwards the input is what it has become.
+#[test]
+fn a_droplet_feels_a_wall_that_changes_as_it_is_in_the_middle_of_the_step() {
+    let (wall, slope, bend) = ("wall.temperature[1,1]", 2e8, 8e15);
+    let [ramp, held] = [(); 2].map(|()| started(WALL));
+    for unit in [&ramp, &held] {
+        // The drop touches the wall first.
+        (0..6).for_each(|_| assert_eq!(unit.step(unit.time(), STEP), OK));
+    }
+    let half = 0.5 * STEP;
+    assert_eq!(held.set(wall, 300.0 + slope * half + 0.5 * bend * half * half), OK);
+    assert_eq!(ramp.set_derivative(wall, 1, slope), OK);
+    assert_eq!(ramp.set_derivative(wall, 2, bend), OK);
+    for unit in [&ramp, &held] {
+        assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
+    }
+    let outputs = ["drop.heat", "wall.heat_flux[1,1]", "drop.kinetic_energy", "drop.force"];
+    for name in outputs {
+        let [a, b] = [&ramp, &held].map(|unit| unit.get(name));
+        assert!((a - b).abs() <= 1e-12 * b.abs(), "{name}: {a} and {b}");
+        assert!(b != 0.0, "{name}");
+    }
+    let end = 300.0 + slope * STEP + 0.5 * bend * STEP * STEP;
+    assert!((ramp.get(wall) - end).abs() < 1e-9 * end, "{}", ramp.get(wall));
+}
+
+#[test]
+fn a_wall_that_would_cool_below_absolute_zero_is_discarded_and_may_be_repeated() {
+    let unit = started(WALL);
+    let state = unit.save();
+    assert_eq!(unit.set_derivative("wall.temperature[2,1]", 1, -4e9), OK);
+    assert_eq!(unit.step(0.0, STEP), DISCARD);
+    unit.expect_message(DISCARD, &["wall.temperature[2,1]", "absolute zero"]);
+    assert_eq!(unit.time(), 0.0);
+    assert_eq!(unit.restore(state), OK);
+    assert_eq!(unit.step(0.0, STEP), OK, "{:?}", unit.messages.take());
+}
