@@ -4,9 +4,12 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use impinge::scene::Scene;
-use impinge::variables::{Causality, Registry, Value, Variable};
+use impinge::variables::{
+    ArrayRegistry, ArrayVariable, Causality, Content, Registry, Value, Variable,
+};
 
 use crate::archive::Entries;
+use crate::version::Version;
 use crate::words;
 
 const STYLE: &str = include_str!("documentation.css");
@@ -25,29 +28,32 @@ pub fn licences() -> Entries {
 }
 
 /// The page of a scene's unit.
-pub fn page(scene: &Scene) -> String {
-    let (registry, structured) = (Registry::of(scene), Registry::structured(scene));
+pub fn page(scene: &Scene, fmi: Version) -> String {
+    let (registry, arrays) = (Registry::of(scene), ArrayRegistry::of(scene));
     let title = escape(&scene.name);
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
          <title>{title}</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
-         <header>\n<img src=\"../model.png\" alt=\"Section of the scene\" width=\"200\" \
+         <header>\n<img src=\"../{}\" alt=\"Section of the scene\" width=\"200\" \
          height=\"150\">\n<div>\n<h1>{title}</h1>\n<p>{}</p>\n</div>\n</header>\n",
+        fmi.icon(),
         escape(&scene.description)
     );
     section(&mut html, "What is modelled", &modelled(scene));
-    section(&mut html, "How to run it", &how_to_run(scene, &registry));
+    section(&mut html, "How to run it", &how_to_run(scene, &registry, &arrays, fmi));
     for (causality, heading, text) in [
         (Causality::Input, "Inputs", "Held constant during a communication step."),
         (Causality::Output, "Outputs", "Values at the end of a communication step."),
         (Causality::Parameter, "Parameters", "They may be set until initialisation ends."),
     ] {
-        let pairs = registry.variables.iter().zip(&structured.variables);
-        let rows = fold(pairs.filter(|(v, _)| v.causality() == causality));
+        let rows = rows(&registry, &arrays, causality, fmi);
         if !rows.is_empty() {
             section(&mut html, heading, &format!("<p>{text}</p>\n{}", table(&rows)));
         }
+    }
+    if fmi == Version::Three {
+        coordinates(&mut html, &arrays);
     }
     let _ = write!(
         html,
@@ -56,6 +62,30 @@ pub fn page(scene: &Scene) -> String {
         env!("CARGO_PKG_VERSION")
     );
     html
+}
+
+/// Where the points of fields are, which units of FMI 3.0 tell as constants.
+fn coordinates(html: &mut String, arrays: &ArrayRegistry) {
+    let constants =
+        arrays.variables.iter().filter(|v| matches!(v.content, Content::Coordinates(_)));
+    let item = |v: &ArrayVariable| {
+        format!("<li><code>{}</code> [m]: {}</li>\n", name(v), escape(&v.description))
+    };
+    let items: String = constants.map(item).collect();
+    if !items.is_empty() {
+        section(html, "Constants", &format!("<ul>\n{items}</ul>\n"));
+    }
+}
+
+/// Name of a variable of FMI 3.0, with the counts of its elements.
+fn name(variable: &ArrayVariable) -> String {
+    match &variable.dimensions[..] {
+        [] => variable.name.clone(),
+        counts => {
+            let counts: Vec<String> = counts.iter().map(usize::to_string).collect();
+            format!("{} ({})", variable.name, counts.join(" × "))
+        }
+    }
 }
 
 fn section(html: &mut String, heading: &str, content: &str) {
@@ -74,17 +104,19 @@ fn modelled(scene: &Scene) -> String {
 }
 
 /// A program that sets the first input and plots the first outputs.
-fn how_to_run(scene: &Scene, registry: &Registry) -> String {
-    let first = |causality, count| {
-        registry.of_causality(causality).take(count).map(|i| &registry.variables[i])
+fn how_to_run(scene: &Scene, registry: &Registry, arrays: &ArrayRegistry, fmi: Version) -> String {
+    let of = |causality| {
+        let has_causality = move |v: &&ArrayVariable| v.causality(registry) == Some(causality);
+        arrays.variables.iter().filter(has_causality)
     };
-    let start: Vec<String> = first(Causality::Input, 1)
-        .filter_map(|v| {
-            v.real_start().map(|start| format!("\"{}\": {}", v.name, words::number(start)))
-        })
-        .collect();
-    let outputs: Vec<String> =
-        first(Causality::Output, 3).map(|v| format!("\"{}\"", v.name)).collect();
+    let start: Vec<String> =
+        of(Causality::Input).take(1).filter_map(|v| start_of(v, registry, fmi)).collect();
+    let names = of(Causality::Output).flat_map(|v| match fmi {
+        Version::Two => v.elements(registry).iter().map(|element| element.name.clone()).collect(),
+        Version::Three if v.dimensions.is_empty() => vec![v.name.clone()],
+        Version::Three => Vec::new(),
+    });
+    let outputs: Vec<String> = names.take(3).map(|name| format!("\"{name}\"")).collect();
     let program = format!(
         "from fmpy import simulate_fmu\nfrom fmpy.util import plot_result\n\n\
          result = simulate_fmu(\n    \"{}.fmu\",\n    stop_time={:?},\n    output_interval={:?},\n    \
@@ -96,44 +128,62 @@ fn how_to_run(scene: &Scene, registry: &Registry) -> String {
         outputs.join(", ")
     );
     format!(
-        "<p>Any tool that imports FMI 2.0 co-simulation units can run it. With \
+        "<p>Any tool that imports FMI {} co-simulation units can run it. With \
          <a href=\"https://github.com/CATIA-Systems/FMPy\">FMPy</a>:</p>\n<pre>{}</pre>\n",
+        fmi.name(),
         escape(&program)
     )
 }
 
+/// An entry of the dictionary of start values.
+fn start_of(variable: &ArrayVariable, registry: &Registry, fmi: Version) -> Option<String> {
+    let first = &variable.elements(registry)[0];
+    let start = words::number(first.real_start()?);
+    Some(match (fmi, &variable.dimensions[..]) {
+        (Version::Two, _) | (_, []) => format!("\"{}\": {start}", first.name),
+        (_, counts) => {
+            let count = counts.iter().product::<usize>();
+            format!("\"{}\": [{start}] * {count}", variable.name)
+        }
+    })
+}
+
 /// A variable, or all elements of an array.
 struct Row<'a> {
-    first: &'a Variable,
-    last: &'a Variable,
-    /// Structured name of the first one.
-    structured: &'a str,
-    same_start: bool,
+    elements: &'a [Variable],
+    name: String,
+    meaning: String,
 }
 
-/// Neighbours that differ only in their indices become one row. Each variable comes with itself under
-/// its structured name.
-fn fold<'a>(variables: impl Iterator<Item = (&'a Variable, &'a Variable)>) -> Vec<Row<'a>> {
-    let mut rows: Vec<Row> = Vec::new();
-    for (variable, named) in variables {
-        let structured = named.name.as_str();
-        match rows.last_mut() {
-            Some(row) if structured.contains('[') && base(structured) == base(row.structured) => {
-                row.same_start &= variable.start == row.first.start;
-                row.last = variable;
-            }
-            _ => rows.push(Row { first: variable, last: variable, structured, same_start: true }),
-        }
-    }
-    rows
+/// A row a variable of the version; in FMI 2.0 for all neighbours that differ only in their indices.
+fn rows<'a>(
+    registry: &'a Registry,
+    arrays: &ArrayRegistry,
+    causality: Causality,
+    fmi: Version,
+) -> Vec<Row<'a>> {
+    let of_causality = arrays.variables.iter().filter(|v| v.causality(registry) == Some(causality));
+    let row = |variable: &ArrayVariable| {
+        let elements = variable.elements(registry);
+        let name = match (fmi, &variable.dimensions[..]) {
+            (_, []) => variable.name.clone(),
+            (Version::Two, _) => span(variable, elements),
+            (Version::Three, _) => name(variable),
+        };
+        Row { elements, name, meaning: variable.description.clone() }
+    };
+    of_causality.map(row).collect()
 }
 
-fn base(name: &str) -> &str {
-    name.split('[').next().unwrap_or_default()
+/// First and last element of an array; of the last one only its indices if they stand in brackets.
+fn span(array: &ArrayVariable, elements: &[Variable]) -> String {
+    let [first, .., last] = elements else { return elements[0].name.clone() };
+    let indices = last.name.strip_prefix(&array.name).filter(|rest| rest.starts_with('['));
+    format!("{} … {}", first.name, indices.unwrap_or(&last.name))
 }
 
 fn table(rows: &[Row]) -> String {
-    let with_start = rows.iter().any(|row| row.first.start.is_some());
+    let with_start = rows.iter().any(|row| row.elements[0].start.is_some());
     let start_head = if with_start { "<th>start</th>" } else { "" };
     let mut html = format!(
         "<table>\n<thead><tr><th>name</th><th>unit</th>{start_head}<th>meaning</th></tr></thead>\n\
@@ -148,43 +198,25 @@ fn table(rows: &[Row]) -> String {
         let _ = writeln!(
             html,
             "<tr><td><code>{}</code></td><td>{}</td>{start}<td>{}</td></tr>",
-            escape(&name(row)),
-            row.first.quantity.map_or("", |quantity| quantity.unit()),
-            escape(&meaning(row))
+            escape(&row.name),
+            row.elements[0].quantity.map_or("", |quantity| quantity.unit()),
+            escape(&row.meaning)
         );
     }
     html + "</tbody>\n</table>\n"
 }
 
-fn name(row: &Row) -> String {
-    if std::ptr::eq(row.first, row.last) {
-        return row.first.name.clone();
-    }
-    let base = base(&row.first.name);
-    let last = row.last.name.strip_prefix(base).filter(|rest| rest.starts_with('['));
-    format!("{} … {}", row.first.name, last.unwrap_or(&row.last.name))
-}
-
 fn start(row: &Row) -> String {
-    match &row.first.start {
-        Some(_) if !row.same_start => "by element".into(),
+    let first = &row.elements[0].start;
+    match first {
+        Some(_) if row.elements.iter().any(|element| element.start != *first) => {
+            "by element".into()
+        }
         Some(Value::Real(value)) => words::number(*value),
         Some(Value::Integer(value)) => value.to_string(),
         Some(Value::Text(text)) => escape(&format!("{text:?}")),
         None => String::new(),
     }
-}
-
-/// What first and last element have in common, an ellipsis for the words in which they differ.
-fn meaning(row: &Row) -> String {
-    let mut words: Vec<&str> = Vec::new();
-    for (a, b) in row.first.description.split(' ').zip(row.last.description.split(' ')) {
-        let word = if a == b { a } else { "…" };
-        if word != "…" || words.last() != Some(&"…") {
-            words.push(word);
-        }
-    }
-    words.join(" ")
 }
 
 pub fn escape(text: &str) -> String {
@@ -201,14 +233,23 @@ mod tests {
     fn arrays_are_one_row_and_texts_are_escaped() {
         let mut scene = impinge::scene::parse(SCENE, "scene.toml").unwrap();
         scene.description = "hot & <fast>".into();
-        let html = page(&scene);
+        let html = page(&scene, Version::Two);
         assert!(html.contains("<code>surface.temperature[1,1] … [4,4]</code>"), "{html}");
         assert!(!html.contains("surface.temperature[2,2]"));
-        assert!(html.contains("temperature at point … of the grid on plate.top"));
+        assert!(html.contains("temperature at point i, j of the grid on plate.top"));
         assert!(html.contains("<p>hot &amp; &lt;fast&gt;</p>"));
         scene.naming = impinge::scene::Naming::Flat;
-        let html = page(&scene);
+        let html = page(&scene, Version::Two);
         assert!(html.contains("surface_temperature_1_1 … surface_temperature_4_4</code>"));
         assert!(!html.contains("surface_temperature_2_2"));
+    }
+
+    #[test]
+    fn the_page_of_fmi_3_names_whole_arrays() {
+        let scene = impinge::scene::parse(SCENE, "scene.toml").unwrap();
+        let html = page(&scene, Version::Three);
+        assert!(html.contains("<code>surface.temperature (4 × 4)</code>"), "{html}");
+        assert!(html.contains("imports FMI 3.0") && html.contains("terminalsAndIcons/icon.png"));
+        assert!(!html.contains("[1,1]"));
     }
 }

@@ -4,22 +4,15 @@ use std::env::{self, consts};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// FMI's name of this platform.
-const PLATFORM: &str = if cfg!(target_os = "windows") {
-    "win64"
-} else if cfg!(target_os = "macos") {
-    "darwin64"
-} else {
-    "linux64"
-};
+use crate::version::Version;
 
 /// Path of the library inside the unit of a model.
-pub fn entry(model: &str) -> String {
-    format!("binaries/{PLATFORM}/{model}{}", consts::DLL_SUFFIX)
+pub fn entry(model: &str, fmi: Version) -> String {
+    format!("binaries/{}/{model}{}", fmi.platform(), consts::DLL_SUFFIX)
 }
 
-/// Reads the library at `path`, or the one beside this program.
-pub fn read(path: Option<&Path>) -> Result<Vec<u8>, String> {
+/// Reads the library at `path`, or the one beside this program; it must serve units of this version.
+pub fn read(path: Option<&Path>, fmi: Version) -> Result<Vec<u8>, String> {
     let path = path.map_or_else(beside_this_program, |path| Ok(path.to_owned()))?;
     let bytes = fs::read(&path).map_err(|error| {
         format!(
@@ -28,16 +21,15 @@ pub fn read(path: Option<&Path>) -> Result<Vec<u8>, String> {
             path.display()
         )
     })?;
-    if !bytes.windows(MARK.len()).any(|window| window == MARK) {
+    let mark = fmi.step_function();
+    if !bytes.windows(mark.len()).any(|window| window == mark.as_bytes()) {
         return Err(format!(
-            "{} is no library of impinge: it does not export fmi2DoStep",
+            "{} is no library of impinge: it does not export {mark}",
             path.display()
         ));
     }
     Ok(bytes)
 }
-
-const MARK: &[u8] = b"fmi2DoStep";
 
 fn beside_this_program() -> Result<PathBuf, String> {
     let program =
@@ -51,13 +43,16 @@ mod tests {
 
     #[test]
     fn a_missing_library_is_refused_with_the_way_to_build_it() {
-        let message = read(Some(Path::new("/nowhere/libimpinge.so"))).unwrap_err();
+        let message = read(Some(Path::new("/nowhere/libimpinge.so")), Version::Two).unwrap_err();
         assert!(message.contains("/nowhere/libimpinge.so") && message.contains("cargo build"));
     }
 
     #[test]
     fn another_file_is_no_library() {
-        let message = read(Some(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"))));
-        assert!(message.unwrap_err().contains("is no library of impinge"));
+        let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"));
+        for (version, name) in [(Version::Two, "fmi2DoStep"), (Version::Three, "fmi3DoStep")] {
+            let message = read(Some(path), version).unwrap_err();
+            assert!(message.contains("is no library of impinge") && message.contains(name));
+        }
     }
 }

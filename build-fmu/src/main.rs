@@ -7,6 +7,7 @@ mod lint;
 mod picture;
 mod reference;
 mod terminals;
+mod version;
 mod words;
 
 use std::fs;
@@ -15,10 +16,10 @@ use std::process::ExitCode;
 
 use archive::Entries;
 use clap::Parser;
-use impinge::fmi::xml::model_description;
 use impinge::scene::{self, Scene};
+use version::Version;
 
-/// Pack a scene as an FMI 2.0 co-simulation unit, or check a unit
+/// Pack a scene as an FMI co-simulation unit, or check a unit
 #[derive(Parser)]
 #[command(version)]
 struct Arguments {
@@ -28,6 +29,9 @@ struct Arguments {
     /// Where to write the unit [default: NAME.fmu]
     #[arg(short, long, value_name = "FILE.fmu")]
     output: Option<PathBuf>,
+    /// The version of FMI; with 3 rings, tiles and fields are array variables
+    #[arg(long, value_name = "VERSION", default_value = "2")]
+    fmi: Version,
     /// The library of impinge [default: the one beside this program]
     #[arg(long, value_name = "PATH")]
     library: Option<PathBuf>,
@@ -86,11 +90,15 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
         .map_err(|error| format!("cannot read the scene {file}: {error}"))?;
     let scene = scene::parse(&text, &file).map_err(|error| error.to_string())?;
     if let Some(path) = &arguments.xml {
-        return write(path, model_description(&scene, &text).as_bytes());
+        return write(path, arguments.fmi.model_description(&scene, &text).as_bytes());
     }
-    let library = library::read(arguments.library.as_deref())?;
-    let reference = if arguments.reference { reference::entries(&scene)? } else { Entries::new() };
-    let unit = unit(&scene, &text, library, reference)?;
+    let library = library::read(arguments.library.as_deref(), arguments.fmi)?;
+    let reference = if arguments.reference {
+        reference::entries(&scene, arguments.fmi)?
+    } else {
+        Entries::new()
+    };
+    let unit = unit(&scene, &text, library, arguments.fmi, reference)?;
     let path = arguments.output.clone().unwrap_or_else(|| format!("{}.fmu", scene.name).into());
     write(&path, &unit)
 }
@@ -100,16 +108,17 @@ fn unit(
     scene: &Scene,
     text: &str,
     library: Vec<u8>,
+    fmi: Version,
     mut entries: Entries,
 ) -> Result<Vec<u8>, String> {
     entries.append(&mut documentation::licences());
-    entries.insert("modelDescription.xml".into(), model_description(scene, text).into());
+    entries.insert("modelDescription.xml".into(), fmi.model_description(scene, text).into());
     entries.insert("resources/scene.toml".into(), text.into());
-    entries.insert("documentation/index.html".into(), documentation::page(scene).into());
+    entries.insert("documentation/index.html".into(), documentation::page(scene, fmi).into());
     let icon = picture::png(scene)?;
-    entries.append(&mut terminals::entries(scene, &icon)?);
-    entries.insert("model.png".into(), icon);
-    entries.insert(library::entry(&scene.name), library);
+    entries.append(&mut terminals::entries(scene, fmi, &icon)?);
+    entries.insert(fmi.icon().into(), icon);
+    entries.insert(library::entry(&scene.name, fmi), library);
     archive::zip(&entries)
 }
 
@@ -139,7 +148,9 @@ mod tests {
     #[test]
     fn the_same_scene_makes_the_same_bytes() {
         let scene = scene::parse(SCENE, "scene.toml").unwrap();
-        let make = || unit(&scene, SCENE, vec![1, 2, 3], Entries::new()).unwrap();
-        assert_eq!(make(), make());
+        for version in [Version::Two, Version::Three] {
+            let make = || unit(&scene, SCENE, vec![1, 2, 3], version, Entries::new()).unwrap();
+            assert_eq!(make(), make());
+        }
     }
 }

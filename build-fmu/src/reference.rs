@@ -4,33 +4,65 @@
 //! Layered standard FMI-LS-REF 1.0.0-alpha.1 of the Modelica Association, and the format of
 //! experiments that it refers to (ma-hs-experiments). Both are drafts.
 
+use std::ops::Range;
+
 use impinge::model::{Cache, Model, ModelError, Timeline};
 use impinge::scene::Scene;
-use impinge::variables::{Causality, Output, Registry, Slot, Variable};
+use impinge::variables::{
+    ArrayRegistry, ArrayVariable, Causality, Content, Output, Registry, Slot, Variable,
+};
 
 use crate::archive::Entries;
 use crate::documentation::escape;
+use crate::version::Version;
 
 const FOLDER: &str = "extra/org.fmi-standard.fmi-ls-ref";
 const EXPERIMENTS: &str = "experiments.exp";
 const STIMULI: &str = "default_in.csv";
 const RESULTS: &str = "default_ref.csv";
 
+/// A column of a CSV file: a variable of the unit and the places of its elements in the registry.
+struct Column {
+    name: String,
+    elements: Range<usize>,
+}
+
 /// Runs the default experiment of a scene under its start values; its inputs and outputs as files of
 /// the unit.
-pub fn entries(scene: &Scene) -> Result<Entries, String> {
+pub fn entries(scene: &Scene, fmi: Version) -> Result<Entries, String> {
     let registry = Registry::of(scene);
+    let [inputs, outputs] = [Causality::Input, Causality::Output]
+        .map(|causality| columns(scene, &registry, causality, fmi));
     let model = Model::build(scene, scene.solver.threads)
         .map_err(|error| format!("no model for the reference results: {error}"))?;
-    let results = results(&model, &registry)
+    let results = results(&model, &registry, &outputs)
         .map_err(|error| format!("the run for the reference results failed: {error}"))?;
     let files = [
         ("fmi-ls-manifest.xml", manifest()),
         (EXPERIMENTS, experiments(scene)),
-        (STIMULI, stimuli(scene, &registry)),
+        (STIMULI, stimuli(scene, &registry, &inputs)),
         (RESULTS, results),
     ];
     Ok(files.map(|(name, text)| (format!("{FOLDER}/{name}"), text.into_bytes())).into())
+}
+
+fn columns(scene: &Scene, registry: &Registry, causality: Causality, fmi: Version) -> Vec<Column> {
+    match fmi {
+        Version::Two => {
+            let column =
+                |i: usize| Column { name: registry.variables[i].name.clone(), elements: i..i + 1 };
+            registry.of_causality(causality).map(column).collect()
+        }
+        Version::Three => {
+            let arrays = ArrayRegistry::of(scene).variables.into_iter();
+            let wanted = arrays.filter(|array| array.causality(registry) == Some(causality));
+            let column = |array: ArrayVariable| match array.content {
+                Content::Elements(elements) => Some(Column { name: array.name, elements }),
+                Content::Time | Content::Coordinates(_) => None,
+            };
+            wanted.filter_map(column).collect()
+        }
+    }
 }
 
 /// What the files are.
@@ -83,22 +115,19 @@ fn experiments(scene: &Scene) -> String {
 }
 
 /// The inputs, held at their start values.
-fn stimuli(scene: &Scene, registry: &Registry) -> String {
-    let inputs = registry.of_causality(Causality::Input).map(|i| &registry.variables[i]);
-    let (names, starts): (Vec<&str>, Vec<f64>) =
-        inputs.filter_map(|input| Some((input.name.as_str(), input.real_start()?))).unzip();
-    let rows = [0.0, scene.stop_time].map(|time| row(time, &starts));
-    header(&names) + &rows.concat()
+fn stimuli(scene: &Scene, registry: &Registry, columns: &[Column]) -> String {
+    let starts: Vec<f64> = elements(registry, columns).filter_map(Variable::real_start).collect();
+    let rows = [0.0, scene.stop_time].map(|time| row(time, columns, &starts));
+    header(columns) + &rows.concat()
 }
 
 /// The outputs at the beginning and after every communication step.
-fn results(model: &Model, registry: &Registry) -> Result<String, ModelError> {
-    let (names, outputs): (Vec<&str>, Vec<&Output>) =
-        registry.variables.iter().filter_map(output).unzip();
+fn results(model: &Model, registry: &Registry, columns: &[Column]) -> Result<String, ModelError> {
+    let outputs: Vec<&Output> = elements(registry, columns).filter_map(output).collect();
     let scene = model.scene();
     let timeline = Timeline::new(scene.step, scene.stop_time);
     let (mut state, mut cache) = (model.initial_state(), Cache::default());
-    let mut text = header(&names);
+    let mut text = header(columns);
     for done in 0..=timeline.count {
         if done > 0 {
             model.step(&mut state, &mut cache, timeline.length(done - 1))?;
@@ -106,27 +135,40 @@ fn results(model: &Model, registry: &Registry) -> Result<String, ModelError> {
         }
         let mut reader = model.reader(&state, &mut cache)?;
         let values: Result<Vec<f64>, _> = outputs.iter().map(|out| reader.value(out)).collect();
-        text += &row(state.time, &values?);
+        text += &row(state.time, columns, &values?);
     }
     Ok(text)
 }
 
-fn output(variable: &Variable) -> Option<(&str, &Output)> {
+/// The elements of all columns, one after another.
+fn elements<'a>(
+    registry: &'a Registry,
+    columns: &'a [Column],
+) -> impl Iterator<Item = &'a Variable> {
+    columns.iter().flat_map(|column| &registry.variables[column.elements.clone()])
+}
+
+fn output(variable: &Variable) -> Option<&Output> {
     match &variable.slot {
-        Slot::Output(output) => Some((variable.name.as_str(), output)),
+        Slot::Output(output) => Some(output),
         _ => None,
     }
 }
 
-/// Names in quotes: those of arrays have commas.
-fn header(names: &[&str]) -> String {
-    let quoted = names.iter().map(|name| format!(",\"{name}\""));
+/// Names in quotes: those of elements have commas.
+fn header(columns: &[Column]) -> String {
+    let quoted = columns.iter().map(|column| format!(",\"{}\"", column.name));
     format!("\"time\"{}\n", quoted.collect::<String>())
 }
 
-fn row(time: f64, values: &[f64]) -> String {
-    let values: String = values.iter().map(|value| format!(",{value:?}")).collect();
-    format!("{time:?}{values}\n")
+/// A line of the values of all columns; those of an array with spaces between them.
+fn row(time: f64, columns: &[Column], values: &[f64]) -> String {
+    let mut texts = values.iter().map(|value| format!("{value:?}"));
+    let cell = |column: &Column| {
+        let values: Vec<String> = texts.by_ref().take(column.elements.len()).collect();
+        format!(",{}", values.join(" "))
+    };
+    format!("{time:?}{}\n", columns.iter().map(cell).collect::<String>())
 }
 
 #[cfg(test)]
@@ -135,21 +177,36 @@ mod tests {
 
     const SCENE: &str = include_str!("../../tests/fmi/scene.toml");
 
+    /// The rows of inputs and outputs, the values of a column together.
+    fn rows(fmi: Version) -> [Vec<Vec<Vec<f64>>>; 2] {
+        let scene = impinge::scene::parse(SCENE, "scene.toml").unwrap();
+        let files = entries(&scene, fmi).unwrap();
+        [STIMULI, RESULTS].map(|name| {
+            let text = str::from_utf8(&files[&format!("{FOLDER}/{name}")]).unwrap();
+            let cell = |text: &str| text.split(' ').map(|v| v.parse().unwrap()).collect();
+            let lines = text.lines().skip(1);
+            lines.map(|line| line.split(',').map(cell).collect()).collect()
+        })
+    }
+
     #[test]
     fn every_row_has_a_value_for_each_name() {
-        let scene = impinge::scene::parse(SCENE, "scene.toml").unwrap();
-        let files = entries(&scene).unwrap();
-        let rows = |name: &str| -> Vec<Vec<f64>> {
-            let text = str::from_utf8(&files[&format!("{FOLDER}/{name}")]).unwrap();
-            let lines = text.lines().skip(1);
-            lines.map(|line| line.split(',').map(|v| v.parse().unwrap()).collect()).collect()
-        };
-        let registry = Registry::of(&scene);
+        let registry = Registry::of(&impinge::scene::parse(SCENE, "scene.toml").unwrap());
         let count = |causality| 1 + registry.of_causality(causality).count();
-        let (inputs, outputs) = (rows(STIMULI), rows(RESULTS));
+        let [inputs, outputs] = rows(Version::Two);
         assert_eq!((inputs.len(), outputs.len()), (2, 21));
         assert!(inputs.iter().all(|row| row.len() == count(Causality::Input)));
         assert!(outputs.iter().all(|row| row.len() == count(Causality::Output)));
-        assert_eq!((outputs[0][0], outputs[20][0]), (0.0, 2e-7));
+        assert_eq!((&outputs[0][0][..], &outputs[20][0][..]), (&[0.0][..], &[2e-7][..]));
+    }
+
+    #[test]
+    fn arrays_are_columns_of_the_same_values() {
+        let [scalars, arrays] = [Version::Two, Version::Three].map(rows);
+        for (scalars, arrays) in scalars.iter().zip(&arrays) {
+            assert!(arrays[0].len() < scalars[0].len());
+            let flat = |rows: &[Vec<Vec<f64>>]| rows.concat().concat();
+            assert_eq!(flat(scalars), flat(arrays));
+        }
     }
 }

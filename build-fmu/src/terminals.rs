@@ -5,6 +5,7 @@ use impinge::scene::Scene;
 use tiny_skia::{Color, FillRule, LineCap, Paint, PathBuilder, Pixmap, Stroke, Transform};
 
 use crate::archive::Entries;
+use crate::version::Version;
 
 /// Side of a terminal's icon [pixels].
 const SIDE: f32 = 64.0;
@@ -12,8 +13,12 @@ const GROUND: [u8; 3] = [252, 236, 228];
 const RIM: [u8; 3] = [196, 46, 28];
 
 /// The folder's files; `icon` is the picture of the unit.
-pub fn entries(scene: &Scene, icon: &[u8]) -> Result<Entries, String> {
-    let xml = terminals_and_icons(scene, &Member::all(scene));
+pub fn entries(scene: &Scene, fmi: Version, icon: &[u8]) -> Result<Entries, String> {
+    let members = match fmi {
+        Version::Two => Member::all(scene),
+        Version::Three => Member::arrays(scene),
+    };
+    let xml = terminals_and_icons(scene, &members);
     let mut entries = Entries::new();
     entries.insert(format!("{FOLDER}/terminalsAndIcons.xml"), xml.into());
     entries.insert(format!("{FOLDER}/icon.png"), icon.to_owned());

@@ -4,13 +4,14 @@ use std::ffi::{CStr, c_int};
 use std::ptr;
 
 use super::instance::{array, call, hand_out, take_back};
-use super::legality::{Function, Phase};
-use super::log::Log;
+use super::legality::{Fmi2, Phase};
+use super::log::{Log, to_logger};
 use super::panics;
 use super::types::{
     Answer, Boolean, CO_SIMULATION, Callbacks, Handle, Real, Refusal, Status, Text,
 };
 use super::unit::{Experiment, Unit, read};
+use super::uri;
 
 /// The text behind a C string.
 ///
@@ -67,16 +68,17 @@ pub unsafe extern "C" fn fmi2Instantiate(
         let name = if instance_name.is_null() { c"" } else { CStr::from_ptr(instance_name) };
         (name, &*functions)
     };
-    let log = Log::new(name, callbacks, logging_on != 0);
+    let log = Log::new(to_logger(name, callbacks), logging_on != 0);
     let load = || {
         check_name_and_type(name, fmu_type)?;
         // SAFETY: by contract.
         let (guid, resources) =
             unsafe { (text(guid, "fmuGUID")?, text(resource_location, "fmuResourceLocation")?) };
-        read(resources, guid).map_err(Refusal::error)
+        let folder = uri::to_path(resources).map_err(Refusal::error)?;
+        read(&folder, guid).map_err(Refusal::error)
     };
     match panics::caught(load).unwrap_or_else(|panic| Err(Refusal::error(panic))) {
-        Ok(packed) => hand_out(Unit::new(packed, log)),
+        Ok(packed) => hand_out::<Fmi2>(Unit::new(packed, log)),
         Err(refusal) => {
             log.send(refusal.status, &format!("fmi2Instantiate: {}", refusal.message));
             ptr::null_mut()
@@ -100,7 +102,7 @@ fn check_name_and_type(name: &CStr, fmu_type: c_int) -> Answer<()> {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(component: Handle) {
     // SAFETY: by contract.
-    unsafe { take_back(component) }
+    unsafe { take_back(component, Fmi2::FreeInstance) }
 }
 
 /// # Safety
@@ -114,7 +116,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::SetDebugLogging, |unit| {
+        call(component, Fmi2::SetDebugLogging, |unit| {
             let names = texts(categories, count, "categories")?;
             unit.log.configure(logging_on != 0, &names).map_err(Refusal::error)?;
             Ok(Status::Ok)
@@ -135,7 +137,7 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::SetupExperiment, |unit| {
+        call(component, Fmi2::SetupExperiment, |unit| {
             let tolerance = (tolerance_defined != 0).then_some(tolerance);
             let stop = (stop_defined != 0).then_some(stop);
             unit.set_experiment(tolerance, Experiment { start, stop })
@@ -149,7 +151,7 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
 pub unsafe extern "C" fn fmi2EnterInitializationMode(component: Handle) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::EnterInitializationMode, |unit| {
+        call(component, Fmi2::EnterInitializationMode, |unit| {
             unit.phase = Phase::InitializationMode;
             Ok(Status::Ok)
         })
@@ -161,7 +163,7 @@ pub unsafe extern "C" fn fmi2EnterInitializationMode(component: Handle) -> Statu
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2ExitInitializationMode(component: Handle) -> Status {
     // SAFETY: by contract.
-    unsafe { call(component, Function::ExitInitializationMode, Unit::finish_initialization) }
+    unsafe { call(component, Fmi2::ExitInitializationMode, Unit::finish_initialization) }
 }
 
 /// # Safety
@@ -169,7 +171,7 @@ pub unsafe extern "C" fn fmi2ExitInitializationMode(component: Handle) -> Status
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Terminate(component: Handle) -> Status {
     // SAFETY: by contract.
-    unsafe { call(component, Function::Terminate, Unit::terminate) }
+    unsafe { call(component, Fmi2::Terminate, Unit::terminate) }
 }
 
 /// # Safety
@@ -177,5 +179,5 @@ pub unsafe extern "C" fn fmi2Terminate(component: Handle) -> Status {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Reset(component: Handle) -> Status {
     // SAFETY: by contract.
-    unsafe { call(component, Function::Reset, Unit::reset) }
+    unsafe { call(component, Fmi2::Reset, Unit::reset) }
 }

@@ -1,7 +1,7 @@
 //! FMI functions that differentiate: sections 2.1.9 and 4.2.1 of the standard.
 
 use super::instance::{array, call, write};
-use super::legality::Function;
+use super::legality::Fmi2;
 use super::types::{Handle, Integer, Real, Reference, Status};
 
 /// With respect to inputs exact, with the unknowns of the bodies held: what outputs follow at once.
@@ -21,7 +21,7 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::GetDirectionalDerivative, |unit| {
+        call(component, Fmi2::GetDirectionalDerivative, |unit| {
             let unknowns = array(unknowns, unknown_count, "vUnknown_ref")?;
             let knowns = array(knowns, known_count, "vKnown_ref")?;
             let changes = array(known_changes, known_count, "dvKnown")?;
@@ -45,7 +45,7 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::SetRealInputDerivatives, |unit| {
+        call(component, Fmi2::SetRealInputDerivatives, |unit| {
             let references = array(references, count, "vr")?;
             let orders = array(orders, count, "order")?;
             unit.set_input_derivatives(references, orders, array(values, count, "value")?)
@@ -68,7 +68,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::GetRealOutputDerivatives, |unit| {
+        call(component, Fmi2::GetRealOutputDerivatives, |unit| {
             let references = array(references, count, "vr")?;
             let found = unit.output_derivatives(references, array(orders, count, "order")?)?;
             write(values, &found, "value")

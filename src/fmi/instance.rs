@@ -10,52 +10,54 @@ use super::panics;
 use super::types::{Answer, Handle, Refusal, Status};
 use super::unit::Unit;
 
-/// Says that a pointer is one that fmi2Instantiate gave out and fmi2FreeInstance did not take back.
-const VALID: u64 = 0x696d_7069_6e67_6532;
-
-/// What a `fmi2Component` points to.
+/// What a `fmi2Component` or `fmi3Instance` points to.
 struct Instance {
+    /// Tells the version of the standard, and that the instance has not been taken back.
     marker: u64,
     /// Locked during a call. A call that comes meanwhile, from another thread or from within the
     /// logger, is refused instead of waiting: FMI allows one call at a time.
     unit: Mutex<Unit>,
 }
 
-/// Hands a unit over to the master.
-pub fn hand_out(unit: Unit) -> Handle {
-    Box::into_raw(Box::new(Instance { marker: VALID, unit: Mutex::new(unit) })).cast()
+/// Hands a unit over to the master, for calls of the functions `F`.
+pub fn hand_out<F: Function>(unit: Unit) -> Handle {
+    Box::into_raw(Box::new(Instance { marker: F::MARKER, unit: Mutex::new(unit) })).cast()
 }
 
-/// The instance behind a pointer, if it is one.
+/// The instance behind a pointer, if it is one of this version.
 ///
 /// # Safety
 /// A pointer that is not null and is aligned must be readable.
-unsafe fn instance<'a>(handle: Handle) -> Option<&'a Instance> {
+unsafe fn instance<'a, F: Function>(handle: Handle) -> Option<&'a Instance> {
     let pointer: *const Instance = handle.cast_const().cast();
     if pointer.is_null() || !pointer.is_aligned() {
         return None;
     }
     // SAFETY: readable by contract; only the marker is looked at before it is known to be valid.
-    unsafe { (ptr::read_volatile(&raw const (*pointer).marker) == VALID).then(|| &*pointer) }
+    unsafe { (ptr::read_volatile(&raw const (*pointer).marker) == F::MARKER).then(|| &*pointer) }
 }
 
 /// Runs `body` on the unit behind `handle` if `function` is allowed now. Refusals and panics become
 /// one message in the log and the status to answer.
 ///
 /// # Safety
-/// `handle` must be null or come from fmi2Instantiate.
-pub unsafe fn call(
+/// `handle` must be null or come from [`hand_out`].
+pub unsafe fn call<F: Function>(
     handle: Handle,
-    function: Function,
+    function: F,
     body: impl FnOnce(&mut Unit) -> Answer,
 ) -> Status {
     // SAFETY: by contract.
-    let Some(instance) = (unsafe { instance(handle) }) else { return Status::Error };
+    let Some(instance) = (unsafe { instance::<F>(handle) }) else { return Status::Error };
     let Ok(mut unit) = instance.unit.try_lock() else { return Status::Error };
     run(&mut unit, function, body)
 }
 
-fn run(unit: &mut Unit, function: Function, body: impl FnOnce(&mut Unit) -> Answer) -> Status {
+fn run<F: Function>(
+    unit: &mut Unit,
+    function: F,
+    body: impl FnOnce(&mut Unit) -> Answer,
+) -> Status {
     let work = || unit.check_phase(function).and_then(|()| body(unit));
     let answer = panics::caught(work).unwrap_or_else(|panic| Err(after_panic(unit, &panic)));
     answer.unwrap_or_else(|Refusal { status, message }| {
@@ -74,13 +76,13 @@ fn after_panic(unit: &mut Unit, panic: &str) -> Refusal {
     Refusal { status, message: format!("internal error, please report it: {panic}") }
 }
 
-/// Takes an instance back and frees it, if that is allowed.
+/// Takes an instance back and frees it, if `function` is allowed to do so now.
 ///
 /// # Safety
 /// As for [`call`]; the pointer is invalid afterwards.
-pub unsafe fn take_back(handle: Handle) {
+pub unsafe fn take_back(handle: Handle, function: impl Function) {
     // SAFETY: by contract.
-    let status = unsafe { call(handle, Function::FreeInstance, |_| Ok(Status::Ok)) };
+    let status = unsafe { call(handle, function, |_| Ok(Status::Ok)) };
     if status != Status::Ok {
         return;
     }
@@ -130,26 +132,27 @@ pub fn null(name: &str) -> Refusal {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fmi::legality::Fmi2;
 
     #[test]
     fn a_panic_leaves_a_unit_that_can_be_reset() {
         let mut unit = Unit::for_tests();
-        let status = run(&mut unit, Function::SetupExperiment, |_| panic!("a bug"));
+        let status = run(&mut unit, Fmi2::SetupExperiment, |_| panic!("a bug"));
         assert_eq!((status, unit.phase), (Status::Error, Phase::Error));
         assert_eq!(
-            run(&mut unit, Function::EnterInitializationMode, |_| Ok(Status::Ok)),
+            run(&mut unit, Fmi2::EnterInitializationMode, |_| Ok(Status::Ok)),
             Status::Error
         );
-        assert_eq!(run(&mut unit, Function::Reset, Unit::reset), Status::Ok);
+        assert_eq!(run(&mut unit, Fmi2::Reset, Unit::reset), Status::Ok);
         assert_eq!(unit.phase, Phase::Instantiated);
     }
 
     #[test]
     fn a_second_panic_is_final() {
         let mut unit = Unit::for_tests();
-        run(&mut unit, Function::Reset, |_| panic!("a bug"));
-        let status = run(&mut unit, Function::Reset, |_| panic!("another bug"));
+        run(&mut unit, Fmi2::Reset, |_| panic!("a bug"));
+        let status = run(&mut unit, Fmi2::Reset, |_| panic!("another bug"));
         assert_eq!((status, unit.phase), (Status::Fatal, Phase::Fatal));
-        assert_eq!(run(&mut unit, Function::Reset, Unit::reset), Status::Error);
+        assert_eq!(run(&mut unit, Fmi2::Reset, Unit::reset), Status::Error);
     }
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::ffi::{CStr, CString};
 
-use super::types::{Callbacks, Environment, Logger, Status};
+use super::types::{Callbacks, Status};
 
 /// Longest message in bytes; masters have been seen to format into fixed buffers of 1024.
 const LONGEST: usize = 1000;
@@ -70,25 +70,20 @@ impl Category {
     }
 }
 
+/// Passes a message on to the master: status, category, text.
+pub type Sink = Box<dyn Fn(Status, &CStr, &str)>;
+
 /// Where messages go, and which of them.
 pub struct Log {
-    instance: CString,
-    logger: Logger,
-    environment: Environment,
+    sink: Sink,
     on: bool,
     wanted: BTreeSet<Category>,
 }
 
 impl Log {
     /// All categories are wanted until a master chooses.
-    pub fn new(instance: &CStr, callbacks: &Callbacks, on: bool) -> Self {
-        Self {
-            instance: instance.to_owned(),
-            logger: callbacks.logger,
-            environment: callbacks.component_environment,
-            on,
-            wanted: BTreeSet::from([Category::All]),
-        }
+    pub fn new(sink: Sink, on: bool) -> Self {
+        Self { sink, on, wanted: BTreeSet::from([Category::All]) }
     }
 
     /// Switches logging; no names stand for all categories. An unknown name changes nothing.
@@ -116,13 +111,24 @@ impl Log {
         } else {
             status >= Status::Error
         };
-        let (true, Some(logger)) = (wanted, self.logger) else { return };
+        if wanted {
+            (self.sink)(status, category.c_name(), message);
+        }
+    }
+}
+
+/// The logger of FMI 2.0, told the name of the instance.
+pub fn to_logger(instance: &CStr, callbacks: &Callbacks) -> Sink {
+    let Callbacks { logger, component_environment: environment, .. } = *callbacks;
+    let instance = instance.to_owned();
+    Box::new(move |status, category, message| {
+        let Some(logger) = logger else { return };
+        let (instance, category) = (instance.as_ptr(), category.as_ptr());
         let format = as_format(message);
-        let (instance, category) = (self.instance.as_ptr(), category.c_name().as_ptr());
         // SAFETY: the callback came with fmi2Instantiate and has this signature; the strings live
         // through the call and the format takes no further arguments.
-        unsafe { logger(self.environment, instance, status, category, format.as_ptr()) };
-    }
+        unsafe { logger(environment, instance, status, category, format.as_ptr()) };
+    })
 }
 
 /// The text as a `printf` format that prints it. Many masters print the format as it is and ignore

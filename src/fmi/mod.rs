@@ -1,4 +1,5 @@
-//! The FMI 2.0 C ABI, and what belongs to it: legality of calls, log, GUID and XML.
+//! The FMI 2.0 C ABI, and what belongs to it: legality of calls, log, GUID and XML; in [`three`] that of
+//! FMI 3.0.
 //!
 //! A call comes in through one of the exported functions (`common`, `variables`, `step`, `states`,
 //! `derivatives`, `model_exchange`), passes the gate in [`instance`] (valid pointer, legal in this phase, panics
@@ -6,6 +7,7 @@
 //! `fmi2Error` with one line in the log and changes nothing, the phase included, so a master may
 //! correct its arguments and call again.
 
+mod adjoint;
 mod common;
 mod derivatives;
 mod instance;
@@ -28,4 +30,5 @@ mod variables;
 
 pub mod guid;
 pub mod terminals;
+pub mod three;
 pub mod xml;

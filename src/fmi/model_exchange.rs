@@ -2,7 +2,7 @@
 //! functions exist so that tools which look up all names find them. All of them are refused.
 
 use super::instance::call;
-use super::legality::Function;
+use super::legality::Fmi2;
 use super::refused::Reason;
 use super::types::{Boolean, EventInfo, Handle, Real, Status};
 
@@ -10,7 +10,7 @@ use super::types::{Boolean, EventInfo, Handle, Real, Status};
 ///
 /// # Safety
 /// `component` is null or comes from fmi2Instantiate.
-unsafe fn refuse(component: Handle, function: Function) -> Status {
+unsafe fn refuse(component: Handle, function: Fmi2) -> Status {
     // SAFETY: by contract.
     unsafe { call(component, function, |_| Err(Reason::ModelExchange.into())) }
 }
@@ -20,7 +20,7 @@ unsafe fn refuse(component: Handle, function: Function) -> Status {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterEventMode(component: Handle) -> Status {
     // SAFETY: by contract.
-    unsafe { refuse(component, Function::EnterEventMode) }
+    unsafe { refuse(component, Fmi2::EnterEventMode) }
 }
 
 /// # Safety
@@ -31,7 +31,7 @@ pub unsafe extern "C" fn fmi2NewDiscreteStates(
     _event_info: *mut EventInfo,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { refuse(component, Function::NewDiscreteStates) }
+    unsafe { refuse(component, Fmi2::NewDiscreteStates) }
 }
 
 /// # Safety
@@ -39,7 +39,7 @@ pub unsafe extern "C" fn fmi2NewDiscreteStates(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(component: Handle) -> Status {
     // SAFETY: by contract.
-    unsafe { refuse(component, Function::EnterContinuousTimeMode) }
+    unsafe { refuse(component, Fmi2::EnterContinuousTimeMode) }
 }
 
 /// # Safety
@@ -52,7 +52,7 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     _terminate_simulation: *mut Boolean,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { refuse(component, Function::CompletedIntegratorStep) }
+    unsafe { refuse(component, Fmi2::CompletedIntegratorStep) }
 }
 
 /// # Safety
@@ -60,7 +60,7 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetTime(component: Handle, _time: Real) -> Status {
     // SAFETY: by contract.
-    unsafe { refuse(component, Function::SetTime) }
+    unsafe { refuse(component, Fmi2::SetTime) }
 }
 
 /// # Safety
@@ -72,7 +72,7 @@ pub unsafe extern "C" fn fmi2SetContinuousStates(
     _count: usize,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { refuse(component, Function::SetContinuousStates) }
+    unsafe { refuse(component, Fmi2::SetContinuousStates) }
 }
 
 /// # Safety
@@ -84,7 +84,7 @@ pub unsafe extern "C" fn fmi2GetDerivatives(
     _count: usize,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { refuse(component, Function::GetDerivatives) }
+    unsafe { refuse(component, Fmi2::GetDerivatives) }
 }
 
 /// # Safety
@@ -96,7 +96,7 @@ pub unsafe extern "C" fn fmi2GetEventIndicators(
     _count: usize,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { refuse(component, Function::GetEventIndicators) }
+    unsafe { refuse(component, Fmi2::GetEventIndicators) }
 }
 
 /// # Safety
@@ -108,7 +108,7 @@ pub unsafe extern "C" fn fmi2GetContinuousStates(
     _count: usize,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { refuse(component, Function::GetContinuousStates) }
+    unsafe { refuse(component, Fmi2::GetContinuousStates) }
 }
 
 /// # Safety
@@ -120,5 +120,5 @@ pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
     _count: usize,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { refuse(component, Function::GetNominalsOfContinuousStates) }
+    unsafe { refuse(component, Fmi2::GetNominalsOfContinuousStates) }
 }

@@ -8,11 +8,18 @@ use super::unit::{Unit, explain};
 use super::values::{Kind, find};
 use crate::model::{HIGHEST_INPUT_DERIVATIVE, start_rates};
 use crate::scene::Scene;
-use crate::variables::{Output, Registry, Slot, Variable};
+use crate::variables::{Output, Parameter, Registry, Slot, Variable};
 
 /// Highest order of output derivatives, as the XML declares it: the steps of particles have none.
 pub fn highest_output_derivative(scene: &Scene) -> usize {
     if scene.droplets().next().is_some() { 0 } else { 1 }
+}
+
+/// What outputs may be differentiated by.
+pub(super) enum Known<'a> {
+    /// Place among the state's inputs.
+    Input(usize),
+    Parameter(&'a Parameter),
 }
 
 impl Unit {
@@ -27,14 +34,11 @@ impl Unit {
         let outputs = outputs(&registry, unknowns)?;
         let mut direction = vec![0.0; self.state.inputs.len()];
         let mut parameters = Vec::new();
-        for (variable, &change) in find(&registry, knowns, Kind::Real)?.into_iter().zip(changes) {
-            check_finite(&variable.name, change)?;
-            match &variable.slot {
-                Slot::Input(index) => direction[*index] += change,
-                Slot::Parameter(parameter) if self.phase == Phase::InitializationMode => {
-                    parameters.push((parameter, change));
-                }
-                _ => return Err(Refusal::error(format!("{} is no input", variable.name))),
+        for ((known, name), &change) in self.knowns(&registry, knowns)?.into_iter().zip(changes) {
+            check_finite(name, change)?;
+            match known {
+                Known::Input(index) => direction[index] += change,
+                Known::Parameter(parameter) => parameters.push((parameter, change)),
             }
         }
         let mut sum = self.input_rates(&outputs, &direction)?;
@@ -44,6 +48,25 @@ impl Unit {
             sum.iter_mut().zip(rates).for_each(|(s, rate)| *s += change * rate);
         }
         Ok(sum)
+    }
+
+    /// The variables that outputs may be differentiated by now, with their names.
+    pub(super) fn knowns<'a>(
+        &self,
+        registry: &'a Registry,
+        references: &[Reference],
+    ) -> Answer<Vec<(Known<'a>, &'a str)>> {
+        let known = |variable: &'a Variable| {
+            let name = variable.name.as_str();
+            match &variable.slot {
+                Slot::Input(index) => Ok((Known::Input(*index), name)),
+                Slot::Parameter(parameter) if self.phase == Phase::InitializationMode => {
+                    Ok((Known::Parameter(parameter), name))
+                }
+                _ => Err(Refusal::error(format!("{name} is no input"))),
+            }
+        };
+        find(registry, references, Kind::Real)?.into_iter().map(known).collect()
     }
 
     fn input_rates(&mut self, outputs: &[&Output], direction: &[f64]) -> Answer<Vec<f64>> {
@@ -109,7 +132,10 @@ impl Unit {
     }
 }
 
-fn outputs<'a>(registry: &'a Registry, references: &[Reference]) -> Answer<Vec<&'a Output>> {
+pub(super) fn outputs<'a>(
+    registry: &'a Registry,
+    references: &[Reference],
+) -> Answer<Vec<&'a Output>> {
     let output = |variable: &'a Variable| match &variable.slot {
         Slot::Output(output) => Ok(output),
         _ => Err(Refusal::error(format!("{} is no output", variable.name))),
@@ -143,7 +169,7 @@ fn check_order(variable: &Variable, order: Integer, highest: usize) -> Answer<()
     }
 }
 
-fn check_finite(name: &str, value: f64) -> Answer<()> {
+pub(super) fn check_finite(name: &str, value: f64) -> Answer<()> {
     match value.is_finite() {
         true => Ok(()),
         false => Err(Refusal::error(format!("{name} = {value}: must be finite"))),

@@ -7,6 +7,10 @@ use super::types::Refusal;
 pub enum Reason {
     ModelExchange,
     NothingPending,
+    ScheduledExecution,
+    NoEvents,
+    NoClocks,
+    NoStructuralParameters,
 }
 
 impl From<Reason> for Refusal {
@@ -14,6 +18,12 @@ impl From<Reason> for Refusal {
         Refusal::error(match reason {
             Reason::ModelExchange => "belongs to model exchange; this unit is for co-simulation",
             Reason::NothingPending => "no step is pending",
+            Reason::ScheduledExecution => {
+                "belongs to scheduled execution; this unit is for co-simulation"
+            }
+            Reason::NoEvents => "this unit has no Event Mode",
+            Reason::NoClocks => "this unit has no clocks",
+            Reason::NoStructuralParameters => "this unit has no structural parameters",
         })
     }
 }

@@ -1,20 +1,89 @@
-//! FMI functions that save and restore states, section 2.1.8 of the standard.
+//! FMI functions that save and restore states, section 2.1.8 of the standard; and what they do, which is
+//! the same in every version.
 
 use super::instance::{array, call, null, write};
-use super::legality::Function;
-use super::types::{Byte, Handle, Refusal, SavedState, Status};
+use super::legality::Fmi2;
+use super::types::{Answer, Byte, Handle, Refusal, SavedState, Status};
+use super::unit::Unit;
+
+/// Saves the unit's state in the place that `state` points to, a new one if that is null.
+///
+/// # Safety
+/// Pointers are null or as the standard asks, here and in the functions below.
+pub unsafe fn save(unit: &mut Unit, state: *mut SavedState) -> Answer {
+    // SAFETY: by contract.
+    unsafe {
+        let place = array(state, 1, "FMUstate")?[0];
+        write(state, &[unit.save(place)?], "FMUstate")
+    }
+}
+
+/// Leaves a null pointer in `state`; one that is null already is ignored.
+///
+/// # Safety
+/// As for [`save`].
+pub unsafe fn free(unit: &mut Unit, state: *mut SavedState) -> Answer {
+    // SAFETY: by contract.
+    unsafe {
+        if state.is_null() || (*state).is_null() {
+            return Ok(Status::Ok);
+        }
+        unit.saved.remove(*state)?;
+        write(state, &[std::ptr::null_mut()], "FMUstate")
+    }
+}
+
+/// Tells how many bytes a saved state takes.
+///
+/// # Safety
+/// As for [`save`].
+pub unsafe fn serialized_size(unit: &Unit, state: SavedState, size: *mut usize) -> Answer {
+    let bytes = unit.serialize(unit.saved.get(state)?);
+    // SAFETY: by contract.
+    unsafe { write(size, &[bytes.len()], "size") }
+}
+
+/// Writes the bytes of a saved state into room for `size` of them.
+///
+/// # Safety
+/// As for [`save`].
+pub unsafe fn serialize(unit: &Unit, state: SavedState, bytes: *mut u8, size: usize) -> Answer {
+    let found = unit.serialize(unit.saved.get(state)?);
+    if size < found.len() {
+        let wanted = found.len();
+        let message = format!("room for {size} bytes; the saved state takes {wanted}");
+        return Err(Refusal::error(message));
+    }
+    // SAFETY: by contract.
+    unsafe { write(bytes, &found, "serializedState") }
+}
+
+/// Makes a saved state of bytes, in a new place.
+///
+/// # Safety
+/// As for [`save`].
+pub unsafe fn deserialize(
+    unit: &mut Unit,
+    bytes: *const u8,
+    size: usize,
+    state: *mut SavedState,
+) -> Answer {
+    // SAFETY: by contract.
+    unsafe {
+        let snapshot = unit.deserialize(array(bytes, size, "serializedState")?)?;
+        if state.is_null() {
+            return Err(null("FMUstate"));
+        }
+        write(state, &[unit.saved.insert(snapshot)], "FMUstate")
+    }
+}
 
 /// # Safety
 /// Pointers are null or as the standard asks.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetFMUstate(component: Handle, state: *mut SavedState) -> Status {
     // SAFETY: by contract.
-    unsafe {
-        call(component, Function::GetFMUstate, |unit| {
-            let place = array(state, 1, "FMUstate")?[0];
-            write(state, &[unit.save(place)?], "FMUstate")
-        })
-    }
+    unsafe { call(component, Fmi2::GetFMUstate, |unit| save(unit, state)) }
 }
 
 /// # Safety
@@ -22,25 +91,15 @@ pub unsafe extern "C" fn fmi2GetFMUstate(component: Handle, state: *mut SavedSta
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(component: Handle, state: SavedState) -> Status {
     // SAFETY: by contract.
-    unsafe { call(component, Function::SetFMUstate, |unit| unit.restore(state)) }
+    unsafe { call(component, Fmi2::SetFMUstate, |unit| unit.restore(state)) }
 }
 
-/// Leaves a null pointer in `state`; one that is null already is ignored.
-///
 /// # Safety
 /// Pointers are null or as the standard asks.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeFMUstate(component: Handle, state: *mut SavedState) -> Status {
     // SAFETY: by contract.
-    unsafe {
-        call(component, Function::FreeFMUstate, |unit| {
-            if state.is_null() || (*state).is_null() {
-                return Ok(Status::Ok);
-            }
-            unit.saved.remove(*state)?;
-            write(state, &[std::ptr::null_mut()], "FMUstate")
-        })
-    }
+    unsafe { call(component, Fmi2::FreeFMUstate, |unit| free(unit, state)) }
 }
 
 /// # Safety
@@ -53,10 +112,7 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::SerializedFMUstateSize, |unit| {
-            let bytes = unit.serialize(unit.saved.get(state)?);
-            write(size, &[bytes.len()], "size")
-        })
+        call(component, Fmi2::SerializedFMUstateSize, |unit| serialized_size(unit, state, size))
     }
 }
 
@@ -71,15 +127,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::SerializeFMUstate, |unit| {
-            let found = unit.serialize(unit.saved.get(state)?);
-            if size < found.len() {
-                let wanted = found.len();
-                let message = format!("room for {size} bytes; the saved state takes {wanted}");
-                return Err(Refusal::error(message));
-            }
-            write(bytes.cast(), &found, "serializedState")
-        })
+        call(component, Fmi2::SerializeFMUstate, |unit| serialize(unit, state, bytes.cast(), size))
     }
 }
 
@@ -94,12 +142,8 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::DeSerializeFMUstate, |unit| {
-            let snapshot = unit.deserialize(array(bytes.cast(), size, "serializedState")?)?;
-            if state.is_null() {
-                return Err(null("FMUstate"));
-            }
-            write(state, &[unit.saved.insert(snapshot)], "FMUstate")
+        call(component, Fmi2::DeSerializeFMUstate, |unit| {
+            deserialize(unit, bytes.cast(), size, state)
         })
     }
 }

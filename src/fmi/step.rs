@@ -5,7 +5,7 @@
 use std::ffi::c_int;
 
 use super::instance::{call, write};
-use super::legality::Function;
+use super::legality::Fmi2;
 use super::refused::Reason;
 use super::types::{
     Answer, Boolean, Handle, Integer, LAST_SUCCESSFUL_TIME, Real, Refusal, Status, TERMINATED, Text,
@@ -26,7 +26,7 @@ pub unsafe extern "C" fn fmi2DoStep(
     _no_set_state_prior_to_current_point: Boolean,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { call(component, Function::DoStep, |unit| unit.step(point, step)) }
+    unsafe { call(component, Fmi2::DoStep, |unit| unit.step(point, step)) }
 }
 
 /// # Safety
@@ -39,7 +39,7 @@ pub unsafe extern "C" fn fmi2GetRealStatus(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::GetRealStatus, |unit| match kind {
+        call(component, Fmi2::GetRealStatus, |unit| match kind {
             LAST_SUCCESSFUL_TIME => write(value, &[unit.time()], "value"),
             _ => no_status(kind),
         })
@@ -55,7 +55,7 @@ pub unsafe extern "C" fn fmi2GetStatus(
     _value: *mut Status,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { call(component, Function::GetStatus, |_| no_status(kind)) }
+    unsafe { call(component, Fmi2::GetStatus, |_| no_status(kind)) }
 }
 
 /// # Safety
@@ -67,7 +67,7 @@ pub unsafe extern "C" fn fmi2GetIntegerStatus(
     _value: *mut Integer,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { call(component, Function::GetIntegerStatus, |_| no_status(kind)) }
+    unsafe { call(component, Fmi2::GetIntegerStatus, |_| no_status(kind)) }
 }
 
 /// # Safety
@@ -80,7 +80,7 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::GetBooleanStatus, |_| match kind {
+        call(component, Fmi2::GetBooleanStatus, |_| match kind {
             // A unit never wants to end the simulation.
             TERMINATED => write(value, &[0], "value"),
             _ => no_status(kind),
@@ -97,7 +97,7 @@ pub unsafe extern "C" fn fmi2GetStringStatus(
     _value: *mut Text,
 ) -> Status {
     // SAFETY: by contract.
-    unsafe { call(component, Function::GetStringStatus, |_| no_status(kind)) }
+    unsafe { call(component, Fmi2::GetStringStatus, |_| no_status(kind)) }
 }
 
 fn no_status(kind: c_int) -> Answer {
@@ -115,5 +115,5 @@ fn no_status(kind: c_int) -> Answer {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(component: Handle) -> Status {
     // SAFETY: by contract.
-    unsafe { call(component, Function::CancelStep, |_| Err(Reason::NothingPending.into())) }
+    unsafe { call(component, Fmi2::CancelStep, |_| Err(Reason::NothingPending.into())) }
 }

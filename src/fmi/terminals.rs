@@ -11,7 +11,7 @@ use quick_xml::events::{BytesDecl, Event};
 
 use super::xml::{Attributes, Xml, leaf, parent};
 use crate::scene::Scene;
-use crate::variables::{Causality, Registry};
+use crate::variables::{ArrayRegistry, ArrayVariable, Causality, Registry};
 
 /// Folder of the file and of the icons.
 pub const FOLDER: &str = "terminalsAndIcons";
@@ -52,6 +52,17 @@ impl Member {
             name: name.to_owned(),
             causality,
         })
+    }
+
+    /// All members of a unit of FMI 3.0, whose variables are arrays where they can be.
+    pub fn arrays(scene: &Scene) -> Vec<Self> {
+        let registry = Registry::of(scene);
+        let (arrays, structured) = (ArrayRegistry::of(scene), ArrayRegistry::structured(scene));
+        let pairs = arrays.variables.iter().zip(&structured.variables);
+        let member = |(own, named): (&ArrayVariable, &ArrayVariable)| {
+            Self::of(&own.name, &named.name, own.causality(&registry)?)
+        };
+        pairs.filter_map(member).collect()
     }
 
     /// All members of a unit whose variables are scalars.
@@ -211,7 +222,7 @@ fn description(scene: &Scene, name: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene;
+    use crate::scene::{self, Naming};
 
     const SCENE: &str = include_str!("../../tests/fmi/scene.toml");
 
@@ -227,6 +238,24 @@ mod tests {
         }
         let names: Vec<&str> = group(&members).iter().map(|terminal| terminal.name).collect();
         assert_eq!(names, ["spot", "patch", "plate", "centre", "surface"]);
+    }
+
+    #[test]
+    fn arrays_are_members_as_a_whole() {
+        let mut scene = scene::parse(SCENE, "scene.toml").unwrap();
+        for (naming, variable) in
+            [(Naming::Structured, "patch.heat_flux"), (Naming::Flat, "patch_heat_flux")]
+        {
+            scene.naming = naming;
+            let members = Member::arrays(&scene);
+            let flux = Member::of(variable, "patch.heat_flux", Causality::Input).unwrap();
+            assert_eq!(members.iter().filter(|member| **member == flux).count(), 1);
+            assert!(members.iter().all(|member| !member.name.contains('[')));
+            let [arrays, all] = [&members, &Member::all(&scene)].map(|members| {
+                group(members).iter().map(|terminal| terminal.name.to_owned()).collect::<Vec<_>>()
+            });
+            assert_eq!(arrays, all);
+        }
     }
 
     #[test]

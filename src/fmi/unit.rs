@@ -1,20 +1,20 @@
 //! What an instance is and does, in safe Rust: its life from instantiation to the last step.
 
+use std::cell::OnceCell;
 use std::ffi::CString;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::guid;
 use super::legality::{Function, Phase};
 use super::log::Log;
 use super::pin;
-use super::refused::Reason;
 use super::saved::SavedStates;
 use super::types::{Answer, Refusal, Status};
-use super::{guid, uri};
 use crate::model::{Cache, Model, ModelError, State, Tangent, initial_inputs};
 use crate::output::{FieldSeries, OutputError};
 use crate::scene::{self, Scene};
-use crate::variables::{Registry, Slot, Variable};
+use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
 
 /// A time is taken for another one if they differ by less than this part of the step …
 const STEP_TOLERANCE: f64 = 1e-9;
@@ -25,11 +25,13 @@ const TIME_TOLERANCE: f64 = 1e-13;
 pub struct Unit {
     pub log: Log,
     pub phase: Phase,
-    /// What the last fmi2GetString gave pointers to.
+    /// What the last fmi2GetString or fmi3GetString gave pointers to.
     pub texts: Vec<CString>,
     /// The states that the master has saved and not freed.
     pub(super) saved: SavedStates,
     pub(super) registry: Arc<Registry>,
+    /// The variables as FMI 3.0 counts them, listed when first asked for.
+    pub(super) arrays: OnceCell<Arc<ArrayRegistry>>,
     pub(super) guid: String,
     /// The scene as packed.
     pub(super) packed: Scene,
@@ -91,9 +93,10 @@ fn start_state(packed: &Scene) -> State {
     State { time: 0.0, inputs, derivatives: Vec::new(), bodies: Vec::new() }
 }
 
-/// Reads the scene of a unit and compares the GUID. Nothing heavy: parameters may still change.
-pub fn read(resources: &str, guid: &str) -> Result<Packed, String> {
-    let path = uri::to_path(resources)?.join("scene.toml");
+/// Reads the scene in a unit's folder of resources and compares the GUID, in FMI 3.0 the
+/// instantiation token. Nothing heavy: parameters may still change.
+pub fn read(resources: &Path, guid: &str) -> Result<Packed, String> {
+    let path = resources.join("scene.toml");
     let file = path.display().to_string();
     let text = std::fs::read_to_string(&path)
         .map_err(|error| format!("cannot read the unit's scene {file}: {error}"))?;
@@ -119,6 +122,7 @@ impl Unit {
             texts: Vec::new(),
             saved: SavedStates::default(),
             registry: Arc::new(registry),
+            arrays: OnceCell::new(),
             guid,
             state: start_state(&scene),
             has_set_derivatives: false,
@@ -132,15 +136,16 @@ impl Unit {
     }
 
     /// Refuses a function that the standard does not allow now.
-    pub fn check_phase(&self, function: Function) -> Answer<()> {
+    pub fn check_phase<F: Function>(&self, function: F) -> Answer<()> {
         if function.allowed_in(self.phase) {
             return Ok(());
         }
         let allowed = function.allowed_phases().join(", ");
         if allowed.is_empty() {
-            return Err(Reason::ModelExchange.into());
+            return Err(function.never().into());
         }
-        let message = format!("not allowed in state {}, only in {allowed}", self.phase.name());
+        let phase = F::phase_name(self.phase);
+        let message = format!("not allowed in state {phase}, only in {allowed}");
         Err(Refusal::error(message))
     }
 
@@ -362,15 +367,8 @@ pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
 impl Unit {
     /// A unit of the scene that the tests of the C ABI use, without logger.
     pub fn for_tests() -> Self {
-        let callbacks = super::types::Callbacks {
-            logger: None,
-            allocate_memory: None,
-            free_memory: None,
-            step_finished: None,
-            component_environment: std::ptr::null_mut(),
-        };
         let text = include_str!("../../tests/fmi/scene.toml");
         let scene = scene::parse(text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
-        Self::new(Packed::of(scene, text), Log::new(c"unit", &callbacks, true))
+        Self::new(Packed::of(scene, text), Log::new(Box::new(|_, _, _| {}), true))
     }
 }

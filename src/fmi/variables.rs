@@ -2,7 +2,7 @@
 
 use super::common::texts;
 use super::instance::{array, call, write};
-use super::legality::Function;
+use super::legality::Fmi2;
 use super::types::{Boolean, Handle, Integer, Real, Reference, Status, Text};
 
 /// # Safety
@@ -16,7 +16,7 @@ pub unsafe extern "C" fn fmi2GetReal(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::GetReal, |unit| {
+        call(component, Fmi2::GetReal, |unit| {
             let found = unit.reals(array(references, count, "vr")?)?;
             write(values, &found, "value")
         })
@@ -34,7 +34,7 @@ pub unsafe extern "C" fn fmi2GetInteger(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::GetInteger, |unit| {
+        call(component, Fmi2::GetInteger, |unit| {
             let found = unit.integers(array(references, count, "vr")?)?;
             write(values, &found, "value")
         })
@@ -52,7 +52,7 @@ pub unsafe extern "C" fn fmi2GetBoolean(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::GetBoolean, |unit| {
+        call(component, Fmi2::GetBoolean, |unit| {
             unit.check_booleans(array(references, count, "vr")?)
         })
     }
@@ -71,7 +71,7 @@ pub unsafe extern "C" fn fmi2GetString(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::GetString, |unit| {
+        call(component, Fmi2::GetString, |unit| {
             let found = unit.texts(array(references, count, "vr")?)?;
             let pointers: Vec<Text> = found.iter().map(|text| text.as_ptr()).collect();
             write(values, &pointers, "value")
@@ -90,7 +90,7 @@ pub unsafe extern "C" fn fmi2SetReal(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::SetReal, |unit| {
+        call(component, Fmi2::SetReal, |unit| {
             unit.set_reals(array(references, count, "vr")?, array(values, count, "value")?)
         })
     }
@@ -107,7 +107,7 @@ pub unsafe extern "C" fn fmi2SetInteger(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::SetInteger, |unit| {
+        call(component, Fmi2::SetInteger, |unit| {
             unit.set_integers(array(references, count, "vr")?, array(values, count, "value")?)
         })
     }
@@ -124,7 +124,7 @@ pub unsafe extern "C" fn fmi2SetBoolean(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::SetBoolean, |unit| {
+        call(component, Fmi2::SetBoolean, |unit| {
             unit.check_booleans(array(references, count, "vr")?)
         })
     }
@@ -141,7 +141,7 @@ pub unsafe extern "C" fn fmi2SetString(
 ) -> Status {
     // SAFETY: by contract.
     unsafe {
-        call(component, Function::SetString, |unit| {
+        call(component, Fmi2::SetString, |unit| {
             unit.set_texts(array(references, count, "vr")?, texts(values, count, "value")?)
         })
     }

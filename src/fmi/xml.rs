@@ -77,7 +77,7 @@ fn co_simulation(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
 }
 
 /// One definition a unit; quantities of one unit may be shown in different ways.
-fn units(xml: &mut Xml, used: &BTreeSet<Quantity>) -> io::Result<()> {
+pub(super) fn units(xml: &mut Xml, used: &BTreeSet<Quantity>) -> io::Result<()> {
     let mut written = BTreeSet::new();
     for quantity in used {
         let unit = quantity.unit();
@@ -125,7 +125,7 @@ fn types(xml: &mut Xml, used: &BTreeSet<Quantity>) -> io::Result<()> {
     Ok(())
 }
 
-fn log_categories(xml: &mut Xml) -> io::Result<()> {
+pub(super) fn log_categories(xml: &mut Xml) -> io::Result<()> {
     Category::ALL.into_iter().try_for_each(|category| {
         let attributes: Attributes =
             vec![("name", category.name().into()), ("description", category.description().into())];
@@ -133,7 +133,7 @@ fn log_categories(xml: &mut Xml) -> io::Result<()> {
     })
 }
 
-fn default_experiment(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
+pub(super) fn default_experiment(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
     let attributes: Attributes = vec![
         ("startTime", "0.0".into()),
         ("stopTime", number(scene.stop_time)),
@@ -220,11 +220,11 @@ fn index(reference: usize) -> String {
     (reference + 1).to_string()
 }
 
-fn number(value: f64) -> String {
+pub(super) fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
-fn whole_number(value: f64) -> String {
+pub(super) fn whole_number(value: f64) -> String {
     format!("{value:.0}")
 }
 

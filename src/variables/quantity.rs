@@ -1,6 +1,7 @@
 /// A physical quantity: what its values are measured in, and how people like to read them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quantity {
+    Time,
     Temperature,
     HeatFlux,
     Stress,
@@ -36,7 +37,8 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 20] = [
+    pub const ALL: [Quantity; 21] = [
+        Quantity::Time,
         Quantity::Temperature,
         Quantity::HeatFlux,
         Quantity::Stress,
@@ -62,6 +64,7 @@ impl Quantity {
     /// Name of the FMI type.
     pub fn type_name(self) -> &'static str {
         match self {
+            Quantity::Time => "Time",
             Quantity::Temperature => "Temperature",
             Quantity::HeatFlux => "HeatFlux",
             Quantity::Stress => "Stress",
@@ -88,6 +91,7 @@ impl Quantity {
     /// The SI unit that values travel in.
     pub fn unit(self) -> &'static str {
         match self {
+            Quantity::Time => "s",
             Quantity::Temperature => "K",
             Quantity::HeatFlux => "W/m2",
             Quantity::Stress | Quantity::Modulus => "Pa",
@@ -112,6 +116,7 @@ impl Quantity {
     /// Exponents of kg, m, s and K.
     pub fn base_exponents(self) -> [i32; 4] {
         match self {
+            Quantity::Time => [0, 0, 1, 0],
             Quantity::Temperature => [0, 0, 0, 1],
             Quantity::HeatFlux => [1, 0, -3, 0],
             Quantity::Stress | Quantity::Modulus => [1, -1, -2, 0],
@@ -136,6 +141,7 @@ impl Quantity {
     /// The unit that a tool shows, where it differs from the SI unit.
     pub fn display_unit(self) -> Option<DisplayUnit> {
         match self {
+            Quantity::Time => scaled("µs", 1e6),
             Quantity::Temperature => {
                 Some(DisplayUnit { name: "degC", factor: 1.0, offset: -273.15 })
             }
@@ -157,6 +163,7 @@ impl Quantity {
     /// Magnitude of ordinary values, for tools that scale tolerances.
     pub fn nominal(self) -> f64 {
         match self {
+            Quantity::Time => 1e-6,
             Quantity::Temperature => 300.0,
             Quantity::HeatFlux => 1e6,
             Quantity::Stress => 1e6,

@@ -296,7 +296,7 @@ fn list(scene: &Scene) -> Vec<Variable> {
 }
 
 /// `a.b[1,2]` as `a_b_1_2`.
-fn flat(name: &str) -> String {
+pub(super) fn flat(name: &str) -> String {
     name.trim_end_matches(']').replace(['.', '[', ','], "_")
 }
 

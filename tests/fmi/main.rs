@@ -15,3 +15,4 @@ mod refusals;
 mod states;
 mod stepping;
 mod threads;
+mod three;

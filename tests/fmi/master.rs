@@ -52,6 +52,10 @@ impl Messages {
     pub fn take(&self) -> Vec<Message> {
         std::mem::take(&mut *self.0.lock().unwrap())
     }
+
+    pub fn keep(&self, message: Message) {
+        self.0.lock().unwrap().push(message);
+    }
 }
 
 unsafe extern "C" {

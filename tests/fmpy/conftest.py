@@ -21,21 +21,21 @@ def programs():
 @pytest.fixture(scope="session")
 def pack(programs, tmp_path_factory):
     """Makes a unit of a scene, given by the name of a small one or by its path, after some edits
-    `{old: new}`; the same unit is made once."""
+    `{old: new}`, of version `fmi` of the standard; the same unit is made once."""
     done = {}
 
-    def pack(scene, edits=None):
+    def pack(scene, edits=None, fmi=2):
         path = SCENES / f"{scene}.toml" if isinstance(scene, str) else scene
         text = path.read_text()
         for old, new in (edits or {}).items():
             assert text.count(old) == 1, f"`{old}` stands {text.count(old)} times in {path}"
             text = text.replace(old, new)
-        if text not in done:
+        if (text, fmi) not in done:
             folder = tmp_path_factory.mktemp(re.sub(r"\W", "_", path.stem))
             (folder / "scene.toml").write_text(text)
-            build(programs, folder / "scene.toml", folder / "unit.fmu")
-            done[text] = folder / "unit.fmu"
-        return done[text]
+            build(programs, folder / "scene.toml", folder / "unit.fmu", "--fmi", str(fmi))
+            done[text, fmi] = folder / "unit.fmu"
+        return done[text, fmi]
 
     return pack
 

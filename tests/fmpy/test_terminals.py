@@ -17,12 +17,14 @@ SCHEMA = Path(fmpy.__file__).parent / "schema/fmi3/fmi3TerminalsAndIcons.xsd"
 FOLDER = "terminalsAndIcons"
 
 
+@pytest.mark.parametrize("fmi", [2, 3])
 @pytest.mark.parametrize("scene", ALL, ids=lambda p: p.parent.name + "_" + p.stem)
-def test_terminals_are_valid_and_hold_every_input_and_output_once(pack, scene):
-    file = pack(scene)
+def test_terminals_are_valid_and_hold_every_input_and_output_once(pack, scene, fmi):
+    file = pack(scene, fmi=fmi)
     with ZipFile(file) as archive:
         document = etree.fromstring(archive.read(f"{FOLDER}/terminalsAndIcons.xml"))
         icons = {Path(n).stem for n in archive.namelist() if n.startswith(FOLDER)}
+        Image.open(archive.open(f"{FOLDER}/icon.png")).verify()
         pictures = [archive.read(f"{FOLDER}/{icon}.png") for icon in used(document)]
     etree.XMLSchema(etree.parse(SCHEMA)).assertValid(document)
     assert used(document) <= icons

@@ -1,0 +1,59 @@
+//! FMI functions of co-simulation, section 4.2 of the standard.
+
+use super::legality::Fmi3;
+use super::types::{Boolean, FALSE, Float64, Handle};
+use crate::fmi::instance::{call, null, write};
+use crate::fmi::legality::Phase;
+use crate::fmi::types::Status;
+use crate::fmi::unit::Unit;
+
+/// Inputs are held over the step. It never ends early nor calls for events or the end.
+///
+/// A refused or discarded step leaves the unit as it was: the master may correct inputs or times and
+/// try again. No state is needed but the one that the master asks for, so
+/// `no_set_fmu_state_prior_to_current_point` changes nothing.
+///
+/// # Safety
+/// Pointers are null or as the standard asks.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi3DoStep(
+    instance: Handle,
+    current_communication_point: Float64,
+    communication_step_size: Float64,
+    _no_set_fmu_state_prior_to_current_point: Boolean,
+    event_handling_needed: *mut Boolean,
+    terminate_simulation: *mut Boolean,
+    early_return: *mut Boolean,
+    last_successful_time: *mut Float64,
+) -> Status {
+    let flags = [
+        (event_handling_needed, "eventHandlingNeeded"),
+        (terminate_simulation, "terminateSimulation"),
+        (early_return, "earlyReturn"),
+    ];
+    // SAFETY: by contract.
+    unsafe {
+        call(instance, Fmi3::DoStep, |unit| {
+            if let Some((_, name)) = flags.iter().find(|(flag, _)| flag.is_null()) {
+                return Err(null(name));
+            }
+            if last_successful_time.is_null() {
+                return Err(null("lastSuccessfulTime"));
+            }
+            let answer = unit.step(current_communication_point, communication_step_size);
+            stay_in_step_mode(unit);
+            for (flag, name) in flags {
+                write(flag, &[FALSE], name)?;
+            }
+            write(last_successful_time, &[unit.time()], "lastSuccessfulTime")?;
+            answer
+        })
+    }
+}
+
+/// FMI 3.0 knows no failed steps: a unit that discards one is in the mode that it was in before.
+pub fn stay_in_step_mode(unit: &mut Unit) {
+    if matches!(unit.phase, Phase::StepFailed | Phase::StepCanceled) {
+        unit.phase = Phase::StepComplete;
+    }
+}

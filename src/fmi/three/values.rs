@@ -1,0 +1,184 @@
+//! Getting and setting variables by reference where families of scalars are arrays, in safe Rust.
+//!
+//! A set is all or nothing, as in [`crate::fmi::values`], which does the work on the scalars.
+
+use std::ffi::CString;
+use std::ops::Range;
+use std::sync::Arc;
+
+use super::types::Reference;
+use crate::fmi::legality::Phase;
+use crate::fmi::types::{Answer, Refusal, Status};
+use crate::fmi::unit::Unit;
+use crate::variables::{ArrayRegistry, ArrayVariable, Causality, Content, Slot};
+
+/// The FMI types of variables in use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kind {
+    Float64,
+    Int32,
+    String,
+}
+
+impl Unit {
+    /// The variables as FMI 3.0 counts them.
+    pub fn arrays(&self) -> Arc<ArrayRegistry> {
+        let list = || Arc::new(ArrayRegistry::of(&self.packed));
+        Arc::clone(self.arrays.get_or_init(list))
+    }
+
+    /// Values of variables, which must be `count` in all.
+    pub fn floats(&mut self, references: &[Reference], count: usize) -> Answer<Vec<f64>> {
+        let arrays = self.arrays();
+        let variables = self.of_kind(&arrays, references, Kind::Float64)?;
+        check_count(&variables, count)?;
+        variables.iter().try_for_each(|variable| self.check_known(variable))?;
+        let ranges = variables.iter().filter_map(|variable| match &variable.content {
+            Content::Elements(range) => Some(range),
+            Content::Time | Content::Coordinates(_) => None,
+        });
+        let elements: Vec<Reference> = ranges.flat_map(places).collect();
+        // In one go, so that inputs are looked at once for all outputs.
+        let mut found = self.reals(&elements)?.into_iter();
+        let mut values = Vec::with_capacity(count);
+        for variable in variables {
+            match &variable.content {
+                Content::Time => values.push(self.time()),
+                Content::Coordinates(coordinates) => values.extend(coordinates),
+                Content::Elements(range) => values.extend(found.by_ref().take(range.len())),
+            }
+        }
+        Ok(values)
+    }
+
+    pub fn set_floats(&mut self, references: &[Reference], values: &[f64]) -> Answer {
+        let elements = self.settable(references, Kind::Float64, values.len())?;
+        self.set_reals(&elements, values)
+    }
+
+    pub fn whole_numbers(&mut self, references: &[Reference], count: usize) -> Answer<Vec<i32>> {
+        let elements = self.settable(references, Kind::Int32, count)?;
+        self.integers(&elements)
+    }
+
+    pub fn set_whole_numbers(&mut self, references: &[Reference], values: &[i32]) -> Answer {
+        let elements = self.settable(references, Kind::Int32, values.len())?;
+        self.set_integers(&elements, values)
+    }
+
+    /// Texts, kept by the unit until the next call.
+    pub fn strings(&mut self, references: &[Reference], count: usize) -> Answer<&[CString]> {
+        let elements = self.settable(references, Kind::String, count)?;
+        self.texts(&elements)
+    }
+
+    pub fn set_strings(&mut self, references: &[Reference], values: Vec<String>) -> Answer {
+        let elements = self.settable(references, Kind::String, values.len())?;
+        self.set_texts(&elements, values)
+    }
+
+    /// No variable is of the type that is asked for; what there is not can be got and set.
+    pub fn check_absent(&self, references: &[Reference], wanted: &str) -> Answer {
+        let arrays = self.arrays();
+        match references.first() {
+            None => Ok(Status::Ok),
+            Some(&reference) => {
+                let variable = variable(&arrays, reference)?;
+                let kind = self.kind(variable);
+                Err(Refusal::error(format!("{} is no {wanted} but a {kind:?}", variable.name)))
+            }
+        }
+    }
+
+    /// Places of the elements of variables that have any, one after another.
+    pub fn elements(
+        &self,
+        arrays: &ArrayRegistry,
+        references: &[Reference],
+    ) -> Answer<Vec<Reference>> {
+        let mut elements = Vec::new();
+        for variable in self.of_kind(arrays, references, Kind::Float64)? {
+            elements.extend(places(range(variable)?));
+        }
+        Ok(elements)
+    }
+
+    /// Places of the elements of variables that are no constants, `count` in all.
+    fn settable(
+        &self,
+        references: &[Reference],
+        kind: Kind,
+        count: usize,
+    ) -> Answer<Vec<Reference>> {
+        let arrays = self.arrays();
+        let variables = self.of_kind(&arrays, references, kind)?;
+        check_count(&variables, count)?;
+        let mut elements = Vec::with_capacity(count);
+        for variable in variables {
+            elements.extend(places(range(variable)?));
+        }
+        Ok(elements)
+    }
+
+    fn of_kind<'a>(
+        &self,
+        arrays: &'a ArrayRegistry,
+        references: &[Reference],
+        wanted: Kind,
+    ) -> Answer<Vec<&'a ArrayVariable>> {
+        let of_kind = |&reference: &Reference| {
+            let variable = variable(arrays, reference)?;
+            let kind = self.kind(variable);
+            if kind == wanted {
+                return Ok(variable);
+            }
+            Err(Refusal::error(format!("{} is no {wanted:?} but a {kind:?}", variable.name)))
+        };
+        references.iter().map(of_kind).collect()
+    }
+
+    fn kind(&self, variable: &ArrayVariable) -> Kind {
+        match variable.elements(&self.registry).first().map(|element| &element.slot) {
+            Some(Slot::Threads) => Kind::Int32,
+            Some(Slot::OutputDirectory) => Kind::String,
+            _ => Kind::Float64,
+        }
+    }
+
+    /// Before initialization only start values are known.
+    fn check_known(&self, variable: &ArrayVariable) -> Answer<()> {
+        let is_output = variable.causality(&self.registry) == Some(Causality::Output);
+        if is_output && self.phase == Phase::Instantiated {
+            let message = format!("{} has no value before Initialization Mode", variable.name);
+            return Err(Refusal::error(message));
+        }
+        Ok(())
+    }
+}
+
+pub fn variable(arrays: &ArrayRegistry, reference: Reference) -> Answer<&ArrayVariable> {
+    arrays.variables.get(reference as usize).ok_or_else(|| {
+        let last = arrays.variables.len().saturating_sub(1);
+        Refusal::error(format!("value reference {reference} is unknown; there are 0 to {last}"))
+    })
+}
+
+fn range(variable: &ArrayVariable) -> Answer<&Range<usize>> {
+    match &variable.content {
+        Content::Elements(range) => Ok(range),
+        Content::Time => Err(Refusal::error(format!("{} passes by steps alone", variable.name))),
+        Content::Coordinates(_) => Err(Refusal::error(format!("{} is constant", variable.name))),
+    }
+}
+
+fn places(range: &Range<usize>) -> Vec<Reference> {
+    range.clone().map(|place| place as Reference).collect()
+}
+
+fn check_count(variables: &[&ArrayVariable], count: usize) -> Answer<()> {
+    let size: usize = variables.iter().map(|variable| variable.size()).sum();
+    if size == count {
+        return Ok(());
+    }
+    Err(Refusal::error(format!("nValues is {count}; these variables have {size} elements")))
+}

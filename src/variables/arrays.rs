@@ -1,0 +1,270 @@
+use std::ops::Range;
+
+use super::registry::flat;
+use super::{Causality, Quantity, Registry, Slot, Variable};
+use crate::scene::{Grid, Naming, Scene};
+
+/// All variables of a scene's unit where arrays are variables: time first, then those of the
+/// [`Registry`] in their order, each family `name[i]` or `name[i,j]` of structured names as one, then
+/// the coordinates of the points of fields. The value reference of a variable is its place in the list.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArrayRegistry {
+    pub variables: Vec<ArrayVariable>,
+}
+
+/// A scalar or an array.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ArrayVariable {
+    pub name: String,
+    pub description: String,
+    /// Number of elements along each index, the last running fastest; none of a scalar.
+    pub dimensions: Vec<usize>,
+    pub content: Content,
+}
+
+/// Where the values are.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Content {
+    /// The time of the unit [s].
+    Time,
+    /// Elements by their places in the [`Registry`].
+    Elements(Range<usize>),
+    /// Coordinates [m] that follow from the scene.
+    Coordinates(Vec<f64>),
+}
+
+const AXES: [&str; 3] = ["x", "y", "z"];
+const INDICES: [&str; 2] = ["i", "j"];
+
+impl ArrayRegistry {
+    /// Lists the variables of a checked scene.
+    pub fn of(scene: &Scene) -> Self {
+        let mut arrays = Self::structured(scene);
+        if scene.naming == Naming::Flat {
+            arrays.variables.iter_mut().for_each(|variable| variable.name = flat(&variable.name));
+        }
+        arrays
+    }
+
+    /// The same variables under their structured names.
+    pub fn structured(scene: &Scene) -> Self {
+        let registry = Registry::structured(scene);
+        let time = ArrayVariable {
+            name: "time".into(),
+            description: "time".into(),
+            dimensions: Vec::new(),
+            content: Content::Time,
+        };
+        let mut variables = vec![time];
+        let mut next = 0;
+        while next < registry.variables.len() {
+            let members = family(&registry, next);
+            next = members.end;
+            variables.push(array(&registry.variables, members));
+        }
+        coordinates(scene, &mut variables);
+        Self { variables }
+    }
+
+    /// Value references of the inputs that an output follows without delay: every element of the one
+    /// follows every element of the others.
+    pub fn dependencies(
+        &self,
+        scene: &Scene,
+        registry: &Registry,
+        output: &ArrayVariable,
+    ) -> Vec<usize> {
+        let elements = output.elements(registry);
+        let Some(Slot::Output(first)) = elements.first().map(|element| &element.slot) else {
+            return Vec::new();
+        };
+        let inputs = registry.dependencies(scene, first);
+        let mut rest = inputs.as_slice();
+        let mut found = Vec::new();
+        for (reference, variable) in self.variables.iter().enumerate() {
+            let Content::Elements(range) = &variable.content else { continue };
+            let count = rest.iter().take_while(|input| range.contains(input)).count();
+            if count > 0 {
+                found.push(reference);
+                rest = &rest[count..];
+            }
+        }
+        found
+    }
+
+    /// The value reference of a name.
+    pub fn find(&self, name: &str) -> Option<usize> {
+        self.variables.iter().position(|variable| variable.name == name)
+    }
+}
+
+impl ArrayVariable {
+    /// Number of elements.
+    pub fn size(&self) -> usize {
+        self.dimensions.iter().product()
+    }
+
+    /// The elements' variables; none if they are in no [`Registry`].
+    pub fn elements<'a>(&self, registry: &'a Registry) -> &'a [Variable] {
+        match &self.content {
+            Content::Elements(range) => &registry.variables[range.clone()],
+            Content::Time | Content::Coordinates(_) => &[],
+        }
+    }
+
+    /// What the values are measured in; none of texts and counts.
+    pub fn quantity(&self, registry: &Registry) -> Option<Quantity> {
+        match self.content {
+            Content::Time => Some(Quantity::Time),
+            Content::Coordinates(_) => Some(Quantity::Length),
+            Content::Elements(_) => self.elements(registry)[0].quantity,
+        }
+    }
+
+    /// Causality of all elements; none of time and constants.
+    pub fn causality(&self, registry: &Registry) -> Option<Causality> {
+        self.elements(registry).first().map(Variable::causality)
+    }
+}
+
+/// The places of the variable at `first` and of those behind it with the same name but for indices.
+fn family(registry: &Registry, first: usize) -> Range<usize> {
+    let variables = &registry.variables[first..];
+    let Some((stem, _)) = variables[0].name.split_once('[') else { return first..first + 1 };
+    let has_stem =
+        |variable: &&Variable| variable.name.split_once('[').is_some_and(|n| n.0 == stem);
+    first..first + variables.iter().take_while(has_stem).count()
+}
+
+fn array(variables: &[Variable], members: Range<usize>) -> ArrayVariable {
+    let (first, last) = (&variables[members.start], &variables[members.end - 1]);
+    let (name, dimensions) = match last.name.split_once('[') {
+        None => (first.name.clone(), Vec::new()),
+        Some((stem, indices)) => (stem.to_owned(), counts(indices)),
+    };
+    let description = common_words(&first.description, &last.description, &dimensions);
+    ArrayVariable { name, description, dimensions, content: Content::Elements(members) }
+}
+
+/// Counts along the indices from those of the last element, `3,4]`.
+fn counts(indices: &str) -> Vec<usize> {
+    let numbers = indices.trim_end_matches(']').split(',');
+    numbers.map(|number| number.parse().expect("indices of variables are numbers")).collect()
+}
+
+/// The words of first and last element, with letters for the indices in which they differ.
+fn common_words(first: &str, last: &str, dimensions: &[usize]) -> String {
+    let longer_than_one = INDICES.iter().zip(dimensions).filter(|(_, count)| **count > 1);
+    let mut letters = longer_than_one.map(|(letter, _)| *letter);
+    let word = |(a, b): (&str, &str)| {
+        if a == b {
+            return a.to_owned();
+        }
+        let tail = a.trim_start_matches(|c: char| c.is_ascii_digit());
+        letters.next().unwrap_or("…").to_owned() + tail
+    };
+    first.split(' ').zip(last.split(' ')).map(word).collect::<Vec<_>>().join(" ")
+}
+
+/// Coordinates of each field's points: one list for each index of the field, and the constant one.
+fn coordinates(scene: &Scene, list: &mut Vec<ArrayVariable>) {
+    for field in &scene.field {
+        let (body, _) = field.body_and_place();
+        let Some(solid) = scene.solid(body) else { continue };
+        let grid = Grid::of(field, solid);
+        for (axis, name) in AXES.iter().enumerate() {
+            let index = grid.axes.iter().position(|along| *along == axis);
+            let point = |i| if index == Some(1) { grid.point(0, i) } else { grid.point(i, 0) };
+            let count = index.map_or(1, |index| grid.count[index]);
+            let along = match index {
+                Some(index) => format!("along index {}", INDICES[index]),
+                None => "of all points".into(),
+            };
+            list.push(ArrayVariable {
+                name: format!("{}.{name}", field.name),
+                description: format!("{name} {along} of {}", field.name),
+                dimensions: index.map(|_| count).into_iter().collect(),
+                content: Content::Coordinates((0..count).map(|i| point(i)[axis]).collect()),
+            });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCENE: &str = include_str!("../../tests/fmi/scene.toml");
+
+    fn registries(text: &str) -> (Registry, ArrayRegistry) {
+        let scene = crate::scene::parse(text, "scene.toml").unwrap();
+        let registry = Registry::of(&scene);
+        let arrays = ArrayRegistry::of(&scene);
+        (registry, arrays)
+    }
+
+    #[test]
+    fn families_are_arrays_whose_last_index_runs_fastest() {
+        let (registry, arrays) = registries(SCENE);
+        let flux = &arrays.variables[arrays.find("patch.heat_flux").unwrap()];
+        assert_eq!(flux.dimensions, [2, 3]);
+        assert_eq!(flux.description, "heat flux into the body on tile i, j, patch on plate.top");
+        let names: Vec<&str> = flux.elements(&registry).iter().map(|v| v.name.as_str()).collect();
+        assert_eq!(names[1], "patch.heat_flux[1,2]");
+        assert_eq!(names[3], "patch.heat_flux[2,1]");
+        let spot = &arrays.variables[arrays.find("spot.heat_flux").unwrap()];
+        assert_eq!((spot.dimensions.len(), spot.size()), (0, 1));
+    }
+
+    #[test]
+    fn every_element_is_in_one_array_as_large_as_its_dimensions() {
+        let droplet = include_str!("../../examples/droplet_unit/scene.toml");
+        for text in [SCENE, droplet] {
+            let (registry, arrays) = registries(text);
+            let mut next = 0;
+            for variable in &arrays.variables {
+                if let Content::Elements(range) = &variable.content {
+                    assert_eq!((range.start, range.len()), (next, variable.size()));
+                    next = range.end;
+                }
+            }
+            assert_eq!(next, registry.variables.len());
+            let named = arrays.variables.iter().map(|variable| variable.name.as_str());
+            let unique: std::collections::BTreeSet<&str> = named.collect();
+            assert_eq!(unique.len(), arrays.variables.len());
+        }
+    }
+
+    #[test]
+    fn flat_names_make_the_same_arrays() {
+        let (_, structured) = registries(SCENE);
+        let (registry, arrays) = registries(&format!("naming = \"flat\"\n{SCENE}"));
+        assert_eq!(arrays.variables.len(), structured.variables.len());
+        for (own, named) in arrays.variables.iter().zip(&structured.variables) {
+            assert_eq!(own.name, named.name.replace('.', "_"));
+            assert_eq!((&own.dimensions, &own.content), (&named.dimensions, &named.content));
+        }
+        let flux = &arrays.variables[arrays.find("patch_heat_flux").unwrap()];
+        assert_eq!(flux.elements(&registry)[1].name, "patch_heat_flux_1_2");
+        assert!(arrays.find("surface_x").is_some());
+    }
+
+    #[test]
+    fn coordinates_are_those_of_the_points() {
+        let (_, arrays) = registries(SCENE);
+        let find = |name| &arrays.variables[arrays.find(name).unwrap()];
+        let (x, z) = (find("surface.x"), find("surface.z"));
+        let Content::Coordinates(values) = &x.content else { panic!("{x:?}") };
+        assert_eq!(x.dimensions, [4]);
+        for (value, expected) in values.iter().zip([-1.5e-4, -0.5e-4, 0.5e-4, 1.5e-4]) {
+            assert!((value - expected).abs() < 1e-18, "{values:?}");
+        }
+        assert_eq!((z.dimensions.len(), &z.content), (0, &Content::Coordinates(vec![0.0])));
+    }
+
+    #[test]
+    fn an_array_of_one_row_keeps_its_letters_in_place() {
+        assert_eq!(common_words("at 1, 1 of", "at 1, 9 of", &[1, 9]), "at 1, j of");
+        assert_eq!(common_words("on ring 1, spot", "on ring 24, spot", &[24]), "on ring i, spot");
+    }
+}

@@ -1,0 +1,345 @@
+//! A small master of FMI 3.0.
+
+use std::ffi::{CStr, CString, c_char, c_int, c_void};
+use std::ptr;
+
+use impinge::fmi::guid;
+use impinge::scene;
+use impinge::variables::{ArrayRegistry, Causality, Content, Registry, Slot};
+
+use crate::master::{Folder, Handle, Message, Messages, OK, SCENE, Saved, call, library};
+
+type LogMessage = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
+
+/// `fmi3LogMessageCallback` that keeps what it is told.
+pub unsafe extern "C" fn listen(
+    environment: *mut c_void,
+    status: c_int,
+    category: *const c_char,
+    text: *const c_char,
+) {
+    // SAFETY: the environment is a `Messages` that outlives the instance; the strings are C strings.
+    unsafe {
+        let owned = |pointer| CStr::from_ptr(pointer).to_str().unwrap().to_owned();
+        let (category, text) = (owned(category), owned(text));
+        let message = Message { instance: String::new(), status, category, text };
+        (*environment.cast::<Messages>()).keep(message);
+    }
+}
+
+/// Arguments of fmi3InstantiateCoSimulation, all good until a test changes one.
+pub struct Arguments {
+    pub name: Option<CString>,
+    pub token: Option<CString>,
+    pub resources: Option<CString>,
+    pub logging_on: bool,
+    pub event_mode_used: bool,
+    pub intermediate: Vec<u32>,
+}
+
+impl Arguments {
+    pub fn good(folder: &Folder, token: &str) -> Self {
+        let path = format!("{}/", folder.0.display());
+        Self {
+            name: Some(c"unit".into()),
+            token: Some(CString::new(token).unwrap()),
+            resources: Some(CString::new(path).unwrap()),
+            logging_on: true,
+            event_mode_used: false,
+            intermediate: Vec::new(),
+        }
+    }
+
+    pub fn instantiate(&self, messages: &Messages) -> Handle {
+        type Function = unsafe extern "C" fn(
+            *const c_char,
+            *const c_char,
+            *const c_char,
+            bool,
+            bool,
+            bool,
+            bool,
+            *const u32,
+            usize,
+            *mut c_void,
+            Option<LogMessage>,
+            *const c_void,
+        ) -> Handle;
+        let pointer =
+            |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
+        // SAFETY: the types are those of the header; the strings live through the call.
+        unsafe {
+            let function = library().get::<Function>("fmi3InstantiateCoSimulation").unwrap();
+            function(
+                pointer(&self.name),
+                pointer(&self.token),
+                pointer(&self.resources),
+                false,
+                self.logging_on,
+                self.event_mode_used,
+                true,
+                self.intermediate.as_ptr(),
+                self.intermediate.len(),
+                ptr::from_ref(messages).cast_mut().cast(),
+                Some(listen),
+                ptr::null(),
+            )
+        }
+    }
+}
+
+pub fn free(handle: Handle) {
+    // SAFETY: the type is that of the header.
+    unsafe {
+        let free = library().get::<unsafe extern "C" fn(Handle)>("fmi3FreeInstance").unwrap();
+        free(handle);
+    }
+}
+
+/// What fmi3DoStep answers with besides its status.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stepped {
+    pub flags: [bool; 3],
+    pub time: f64,
+}
+
+/// An instance of a scene, freed at the end.
+pub struct Unit {
+    pub handle: Handle,
+    pub messages: Box<Messages>,
+    pub registry: Registry,
+    pub arrays: ArrayRegistry,
+    _folder: Folder,
+}
+
+impl Drop for Unit {
+    fn drop(&mut self) {
+        free(self.handle);
+    }
+}
+
+impl Unit {
+    pub fn of_scene(text: &str) -> Self {
+        let folder = Folder::with_scene("unit", text);
+        let messages = Box::<Messages>::default();
+        let scene = scene::parse(text, "scene.toml").unwrap();
+        let registry = Registry::of(&scene);
+        let arrays = ArrayRegistry::of(&scene);
+        let handle = Arguments::good(&folder, &guid::guid(text, &registry)).instantiate(&messages);
+        assert!(!handle.is_null(), "{:?}", messages.take());
+        Self { handle, messages, registry, arrays, _folder: folder }
+    }
+
+    pub fn instantiated() -> Self {
+        Self::of_scene(SCENE)
+    }
+
+    pub fn initializing() -> Self {
+        let unit = Self::instantiated();
+        assert_eq!(unit.enter(0.0, None), OK);
+        unit
+    }
+
+    /// Ready for steps.
+    pub fn running() -> Self {
+        let unit = Self::initializing();
+        assert_eq!(unit.exit(), OK);
+        unit.messages.take();
+        unit
+    }
+
+    pub fn terminated() -> Self {
+        let unit = Self::running();
+        assert_eq!(unit.simple("fmi3Terminate"), OK);
+        unit
+    }
+
+    pub fn simple(&self, name: &str) -> c_int {
+        call!(name, self.handle => Handle)
+    }
+
+    pub fn enter(&self, start: f64, stop: Option<f64>) -> c_int {
+        call!("fmi3EnterInitializationMode", self.handle => Handle, false => bool, 0.0 => f64,
+            start => f64, stop.is_some() => bool, stop.unwrap_or(0.0) => f64)
+    }
+
+    pub fn exit(&self) -> c_int {
+        self.simple("fmi3ExitInitializationMode")
+    }
+
+    pub fn step(&self, point: f64, step: f64) -> (c_int, Stepped) {
+        let (mut flags, mut time) = ([true; 3], f64::NAN);
+        let [event, end, early] = &mut flags;
+        let status = call!("fmi3DoStep", self.handle => Handle, point => f64, step => f64,
+            true => bool, event => *mut bool, end => *mut bool, early => *mut bool,
+            &raw mut time => *mut f64);
+        (status, Stepped { flags, time })
+    }
+
+    pub fn reference(&self, name: &str) -> u32 {
+        self.arrays.find(name).unwrap_or_else(|| panic!("no variable {name}")) as u32
+    }
+
+    pub fn references(&self, names: &[&str]) -> Vec<u32> {
+        names.iter().map(|name| self.reference(name)).collect()
+    }
+
+    /// Number of elements of variables.
+    pub fn size(&self, references: &[u32]) -> usize {
+        references.iter().map(|&r| self.arrays.variables[r as usize].size()).sum()
+    }
+
+    pub fn get_in(&self, references: &[u32], values: &mut [f64]) -> c_int {
+        call!("fmi3GetFloat64", self.handle => Handle, references.as_ptr() => *const u32,
+            references.len() => usize, values.as_mut_ptr() => *mut f64, values.len() => usize)
+    }
+
+    /// The elements of variables, which must be readable now.
+    pub fn get_all(&self, references: &[u32]) -> Vec<f64> {
+        let mut values = vec![f64::NAN; self.size(references)];
+        assert_eq!(self.get_in(references, &mut values), OK, "{:?}", self.messages.take());
+        values
+    }
+
+    pub fn get(&self, name: &str) -> Vec<f64> {
+        self.get_all(&[self.reference(name)])
+    }
+
+    pub fn set_all(&self, references: &[u32], values: &[f64]) -> c_int {
+        call!("fmi3SetFloat64", self.handle => Handle, references.as_ptr() => *const u32,
+            references.len() => usize, values.as_ptr() => *const f64, values.len() => usize)
+    }
+
+    pub fn set(&self, name: &str, values: &[f64]) -> c_int {
+        self.set_all(&[self.reference(name)], values)
+    }
+
+    pub fn time(&self) -> f64 {
+        self.get("time")[0]
+    }
+
+    /// Value references of all Float64 variables of one causality.
+    pub fn floats(&self, causality: Option<Causality>) -> Vec<u32> {
+        let fits = |reference: &u32| {
+            let variable = &self.arrays.variables[*reference as usize];
+            let slot = variable.elements(&self.registry).first().map(|element| &element.slot);
+            !matches!(slot, Some(Slot::Threads | Slot::OutputDirectory))
+                && variable.causality(&self.registry) == causality
+        };
+        (0..self.arrays.variables.len() as u32).filter(fits).collect()
+    }
+
+    /// All Float64 values that can be read, as bits, so that equal means identical.
+    pub fn snapshot(&self) -> Vec<u64> {
+        let all = 0..self.arrays.variables.len() as u32;
+        let is_float = |reference: &u32| {
+            let variable = &self.arrays.variables[*reference as usize];
+            !matches!(variable.name.as_str(), "solver.threads" | "output.directory")
+        };
+        let references: Vec<u32> = all.filter(is_float).collect();
+        self.get_all(&references).into_iter().map(f64::to_bits).collect()
+    }
+
+    pub fn save(&self) -> Saved {
+        let mut state = ptr::null_mut();
+        let status = call!("fmi3GetFMUState", self.handle => Handle,
+            &raw mut state => *mut Saved);
+        assert_eq!(status, OK, "{:?}", self.messages.take());
+        state
+    }
+
+    pub fn restore(&self, state: Saved) -> c_int {
+        call!("fmi3SetFMUState", self.handle => Handle, state => Saved)
+    }
+
+    pub fn free_state(&self, state: &mut Saved) -> c_int {
+        call!("fmi3FreeFMUState", self.handle => Handle, state => *mut Saved)
+    }
+
+    /// The bytes of a saved state.
+    pub fn serialize(&self, state: Saved) -> Vec<u8> {
+        let mut size = 0_usize;
+        let status = call!("fmi3SerializedFMUStateSize", self.handle => Handle, state => Saved,
+            &raw mut size => *mut usize);
+        assert_eq!(status, OK, "{:?}", self.messages.take());
+        let mut bytes = vec![0; size];
+        let status = call!("fmi3SerializeFMUState", self.handle => Handle, state => Saved,
+            bytes.as_mut_ptr() => *mut u8, size => usize);
+        assert_eq!(status, OK, "{:?}", self.messages.take());
+        bytes
+    }
+
+    pub fn deserialize_in(&self, bytes: &[u8], state: &mut Saved) -> c_int {
+        call!("fmi3DeserializeFMUState", self.handle => Handle, bytes.as_ptr() => *const u8,
+            bytes.len() => usize, state => *mut Saved)
+    }
+
+    pub fn deserialize(&self, bytes: &[u8]) -> Saved {
+        let mut state = ptr::null_mut();
+        assert_eq!(self.deserialize_in(bytes, &mut state), OK, "{:?}", self.messages.take());
+        state
+    }
+
+    /// fmi3GetDirectionalDerivative or fmi3GetAdjointDerivative.
+    pub fn differentiate_in(
+        &self,
+        function: &str,
+        [unknowns, knowns]: [&[u32]; 2],
+        seed: &[f64],
+        found: &mut [f64],
+    ) -> c_int {
+        call!(function, self.handle => Handle, unknowns.as_ptr() => *const u32,
+            unknowns.len() => usize, knowns.as_ptr() => *const u32, knowns.len() => usize,
+            seed.as_ptr() => *const f64, seed.len() => usize,
+            found.as_mut_ptr() => *mut f64, found.len() => usize)
+    }
+
+    pub fn directional(&self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
+        let mut found = vec![f64::NAN; self.size(unknowns)];
+        let name = "fmi3GetDirectionalDerivative";
+        let status = self.differentiate_in(name, [unknowns, knowns], seed, &mut found);
+        assert_eq!(status, OK, "{:?}", self.messages.take());
+        found
+    }
+
+    pub fn adjoint(&self, unknowns: &[u32], knowns: &[u32], seed: &[f64]) -> Vec<f64> {
+        let mut found = vec![f64::NAN; self.size(knowns)];
+        let name = "fmi3GetAdjointDerivative";
+        let status = self.differentiate_in(name, [unknowns, knowns], seed, &mut found);
+        assert_eq!(status, OK, "{:?}", self.messages.take());
+        found
+    }
+
+    pub fn output_derivatives_in(
+        &self,
+        references: &[u32],
+        orders: &[c_int],
+        found: &mut [f64],
+    ) -> c_int {
+        call!("fmi3GetOutputDerivatives", self.handle => Handle,
+            references.as_ptr() => *const u32, references.len() => usize,
+            orders.as_ptr() => *const c_int, found.as_mut_ptr() => *mut f64,
+            found.len() => usize)
+    }
+
+    /// The one message since the last look, of this status, with the fragments in its text.
+    #[track_caller]
+    pub fn expect_message(&self, status: c_int, fragments: &[&str]) {
+        let messages = self.messages.take();
+        let [message] = &messages[..] else { panic!("not one message: {messages:#?}") };
+        assert_eq!(message.status, status, "{message:?}");
+        for fragment in fragments {
+            assert!(message.text.contains(fragment), "no {fragment:?} in {:?}", message.text);
+        }
+    }
+
+    /// The names of the scalars that the elements of Float64 variables are under FMI 2.0.
+    pub fn scalar_names(&self, references: &[u32]) -> Vec<&str> {
+        let elements = |&reference: &u32| {
+            let variable = &self.arrays.variables[reference as usize];
+            assert!(matches!(variable.content, Content::Elements(_)), "{}", variable.name);
+            variable.elements(&self.registry).iter().map(|element| element.name.as_str())
+        };
+        references.iter().flat_map(elements).collect()
+    }
+}

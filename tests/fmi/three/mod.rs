@@ -1,0 +1,12 @@
+//! FMI 3.0: the same library driven through its other symbols.
+
+mod arrays;
+mod derivatives;
+mod exports;
+mod fuzz;
+mod instantiation;
+mod life_cycle;
+mod master;
+mod model_description;
+mod refusals;
+mod states;
