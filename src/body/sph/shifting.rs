@@ -101,7 +101,7 @@ impl PairSum for Crowding<'_> {
 
 /// Displacement for a gradient of 1 and a mean way of 1, both in units of H. Sun et al. (2017) take 2 and
 /// the way at the highest speed, which is about twice the mean one.
-const STRENGTH: f64 = 4.0;
+const STRENGTH: f64 = 2.0;
 /// Largest displacement at once, over H.
 const MOST: f64 = 0.02;
 
