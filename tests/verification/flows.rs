@@ -149,7 +149,7 @@ fn taylor_green_vortices() {
         }
         study.print();
         if support == 4.0 {
-            study.require(&[0, 1], 1.3, 1e-2);
+            study.require(&[0, 1], 1.0, 1e-2);
         } else {
             study.require(&[1], 0.8, 3e-2);
             assert!(study.finest(0) < 2e-2);
