@@ -33,7 +33,7 @@ def main(tables, pictures):
         axis.set_xlabel("time over Rayleigh's period")
         axis.axhline(0.0, color="0.8", zorder=0)
     axes[0].set_ylabel("⟨z² − (x² + y²)/2⟩ / R²")
-    axes[1].legend()
+    axes[1].legend(loc="lower left")
     figure.savefig(pictures / "tension.png", dpi=100)
 
 
