@@ -70,6 +70,11 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
     }
 
     #[inline(always)]
+    fn images(&self) -> &Images {
+        self.images
+    }
+
+    #[inline(always)]
     fn record(&self, source: Source) -> [f64; 8] {
         let image = self.images.get(source.code());
         let [x, y, z, u, v, w, volume, density] = self.records[source.particle()];

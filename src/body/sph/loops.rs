@@ -3,7 +3,7 @@
 pub use crate::scene::Precision;
 use num_traits::Float;
 
-use super::images::Source;
+use super::images::{Images, Source};
 use super::lanes::{Annex, Array, Lanes, Record, WIDTH};
 use super::neighbours::Block;
 use super::order::BLOCK;
@@ -23,8 +23,15 @@ pub trait PairSum: Sync {
     /// The numbers of every particle that all loops read: position first.
     fn records(&self) -> &[[f64; 8]];
 
-    /// Those of an image.
-    fn record(&self, source: Source) -> [f64; 8];
+    fn images(&self) -> &Images;
+
+    /// Those of an image; by default only its place differs from that of its original.
+    #[inline(always)]
+    fn record(&self, source: Source) -> [f64; 8] {
+        let [x, y, z, u, v, w, volume, last] = self.records()[source.particle()];
+        let [x, y, z] = self.images().get(source.code()).place([x, y, z]);
+        [x, y, z, u, v, w, volume, last]
+    }
 
     /// Further numbers of every particle, where [`Self::ANNEX`].
     fn annexes(&self) -> &[[f64; 4]] {

@@ -45,6 +45,11 @@ impl<const TENSE: bool> PairSum for Momentum<'_, TENSE> {
     }
 
     #[inline(always)]
+    fn images(&self) -> &Images {
+        self.images
+    }
+
+    #[inline(always)]
     fn record(&self, source: Source) -> [f64; 8] {
         let image = self.images.get(source.code());
         let [x, y, z, u, v, w, volume, pressure] = self.records[source.particle()];

@@ -1,6 +1,6 @@
 //! Particles are moved a little from crowded places to empty ones.
 
-use super::images::{Images, Source};
+use super::images::Images;
 use super::lanes::{Lanes, lanes};
 use super::loops::{Local, PairSum};
 use super::neighbours::Block;
@@ -48,10 +48,8 @@ impl PairSum for Crowding<'_> {
     }
 
     #[inline(always)]
-    fn record(&self, source: Source) -> [f64; 8] {
-        let [x, y, z, none, _, _, volume, fullness] = self.records[source.particle()];
-        let [x, y, z] = self.images.get(source.code()).place([x, y, z]);
-        [x, y, z, none, none, none, volume, fullness]
+    fn images(&self) -> &Images {
+        self.images
     }
 
     #[inline(always)]

@@ -1,6 +1,6 @@
 //! Surface tension as an energy of the particles.
 
-use super::images::{Images, Source};
+use super::images::Images;
 use super::lanes::{Lanes, lanes};
 use super::loops::{Local, PairSum};
 use super::neighbours::Block;
@@ -108,10 +108,8 @@ impl PairSum for Surface<'_> {
     }
 
     #[inline(always)]
-    fn record(&self, source: Source) -> [f64; 8] {
-        let [x, y, z, u, v, w, volume, pressure] = self.records[source.particle()];
-        let [x, y, z] = self.images.get(source.code()).place([x, y, z]);
-        [x, y, z, u, v, w, volume, pressure]
+    fn images(&self) -> &Images {
+        self.images
     }
 
     #[inline(always)]
