@@ -73,8 +73,8 @@ def draw_drop(drops: list[dict], folder: Path):
             z[near],
             c=drop["temperature"][near] - shared.ZERO_CELSIUS,
             s=3,
-            cmap="inferno",
-            vmin=80,
+            cmap="coolwarm",
+            vmin=85,
             vmax=100,
         )
         panel.set(aspect="equal", xlim=(-REACH, REACH), ylim=(0, 105), ylabel="z / µm")

@@ -17,8 +17,7 @@ const RING: f64 = 0.25;
 /// `s(r) = max over r' ≥ r of min(1, max(0, 2c(r') − 1/2))`. The film is as large as the disc of
 /// the same area, `(D/2 + Δx/2)² = ∫ s d(r²)`, in a plane model the line of the same length,
 /// `D/2 + Δx/2 = ∫ s dr`; of the outermost particles a disc of radius Δx/2 belongs to the film, hence
-/// the Δx/2. Places that are added or go outwards while none is within a Δx make D no smaller, and one
-/// particle changes it by a small part of Δx.
+/// the Δx/2. More places make D no smaller, and one among many changes it by a small part of Δx.
 pub fn spread_diameter(places: &[[f64; 2]], dimension: usize) -> f64 {
     let mut arcs: Vec<Arc> = places.iter().flat_map(|&place| arcs_of(place, dimension)).collect();
     arcs.sort_by(|a, b| b.ring.cmp(&a.ring).then(a.start.total_cmp(&b.start)));
