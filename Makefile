@@ -49,6 +49,7 @@ verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent fin
 	$(BIN)/python tests/verification/particles.py target/tmp out/verification/particles.png
 	$(BIN)/python tests/verification/flows.py target/tmp out/verification
 	$(BIN)/python tests/verification/tension.py target/tmp out/verification
+	$(BIN)/python tests/verification/spread.py target/tmp out/verification
 	$(BIN)/python tests/verification/independent_code.py
 
 bench: build $(VENV)/ready-verify ## time against an independent finite-element code, and units beside those of others

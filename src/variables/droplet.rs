@@ -206,7 +206,7 @@ impl DropletTotal {
             DropletTotal::Particles => "number of particles, images at mirrors included",
             DropletTotal::Steps => "time steps made inside the unit",
             DropletTotal::SpreadDiameter => {
-                "diameter of the circle around all fluid that is near the wall"
+                "diameter of the film on the wall, without holes and spray"
             }
             DropletTotal::Heat => "heat given to the wall since time zero",
             DropletTotal::HeatFlow => "heat flow into the wall, mean over the last exchange",

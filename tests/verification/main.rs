@@ -15,6 +15,7 @@ mod elasticity;
 mod flows;
 mod heat;
 mod particles;
+mod spread;
 mod study;
 mod tension;
 mod thermal_stress;

@@ -6,6 +6,7 @@ use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in, st
 use super::failure::Failure;
 use super::placement::place;
 use super::plan::{DropletPlan, Release};
+use super::spread::spread_diameter;
 use super::stepper::{Method, Stepper};
 use super::units::{compression_energy, pressure};
 use super::wall::WallExchange;
@@ -38,7 +39,7 @@ pub struct DropletTotals {
     pub impulse_to_wall: [f64; 3],
     /// Impulse of gravity since time zero [N s].
     pub impulse_of_gravity: [f64; 3],
-    /// Diameter of the circle round all fluid that is near the wall [m].
+    /// Diameter of the film on the wall, see [`spread_diameter`] [m].
     pub spread_diameter: f64,
     /// Height of the highest particle above the wall [m].
     pub height: f64,
@@ -287,34 +288,31 @@ fn totals(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud) -
     }
     let heights = cloud.position.iter().map(|x| x[2] * units.length);
     totals.height = heights.fold(0.0, f64::max);
-    totals.spread_diameter = 2.0 * units.length * film_radius(plan, cloud);
+    totals.spread_diameter =
+        plan.spacing * spread_diameter(&wetting_places(plan, cloud), plan.dimension);
     totals
 }
 
-/// Radius over H out to which fluid covers the wall, round the middle of the fluid near it: the film
-/// ends at the first ring of a particle's width that holds less than a quarter of a layer, so
-/// that spray beyond it does not count.
-fn film_radius(plan: &DropletPlan, cloud: &Cloud) -> f64 {
-    let near: Vec<usize> = (0..cloud.len()).filter(|&i| cloud.position[i][2] < 1.0).collect();
-    let mass: f64 = near.iter().map(|&i| cloud.mass[i]).sum();
-    let middle = |a: usize| match a < 2 && plan.mirrors[a] {
+/// Height over Δx below which a particle's middle is at the wall: that of its first layer, with as much
+/// again to move in.
+const AT_WALL: f64 = 1.5;
+
+/// Places over Δx, round their middle, of all particles that lie on the wall; images at mirrors
+/// included.
+fn wetting_places(plan: &DropletPlan, cloud: &Cloud) -> Vec<[f64; 2]> {
+    let spacing = 1.0 / plan.support;
+    let at_wall = |&i: &usize| cloud.position[i][2] < AT_WALL * spacing;
+    let wetting: Vec<usize> = (0..cloud.len()).filter(at_wall).collect();
+    let mass: f64 = wetting.iter().map(|&i| cloud.mass[i]).sum();
+    let middle = |a: usize| match plan.mirrors[a] {
         true => 0.0,
-        false => near.iter().map(|&i| cloud.mass[i] * cloud.position[i][a]).sum::<f64>() / mass,
+        false => wetting.iter().map(|&i| cloud.mass[i] * cloud.position[i][a]).sum::<f64>() / mass,
     };
     let middle = [middle(0), middle(1)];
-    let width = 1.0 / plan.support;
-    let mut held = Vec::new();
-    for &i in &near {
-        let [x, y, _] = cloud.position[i];
-        let ring = ((x - middle[0]).hypot(y - middle[1]) / width) as usize;
-        held.resize(held.len().max(ring + 1), 0.0);
-        held[ring] += cloud.volume(i);
-    }
-    let open: f64 = plan.mirrors.iter().map(|&m| if m { 0.5 } else { 1.0 }).product();
-    let layer = |ring: usize| match plan.dimension {
-        2 => 2.0 * open * width * width,
-        _ => PI * (2.0 * ring as f64 + 1.0) * open * width.powi(3),
+    let sides = |a: usize| if plan.mirrors[a] { &[1.0, -1.0][..] } else { &[1.0] };
+    let images = |i: usize| {
+        let [x, y] = [0, 1].map(|a| (cloud.position[i][a] - middle[a]) / spacing);
+        sides(0).iter().flat_map(move |p| sides(1).iter().map(move |q| [p * x, q * y]))
     };
-    let covered = (0..held.len()).take_while(|&ring| held[ring] > 0.25 * layer(ring)).count();
-    covered as f64 * width
+    wetting.into_iter().flat_map(images).collect()
 }

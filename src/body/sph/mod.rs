@@ -20,6 +20,7 @@ mod order;
 mod placement;
 mod plan;
 mod shifting;
+mod spread;
 mod stepper;
 mod tension;
 mod units;

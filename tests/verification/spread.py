@@ -1,0 +1,106 @@
+"""Draws what the study in spread.rs kept: python spread.py TABLES FOLDER."""
+
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+
+REYNOLDS = 500.0
+COARSE, FINE = 24, 36  # Particles over the diameter.
+NAMES = {
+    "clanet": "Clanet et al. 2004",
+    "pasandideh_fard": "Pasandideh-Fard et al. 1996, 90°",
+    "roisman": "Roisman 2009",
+    "laan": "Laan et al. 2014",
+}
+
+
+def correlations(weber):
+    """D_max/D; sources in spread.rs."""
+    root = np.sqrt(weber * REYNOLDS**-0.4)
+    return {
+        "clanet": weber**0.25,
+        "pasandideh_fard": np.sqrt((weber + 12) / (3 + 4 * weber / np.sqrt(REYNOLDS))),
+        "roisman": 0.87 * REYNOLDS**0.2 - 0.4 * REYNOLDS**0.4 / np.sqrt(weber),
+        "laan": REYNOLDS**0.2 * root / (1.24 + root),
+    }
+
+
+def largest(axes, table):
+    """Largest spread over the Weber number."""
+    weber = np.geomspace(8, 500, 100)
+    curves = correlations(weber)
+    low, high = (of(list(curves.values()), axis=0) for of in (np.min, np.max))
+    axes.fill_between(weber, low, high, color="0.92", label="between all four")
+    for (name, values), style in zip(curves.items(), ["-", "--", "-.", ":"], strict=True):
+        axes.plot(weber, values, style, color="0.35", lw=1.5, label=NAMES[name])
+    marks = {16: ("C2", "v"), COARSE: ("C0", "o"), FINE: ("C3", "s"), 48: ("C1", "^")}
+    for resolution, (colour, mark) in marks.items():
+        run = table[table["resolution"] == resolution]
+        label = f"computed, D/Δx = {resolution}"
+        size = 9 if resolution == COARSE else 6
+        axes.plot(run["weber"], run["spread"], mark, color=colour, ms=size, label=label)
+    axes.set(
+        xscale="log",
+        xlabel="We",
+        ylabel="D_max/D",
+        ylim=(1, 5),
+        title="Largest spread, Re 500, contact angle 90°",
+    )
+    ticks = [10, 30, 100, 200, 400]
+    axes.set_xticks(ticks, [str(tick) for tick in ticks])
+    axes.minorticks_off()
+
+
+def histories(axes, table):
+    """Spread over time."""
+    for index, weber in enumerate(np.unique(table["weber"])):
+        for resolution, style in [(COARSE, "-"), (FINE, "--")]:
+            run = table[(table["weber"] == weber) & (table["resolution"] == resolution)]
+            label = f"We {weber:.0f}, D/Δx = {resolution}"
+            if len(run):
+                axes.plot(run["time"], run["spread"], style, color=f"C{index}", label=label)
+    axes.set(xlabel="t U/D", ylabel="spread/D", title="Diameter of the film", ylim=(0, None))
+
+
+def shapes(panels, table):
+    """Side views of the drops when they are widest."""
+    for panel, weber in zip(panels, np.unique(table["weber"]), strict=True):
+        run = table[(table["weber"] == weber) & (table["resolution"] == COARSE)]
+        colours = {"c": run["speed"], "vmin": 0, "vmax": 0.5, "cmap": "viridis", "s": 3}
+        panel.scatter(run["radius"], run["height"], **colours)
+        points = panel.scatter(-run["radius"], run["height"], **colours)
+        panel.set(aspect="equal", xlim=(-2.4, 2.4), ylim=(0, 0.5), ylabel="z/D")
+        panel.text(-2.3, 0.36, f"We {weber:.0f}")
+        panel.set_xlabel("distance to the axis over D")
+    return points
+
+
+def main(tables: Path, folder: Path):
+    def read(name):
+        return np.genfromtxt(tables / f"{name}.csv", delimiter=",", names=True)
+
+    folder.mkdir(parents=True, exist_ok=True)
+    figure = plt.figure(figsize=(13, 9.5), layout="constrained")
+    upper, lower = figure.subfigures(2, 1, height_ratios=[1.25, 1])
+    left, right = upper.subplots(1, 2)
+    largest(left, read("spread"))
+    histories(right, read("spread_history"))
+    for axes in (left, right):
+        axes.grid(alpha=0.3)
+        axes.legend(fontsize=8)
+    rows = lower.subplots(3, 2)
+    rows[2, 1].axis("off")
+    points = shapes(rows.flat[:5], read("spread_shape"))
+    lower.colorbar(points, ax=rows, label="speed over U")
+    lower.suptitle(f"Widest shapes from the side, D/Δx = {COARSE}")
+    figure.savefig(folder / "spread.png", dpi=110)
+    print(folder / "spread.png")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), Path(sys.argv[2]))

@@ -1,0 +1,178 @@
+//! How far a drop spreads on a wall that it hits, beside correlations of measurements.
+
+use std::f64::consts::PI;
+
+use impinge::body::sph::{
+    DropletPlan, DropletSph, Extent, Fluid, Placement, Precision, Release, Wall, WallCells,
+};
+use impinge::kernel::Kernel;
+
+use crate::study::keep;
+
+const REYNOLDS: f64 = 500.0;
+const WEBERS: [f64; 5] = [10.0, 30.0, 100.0, 200.0, 400.0];
+const CONTACT_ANGLE: f64 = 0.5 * PI;
+/// [m], [m/s], [kg/m³]
+const DIAMETER: f64 = 2e-3;
+const SPEED: f64 = 1.0;
+const DENSITY: f64 = 1000.0;
+/// D/U [s].
+const TIME: f64 = DIAMETER / SPEED;
+
+const NAMES: [&str; 4] = [
+    "Clanet et al. (2004)",
+    "Pasandideh-Fard et al. (1996)",
+    "Roisman (2009)",
+    "Laan et al. (2014)",
+];
+
+/// D_max/D after the [`NAMES`], for We = ρU²D/σ and Re = ρUD/µ:
+/// - `We^(1/4)` (C. Clanet et al., J. Fluid Mech. 517 (2004) 199, doi 10.1017/S0022112004000904), of
+///   drops that hardly wet and are not stopped by viscosity, `We < Re^(4/5)`;
+/// - `√((We + 12)/(3(1 − cos θ) + 4We/√Re))` (M. Pasandideh-Fard et al., Phys. Fluids 8 (1996) 650, doi
+///   10.1063/1.868850);
+/// - `0.87 Re^(1/5) − 0.40 Re^(2/5) We^(−1/2)` (I. V. Roisman, Phys. Fluids 21 (2009) 052104, doi
+///   10.1063/1.3129283);
+/// - `Re^(1/5) √P/(1.24 + √P)` with `P = We Re^(−2/5)` (N. Laan et al., Phys. Rev. Applied 2 (2014)
+///   044018, doi 10.1103/PhysRevApplied.2.044018).
+fn correlations(weber: f64) -> [f64; 4] {
+    let energy =
+        (weber + 12.0) / (3.0 * (1.0 - CONTACT_ANGLE.cos()) + 4.0 * weber / REYNOLDS.sqrt());
+    let root = (weber * REYNOLDS.powf(-0.4)).sqrt();
+    [
+        weber.powf(0.25),
+        energy.sqrt(),
+        0.87 * REYNOLDS.powf(0.2) - 0.40 * REYNOLDS.powf(0.4) / weber.sqrt(),
+        REYNOLDS.powf(0.2) * root / (1.24 + root),
+    ]
+}
+
+/// A quarter of a drop with so many particles over its diameter, half a distance above the wall.
+fn drop_of(weber: f64, resolution: usize) -> DropletSph {
+    let spacing = DIAMETER / resolution as f64;
+    let fluid = Fluid {
+        density: DENSITY,
+        viscosity: DENSITY * SPEED * DIAMETER / REYNOLDS,
+        specific_heat: 4000.0,
+        conductivity: 0.0,
+        surface_tension: DENSITY * SPEED * SPEED * DIAMETER / weber,
+        sound_speed: 10.0 * SPEED,
+    };
+    let plan = DropletPlan {
+        dimension: 3,
+        spacing,
+        support: 3.0,
+        kernel: Kernel::WendlandC2,
+        fluid,
+        placement: Placement::Lattice,
+        precision: Precision::Single,
+        density_diffusion: 0.1,
+        corrected_diffusion: false,
+        shifting: false,
+        gravity: [0.0; 3],
+        mirrors: [true; 2],
+        extents: [Extent::Open; 3],
+        releases: vec![Release {
+            time: 0.0,
+            centre: [0.0, 0.0, 0.5 * (DIAMETER + spacing)],
+            diameter: DIAMETER,
+            velocity: [0.0, 0.0, -SPEED],
+            temperature: 293.15,
+        }],
+        wall: Some(Wall {
+            cells: WallCells::Rings { count: 1, radius: 5.0 * DIAMETER },
+            contact_angle: CONTACT_ANGLE,
+        }),
+    };
+    DropletSph::new(plan, 2)
+}
+
+/// What is asked of a run, lengths over D and times over D/U.
+struct Spread {
+    /// Time and spread from step to step.
+    history: Vec<[f64; 2]>,
+    /// The largest one, and its time.
+    largest: f64,
+    time: f64,
+    /// Distance to the axis, height and speed over U of all particles at that time.
+    shape: Vec<[f64; 3]>,
+}
+
+impl Spread {
+    /// Share of the fluid beyond the film when that is widest: fingers and what flew off.
+    fn beyond(&self) -> f64 {
+        let beyond = self.shape.iter().filter(|[radius, ..]| *radius > 0.5 * self.largest);
+        beyond.count() as f64 / self.shape.len() as f64
+    }
+}
+
+/// Until the film has drawn back by a tenth of D, or five D/U have gone by.
+fn spread(weber: f64, resolution: usize) -> Spread {
+    const STEP: f64 = 0.05;
+    let drop = drop_of(weber, resolution);
+    let mut state = drop.initial_state();
+    let mut run = Spread { history: Vec::new(), largest: 0.0, time: 0.0, shape: Vec::new() };
+    let mut now = 0.0;
+    while now < 5.0 {
+        drop.advance(&mut state, &[293.15], STEP * TIME).unwrap();
+        now += STEP;
+        let spread = drop.totals(&state).spread_diameter / DIAMETER;
+        run.history.push([now, spread]);
+        if spread > run.largest {
+            (run.largest, run.time) = (spread, now);
+            let p = drop.particles(&state);
+            let of = |(x, v): (&[f64; 3], &[f64; 3])| {
+                let speed = v.iter().map(|v| v * v).sum::<f64>().sqrt() / SPEED;
+                [x[0].hypot(x[1]) / DIAMETER, x[2] / DIAMETER, speed]
+            };
+            run.shape = p.position.iter().zip(&p.velocity).map(of).collect();
+        } else if spread < run.largest - 0.1 {
+            break;
+        }
+    }
+    run
+}
+
+#[test]
+fn largest_spread_of_drops() {
+    const RESOLUTION: usize = 24;
+    let (mut histories, mut shapes, mut largest) = (Vec::new(), Vec::new(), Vec::new());
+    println!("\n### Largest spread D_max/D of drops, Re 500, contact angle 90°\n");
+    println!(
+        "| We | D/Δx | D_max/D | at t U/D | fluid beyond | largest step | {} |",
+        NAMES.join(" | ")
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|");
+    let others = [(100.0, 16), (100.0, 36), (100.0, 48), (400.0, 36)];
+    for (weber, resolution) in WEBERS.map(|weber| (weber, RESOLUTION)).into_iter().chain(others) {
+        let run = spread(weber, resolution);
+        let steps = run.history.windows(2).map(|pair| (pair[1][1] - pair[0][1]).abs());
+        // The first layer lands at once.
+        let jump = steps.skip(5).fold(0.0, f64::max);
+        let values = correlations(weber);
+        let list: Vec<String> = values.iter().map(|value| format!("{value:.2}")).collect();
+        println!(
+            "| {weber} | {resolution} | {:.2} | {:.2} | {:.1} % | {jump:.3} | {} |",
+            run.largest,
+            run.time,
+            100.0 * run.beyond(),
+            list.join(" | ")
+        );
+        let band = [f64::min, f64::max].map(|of| values.into_iter().reduce(of).unwrap());
+        assert!((band[0]..band[1]).contains(&run.largest), "{weber}: {} {values:?}", run.largest);
+        assert!(jump < 0.2, "{weber}: {jump}");
+        let case = [weber, resolution as f64];
+        largest.push([&case[..], &[run.largest, run.time], &values].concat());
+        histories.extend(run.history.iter().map(|row| [&case[..], row].concat()));
+        shapes.extend(run.shape.iter().map(|row| [&case[..], row].concat()));
+    }
+    let at = |weber: f64, resolution: usize| {
+        let case = |row: &&Vec<f64>| row[0] == weber && row[1] == resolution as f64;
+        largest.iter().find(case).unwrap()[2]
+    };
+    assert!((at(100.0, 48) / at(100.0, RESOLUTION) - 1.0).abs() < 0.08);
+    assert!(WEBERS.windows(2).all(|pair| at(pair[0], RESOLUTION) < at(pair[1], RESOLUTION)));
+    keep("spread.csv", "weber,resolution,spread,time,clanet,pasandideh_fard,roisman,laan", largest);
+    keep("spread_history.csv", "weber,resolution,time,spread", histories);
+    keep("spread_shape.csv", "weber,resolution,radius,height,speed", shapes);
+}
