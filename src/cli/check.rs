@@ -6,11 +6,10 @@ use impinge::model::{ParticleForecast, Timeline, forecast};
 use impinge::scene::{
     self, Coupling, Face, Field, Footprint, Load, Probe, Scene, Shape, Solid, Wall,
 };
-use impinge::variables::{Causality, Registry, Value, Variable};
+use impinge::variables::{ArrayRegistry, Causality, Registry, Value, Variable};
 use serde::Serialize;
 
 use super::CliError;
-use super::fold::folded;
 use super::table::table;
 use super::units::{decimal, engineering, kelvin};
 
@@ -242,7 +241,7 @@ fn place(field: &Field) -> String {
 
 /// The variables by causality: how many, and each with its unit and start value, arrays folded.
 fn variables(scene: &Scene) -> String {
-    let (registry, structured) = (Registry::of(scene), Registry::structured(scene));
+    let (registry, arrays) = (Registry::of(scene), ArrayRegistry::of(scene));
     let kinds = [
         ("Parameters", Causality::Parameter),
         ("Inputs", Causality::Input),
@@ -250,19 +249,20 @@ fn variables(scene: &Scene) -> String {
     ];
     let mut text = String::new();
     for (title, causality) in kinds {
-        let list = folded(&registry, &structured, causality);
-        let values: usize = list.iter().map(|folded| folded.elements.len()).sum();
+        let of_causality =
+            arrays.variables.iter().filter(|v| v.causality(&registry) == Some(causality));
+        let list: Vec<&[Variable]> = of_causality.map(|v| v.elements(&registry)).collect();
+        let values: usize = list.iter().map(|elements| elements.len()).sum();
         let count = match list.len() {
             names if names == values => format!("{names}"),
             names => format!("{names}, {values} values"),
         };
         let rows: Vec<_> = list
             .into_iter()
-            .map(|folded| {
-                let elements: Vec<&Variable> =
-                    folded.elements.iter().map(|&i| &registry.variables[i]).collect();
+            .map(|elements| {
                 let unit = elements[0].quantity.map_or("", |quantity| quantity.unit());
-                [folded.name, unit.to_owned(), start(&elements)]
+                // The name with the highest indices tells how many there are.
+                [elements[elements.len() - 1].name.clone(), unit.to_owned(), start(elements)]
             })
             .collect();
         let heading = if causality == Causality::Output { "" } else { "start" };
@@ -272,7 +272,7 @@ fn variables(scene: &Scene) -> String {
 }
 
 /// The start value that all elements share.
-fn start(elements: &[&Variable]) -> String {
+fn start(elements: &[Variable]) -> String {
     let first = &elements[0].start;
     if elements.iter().any(|element| element.start != *first) {
         return "various".into();

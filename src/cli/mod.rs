@@ -3,7 +3,6 @@
 
 mod check;
 mod error;
-mod fold;
 mod run;
 mod set;
 mod summary;

@@ -5,8 +5,6 @@ use std::str::FromStr;
 use impinge::scene::Scene;
 use impinge::variables::{Causality, Registry, Slot, Value, Variable};
 
-use super::fold::array_name;
-
 /// A value for a variable, as given on the command line.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Assignment {
@@ -167,4 +165,9 @@ fn suggestion(close: &[String]) -> String {
     } else {
         format!("; did you mean {}?", close.join(" or "))
     }
+}
+
+/// Name of an array that `name` is an element of; a scalar's own name.
+fn array_name(name: &str) -> &str {
+    name.split_once('[').map_or(name, |(array, _)| array)
 }

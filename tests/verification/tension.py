@@ -21,7 +21,7 @@ def table(path):
 
 
 def main(tables, pictures):
-    figure, axes = plt.subplots(1, 2, figsize=(11, 4), sharey=True, layout="constrained")
+    figure, axes = plt.subplots(1, 2, figsize=(11, 4.4), sharey=True, layout="constrained")
     for axis, (kind, label) in zip(axes, LABELS.items(), strict=True):
         for across in (20, 28, 40):
             run = table(tables / f"swing_{kind}_{across}.csv")
@@ -33,7 +33,7 @@ def main(tables, pictures):
         axis.set_xlabel("time over Rayleigh's period")
         axis.axhline(0.0, color="0.8", zorder=0)
     axes[0].set_ylabel("⟨z² − (x² + y²)/2⟩ / R²")
-    axes[1].legend(loc="lower left")
+    figure.legend(*axes[1].get_legend_handles_labels(), loc="outside lower center", ncols=4)
     figure.savefig(pictures / "tension.png", dpi=100)
 
 

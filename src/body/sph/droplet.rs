@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in, state_len};
 use super::failure::Failure;
+use super::images::copies;
 use super::placement::place;
 use super::plan::{DropletPlan, Release};
 use super::spread::spread_diameter;
@@ -180,7 +181,7 @@ impl DropletSph {
     /// Number of particles that the whole plan will have, and its time step at the speed of the
     /// fastest droplet [s].
     pub fn forecast(plan: &DropletPlan) -> (usize, f64) {
-        let share: f64 = plan.mirrors.iter().map(|&m| if m { 0.5 } else { 1.0 }).product();
+        let share = 1.0 / copies(plan.mirrors);
         let volume = |diameter: f64| match plan.dimension {
             2 => PI / 4.0 * diameter.powi(2),
             _ => PI / 6.0 * diameter.powi(3),
@@ -231,7 +232,7 @@ impl DropletSph {
         };
         let mass = plan.fluid.density * volume / units.mass();
         let temperature = release.temperature - self.reference_temperature();
-        let images: f64 = plan.mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
+        let images = copies(plan.mirrors);
         for (point, share) in points {
             let at = [0, 1, 2].map(|a| (release.centre[a] + point[a]) / units.length);
             if (0..2).any(|a| plan.mirrors[a] && at[a] < 0.0) {
@@ -248,7 +249,7 @@ impl DropletSph {
 /// Sums over the fluid.
 fn totals(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud) -> DropletTotals {
     let units = &method.units;
-    let images: f64 = plan.mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
+    let images = copies(plan.mirrors);
     let heat_unit = units.energy() / method.heat_unit;
     let mut totals = DropletTotals {
         surface_energy: ledger.surface_energy,

@@ -104,6 +104,11 @@ impl Image {
     }
 }
 
+/// A particle and its images at the mirrors x = 0 and y = 0: how many they are.
+pub fn copies(mirrors: [bool; 2]) -> f64 {
+    mirrors.iter().map(|&mirrored| if mirrored { 2.0 } else { 1.0 }).product()
+}
+
 /// What ends a model along an axis. Lengths over H.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ends {

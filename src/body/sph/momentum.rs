@@ -4,6 +4,7 @@ use super::images::{Images, Source};
 use super::lanes::{Lanes, WIDTH, lanes};
 use super::loops::{Local, PairSum};
 use super::neighbours::Block;
+use super::tension::SurfaceEnergy;
 use crate::kernel::Shape;
 
 /// Pressure, viscosity and surface tension, equal and opposite in every pair.
@@ -12,8 +13,8 @@ use crate::kernel::Shape;
 ///
 /// `(1 + r_i) du_i/dt = Σ V_j F [−(p_i + p_j) x_ij + 2 ν u_ij] − Σ V_j [∇∇W (A_i − A_j) + (b_i + b_j) ∇W]`
 ///
-/// with the slopes A, b of the surface's energy and W of its support h, only if `TENSE`. Images across z move against their
-/// originals, so that the fluid sticks.
+/// with the slopes A, b of the surface's energy and W of its support h, only if `TENSE`. Images across z
+/// move against their originals, so that the fluid sticks.
 ///
 /// Source: Morris, Fox & Zhu (1997), J. Comput. Phys. 136, 214–226, doi 10.1006/jcph.1997.5776.
 pub struct Momentum<'a, const TENSE: bool> {
@@ -28,8 +29,7 @@ pub struct Momentum<'a, const TENSE: bool> {
     pub normalisation: f64,
     /// ν = µ/(ρ₀ c₀ H).
     pub viscosity: f64,
-    /// h over H of the surface's energy, and the dimension.
-    pub surface: [f64; 2],
+    pub surface: SurfaceEnergy,
 }
 
 /// Accelerations of one particle by fluid and by the wall.
@@ -78,7 +78,7 @@ impl<const TENSE: bool> PairSum for Momentum<'_, TENSE> {
         local: &Local<L::Real>,
     ) -> Accelerations {
         let own = &self.records[block.first + k];
-        let [reach, dimension] = self.surface;
+        let SurfaceEnergy { reach, scale: steep, .. } = self.surface;
         let [a, b, c, pull] = if TENSE { self.slopes[block.first + k] } else { [0.0; 4] };
         let here = Here::<L> {
             position: lanes([
@@ -92,7 +92,7 @@ impl<const TENSE: bool> PairSum for Momentum<'_, TENSE> {
             slope: lanes([a, b, c]),
             pull: L::constant(pull),
             nearer: L::constant(1.0 / reach),
-            steeper: L::constant(reach.powf(-dimension - 2.0)),
+            steeper: L::constant(steep / (reach * reach)),
             bends: L::constant(1.0 / (reach * reach)),
         };
         let [fluid, wall] = block.neighbours(k);

@@ -9,17 +9,19 @@ use std::f64::consts::PI;
 
 use super::cloud::{Cloud, Ledger, Part};
 use super::continuity::{Continuity, ContinuityRates};
+use super::deposit::deposit;
 use super::failure::Failure;
-use super::images::Images;
+use super::images::{Images, copies};
 use super::kick::{DENSITIES, Motion, kick};
 use super::loops::{PART, PairSum, Precision, for_all, for_parts};
+use super::moment::{filled, least_eigenvalue, renormalised};
 use super::momentum::{Accelerations, Momentum};
 use super::neighbours::Neighbours;
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
 use super::tension::{Surface, SurfaceEnergy, SurfaceSums};
 use super::units::{Units, pressure};
-use super::wall::{WallCells, WallExchange};
+use super::wall::WallCells;
 use super::wetting;
 use crate::kernel::Kernel;
 use crate::math::parallel;
@@ -66,6 +68,8 @@ pub struct Stepper<'a> {
     records: Vec<[f64; 8]>,
     annexes: Vec<[f64; 4]>,
     accelerations: Vec<[[f64; 3]; 2]>,
+    /// What the surface's energy was last made of.
+    surface: Vec<SurfaceSums>,
 }
 
 /// Share of H/c₀ that a step may take.
@@ -76,8 +80,6 @@ const FORCED: f64 = 0.18;
 const CAPILLARY: f64 = 0.25;
 /// Way at the mean speed over H after which particles are moved from crowded places.
 const SHIFT_WAY: f64 = 0.05;
-/// Determinant below which a moment matrix is not inverted.
-const SINGULAR: f64 = 0.05;
 
 impl Method {
     pub fn of(plan: &DropletPlan, threads: usize) -> Self {
@@ -164,6 +166,7 @@ impl<'a> Stepper<'a> {
             records: Vec::new(),
             annexes: Vec::new(),
             accelerations: Vec::new(),
+            surface: Vec::new(),
         };
         stepper.sort();
         stepper
@@ -198,6 +201,7 @@ impl<'a> Stepper<'a> {
             rest = if dt == rest { 0.0 } else { rest - dt };
             self.ledger.steps += 1.0;
         }
+        self.note_surface_energy();
         Ok(())
     }
 
@@ -205,6 +209,7 @@ impl<'a> Stepper<'a> {
     pub fn prime(&mut self) {
         self.list(&vec![[0.0; 3]; self.cloud.len()], 1.0);
         self.accelerate(0.0);
+        self.note_surface_energy();
     }
 
     fn step(&mut self, dt: f64) -> Result<Motion, Failure> {
@@ -256,8 +261,7 @@ impl<'a> Stepper<'a> {
         if dt == 0.0 {
             return motion;
         }
-        let images = if self.method.mirrors[0] { 2.0 } else { 1.0 }
-            * if self.method.mirrors[1] { 2.0 } else { 1.0 };
+        let images = copies(self.method.mirrors);
         let momentum = self.method.units.mass() * self.method.units.speed;
         for (impulse, gravity) in self.ledger.impulse_of_gravity.iter_mut().zip(gravity) {
             *impulse += images * momentum * motion.mass * dt * gravity;
@@ -377,12 +381,14 @@ impl<'a> Stepper<'a> {
         });
         let mut acceleration = std::mem::take(&mut self.accelerations);
         if method.tension > 0.0 {
-            let surface = self.surface(&records);
-            self.ledger.surface_energy = self.surface_energy(&surface);
-            let slopes: Vec<[f64; 4]> = surface.iter().map(|sums| sums.slopes).collect();
+            let memory = std::mem::take(&mut self.surface);
+            let surface = self.surface(&records, memory);
+            let mut slopes = std::mem::take(&mut self.annexes);
+            fill(&mut slopes, surface.len(), method.threads, |i| surface[i].slopes);
             let pass = self.momentum::<true>(&records, &slopes);
             acceleration = self.over_pairs(&pass, acceleration);
             self.wet(&mut acceleration);
+            (self.surface, self.annexes) = (surface, slopes);
         } else {
             let pass = self.momentum::<false>(&records, &[]);
             acceleration = self.over_pairs(&pass, acceleration);
@@ -403,7 +409,7 @@ impl<'a> Stepper<'a> {
             densities: &self.cloud.density,
             normalisation: self.method.normalisation,
             viscosity: self.method.viscosity,
-            surface: [self.method.surface.reach, self.method.dimension as f64],
+            surface: self.method.surface,
         }
     }
 
@@ -416,21 +422,23 @@ impl<'a> Stepper<'a> {
         for_all(pass, &self.neighbours.blocks, kernel, precision, threads, memory)
     }
 
-    fn surface(&self, records: &[[f64; 8]]) -> Vec<SurfaceSums> {
+    fn surface(&self, records: &[[f64; 8]], memory: Vec<SurfaceSums>) -> Vec<SurfaceSums> {
         let pass = Surface {
             images: &self.method.images,
             records,
             normalisation: self.method.normalisation,
-            dimension: self.method.dimension,
             energy: self.method.surface,
         };
-        self.over_pairs(&pass, Vec::new())
+        self.over_pairs(&pass, memory)
     }
 
-    /// Energy of all free and wetted surface, images at mirrors included [J].
-    fn surface_energy(&self, surface: &[SurfaceSums]) -> f64 {
+    /// Notes the energy of all free and wetted surface where particles stand now, images at mirrors
+    /// included [J].
+    fn note_surface_energy(&mut self) {
+        if self.surface.is_empty() {
+            return; // There is no tension, or nothing has moved.
+        }
         let method = self.method;
-        let images: f64 = method.mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
         let wets = method.wall.is_some();
         let of_particle = |(i, sums): (usize, &SurfaceSums)| {
             let height = self.cloud.position[i][2];
@@ -438,7 +446,8 @@ impl<'a> Stepper<'a> {
                 if wets { wetting::energy(method.tension, method.wetting, height) } else { 0.0 };
             self.cloud.volume(i) * (sums.energy + wall)
         };
-        images * method.units.energy() * surface.iter().enumerate().map(of_particle).sum::<f64>()
+        let sum: f64 = self.surface.iter().enumerate().map(of_particle).sum();
+        self.ledger.surface_energy = copies(method.mirrors) * method.units.energy() * sum;
     }
 
     /// Adds the wall's pull.
@@ -491,14 +500,7 @@ impl<'a> Stepper<'a> {
             normalisation: method.normalisation,
             reference: 1.0 / value(method.spacing),
         };
-        let sums = for_all(
-            &pass,
-            &self.neighbours.blocks,
-            method.kernel,
-            method.precision,
-            method.threads,
-            Vec::new(),
-        );
+        let sums = self.over_pairs(&pass, Vec::new());
         let shifts: Vec<[f64; 3]> = sums
             .iter()
             .zip(&fullness)
@@ -556,106 +558,4 @@ fn differ(mut numbers: impl Iterator<Item = f64>) -> bool {
 fn record(cloud: &Cloud, i: usize, velocity: [f64; 3], last: f64) -> [f64; 8] {
     let ([x, y, z], [u, v, w]) = (cloud.position[i], velocity);
     [x, y, z, u, v, w, cloud.volume(i), last]
-}
-
-/// The moment matrix; in a plane model nothing happens along y.
-fn filled(mut moment: [f64; 6], dimension: usize) -> [f64; 6] {
-    if dimension == 2 {
-        moment[1] = 1.0;
-    }
-    moment
-}
-
-/// Smallest eigenvalue of a symmetric matrix xx, yy, zz, xy, yz, xz (Smith 1961, doi
-/// 10.1145/355578.366316).
-fn least_eigenvalue(&[xx, yy, zz, xy, yz, xz]: &[f64; 6]) -> f64 {
-    let mean = (xx + yy + zz) / 3.0;
-    let [a, b, c] = [xx - mean, yy - mean, zz - mean];
-    let spread = (a * a + b * b + c * c + 2.0 * (xy * xy + yz * yz + xz * xz)) / 6.0;
-    if spread <= 0.0 {
-        return mean;
-    }
-    let determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
-    let cosine = (0.5 * determinant / (spread * spread.sqrt())).clamp(-1.0, 1.0);
-    mean + 2.0 * spread.sqrt() * (cosine.acos() / 3.0 + 2.0 * PI / 3.0).cos()
-}
-
-/// The gradient that is exact for linear fields; nothing where too few neighbours span space.
-fn renormalised(&[xx, yy, zz, xy, yz, xz]: &[f64; 6], [a, b, c]: [f64; 3]) -> [f64; 3] {
-    let [xx_, yy_, zz_] = [yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy];
-    let [xy_, yz_, xz_] = [xz * yz - xy * zz, xy * xz - xx * yz, xy * yz - xz * yy];
-    let determinant = xx * xx_ + xy * xy_ + xz * xz_;
-    if determinant < SINGULAR {
-        return [0.0; 3];
-    }
-    let inverse = 1.0 / determinant;
-    [
-        inverse * (xx_ * a + xy_ * b + xz_ * c),
-        inverse * (xy_ * a + yy_ * b + yz_ * c),
-        inverse * (xz_ * a + yz_ * b + zz_ * c),
-    ]
-}
-
-/// Adds heat [J] and impulse [N s] at a place of the wall and at its images at `mirrors`, which have to
-/// lie in the same cells.
-fn deposit(
-    cells: &WallCells,
-    ledger: &mut Ledger,
-    [x, y]: [f64; 2],
-    heat: f64,
-    impulse: [f64; 3],
-    mirrors: [bool; 2],
-) {
-    let exchange: &mut WallExchange = &mut ledger.exchange;
-    let share = cells.share(x, y);
-    let images: f64 = mirrors.iter().map(|&m| if m { 2.0 } else { 1.0 }).product();
-    let (heat, impulse) = (images * heat, impulse.map(|p| images * p));
-    ledger.heat_to_wall += heat;
-    // What the images give along a mirrored axis cancels.
-    let along = |n: usize| if n < 2 && mirrors[n] { 0.0 } else { impulse[n] };
-    (0..3).for_each(|n| ledger.impulse_to_wall[n] += along(n));
-    if share.outside {
-        exchange.heat_outside += heat;
-        (0..3).for_each(|n| exchange.impulse_outside[n] += along(n));
-        return;
-    }
-    let radius = x.hypot(y);
-    let impulse = match cells {
-        WallCells::Tiles { .. } | WallCells::Nodes { .. } => impulse,
-        _ if radius > 0.0 => [(x * impulse[0] + y * impulse[1]) / radius, 0.0, impulse[2]],
-        _ => [0.0, 0.0, impulse[2]],
-    };
-    for (cell, weight) in share.cells {
-        exchange.heat[cell] += weight * heat;
-        (0..3).for_each(|n| exchange.impulse[cell][n] += weight * impulse[n]);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use nalgebra::Matrix3;
-
-    use super::*;
-
-    const MOMENT: [f64; 6] = [0.9, 0.7, 0.4, 0.1, -0.2, 0.05];
-
-    fn matrix([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> Matrix3<f64> {
-        Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
-    }
-
-    #[test]
-    fn the_least_eigenvalue_is_that_of_an_iterative_solver() {
-        for moment in [MOMENT, [1.0, 1.0, 1.0, 0.0, 0.0, 0.0], [0.3, 0.2, 0.9, 0.0, 0.0, 0.1]] {
-            let exact = matrix(moment).symmetric_eigenvalues().min();
-            assert!((least_eigenvalue(&moment) - exact).abs() < 1e-12);
-        }
-    }
-
-    #[test]
-    fn renormalisation_inverts_the_moment() {
-        let gradient = nalgebra::Vector3::new(1.0, -2.0, 0.5);
-        let sum = matrix(MOMENT) * gradient;
-        let found = renormalised(&MOMENT, sum.into());
-        assert!((nalgebra::Vector3::from(found) - gradient).norm() < 1e-12);
-    }
 }
