@@ -36,15 +36,40 @@ pub struct Block {
     surroundings: Vec<(usize, u8)>,
     /// How far neighbours may still move against each other.
     slack: f64,
+    /// How far anything may still move against anything before what is not among the surroundings
+    /// could be a neighbour.
+    clearance: f64,
 }
 
-/// Neighbours of all particles.
+/// Neighbours of all particles, or those of other points among the particles.
 #[derive(Default)]
 pub struct Neighbours {
     pub blocks: Vec<Block>,
+    /// Of the sources.
     tree: BlockTree,
+    /// How far a neighbour may be away.
+    reach: f64,
     /// Sources of all blocks when the particles were sorted.
     sorted_sources: usize,
+}
+
+/// Points in the order of a tree's blocks, and the ways that they are about to go, up to a factor.
+#[derive(Clone, Copy)]
+pub struct Travelling<'a> {
+    pub points: &'a [[f64; 3]],
+    pub ways: &'a [[f64; 3]],
+    pub factor: f64,
+}
+
+impl Travelling<'_> {
+    /// Bounds of the ways of every block.
+    fn drifts(&self, threads: usize) -> Vec<Bounds> {
+        let count = self.points.len();
+        parallel::map(threads, count.div_ceil(BLOCK), |b| {
+            let range = b * BLOCK..((b + 1) * BLOCK).min(count);
+            Bounds::of(self.ways[range].iter().map(|way| way.map(|w| self.factor * w)))
+        })
+    }
 }
 
 impl Block {
@@ -58,6 +83,7 @@ impl Block {
             ends: Vec::with_capacity(count),
             surroundings: Vec::new(),
             slack: f64::NAN,
+            clearance: f64::NAN,
         }
     }
 
@@ -84,9 +110,20 @@ impl Neighbours {
     /// If there are more particles than [`Source::MOST`].
     pub fn of_ordered(tree: BlockTree, particles: usize) -> Self {
         assert!(particles <= Source::MOST, "{particles} particles, at most {}", Source::MOST);
-        let block = |b: usize| Block::empty(b * BLOCK, BLOCK.min(particles - b * BLOCK));
-        let blocks = (0..particles.div_ceil(BLOCK)).map(block).collect();
-        Self { blocks, tree, sorted_sources: 0 }
+        Self::between(particles, tree, 1.0)
+    }
+
+    /// Neighbours within `reach` of some targets among the sources that stand in the order of the tree's
+    /// blocks.
+    pub fn between(targets: usize, tree: BlockTree, reach: f64) -> Self {
+        let block = |b: usize| Block::empty(b * BLOCK, BLOCK.min(targets - b * BLOCK));
+        let blocks = (0..targets.div_ceil(BLOCK)).map(block).collect();
+        Self { blocks, tree, reach, sorted_sources: 0 }
+    }
+
+    /// The tree over the sources.
+    pub fn tree(&self) -> &BlockTree {
+        &self.tree
     }
 
     /// Whether the particles have mixed so much that they should be sorted anew.
@@ -98,34 +135,63 @@ impl Neighbours {
         self.blocks.iter().map(|block| block.sources.len()).sum()
     }
 
-    /// Makes the lists hold all neighbours of particles at `points` and on their way along `ways`
-    /// times `factor`.
-    pub fn prepare(
+    /// Makes the lists hold all neighbours of particles where they are and on their way.
+    pub fn prepare(&mut self, particles: Travelling, images: &Images, threads: usize) {
+        let drifts = particles.drifts(threads);
+        self.renew((particles.points, &drifts), (particles.points, &drifts), images, threads);
+    }
+
+    /// As [`Self::prepare`], for lists of sources round targets.
+    pub fn prepare_between(
         &mut self,
-        points: &[[f64; 3]],
-        ways: &[[f64; 3]],
-        factor: f64,
+        targets: Travelling,
+        sources: Travelling,
         images: &Images,
         threads: usize,
     ) {
-        let drifts = parallel::map(threads, self.blocks.len(), |b| {
-            let range = b * BLOCK..((b + 1) * BLOCK).min(points.len());
-            Bounds::of(ways[range].iter().map(|way| way.map(|w| factor * w)))
-        });
+        let [aims, drifts] = [targets, sources].map(|points| points.drifts(threads));
+        self.renew((targets.points, &aims), (sources.points, &drifts), images, threads);
+    }
+
+    /// Makes anew the lists that motions of targets and sources wear out.
+    fn renew(
+        &mut self,
+        (targets, aims): (&[[f64; 3]], &[Bounds]),
+        (points, drifts): (&[[f64; 3]], &[Bounds]),
+        images: &Images,
+        threads: usize,
+    ) {
+        let motion = widest(aims, drifts, images);
+        let all = |block: &Block| span(&aims[block.first / BLOCK], drifts, block, images);
         parallel::for_each(threads, &mut self.blocks, |_, block| {
-            block.slack -= span(&drifts, &block.surroundings, images);
+            block.slack -= all(block);
+            block.clearance -= motion;
         });
-        let is_worn = |block: &&mut Block| block.slack.is_nan() || block.slack < MARGIN;
-        let mut worn: Vec<&mut Block> = self.blocks.iter_mut().filter(is_worn).collect();
-        if worn.is_empty() {
+        let is_worn = |block: &Block| !(block.slack >= MARGIN && block.clearance >= MARGIN);
+        if !self.blocks.iter().any(is_worn) {
             return;
         }
         self.tree.refit(points);
-        let tree = &self.tree;
-        let blocks: Vec<&[[f64; 3]]> = points.chunks(BLOCK).collect();
-        let spots = parallel::map(threads, blocks.len(), |b| Spots::of(blocks[b]));
+        let sources = Sources {
+            spots: parallel::map(threads, points.len().div_ceil(BLOCK), |b| {
+                Spots::of(&points[b * BLOCK..((b + 1) * BLOCK).min(points.len())])
+            }),
+            drifts,
+            tree: &self.tree,
+            images,
+            motion,
+            reach: self.reach,
+        };
+        let mut worn: Vec<&mut Block> =
+            self.blocks.iter_mut().filter(|block| is_worn(block)).collect();
         parallel::for_each(threads, &mut worn, |_, block| {
-            **block = list(block.first, points, &spots, &drifts, tree, images);
+            let (first, count) = (block.first, block.count);
+            let own = &targets[first..first + count];
+            if block.slack >= MARGIN && sources.are_all_around(block, own) {
+                block.clearance = SKINS[1] - motion;
+            } else {
+                **block = list(first, own, &aims[first / BLOCK], &sources);
+            }
         });
         if self.sorted_sources == 0 {
             self.sorted_sources = self.sources();
@@ -133,35 +199,60 @@ impl Neighbours {
     }
 }
 
-/// How far particles of some blocks move against each other at most; infinite for no block.
-fn span(drifts: &[Bounds], surroundings: &[(usize, u8)], images: &Images) -> f64 {
-    let drift = |&(block, code): &(usize, u8)| drifts[block].turned(images.get(code));
-    let Some(first) = surroundings.first() else { return f64::INFINITY };
-    let all = surroundings.iter().fold(drift(first), |all, part| all.joined(&drift(part)));
-    (0..3).map(|a| (all.high[a] - all.low[a]).powi(2)).sum::<f64>().sqrt()
+/// What lists are made from.
+struct Sources<'a> {
+    spots: Vec<Spots>,
+    drifts: &'a [Bounds],
+    tree: &'a BlockTree,
+    images: &'a Images,
+    /// How far anything moves against anything at most.
+    motion: f64,
+    reach: f64,
 }
 
-/// Lists what surrounds the block of particles from `first` on.
-fn list(
-    first: usize,
-    points: &[[f64; 3]],
-    spots: &[Spots],
-    drifts: &[Bounds],
-    tree: &BlockTree,
-    images: &Images,
-) -> Block {
-    let mut block = Block::empty(first, BLOCK.min(points.len() - first));
-    let own = &points[first..first + block.count];
+impl Sources<'_> {
+    /// Whether nothing but its surroundings has come near to a block.
+    fn are_all_around(&self, block: &Block, own: &[[f64; 3]]) -> bool {
+        let bounds = Bounds::of(own.iter().copied());
+        let near = surroundings(&bounds, self.tree, self.images, self.reach + SKINS[1]);
+        self.motion < SKINS[1] - MARGIN && near.iter().all(|part| block.surroundings.contains(part))
+    }
+}
+
+/// How far any target moves against any source or image at most.
+fn widest(aims: &[Bounds], drifts: &[Bounds], images: &Images) -> f64 {
+    let joined = |all: &[Bounds]| all.iter().copied().reduce(|all, part| all.joined(&part));
+    let (Some(aim), Some(drift)) = (joined(aims), joined(drifts)) else { return 0.0 };
+    let image = |all: Bounds, &code: &u8| all.joined(&drift.turned(images.get(code)));
+    images.codes().iter().fold(aim, image).diagonal()
+}
+
+/// How far a block's targets and what surrounds them move against each other at most; nothing where
+/// nothing surrounds them.
+fn span(aim: &Bounds, drifts: &[Bounds], block: &Block, images: &Images) -> f64 {
+    let drift = |&(b, code): &(usize, u8)| drifts[b].turned(images.get(code));
+    if block.surroundings.is_empty() {
+        return 0.0;
+    }
+    block.surroundings.iter().fold(*aim, |all, part| all.joined(&drift(part))).diagonal()
+}
+
+/// Lists what surrounds a block of targets, whose ways have the bounds `aim`.
+fn list(first: usize, own: &[[f64; 3]], aim: &Bounds, sources: &Sources) -> Block {
+    let Sources { spots, drifts, tree, images, motion: most, .. } = sources;
+    let mut block = Block::empty(first, own.len());
     let bounds = Bounds::of(own.iter().copied());
     block.centre = bounds.centre();
-    block.surroundings = surroundings(&bounds, tree, images, 1.0 + SKINS[1]);
-    let motion = span(drifts, &block.surroundings, images);
+    let widest = sources.reach + SKINS[1];
+    block.surroundings = surroundings(&bounds, tree, images, widest);
+    let motion = span(aim, drifts, &block, images);
     let skin = (SKIN_STEPS * motion).clamp(SKINS[0], SKINS[1]).max(1.5 * motion);
-    let reach = 1.0 + skin;
+    let reach = sources.reach + skin;
     if skin > SKINS[1] {
         block.surroundings = surroundings(&bounds, tree, images, reach);
     }
     block.slack = skin - motion;
+    block.clearance = skin.max(SKINS[1]) - most;
     let near = Near::to(&bounds, reach);
     let mut candidates = Candidates::default();
     let mut wall = 0;
@@ -301,6 +392,10 @@ mod tests {
             .map(|ends| Images::new(ends, true, [0.0; 3]))
     }
 
+    fn on_way<'a>(points: &'a [[f64; 3]], ways: &'a [[f64; 3]]) -> Travelling<'a> {
+        Travelling { points, ways, factor: 1.0 }
+    }
+
     fn number(i: usize) -> f64 {
         (i as f64 * 0.754877666).fract()
     }
@@ -347,7 +442,7 @@ mod tests {
     fn the_lists_hold_what_a_loop_over_all_pairs_finds() {
         for (images, threads) in models().into_iter().zip([1, 3]) {
             let (points, mut neighbours) = ordered(700);
-            neighbours.prepare(&points, &vec![[0.0; 3]; 700], 1.0, &images, threads);
+            neighbours.prepare(on_way(&points, &[[0.0; 3]; 700]), &images, threads);
             let listed = assert_complete(&points, &neighbours, &images);
             let near = |i: usize, code: u8| {
                 let reach = (1.0 + SKINS[0]).powi(2);
@@ -371,7 +466,7 @@ mod tests {
             let (mut points, mut neighbours) = ordered(700);
             for step in 0..40 {
                 let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
-                neighbours.prepare(&points, &drifts, 1.0, &images, 1);
+                neighbours.prepare(on_way(&points, &drifts), &images, 1);
                 assert_complete(&points, &neighbours, &images);
                 for (x, d) in points.iter_mut().zip(&drifts) {
                     *x = [0, 1, 2].map(|a| x[a] + d[a]);
@@ -385,11 +480,71 @@ mod tests {
     fn a_common_motion_wears_no_list_out() {
         let (mut points, mut neighbours) = ordered(500);
         let images = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
-        neighbours.prepare(&points, &vec![[0.0; 3]; 500], 1.0, &images, 1);
+        neighbours.prepare(on_way(&points, &[[0.0; 3]; 500]), &images, 1);
         let slack = neighbours.blocks[0].slack;
         let drifts = vec![[0.5, -0.2, 0.1]; 500];
-        neighbours.prepare(&points, &drifts, 1.0, &images, 1);
+        neighbours.prepare(on_way(&points, &drifts), &images, 1);
         points.iter_mut().for_each(|x| x[0] += 0.5);
         assert!((neighbours.blocks[0].slack - slack).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_comes_from_far_away_is_seen() {
+        // Two clouds, each as stiff as a body, of which one flies through the other.
+        let open = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
+        let (mut points, _) = ordered(2 * BLOCK);
+        points[BLOCK..].iter_mut().for_each(|x| x[0] += 7.0);
+        let (order, tree) = Neighbours::order(&points, 1);
+        points = order.iter().map(|&i| points[i as usize]).collect();
+        let mut neighbours = Neighbours::of_ordered(tree, points.len());
+        let ways: Vec<_> =
+            points.iter().map(|x| [if x[0] > 5.0 { -0.07 } else { 0.0 }, 0.0, 0.0]).collect();
+        for _ in 0..100 {
+            neighbours.prepare(on_way(&points, &ways), &open, 1);
+            points.iter_mut().zip(&ways).for_each(|(x, way)| x[0] += way[0]);
+            assert_complete(&points, &neighbours, &open);
+        }
+    }
+
+    #[test]
+    fn other_points_find_their_neighbours_among_particles() {
+        for images in models() {
+            let (mut points, particles) = ordered(700);
+            let mut targets = Neighbours::between(300, particles.tree().clone(), 0.8);
+            let mut at: Vec<[f64; 3]> =
+                points.iter().take(300).map(|x| x.map(|x| 3.0 - x)).collect();
+            let (order, _) = Neighbours::order(&at, 1);
+            at = order.iter().map(|&i| at[i as usize]).collect();
+            let ways: Vec<_> = (0..700).map(|i| [0.02 * number(i), 0.01, 0.0]).collect();
+            for _ in 0..20 {
+                let still = [[0.0; 3]; 300];
+                targets.prepare_between(on_way(&at, &still), on_way(&points, &ways), &images, 1);
+                points.iter_mut().zip(&ways).for_each(|(x, w)| (0..3).for_each(|a| x[a] += w[a]));
+                for block in &targets.blocks {
+                    for k in 0..block.count {
+                        let listed: usize = (block.neighbours(k).into_iter().flatten().flatten())
+                            .filter(|&&place| place > 0)
+                            .map(|&place| block.sources[place as usize - 1])
+                            .filter(|s| {
+                                gap(
+                                    at[block.first + k],
+                                    images.get(s.code()).place(points[s.particle()]),
+                                ) < 0.8
+                            })
+                            .count();
+                        let all =
+                            images.codes().iter().flat_map(|&c| points.iter().map(move |p| (c, p)));
+                        let near = all.filter(|(c, p)| {
+                            gap(at[block.first + k], images.get(*c).place(**p)) < 0.8
+                        });
+                        assert_eq!(listed, near.count());
+                    }
+                }
+            }
+        }
+    }
+
+    fn gap(a: [f64; 3], b: [f64; 3]) -> f64 {
+        (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
     }
 }

@@ -66,6 +66,10 @@ impl Bounds {
         [0, 1, 2].map(|a| 0.5 * (self.low[a] + self.high[a]))
     }
 
+    pub fn diagonal(&self) -> f64 {
+        (0..3).map(|a| (self.high[a] - self.low[a]).powi(2)).sum::<f64>().sqrt()
+    }
+
     fn gap_squared(&self, other: &Self) -> f64 {
         let gap = |a: usize| (self.low[a] - other.high[a]).max(other.low[a] - self.high[a]);
         (0..3).map(|a| gap(a).max(0.0).powi(2)).sum()

@@ -16,7 +16,7 @@ use super::kick::{DENSITIES, Motion, kick};
 use super::loops::{PART, PairSum, Precision, for_all, for_parts};
 use super::moment::{filled, least_eigenvalue, renormalised};
 use super::momentum::{Accelerations, Momentum};
-use super::neighbours::Neighbours;
+use super::neighbours::{Neighbours, Travelling};
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
 use super::tension::{Surface, SurfaceEnergy, SurfaceSums};
@@ -182,7 +182,8 @@ impl<'a> Stepper<'a> {
     /// Lists neighbours for ways that the particles are about to go: these vectors times `factor`.
     fn list(&mut self, ways: &[[f64; 3]], factor: f64) {
         let Method { images, threads, .. } = self.method;
-        self.neighbours.prepare(&self.cloud.position, ways, factor, images, *threads);
+        let particles = Travelling { points: &self.cloud.position, ways, factor };
+        self.neighbours.prepare(particles, images, *threads);
     }
 
     /// Advances by `duration` [s].
