@@ -18,7 +18,9 @@ pub struct Cloud {
     pub heating: Vec<f64>,
     /// By fluid and by the wall.
     pub acceleration: Vec<[[f64; 3]; 2]>,
-    /// Renormalised gradient of the density.
+    /// Surface tension's φ over ρ₀c₀², see [`Pull`](super::tension::Pull).
+    pub potential: Vec<f64>,
+    /// Renormalised gradient of the density and the potential.
     pub gradient: Vec<[f64; 3]>,
     /// Moment matrices of the last step: xx, yy, zz, xy, yz, xz.
     pub moment: Vec<[f64; 6]>,
@@ -63,7 +65,7 @@ pub struct Ledger {
 }
 
 /// Numbers of a particle in a flat vector.
-const NUMBERS: usize = 25;
+const NUMBERS: usize = 26;
 /// Numbers of the ledger before those of its cells.
 const HEAD: usize = 18;
 
@@ -116,6 +118,7 @@ impl Cloud {
         self.temperature.push(temperature);
         self.heating.push(0.0);
         self.acceleration.push([[0.0; 3]; 2]);
+        self.potential.push(0.0);
         self.gradient.push([0.0; 3]);
         self.moment.push([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
     }
@@ -130,6 +133,7 @@ impl Cloud {
         permute.apply(&mut self.temperature);
         permute.apply(&mut self.heating);
         permute.apply(&mut self.acceleration);
+        permute.apply(&mut self.potential);
         permute.apply(&mut self.gradient);
         permute.apply(&mut self.moment);
     }
@@ -142,6 +146,7 @@ impl Cloud {
         self.temperature.reserve(particles);
         self.heating.reserve(particles);
         self.acceleration.reserve(particles);
+        self.potential.reserve(particles);
         self.gradient.reserve(particles);
         self.moment.reserve(particles);
     }
@@ -168,6 +173,7 @@ impl Cloud {
             d,
             e,
             f,
+            self.potential[i],
             g,
             h,
             k,
@@ -186,8 +192,9 @@ impl Cloud {
         self.density[i] = n[7];
         self.heating[i] = n[9];
         self.acceleration[i] = [[n[10], n[11], n[12]], [n[13], n[14], n[15]]];
-        self.gradient[i] = [n[16], n[17], n[18]];
-        self.moment[i] = [n[19], n[20], n[21], n[22], n[23], n[24]];
+        self.potential[i] = n[16];
+        self.gradient[i] = [n[17], n[18], n[19]];
+        self.moment[i] = [n[20], n[21], n[22], n[23], n[24], n[25]];
     }
 }
 
@@ -279,6 +286,7 @@ mod tests {
             cloud.density[last] = 0.01 * x;
             cloud.heating[last] = -x;
             cloud.acceleration[last] = [[x, 1.0, 2.0], [3.0, x, 4.0]];
+            cloud.potential[last] = 0.125 * x;
             cloud.gradient[last] = [0.5, x, 0.25];
             cloud.moment[last] = [x, 1.0, 2.0, 0.1, 0.2, 0.3];
         }

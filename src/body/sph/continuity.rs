@@ -16,7 +16,8 @@ use crate::kernel::Shape;
 /// with δ for a smoothing length H/2 and `g_i = B_i Σ V_j F (r_j − r_i) x_ij`,
 /// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. Images at planes slip in the first
 /// equation, and under a body force the density goes on in them as it does at rest, so that a fluid at
-/// rest is not diffused; in the second those at the wall are as much colder than it as their original
+/// rest is not diffused; neither is one at rest under surface tension, because r in the diffusion stands
+/// for r + φ with the tension's potential φ (0 without). In the second those at the wall are as much colder than it as their original
 /// is hotter.
 ///
 /// Only with `HEAT` is heat conducted; without `MOMENTS` all g are 0, and neither they nor what B is
@@ -28,8 +29,10 @@ use crate::kernel::Shape;
 /// doi 10.1006/jcph.1998.6118.
 pub struct Continuity<'a, const HEAT: bool, const MOMENTS: bool> {
     pub images: &'a Images,
-    /// Position, velocity, volume and r of every particle.
+    /// Position, velocity, volume and r + φ of every particle.
     pub records: &'a [[f64; 8]],
+    /// r of every particle.
+    pub densities: &'a [f64],
     /// g and temperature of every particle; nothing where neither is asked for.
     pub annexes: &'a [[f64; 4]],
     /// Temperature of the wall below every particle; nothing without heat.
@@ -125,9 +128,10 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
             by_wall = sums.temperature.sum().into();
         }
         let scale = self.normalisation;
-        let heating = 2.0 * self.conduction * scale / (1.0 + own[7]);
+        let dense = 1.0 + self.densities[i];
+        let heating = 2.0 * self.conduction * scale / dense;
         let mut rates = ContinuityRates {
-            density: scale * (1.0 + own[7]) * sums.divergence.sum().into()
+            density: scale * dense * sums.divergence.sum().into()
                 - scale * self.diffusion * sums.diffusion.sum().into(),
             temperature: [0.0; 2],
             moment: [0.0; 6],

@@ -9,7 +9,7 @@ use super::placement::place;
 use super::plan::{DropletPlan, Release};
 use super::spread::spread_diameter;
 use super::stepper::{Method, Stepper};
-use super::units::{compression_energy, pressure};
+use super::units::{compression_energy, density, pressure};
 use super::wall::WallExchange;
 
 /// Droplets above a wall: everything known before time starts. What changes is a flat vector, whose
@@ -233,6 +233,9 @@ impl DropletSph {
         let mass = plan.fluid.density * volume / units.mass();
         let temperature = release.temperature - self.reference_temperature();
         let images = copies(plan.mirrors);
+        // Under the pressure that its surface keeps up, so that it does not begin to ring.
+        let curvature = 2.0 * (plan.dimension as f64 - 1.0) / release.diameter;
+        let compressed = density(plan.fluid.surface_tension * curvature / units.pressure());
         for (point, share) in points {
             let at = [0, 1, 2].map(|a| (release.centre[a] + point[a]) / units.length);
             if (0..2).any(|a| plan.mirrors[a] && at[a] < 0.0) {
@@ -240,6 +243,7 @@ impl DropletSph {
             }
             let velocity = release.velocity.map(|v| v / units.speed);
             cloud.push(at, velocity, share * mass, temperature);
+            *cloud.density.last_mut().expect("one was just added") = compressed;
             let heat = units.energy() / self.method.heat_unit;
             ledger.heat_released += images * share * mass * heat * temperature;
         }

@@ -172,6 +172,10 @@ impl Images {
         Self { ends, walled, codes, table: (0..1 << BITS).map(image).collect() }
     }
 
+    pub fn ends(&self) -> [Ends; 3] {
+        self.ends
+    }
+
     /// Codes of all images, those at the wall last.
     pub fn codes(&self) -> &[u8] {
         &self.codes

@@ -11,6 +11,8 @@ mod continuity;
 mod deposit;
 mod droplet;
 mod failure;
+mod free_surface;
+mod grid;
 mod images;
 mod kick;
 mod lanes;
@@ -27,7 +29,6 @@ mod stepper;
 mod tension;
 mod units;
 mod wall;
-mod wetting;
 
 pub use droplet::{DropletSph, DropletTotals, ParticleFields};
 pub use failure::Failure;

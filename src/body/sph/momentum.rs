@@ -4,40 +4,34 @@ use super::images::{Images, Source};
 use super::lanes::{Lanes, WIDTH, lanes};
 use super::loops::{Local, PairSum};
 use super::neighbours::Block;
-use super::tension::SurfaceEnergy;
 use crate::kernel::Shape;
 
-/// Pressure, viscosity and surface tension, equal and opposite in every pair.
+/// Pressure and viscosity, equal and opposite in every pair.
 ///
 /// With lengths over H, velocities over c₀, pressures over ρ₀c₀² and F = w′(q)/q of the kernel,
 ///
-/// `(1 + r_i) du_i/dt = Σ V_j F [−(p_i + p_j) x_ij + 2 ν u_ij] − Σ V_j [∇∇W (A_i − A_j) + (b_i + b_j) ∇W]`
+/// `(1 + r_i) du_i/dt = Σ V_j F [−(p_i + p_j) x_ij + 2 ν u_ij]`.
 ///
-/// with the slopes A, b of the surface's energy and W of its support h, only if `TENSE`. Images across z
-/// move against their originals, so that the fluid sticks.
+/// Images across z move against their originals, so that the fluid sticks.
 ///
 /// Source: Morris, Fox & Zhu (1997), J. Comput. Phys. 136, 214–226, doi 10.1006/jcph.1997.5776.
-pub struct Momentum<'a, const TENSE: bool> {
+pub struct Momentum<'a> {
     pub images: &'a Images,
     /// Position, velocity, volume and pressure of every particle.
     pub records: &'a [[f64; 8]],
-    /// A and b of every particle; nothing without tension.
-    pub slopes: &'a [[f64; 4]],
     /// r of every particle.
     pub densities: &'a [f64],
     /// σ of the kernel.
     pub normalisation: f64,
     /// ν = µ/(ρ₀ c₀ H).
     pub viscosity: f64,
-    pub surface: SurfaceEnergy,
 }
 
 /// Accelerations of one particle by fluid and by the wall.
 pub type Accelerations = [[f64; 3]; 2];
 
-impl<const TENSE: bool> PairSum for Momentum<'_, TENSE> {
+impl PairSum for Momentum<'_> {
     type Output = Accelerations;
-    const ANNEX: bool = TENSE;
 
     #[inline(always)]
     fn records(&self) -> &[[f64; 8]] {
@@ -59,18 +53,6 @@ impl<const TENSE: bool> PairSum for Momentum<'_, TENSE> {
     }
 
     #[inline(always)]
-    fn annexes(&self) -> &[[f64; 4]] {
-        self.slopes
-    }
-
-    #[inline(always)]
-    fn annex(&self, source: Source) -> [f64; 4] {
-        let [a, b, c, pull] = self.slopes[source.particle()];
-        let [a, b, c] = self.images.get(source.code()).turn([a, b, c]);
-        [a, b, c, pull]
-    }
-
-    #[inline(always)]
     fn sum<L: Lanes, S: Shape>(
         &self,
         block: &Block,
@@ -78,8 +60,6 @@ impl<const TENSE: bool> PairSum for Momentum<'_, TENSE> {
         local: &Local<L::Real>,
     ) -> Accelerations {
         let own = &self.records[block.first + k];
-        let SurfaceEnergy { reach, scale: steep, .. } = self.surface;
-        let [a, b, c, pull] = if TENSE { self.slopes[block.first + k] } else { [0.0; 4] };
         let here = Here::<L> {
             position: lanes([
                 own[0] - block.centre[0],
@@ -89,33 +69,26 @@ impl<const TENSE: bool> PairSum for Momentum<'_, TENSE> {
             velocity: lanes([own[3], own[4], own[5]]),
             pressure: L::constant(own[7]),
             viscosity: L::constant(2.0 * self.viscosity),
-            slope: lanes([a, b, c]),
-            pull: L::constant(pull),
-            nearer: L::constant(1.0 / reach),
-            steeper: L::constant(steep / (reach * reach)),
-            bends: L::constant(1.0 / (reach * reach)),
         };
         let [fluid, wall] = block.neighbours(k);
         let scale = self.normalisation / (1.0 + self.densities[block.first + k]);
         [
-            scaled(total::<L, S, TENSE>(fluid, &here, local), scale),
-            scaled(total::<L, S, TENSE>(wall, &here, local), scale),
+            scaled(total::<L, S>(fluid, &here, local), scale),
+            scaled(total::<L, S>(wall, &here, local), scale),
         ]
     }
 }
 
 /// Sum of the forces of a list of neighbours.
 #[inline(always)]
-fn total<L: Lanes, S: Shape, const TENSE: bool>(
+fn total<L: Lanes, S: Shape>(
     neighbours: &[[u16; WIDTH]],
     here: &Here<L>,
     local: &Local<L::Real>,
 ) -> [L; 3] {
     let mut force = [L::constant(0.0); 3];
     for places in neighbours {
-        let neighbour = local.gather(places);
-        let annex = if TENSE { local.gather_annex(places) } else { [L::constant(0.0); 4] };
-        add::<L, S, TENSE>(&mut force, here, neighbour, annex);
+        add::<L, S>(&mut force, here, local.gather(places));
     }
     force
 }
@@ -131,43 +104,19 @@ struct Here<L> {
     velocity: [L; 3],
     pressure: L,
     viscosity: L,
-    slope: [L; 3],
-    pull: L,
-    /// 1/h, 1/h^(d+2) and 1/h² over H.
-    nearer: L,
-    steeper: L,
-    bends: L,
 }
 
 /// Adds the forces of sixteen neighbours.
 #[inline(always)]
-fn add<L: Lanes, S: Shape, const TENSE: bool>(
-    force: &mut [L; 3],
-    here: &Here<L>,
-    neighbour: [L; 8],
-    [ax, ay, az, pull]: [L; 4],
-) {
+fn add<L: Lanes, S: Shape>(force: &mut [L; 3], here: &Here<L>, neighbour: [L; 8]) {
     let [x, y, z, vx, vy, vz, volume, pressure] = neighbour;
     let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
     let u = [here.velocity[0] - vx, here.velocity[1] - vy, here.velocity[2] - vz];
     let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
     let slope = volume * S::slope_over_q(q);
-    let mut along = L::constant(0.0) - slope * (here.pressure + pressure);
+    let along = L::constant(0.0) - slope * (here.pressure + pressure);
     let viscous = here.viscosity * slope;
-    if TENSE {
-        let a = [here.slope[0] - ax, here.slope[1] - ay, here.slope[2] - az];
-        let q = q * here.nearer;
-        let steep = here.steeper * volume;
-        let slope = steep * S::slope_over_q(q);
-        let bend = steep * here.bends * S::bend_over_q(q);
-        along = along - slope * (here.pull + pull);
-        along = along - bend * (d[0] * a[0] + d[1] * a[1] + d[2] * a[2]);
-        for n in 0..3 {
-            force[n] = force[n] + (along * d[n] + (viscous * u[n] - slope * a[n]));
-        }
-    } else {
-        for n in 0..3 {
-            force[n] = force[n] + (along * d[n] + viscous * u[n]);
-        }
+    for n in 0..3 {
+        force[n] = force[n] + (along * d[n] + viscous * u[n]);
     }
 }

@@ -11,6 +11,8 @@ use super::cloud::{Cloud, Ledger, Part};
 use super::continuity::{Continuity, ContinuityRates};
 use super::deposit::deposit;
 use super::failure::Failure;
+use super::free_surface::{FINENESS, FreeSurface, Setting};
+use super::grid::Grid;
 use super::images::{Images, copies};
 use super::kick::{DENSITIES, Motion, kick};
 use super::loops::{PART, PairSum, Precision, for_all, for_parts};
@@ -19,10 +21,9 @@ use super::momentum::{Accelerations, Momentum};
 use super::neighbours::{Neighbours, Travelling};
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
-use super::tension::{Surface, SurfaceEnergy, SurfaceSums};
+use super::tension::{Pull, SurfaceEnergy};
 use super::units::{Units, pressure};
 use super::wall::WallCells;
-use super::wetting;
 use crate::kernel::Kernel;
 use crate::math::parallel;
 
@@ -40,11 +41,9 @@ pub struct Method {
     diffusion: f64,
     /// Whether density diffusion is corrected by renormalised gradients.
     corrects: bool,
-    /// Surface tension over ρ₀c₀²H, and the energy that makes it.
+    /// Surface tension over ρ₀c₀²H, and what it is computed with where there is any.
     tension: f64,
-    surface: SurfaceEnergy,
-    /// Cosine of the contact angle.
-    wetting: f64,
+    surface: Option<Setting>,
     gravity: [f64; 3],
     /// c₀²/c of the fluid [K], to turn energy of a unit of mass into temperature.
     pub heat_unit: f64,
@@ -68,8 +67,8 @@ pub struct Stepper<'a> {
     records: Vec<[f64; 8]>,
     annexes: Vec<[f64; 4]>,
     accelerations: Vec<[[f64; 3]; 2]>,
-    /// What the surface's energy was last made of.
-    surface: Vec<SurfaceSums>,
+    /// Free surfaces, where they have tension.
+    free_surface: FreeSurface,
 }
 
 /// Share of H/c₀ that a step may take.
@@ -89,6 +88,7 @@ impl Method {
         let normalisation = plan.kernel.scale(1.0, plan.dimension);
         let tension = fluid.surface_tension / (units.density * c * c * h);
         let gravity = plan.gravity.map(|g| g * h / (c * c));
+        let images = Images::of(plan, h, gravity);
         Self {
             units,
             dimension: plan.dimension,
@@ -96,14 +96,13 @@ impl Method {
             precision: plan.precision,
             normalisation,
             mirrors: plan.mirrors,
-            images: Images::of(plan, h, gravity),
+            images: images.clone(),
             viscosity: fluid.viscosity / (units.density * c * h),
             conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
             diffusion: plan.density_diffusion,
             corrects: plan.corrected_diffusion && plan.density_diffusion > 0.0,
             tension,
-            surface: SurfaceEnergy::of(tension, plan.kernel, 1.0 / plan.support, plan.dimension),
-            wetting: plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos()),
+            surface: (tension > 0.0).then(|| surface(plan, tension, &images, threads)),
             gravity,
             heat_unit: c * c / fluid.specific_heat,
             spacing: 1.0 / plan.support,
@@ -166,7 +165,7 @@ impl<'a> Stepper<'a> {
             records: Vec::new(),
             annexes: Vec::new(),
             accelerations: Vec::new(),
-            surface: Vec::new(),
+            free_surface: FreeSurface::default(),
         };
         stepper.sort();
         stepper
@@ -177,6 +176,7 @@ impl<'a> Stepper<'a> {
         let (order, tree) = Neighbours::order(&self.cloud.position, self.method.threads);
         self.cloud.permute(&order, self.method.threads);
         self.neighbours = Neighbours::of_ordered(tree, self.cloud.len());
+        self.free_surface.forget();
     }
 
     /// Lists neighbours for ways that the particles are about to go: these vectors times `factor`.
@@ -184,6 +184,10 @@ impl<'a> Stepper<'a> {
         let Method { images, threads, .. } = self.method;
         let particles = Travelling { points: &self.cloud.position, ways, factor };
         self.neighbours.prepare(particles, images, *threads);
+        if let Some(setting) = &self.method.surface {
+            let tree = self.neighbours.tree();
+            self.free_surface.prepare(setting, self.cloud, tree, ways, factor);
+        }
     }
 
     /// Advances by `duration` [s].
@@ -202,7 +206,6 @@ impl<'a> Stepper<'a> {
             rest = if dt == rest { 0.0 } else { rest - dt };
             self.ledger.steps += 1.0;
         }
-        self.note_surface_energy();
         Ok(())
     }
 
@@ -210,7 +213,6 @@ impl<'a> Stepper<'a> {
     pub fn prime(&mut self) {
         self.list(&vec![[0.0; 3]; self.cloud.len()], 1.0);
         self.accelerate(0.0);
-        self.note_surface_energy();
     }
 
     fn step(&mut self, dt: f64) -> Result<Motion, Failure> {
@@ -313,7 +315,7 @@ impl<'a> Stepper<'a> {
         let cloud = &*self.cloud;
         let mut records = std::mem::take(&mut self.records);
         fill(&mut records, cloud.len(), method.threads, |i| {
-            record(cloud, i, cloud.velocity[i], cloud.density[i])
+            record(cloud, i, cloud.velocity[i], cloud.density[i] + cloud.potential[i])
         });
         let annex = |i: usize| {
             let [x, y, z] = cloud.gradient[i];
@@ -327,9 +329,11 @@ impl<'a> Stepper<'a> {
         if HEAT {
             fill(&mut wall_temperature, cloud.len(), method.threads, |i| self.wall_below(i));
         }
+        let densities = cloud.density.clone();
         let pass = Continuity::<HEAT, MOMENTS> {
             images: &method.images,
             records: &records,
+            densities: &densities,
             annexes: &annexes,
             wall_temperature: &wall_temperature,
             normalisation: method.normalisation,
@@ -380,37 +384,49 @@ impl<'a> Stepper<'a> {
         fill(&mut records, cloud.len(), method.threads, |i| {
             record(cloud, i, self.ahead(i, dt), pressure(cloud.density[i]))
         });
-        let mut acceleration = std::mem::take(&mut self.accelerations);
-        if method.tension > 0.0 {
-            let memory = std::mem::take(&mut self.surface);
-            let surface = self.surface(&records, memory);
-            let mut slopes = std::mem::take(&mut self.annexes);
-            fill(&mut slopes, surface.len(), method.threads, |i| surface[i].slopes);
-            let pass = self.momentum::<true>(&records, &slopes);
-            acceleration = self.over_pairs(&pass, acceleration);
-            self.wet(&mut acceleration);
-            (self.surface, self.annexes) = (surface, slopes);
-        } else {
-            let pass = self.momentum::<false>(&records, &[]);
-            acceleration = self.over_pairs(&pass, acceleration);
+        let pass = Momentum {
+            images: &method.images,
+            records: &records,
+            densities: &cloud.density,
+            normalisation: method.normalisation,
+            viscosity: method.viscosity,
+        };
+        let memory = std::mem::take(&mut self.accelerations);
+        let mut acceleration = self.over_pairs(&pass, memory);
+        if let Some(setting) = &method.surface {
+            let (pulls, energy) = self.free_surface.pulls(setting, self.cloud);
+            self.pull(&mut acceleration, pulls);
+            let images = copies(method.mirrors);
+            self.ledger.surface_energy = images * method.units.energy() * energy;
         }
         self.accelerations = std::mem::replace(&mut self.cloud.acceleration, acceleration);
         self.records = records;
     }
 
-    fn momentum<'b, const TENSE: bool>(
-        &'b self,
-        records: &'b [[f64; 8]],
-        slopes: &'b [[f64; 4]],
-    ) -> Momentum<'b, TENSE> {
-        Momentum {
-            images: &self.method.images,
-            records,
-            slopes,
-            densities: &self.cloud.density,
-            normalisation: self.method.normalisation,
-            viscosity: self.method.viscosity,
-            surface: self.method.surface,
+    /// Adds surface tension, so that it changes no momentum but that of the wall.
+    ///
+    /// All its force on the fluid across the wall is the wall's, which gets it where images of the grid
+    /// pull. Far from a wall it is what rounding and, along z, the grid's place above the wall leave, and
+    /// taken from all particles alike.
+    fn pull(&mut self, acceleration: &mut [Accelerations], pulls: Vec<Pull>) {
+        let cloud = &mut *self.cloud;
+        let (mut total, mut across, mut mass) = ([0.0; 3], 0.0, 0.0);
+        for (Pull { by_fluid, by_wall, .. }, m) in pulls.iter().zip(&cloud.mass) {
+            (0..3).for_each(|a| total[a] += m * (by_fluid[a] + by_wall[a]));
+            across += m * by_wall[2].abs();
+            mass += m;
+        }
+        let walled = self.method.wall.is_some() && across > 0.0;
+        let share = if walled { total[2] / across } else { 0.0 };
+        let free = [!self.method.mirrors[0], !self.method.mirrors[1], !walled];
+        let left = [0, 1, 2].map(|a| if free[a] { total[a] / mass } else { 0.0 });
+        for (i, pull) in pulls.into_iter().enumerate() {
+            let [by_fluid, by_wall] = &mut acceleration[i];
+            let to_wall = share * pull.by_wall[2].abs();
+            (0..3).for_each(|a| by_fluid[a] += pull.by_fluid[a] + pull.by_wall[a] - left[a]);
+            by_fluid[2] -= to_wall;
+            by_wall[2] += to_wall;
+            cloud.potential[i] = pull.potential;
         }
     }
 
@@ -421,48 +437,6 @@ impl<'a> Stepper<'a> {
     ) -> Vec<P::Output> {
         let Method { kernel, precision, threads, .. } = *self.method;
         for_all(pass, &self.neighbours.blocks, kernel, precision, threads, memory)
-    }
-
-    fn surface(&self, records: &[[f64; 8]], memory: Vec<SurfaceSums>) -> Vec<SurfaceSums> {
-        let pass = Surface {
-            images: &self.method.images,
-            records,
-            normalisation: self.method.normalisation,
-            energy: self.method.surface,
-        };
-        self.over_pairs(&pass, memory)
-    }
-
-    /// Notes the energy of all free and wetted surface where particles stand now, images at mirrors
-    /// included [J].
-    fn note_surface_energy(&mut self) {
-        if self.surface.is_empty() {
-            return; // There is no tension, or nothing has moved.
-        }
-        let method = self.method;
-        let wets = method.wall.is_some();
-        let of_particle = |(i, sums): (usize, &SurfaceSums)| {
-            let height = self.cloud.position[i][2];
-            let wall =
-                if wets { wetting::energy(method.tension, method.wetting, height) } else { 0.0 };
-            self.cloud.volume(i) * (sums.energy + wall)
-        };
-        let sum: f64 = self.surface.iter().enumerate().map(of_particle).sum();
-        self.ledger.surface_energy = copies(method.mirrors) * method.units.energy() * sum;
-    }
-
-    /// Adds the wall's pull.
-    fn wet(&self, acceleration: &mut [Accelerations]) {
-        let method = self.method;
-        if method.wall.is_none() || method.wetting == 0.0 {
-            return;
-        }
-        for (i, [_, by_wall]) in acceleration.iter_mut().enumerate() {
-            let (height, density) = (self.cloud.position[i][2], self.cloud.density[i]);
-            if height < 1.0 {
-                by_wall[2] += wetting::pull(method.tension, method.wetting, height, density);
-            }
-        }
     }
 
     /// A particle that meets its image at a plane exchanges its place with it: exactly what two mirror
@@ -534,6 +508,21 @@ impl<'a> Stepper<'a> {
 
     fn not_finite(&self, quantity: &'static str) -> Failure {
         Failure::NotFinite { quantity, time: self.ledger.time }
+    }
+}
+
+/// What free surfaces of a plan are computed with.
+fn surface(plan: &DropletPlan, tension: f64, images: &Images, threads: usize) -> Setting {
+    let cosine = plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos());
+    let spacing = 1.0 / plan.support;
+    let energy = SurfaceEnergy::of(tension, cosine, plan.kernel, spacing, plan.dimension);
+    Setting {
+        energy,
+        grid: Grid::of(images.ends(), energy.reach / FINENESS, plan.dimension),
+        images: images.clone(),
+        kernel: plan.kernel,
+        precision: plan.precision,
+        threads,
     }
 }
 

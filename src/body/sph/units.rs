@@ -50,6 +50,12 @@ pub fn pressure(r: f64) -> f64 {
     ((1.0 + r).powi(STIFFNESS) - 1.0) / f64::from(STIFFNESS)
 }
 
+/// r under a pressure over ρ₀c₀².
+pub fn density(pressure: f64) -> f64 {
+    let gamma = f64::from(STIFFNESS);
+    (1.0 + gamma * pressure).powf(1.0 / gamma) - 1.0
+}
+
 /// Elastic energy a mass that belongs to it, over c₀²: ∫ p/ρ² dρ.
 pub fn compression_energy(r: f64) -> f64 {
     let gamma = f64::from(STIFFNESS);

@@ -1,0 +1,168 @@
+//! The grid on both sides of free surfaces over which their energy is summed.
+
+use super::cloud::Cloud;
+use super::grid::Grid;
+use super::images::Images;
+use super::loops::{Precision, for_all};
+use super::neighbours::{Neighbours, Travelling};
+use super::order::{BlockTree, space_order};
+use super::tension::{Fraction, Fractions, Pull, Pulls, Slopes, SurfaceEnergy};
+use crate::kernel::Kernel;
+
+/// Points of the grid over the support radius of the volume fraction: a plane surface's energy then
+/// depends on its place in the grid by 1e-4.
+pub const FINENESS: f64 = 6.0;
+/// Reach of the set of points beyond the surface, in steps of the motion against the grid; its bounds.
+const SKIN_STEPS: f64 = 8.0;
+const SKINS: [f64; 2] = [0.05, 0.25];
+
+/// What a model's free surfaces are computed with.
+#[derive(Debug, Clone)]
+pub struct Setting {
+    pub energy: SurfaceEnergy,
+    pub grid: Grid,
+    pub images: Images,
+    pub kernel: Kernel,
+    pub precision: Precision,
+    pub threads: usize,
+}
+
+/// Points near free surfaces, and their neighbours among the particles.
+///
+/// Along axes without planes and periods the grid moves with the fluid's centre of mass, so that the
+/// energy depends on no place in space and its forces change no momentum.
+#[derive(Default)]
+pub struct FreeSurface {
+    /// About the grid's origin, and whether they stand for the wall.
+    bases: Vec<([f64; 3], bool)>,
+    points: Vec<[f64; 3]>,
+    round_points: Neighbours,
+    round_particles: Neighbours,
+    /// How far the fluid may still move against the grid; nothing where no points are known.
+    slack: Option<f64>,
+    fractions: Vec<Fraction>,
+}
+
+impl FreeSurface {
+    /// Looks for all points anew when they are next needed.
+    pub fn forget(&mut self) {
+        self.slack = None;
+    }
+
+    /// Makes sure of all points near surfaces, and of their neighbours, where the particles of `cloud`
+    /// are and on their ways times `factor`; `tree` is that over the particles.
+    pub fn prepare(
+        &mut self,
+        setting: &Setting,
+        cloud: &Cloud,
+        tree: &BlockTree,
+        ways: &[[f64; 3]],
+        factor: f64,
+    ) {
+        let drift = mean(ways, &cloud.mass, &setting.grid).map(|way| factor * way);
+        let apart =
+            |way: &[f64; 3]| (0..3).map(|a| (factor * way[a] - drift[a]).powi(2)).sum::<f64>();
+        let motion = ways.iter().map(apart).fold(0.0, f64::max).sqrt();
+        self.slack = self.slack.map(|slack| slack - motion).filter(|&slack| slack > 0.0);
+        if self.slack.is_none() {
+            let skin = (SKIN_STEPS * motion).clamp(SKINS[0], SKINS[1]).max(1.5 * motion);
+            self.find(setting, cloud, tree, skin);
+            self.slack = Some(skin - motion);
+        }
+        let drifts = vec![drift; self.points.len()];
+        let points = Travelling { points: &self.points, ways: &drifts, factor: 1.0 };
+        let particles = Travelling { points: &cloud.position, ways, factor };
+        let Setting { images, threads, .. } = setting;
+        self.round_points.prepare_between(points, particles, images, *threads);
+        self.round_particles.prepare_between(particles, points, images, *threads);
+    }
+
+    /// Finds all points that a surface may come to within `skin`.
+    fn find(&mut self, setting: &Setting, cloud: &Cloud, tree: &BlockTree, skin: f64) {
+        let Setting { grid, energy, .. } = setting;
+        let origin = mean(&cloud.position, &cloud.mass, grid);
+        let from_origin = |base: [f64; 3]| [0, 1, 2].map(|a| origin[a] + base[a]);
+        let bins = grid.bins(&cloud.position, origin);
+        let cells: Vec<[i32; 3]> = bins.into_iter().flat_map(|bin| grid.cells(bin)).collect();
+        let middles: Vec<_> = cells.iter().map(|&cell| from_origin(grid.middle(cell))).collect();
+        let (order, _) = space_order(&middles, setting.threads);
+        let cells: Vec<_> = order.iter().map(|&k| cells[k as usize]).collect();
+        let middles: Vec<_> = order.iter().map(|&k| middles[k as usize]).collect();
+        let mut neighbours = Neighbours::between(middles.len(), tree.clone(), energy.reach);
+        let [no_ways, still] = [middles.len(), cloud.len()].map(|count| vec![[0.0; 3]; count]);
+        neighbours.prepare_between(
+            Travelling { points: &middles, ways: &no_ways, factor: 1.0 },
+            Travelling { points: &cloud.position, ways: &still, factor: 1.0 },
+            &setting.images,
+            setting.threads,
+        );
+        let fractions = fractions(setting, cloud, &middles, &neighbours, Vec::new());
+        let reach = grid.cell_radius() + skin;
+        let near = cells.iter().zip(&fractions).filter(|(_, f)| energy.is_near(f, reach));
+        let points: Vec<[i32; 3]> = near.flat_map(|(&cell, _)| grid.points(cell)).collect();
+        let mut bases: Vec<_> = points.iter().map(|&point| (grid.place(point), false)).collect();
+        if energy.wets() {
+            let lowest = points.iter().filter(|point| point[2] == 0);
+            bases.extend(lowest.map(|&point| {
+                let [x, y, _] = grid.place(point);
+                ([x, y, 0.0], true)
+            }));
+        }
+        let places: Vec<_> = bases.iter().map(|&(base, _)| from_origin(base)).collect();
+        let (order, own_tree) = space_order(&places, setting.threads);
+        self.bases = order.iter().map(|&k| bases[k as usize]).collect();
+        self.points = order.iter().map(|&k| places[k as usize]).collect();
+        self.round_points = Neighbours::between(places.len(), tree.clone(), energy.reach);
+        self.round_particles = Neighbours::between(cloud.len(), own_tree, energy.reach);
+    }
+
+    /// Pull on all particles, and the energy over ρ₀c₀²H^d.
+    pub fn pulls(&mut self, setting: &Setting, cloud: &Cloud) -> (Vec<Pull>, f64) {
+        let Setting { grid, energy, images, kernel, precision, threads } = setting;
+        let origin = mean(&cloud.position, &cloud.mass, grid);
+        for (point, (base, _)) in self.points.iter_mut().zip(&self.bases) {
+            *point = [0, 1, 2].map(|a| origin[a] + base[a]);
+        }
+        let memory = std::mem::take(&mut self.fractions);
+        self.fractions = fractions(setting, cloud, &self.points, &self.round_points, memory);
+        let (volume, area) = (grid.volume(), grid.area());
+        let slopes = |(fraction, (_, on_wall)): (&Fraction, &([f64; 3], bool))| match on_wall {
+            true => energy.of_wall(fraction, area),
+            false => energy.of_free(fraction, volume),
+        };
+        let slopes: Vec<Slopes> = self.fractions.iter().zip(&self.bases).map(slopes).collect();
+        let record = |([x, y, z], slopes): (&[f64; 3], &Slopes)| {
+            let [a, b, c] = slopes.by_gradient;
+            [*x, *y, *z, a, b, c, slopes.by_fraction, 0.0]
+        };
+        let records: Vec<[f64; 8]> = self.points.iter().zip(&slopes).map(record).collect();
+        let pass = Pulls { images, records: &records, points: &cloud.position, energy: *energy };
+        let blocks = &self.round_particles.blocks;
+        let pulls = for_all(&pass, blocks, *kernel, *precision, *threads, Vec::new());
+        (pulls, slopes.iter().map(|slopes| slopes.energy).sum())
+    }
+}
+
+fn fractions(
+    setting: &Setting,
+    cloud: &Cloud,
+    points: &[[f64; 3]],
+    neighbours: &Neighbours,
+    memory: Vec<Fraction>,
+) -> Vec<Fraction> {
+    let Setting { images, energy, kernel, precision, threads, .. } = setting;
+    // Volumes are those at rest, so that the energy depends on places alone.
+    let record = |([x, y, z], mass): (&[f64; 3], &f64)| [*x, *y, *z, 0.0, 0.0, 0.0, *mass, 0.0];
+    let records: Vec<[f64; 8]> = cloud.position.iter().zip(&cloud.mass).map(record).collect();
+    let pass = Fractions { images, records: &records, points, energy: *energy };
+    for_all(&pass, &neighbours.blocks, *kernel, *precision, *threads, memory)
+}
+
+/// Mean of a vector of every particle along the axes in which the grid is free; 0 along others.
+fn mean(vectors: &[[f64; 3]], masses: &[f64], grid: &Grid) -> [f64; 3] {
+    let mass: f64 = masses.iter().sum();
+    [0, 1, 2].map(|a| match grid.is_free(a) && mass > 0.0 {
+        true => vectors.iter().zip(masses).map(|(v, m)| m * v[a]).sum::<f64>() / mass,
+        false => 0.0,
+    })
+}
