@@ -7,13 +7,13 @@ use super::order::{BLOCK, Bounds};
 #[derive(Debug, Clone)]
 pub struct Spots {
     pub origin: [f64; 3],
-    along: [[f32; BLOCK]; 3],
+    pub along: [[f32; BLOCK]; 3],
 }
 
 /// Particles that come near to a box, and their coordinates about its centre.
 #[derive(Debug, Default)]
 pub struct Candidates {
-    /// Numbers in the block that they were last taken from.
+    /// Numbers in the list that they were last taken from.
     pub numbers: Vec<u32>,
     pub along: [Vec<f32>; 3],
 }
@@ -49,23 +49,35 @@ impl Spots {
 }
 
 impl Candidates {
-    /// Takes what is near of a block whose particles stand at `signs · spot + shift` about the centre
-    /// of the box.
-    pub fn take(&mut self, spots: &Spots, signs: [f32; 3], shift: [f32; 3], near: Near) {
+    /// Takes what is near of particles that stand at `signs · spot + shift` about the centre of the
+    /// box. There are as many spots as fill whole vectors.
+    pub fn take(&mut self, spots: [&[f32]; 3], signs: [f32; 3], shift: [f32; 3], near: Near) {
+        let count = spots[0].len();
         self.numbers.clear();
-        self.numbers.resize(BLOCK + WIDTH, 0);
+        self.numbers.resize(count + WIDTH, 0);
         let start = self.along[0].len();
         // Room for all, and for the last vector to be written whole.
-        self.along.iter_mut().for_each(|along| along.resize(start + BLOCK + WIDTH, 0.0));
+        self.along.iter_mut().for_each(|along| along.resize(start + count + WIDTH, 0.0));
         let mut along = self.along.each_mut().map(|along| &mut along[start..]);
         let found = compress(spots, signs, shift, near, &mut self.numbers, &mut along);
         self.numbers.truncate(found);
         self.along.iter_mut().for_each(|along| along.truncate(start + found));
     }
+
+    /// Forgets what was taken before.
+    pub fn clear(&mut self) {
+        self.along.iter_mut().for_each(Vec::clear);
+    }
+
+    /// Adds particles far away that fill the last vector.
+    pub fn fill_up(&mut self) {
+        let full = self.along[0].len().next_multiple_of(WIDTH);
+        self.along.iter_mut().for_each(|along| along.resize(full, f32::MAX));
+    }
 }
 
 fn compress(
-    spots: &Spots,
+    spots: [&[f32]; 3],
     signs: [f32; 3],
     shift: [f32; 3],
     near: Near,
@@ -82,7 +94,7 @@ fn compress(
 
 /// One after the other without a branch: written always, kept if near.
 fn compress_each(
-    spots: &Spots,
+    spots: [&[f32]; 3],
     signs: [f32; 3],
     shift: [f32; 3],
     near: Near,
@@ -90,11 +102,11 @@ fn compress_each(
     along: &mut [&mut [f32]; 3],
 ) -> usize {
     let mut found = 0;
-    for k in 0..BLOCK {
+    for k in 0..spots[0].len() {
         let mut square = 0.0;
         numbers[found] = k as u32;
         for a in 0..3 {
-            let at = signs[a] * spots.along[a][k] + shift[a];
+            let at = signs[a] * spots[a][k] + shift[a];
             let gap = (at.abs() - near.half[a]).max(0.0);
             square += gap * gap;
             along[a][found] = at;
@@ -108,7 +120,7 @@ fn compress_each(
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
 fn compress_avx512(
-    spots: &Spots,
+    spots: [&[f32]; 3],
     signs: [f32; 3],
     shift: [f32; 3],
     near: Near,
@@ -119,12 +131,12 @@ fn compress_avx512(
     let ahead = _mm512_set1_epi32(WIDTH as i32);
     let mut number = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     let mut found = 0;
-    for k in (0..BLOCK).step_by(WIDTH) {
+    for k in (0..spots[0].len()).step_by(WIDTH) {
         let mut square = _mm512_setzero_ps();
         let mut at = [square; 3];
         for a in 0..3 {
-            // SAFETY: k + 16 is within the block.
-            let spot = unsafe { _mm512_loadu_ps(spots.along[a][k..k + WIDTH].as_ptr()) };
+            // SAFETY: the slice is as long as a vector.
+            let spot = unsafe { _mm512_loadu_ps(spots[a][k..k + WIDTH].as_ptr()) };
             let turned = _mm512_mul_ps(_mm512_set1_ps(signs[a]), spot);
             at[a] = _mm512_add_ps(turned, _mm512_set1_ps(shift[a]));
             let away = _mm512_sub_ps(_mm512_abs_ps(at[a]), _mm512_set1_ps(near.half[a]));
@@ -165,8 +177,9 @@ mod tests {
                 let spots = Spots::of(&points);
                 let shift = [0, 1, 2].map(|a| (signs[a] * spots.origin[a] - centre[a]) as f32);
                 let (signs, near) = (signs.map(|s| s as f32), Near::to(&bounds, reach));
+                let along = spots.along.each_ref().map(|along| &along[..]);
                 let mut taken = Candidates::default();
-                taken.take(&spots, signs, shift, near);
+                taken.take(along, signs, shift, near);
                 let gap = |x: f64, a: usize| (bounds.low[a] - x).max(x - bounds.high[a]).max(0.0);
                 let is_near = |p: &[f64; 3]| {
                     let at = image(p);
@@ -182,11 +195,11 @@ mod tests {
                         assert!(apart.abs() < 1e-6);
                     }
                 }
-                let (mut numbers, mut along) = (vec![0; 200], [(); 3].map(|_| vec![0.0; 200]));
-                let mut slices = along.each_mut().map(|along| &mut along[..]);
-                let found = compress_each(&spots, signs, shift, near, &mut numbers, &mut slices);
+                let (mut numbers, mut places) = (vec![0; 200], [(); 3].map(|_| vec![0.0; 200]));
+                let mut slices = places.each_mut().map(|places| &mut places[..]);
+                let found = compress_each(along, signs, shift, near, &mut numbers, &mut slices);
                 assert_eq!(taken.numbers, numbers[..found]);
-                assert!((0..3).all(|a| taken.along[a] == along[a][..found]));
+                assert!((0..3).all(|a| taken.along[a] == places[a][..found]));
             }
         }
     }

@@ -1,7 +1,7 @@
 //! The particles of a model and its ledger: all that changes, and how it lies in a flat vector.
 
 use super::wall::WallExchange;
-use crate::math::parallel;
+use crate::math::parallel::Team;
 
 /// Particles, each list with an entry for each. Lengths over H, velocities over c₀, masses over
 /// ρ₀H^d.
@@ -58,6 +58,9 @@ pub struct Ledger {
     pub way: f64,
     /// Of free and wetted surface [J].
     pub surface_energy: f64,
+    /// Volume that surrounded the blocks of particles, each counted for itself, when the particles
+    /// were last sorted, over H^d.
+    pub surrounded: f64,
     /// What the wall got during the last step.
     pub exchange: WallExchange,
 }
@@ -65,7 +68,7 @@ pub struct Ledger {
 /// Numbers of a particle in a flat vector.
 const NUMBERS: usize = 25;
 /// Numbers of the ledger before those of its cells.
-const HEAD: usize = 18;
+const HEAD: usize = 19;
 
 impl Cloud {
     pub fn len(&self) -> usize {
@@ -121,8 +124,8 @@ impl Cloud {
     }
 
     /// Puts the particles into another order.
-    pub fn permute(&mut self, order: &[u32], threads: usize) {
-        let permute = Permutation { order, threads };
+    pub fn permute(&mut self, order: &[u32], team: &Team) {
+        let permute = Permutation { order, team };
         permute.apply(&mut self.position);
         permute.apply(&mut self.velocity);
         permute.apply(&mut self.mass);
@@ -134,74 +137,33 @@ impl Cloud {
         permute.apply(&mut self.moment);
     }
 
-    fn reserve(&mut self, particles: usize) {
-        self.position.reserve(particles);
-        self.velocity.reserve(particles);
-        self.mass.reserve(particles);
-        self.density.reserve(particles);
-        self.temperature.reserve(particles);
-        self.heating.reserve(particles);
-        self.acceleration.reserve(particles);
-        self.gradient.reserve(particles);
-        self.moment.reserve(particles);
-    }
-
-    fn numbers(&self, i: usize) -> [f64; NUMBERS] {
-        let ([x, y, z], [u, v, w]) = (self.position[i], self.velocity[i]);
-        let [[a, b, c], [d, e, f]] = self.acceleration[i];
-        let [g, h, k] = self.gradient[i];
-        let [xx, yy, zz, xy, yz, xz] = self.moment[i];
+    /// All numbers, list after list.
+    fn numbers(&self) -> [&[f64]; 9] {
         [
-            x,
-            y,
-            z,
-            u,
-            v,
-            w,
-            self.mass[i],
-            self.density[i],
-            self.temperature[i],
-            self.heating[i],
-            a,
-            b,
-            c,
-            d,
-            e,
-            f,
-            g,
-            h,
-            k,
-            xx,
-            yy,
-            zz,
-            xy,
-            yz,
-            xz,
+            self.position.as_flattened(),
+            self.velocity.as_flattened(),
+            &self.mass,
+            &self.density,
+            &self.temperature,
+            &self.heating,
+            self.acceleration.as_flattened().as_flattened(),
+            self.gradient.as_flattened(),
+            self.moment.as_flattened(),
         ]
-    }
-
-    fn take(&mut self, n: &[f64; NUMBERS]) {
-        self.push([n[0], n[1], n[2]], [n[3], n[4], n[5]], n[6], n[8]);
-        let i = self.len() - 1;
-        self.density[i] = n[7];
-        self.heating[i] = n[9];
-        self.acceleration[i] = [[n[10], n[11], n[12]], [n[13], n[14], n[15]]];
-        self.gradient[i] = [n[16], n[17], n[18]];
-        self.moment[i] = [n[19], n[20], n[21], n[22], n[23], n[24]];
     }
 }
 
 /// Another order of lists.
 struct Permutation<'a> {
     order: &'a [u32],
-    threads: usize,
+    team: &'a Team,
 }
 
 impl Permutation<'_> {
     fn apply<T: Copy + Send + Sync>(&self, list: &mut Vec<T>) {
         let before = &*list;
         let moved = |k: usize| before[self.order[k] as usize];
-        *list = parallel::map(self.threads, self.order.len(), moved);
+        *list = self.team.map(self.order.len(), moved);
     }
 }
 
@@ -218,19 +180,26 @@ pub fn particles_in(state: &[f64], cells: usize) -> Option<usize> {
 
 /// Writes ledger and particles into a flat vector.
 pub fn flatten(ledger: &Ledger, cloud: &Cloud) -> Vec<f64> {
+    let mut state = Vec::new();
+    flatten_into(&mut state, ledger, cloud);
+    state
+}
+
+/// Writes them over a flat vector.
+pub fn flatten_into(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud) {
     let exchange = &ledger.exchange;
-    let mut state = Vec::with_capacity(state_len(exchange.heat.len(), cloud.len()));
+    state.clear();
+    state.reserve_exact(state_len(exchange.heat.len(), cloud.len()));
     state.extend([ledger.time, ledger.released as f64, ledger.steps]);
     state.extend([ledger.heat_released, ledger.heat_to_wall]);
     state.extend(ledger.impulse_to_wall);
     state.extend(ledger.impulse_of_gravity);
     state.extend([exchange.duration, exchange.heat_outside]);
     state.extend(exchange.impulse_outside);
-    state.extend([ledger.way, ledger.surface_energy]);
+    state.extend([ledger.way, ledger.surface_energy, ledger.surrounded]);
     state.extend(&exchange.heat);
     state.extend(exchange.impulse.iter().flatten());
-    (0..cloud.len()).for_each(|i| state.extend(cloud.numbers(i)));
-    state
+    cloud.numbers().into_iter().for_each(|numbers| state.extend_from_slice(numbers));
 }
 
 /// Reads the ledger of a state.
@@ -247,6 +216,7 @@ pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
         impulse_of_gravity: three(8),
         way: state[16],
         surface_energy: state[17],
+        surrounded: state[18],
         exchange: WallExchange {
             duration: state[11],
             heat_outside: state[12],
@@ -259,10 +229,24 @@ pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
 
 /// Reads the particles of a state.
 pub fn cloud_of(state: &[f64], cells: usize) -> Cloud {
-    let mut cloud = Cloud::default();
-    cloud.reserve((state.len() - state_len(cells, 0)) / NUMBERS);
-    state[state_len(cells, 0)..].as_chunks().0.iter().for_each(|numbers| cloud.take(numbers));
-    cloud
+    let mut rest = &state[state_len(cells, 0)..];
+    let count = rest.len() / NUMBERS;
+    let mut next = |width: usize| {
+        let (numbers, behind) = rest.split_at(width * count);
+        rest = behind;
+        numbers
+    };
+    Cloud {
+        position: next(3).as_chunks().0.to_vec(),
+        velocity: next(3).as_chunks().0.to_vec(),
+        mass: next(1).to_vec(),
+        density: next(1).to_vec(),
+        temperature: next(1).to_vec(),
+        heating: next(1).to_vec(),
+        acceleration: next(6).as_chunks().0.as_chunks().0.to_vec(),
+        gradient: next(3).as_chunks().0.to_vec(),
+        moment: next(6).as_chunks().0.to_vec(),
+    }
 }
 
 #[cfg(test)]
@@ -291,6 +275,7 @@ mod tests {
             released: 2,
             way: 0.25,
             surface_energy: 3.5,
+            surrounded: 4.5,
             impulse_to_wall: [1.0, 2.0, 3.0],
             impulse_of_gravity: [4.0, 5.0, 6.0],
             exchange,

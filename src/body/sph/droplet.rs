@@ -2,21 +2,26 @@
 
 use std::f64::consts::PI;
 
-use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in, state_len};
+use super::cloud::{
+    Cloud, Ledger, cloud_of, flatten, flatten_into, ledger_of, particles_in, state_len,
+};
 use super::failure::Failure;
 use super::images::copies;
+use super::loops::PART;
 use super::placement::place;
 use super::plan::{DropletPlan, Release};
 use super::spread::spread_diameter;
 use super::stepper::{Method, Stepper};
 use super::units::{compression_energy, pressure};
 use super::wall::WallExchange;
+use crate::math::parallel::Team;
 
 /// Droplets above a wall: everything known before time starts. What changes is a flat vector, whose
 /// length grows when a droplet is released.
 pub struct DropletSph {
     plan: DropletPlan,
     method: Method,
+    threads: usize,
 }
 
 /// Sums over the fluid, images at mirrors included (a plane model: per metre of depth).
@@ -78,8 +83,8 @@ impl DropletSph {
     /// # Panics
     /// If the plan's planes and periods do not go together, see [`Extent`](super::Extent).
     pub fn new(plan: DropletPlan, threads: usize) -> Self {
-        let method = Method::of(&plan, threads.max(1));
-        Self { plan, method }
+        let method = Method::of(&plan);
+        Self { plan, method, threads }
     }
 
     pub fn plan(&self) -> &DropletPlan {
@@ -111,7 +116,7 @@ impl DropletSph {
             exchange: WallExchange::none(self.cells()),
             ..Ledger::default()
         };
-        Stepper::new(&self.method, &mut cloud, &mut ledger, &vec![0.0; self.cells()]).prime();
+        self.prime(&mut ledger, &mut cloud);
         flatten(&ledger, &cloud)
     }
 
@@ -141,12 +146,13 @@ impl DropletSph {
             let next = self.plan.releases.get(ledger.released).map_or(end, |r| r.time.min(end));
             let rest = next - ledger.time;
             if rest > 0.0 {
-                Stepper::new(&self.method, &mut cloud, &mut ledger, &wall).advance(rest)?;
+                let team = self.team(&cloud);
+                Stepper::new(&self.method, &team, &mut cloud, &mut ledger, &wall).advance(rest)?;
             }
             ledger.time = next;
             self.release(&mut ledger, &mut cloud);
         }
-        *state = flatten(&ledger, &cloud);
+        flatten_into(state, &ledger, &cloud);
         Ok(())
     }
 
@@ -191,7 +197,7 @@ impl DropletSph {
             plan.releases.iter().map(|r| share * volume(r.diameter) / cell).sum::<f64>();
         let speed = |r: &Release| r.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
         let fastest = plan.releases.iter().map(speed).fold(0.0, f64::max);
-        let method = Method::of(plan, 1);
+        let method = Method::of(plan);
         let gravity = plan.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
         let units = &method.units;
         let gravity = gravity * units.length / units.speed.powi(2);
@@ -218,8 +224,18 @@ impl DropletSph {
             ledger.released += 1;
         }
         if cloud.len() > before {
-            Stepper::new(&self.method, cloud, ledger, &vec![0.0; self.cells()]).prime();
+            self.prime(ledger, cloud);
         }
+    }
+
+    fn prime(&self, ledger: &mut Ledger, cloud: &mut Cloud) {
+        let team = self.team(cloud);
+        Stepper::new(&self.method, &team, cloud, ledger, &vec![0.0; self.cells()]).prime();
+    }
+
+    /// Threads for some particles; no more than there are parts for them.
+    fn team(&self, cloud: &Cloud) -> Team {
+        Team::new(self.threads.min(cloud.len().div_ceil(PART)))
     }
 
     fn add(&self, release: &Release, ledger: &mut Ledger, cloud: &mut Cloud) {

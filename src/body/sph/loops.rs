@@ -8,7 +8,7 @@ use super::lanes::{Annex, Array, Lanes, Record, WIDTH};
 use super::neighbours::Block;
 use super::order::BLOCK;
 use crate::kernel::{Kernel, Number, Shape};
-use crate::math::parallel;
+use crate::math::parallel::Team;
 use crate::with_kernel_shape;
 
 /// Blocks that share one local copy's memory, and their particles.
@@ -111,9 +111,8 @@ impl<R: Float + Number> Local<R> {
 pub fn for_all<P: PairSum<Output: Clone + Default>>(
     pass: &P,
     blocks: &[Block],
-    kernel: Kernel,
-    precision: Precision,
-    threads: usize,
+    (kernel, precision): (Kernel, Precision),
+    team: &Team,
     mut all: Vec<P::Output>,
 ) -> Vec<P::Output> {
     let count = blocks.iter().map(|block| block.count).sum();
@@ -122,7 +121,7 @@ pub fn for_all<P: PairSum<Output: Clone + Default>>(
     let store = |part: &mut &mut [P::Output], sums: Vec<P::Output>| {
         part.iter_mut().zip(sums).for_each(|(place, sum)| *place = sum);
     };
-    for_parts(pass, blocks, (kernel, precision, threads), &mut parts, store);
+    for_parts(pass, blocks, (kernel, precision), team, &mut parts, store);
     all
 }
 
@@ -131,12 +130,13 @@ pub fn for_all<P: PairSum<Output: Clone + Default>>(
 pub fn for_parts<P: PairSum, T: Send>(
     pass: &P,
     blocks: &[Block],
-    (kernel, precision, threads): (Kernel, Precision, usize),
+    (kernel, precision): (Kernel, Precision),
+    team: &Team,
     parts: &mut [T],
     take: impl Fn(&mut T, Vec<P::Output>) + Sync,
 ) {
     let blocks: Vec<&[Block]> = blocks.chunks(GROUP).collect();
-    parallel::for_each(threads, parts, |p, part| {
+    team.for_each(parts, |p, part| {
         let sums = with_kernel_shape!(kernel, S => dispatch::<P, S>(pass, blocks[p], precision));
         take(part, sums);
     });

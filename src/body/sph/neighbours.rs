@@ -7,16 +7,16 @@
 use super::candidates::{Candidates, Near, Spots};
 use super::images::{Images, Source};
 use super::lanes::WIDTH;
-use super::order::{BLOCK, BlockTree, Bounds, space_order};
-use crate::math::parallel;
+use super::order::{BLOCK, BlockTree, Bounds, GROUP};
+use crate::math::parallel::Team;
 
 /// Reach of the lists beyond the kernel, in steps of the motion against neighbours; its bounds.
 const SKIN_STEPS: f64 = 8.0;
 const SKINS: [f64; 2] = [0.05, 0.3];
 /// Share of the skin that rounding in single precision could use.
 const MARGIN: f64 = 1e-5;
-/// Growth of the surroundings at which the particles are sorted anew.
-const GROWTH: f64 = 1.2;
+/// Least skin.
+const THINNEST: f64 = 1e-3;
 
 /// Particles that stand together and all that surrounds them.
 pub struct Block {
@@ -43,8 +43,38 @@ pub struct Block {
 pub struct Neighbours {
     pub blocks: Vec<Block>,
     tree: BlockTree,
-    /// Sources of all blocks when the particles were sorted.
-    sorted_sources: usize,
+}
+
+/// Ways that the particles of each block are about to go: the box of them all.
+pub struct Ways {
+    pub of_blocks: Vec<Bounds>,
+    /// Further steps for which the lists that are made now are to serve.
+    pub steps: f64,
+}
+
+impl Ways {
+    /// These vectors.
+    pub fn along(ways: &[[f64; 3]], steps: f64, team: &Team) -> Self {
+        let of_block = |b: usize| {
+            let range = b * BLOCK..((b + 1) * BLOCK).min(ways.len());
+            Bounds::of(ways[range].iter().copied())
+        };
+        Self { of_blocks: team.map(ways.len().div_ceil(BLOCK), of_block), steps }
+    }
+
+    /// Ways over a time, from velocities.
+    pub fn times(mut self, dt: f64) -> Self {
+        for Bounds { low, high } in &mut self.of_blocks {
+            low.iter_mut().chain(high).for_each(|v| *v *= dt);
+        }
+        self
+    }
+
+    /// None.
+    pub fn none(particles: usize) -> Self {
+        let nowhere = Bounds { low: [0.0; 3], high: [0.0; 3] };
+        Self { of_blocks: vec![nowhere; particles.div_ceil(BLOCK)], steps: f64::INFINITY }
+    }
 }
 
 impl Block {
@@ -70,66 +100,74 @@ impl Block {
     }
 }
 
-impl Neighbours {
-    /// Puts particles into blocks: the order in which all their numbers have to stand for
-    /// [`Self::of_ordered`].
-    pub fn order(points: &[[f64; 3]], threads: usize) -> (Vec<u32>, BlockTree) {
-        space_order(points, threads)
+impl Block {
+    /// Finds the neighbours of the block's particles among sources that stand `along` the axes about its
+    /// centre, those from `wall` on at the wall.
+    fn find_places(&mut self, own: &[[f64; 3]], along: [&[f32]; 3], wall: usize, reach: f64) {
+        self.places.clear();
+        self.places.reserve(own.len() * 160);
+        self.ends.clear();
+        let reach_squared = (reach * reach) as f32;
+        let mut found = vec![0; self.sources.len() + WIDTH];
+        let mut near_group = Candidates::default();
+        for group in own.chunks(GROUP) {
+            let bounds = Bounds::of(group.iter().copied());
+            let middle = bounds.centre();
+            let away = |a: usize| (self.centre[a] - middle[a]) as f32;
+            let shift = [away(0), away(1), away(2)];
+            near_group.clear();
+            near_group.take(along, [1.0; 3], shift, Near::to(&bounds, reach));
+            let numbers = &near_group.numbers;
+            let wall = numbers.partition_point(|&number| (number as usize) < wall);
+            for point in group {
+                let at = [0, 1, 2].map(|a| (point[a] - middle[a]) as f32);
+                let ends = [0..wall, wall..numbers.len()].map(|part| {
+                    let along = near_group.along.each_ref().map(|along| &along[part.clone()]);
+                    let count = select(along, &numbers[part], at, reach_squared, &mut found);
+                    self.places.extend_from_slice(&found[..count]);
+                    let full = self.places.len().next_multiple_of(WIDTH);
+                    self.places.resize(full, 0);
+                    full as u32
+                });
+                self.ends.push(ends);
+            }
+        }
     }
+}
 
-    /// Neighbours of particles that stand in the order of the tree's blocks; the lists are made when
-    /// they are first needed.
+impl Neighbours {
+    /// Neighbours of particles that stand in blocks; the lists are made when they are first needed.
     ///
     /// # Panics
     /// If there are more particles than [`Source::MOST`].
-    pub fn of_ordered(tree: BlockTree, particles: usize) -> Self {
+    pub fn of(points: &[[f64; 3]], team: &Team) -> Self {
+        let particles = points.len();
         assert!(particles <= Source::MOST, "{particles} particles, at most {}", Source::MOST);
         let block = |b: usize| Block::empty(b * BLOCK, BLOCK.min(particles - b * BLOCK));
         let blocks = (0..particles.div_ceil(BLOCK)).map(block).collect();
-        Self { blocks, tree, sorted_sources: 0 }
+        Self { blocks, tree: BlockTree::over(points, team) }
     }
 
-    /// Whether the particles have mixed so much that they should be sorted anew.
-    pub fn are_scattered(&self) -> bool {
-        self.sorted_sources > 0 && self.sources() as f64 > GROWTH * self.sorted_sources as f64
+    /// Volume that surrounded the blocks when lists were last made, each counted for itself.
+    pub fn surrounded(&self) -> f64 {
+        self.tree.surrounded(1.0)
     }
 
-    fn sources(&self) -> usize {
-        self.blocks.iter().map(|block| block.sources.len()).sum()
-    }
-
-    /// Makes the lists hold all neighbours of particles at `points` and on their way along `ways`
-    /// times `factor`.
-    pub fn prepare(
-        &mut self,
-        points: &[[f64; 3]],
-        ways: &[[f64; 3]],
-        factor: f64,
-        images: &Images,
-        threads: usize,
-    ) {
-        let drifts = parallel::map(threads, self.blocks.len(), |b| {
-            let range = b * BLOCK..((b + 1) * BLOCK).min(points.len());
-            Bounds::of(ways[range].iter().map(|way| way.map(|w| factor * w)))
-        });
-        parallel::for_each(threads, &mut self.blocks, |_, block| {
-            block.slack -= span(&drifts, &block.surroundings, images);
+    /// Makes the lists hold all neighbours of particles at `points` and on their ways.
+    pub fn prepare(&mut self, points: &[[f64; 3]], ways: &Ways, images: &Images, team: &Team) {
+        team.for_each(&mut self.blocks, |_, block| {
+            block.slack -= span(&ways.of_blocks, &block.surroundings, images);
         });
         let is_worn = |block: &&mut Block| block.slack.is_nan() || block.slack < MARGIN;
         let mut worn: Vec<&mut Block> = self.blocks.iter_mut().filter(is_worn).collect();
         if worn.is_empty() {
             return;
         }
-        self.tree.refit(points);
+        self.tree.refit(points, team);
         let tree = &self.tree;
         let blocks: Vec<&[[f64; 3]]> = points.chunks(BLOCK).collect();
-        let spots = parallel::map(threads, blocks.len(), |b| Spots::of(blocks[b]));
-        parallel::for_each(threads, &mut worn, |_, block| {
-            **block = list(block.first, points, &spots, &drifts, tree, images);
-        });
-        if self.sorted_sources == 0 {
-            self.sorted_sources = self.sources();
-        }
+        let spots = team.map(blocks.len(), |b| Spots::of(blocks[b]));
+        team.for_each(&mut worn, |_, block| list(block, points, &spots, ways, tree, images));
     }
 }
 
@@ -141,36 +179,35 @@ fn span(drifts: &[Bounds], surroundings: &[(usize, u8)], images: &Images) -> f64
     (0..3).map(|a| (all.high[a] - all.low[a]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// Lists what surrounds the block of particles from `first` on.
+/// Lists what surrounds a block.
 fn list(
-    first: usize,
+    block: &mut Block,
     points: &[[f64; 3]],
     spots: &[Spots],
-    drifts: &[Bounds],
+    ways: &Ways,
     tree: &BlockTree,
     images: &Images,
-) -> Block {
-    let mut block = Block::empty(first, BLOCK.min(points.len() - first));
-    let own = &points[first..first + block.count];
+) {
+    let own = &points[block.first..block.first + block.count];
     let bounds = Bounds::of(own.iter().copied());
     block.centre = bounds.centre();
     block.surroundings = surroundings(&bounds, tree, images, 1.0 + SKINS[1]);
-    let motion = span(drifts, &block.surroundings, images);
-    let skin = (SKIN_STEPS * motion).clamp(SKINS[0], SKINS[1]).max(1.5 * motion);
+    let motion = span(&ways.of_blocks, &block.surroundings, images);
+    let skin = skin(motion, ways.steps);
     let reach = 1.0 + skin;
     if skin > SKINS[1] {
         block.surroundings = surroundings(&bounds, tree, images, reach);
     }
     block.slack = skin - motion;
-    let near = Near::to(&bounds, reach);
-    let mut candidates = Candidates::default();
-    let mut wall = 0;
+    let (mut candidates, mut wall) = (Candidates::default(), 0);
+    block.sources.clear();
     for &(b, code) in &block.surroundings {
         let image = images.get(code);
         let origin = image.place(spots[b].origin);
         let away = |a: usize| (origin[a] - block.centre[a]) as f32;
-        let shift = [away(0), away(1), away(2)];
-        candidates.take(&spots[b], image.signs.map(|sign| sign as f32), shift, near);
+        let (signs, shift) = (image.signs.map(|sign| sign as f32), [away(0), away(1), away(2)]);
+        let along = spots[b].along.each_ref().map(|along| &along[..]);
+        candidates.take(along, signs, shift, Near::to(&bounds, reach));
         let source = |&k: &u32| Source::new(b * BLOCK + k as usize, code);
         block.sources.extend(candidates.numbers.iter().map(source));
         if !images.is_at_wall(code) {
@@ -178,22 +215,16 @@ fn list(
         }
     }
     assert!(block.sources.len() < usize::from(u16::MAX), "too many particles in one place");
-    block.places.reserve(block.count * 160);
-    let mut places = vec![0; block.sources.len() + WIDTH];
-    for point in own {
-        let at = [0, 1, 2].map(|a| (point[a] - block.centre[a]) as f32);
-        let ends = [0..wall, wall..block.sources.len()].map(|part| {
-            let along = candidates.along.each_ref().map(|along| &along[part.clone()]);
-            let first = (part.start + 1) as u16;
-            let found = select(along, at, (reach * reach) as f32, first, &mut places);
-            block.places.extend_from_slice(&places[..found]);
-            let full = block.places.len().next_multiple_of(WIDTH);
-            block.places.resize(full, 0);
-            full as u32
-        });
-        block.ends.push(ends);
-    }
-    block
+    candidates.fill_up();
+    let along = candidates.along.each_ref().map(|along| &along[..]);
+    block.find_places(own, along, wall, reach);
+}
+
+/// Reach beyond the kernel of lists that are to serve for some steps of a motion.
+fn skin(motion: f64, steps: f64) -> f64 {
+    // Particles may become faster by half, and never leave the lists within this step.
+    let needed = (1.5 * motion).max(THINNEST);
+    (SKIN_STEPS * motion).clamp(SKINS[0], SKINS[1]).min(steps * needed).max(needed)
 }
 
 /// Blocks whose images come near to `bounds`, those at the wall last.
@@ -213,37 +244,37 @@ fn surroundings(
     all
 }
 
-/// Writes `first + k` for every k-th point within reach, in order; their number. There is room for
-/// all of them, and for the last vector to be written whole.
+/// Writes the places of points within reach, in order; how many they are. There is room for all of
+/// them, and for the last vector to be written whole.
 fn select(
     along: [&[f32]; 3],
+    numbers: &[u32],
     at: [f32; 3],
     reach_squared: f32,
-    first: u16,
     places: &mut [u16],
 ) -> usize {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx512f") {
         // SAFETY: the processor has what the function asks for.
-        return unsafe { select_avx512(along, at, reach_squared, first, places) };
+        return unsafe { select_avx512(along, numbers, at, reach_squared, places) };
     }
-    select_each(along, 0, at, reach_squared, first, places, 0)
+    select_each(along, numbers, 0, at, reach_squared, places, 0)
 }
 
 /// One point after the other from the `k`-th on, without a branch: written always, kept if near.
 fn select_each(
     [x, y, z]: [&[f32]; 3],
+    numbers: &[u32],
     from: usize,
     at: [f32; 3],
     reach_squared: f32,
-    first: u16,
     places: &mut [u16],
     mut found: usize,
 ) -> usize {
-    for k in from..x.len() {
+    for k in from..numbers.len() {
         let d = [x[k] - at[0], y[k] - at[1], z[k] - at[2]];
         let near = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach_squared;
-        places[found] = first + k as u16;
+        places[found] = numbers[k] as u16 + 1;
         found += usize::from(near);
     }
     found
@@ -254,43 +285,44 @@ fn select_each(
 #[target_feature(enable = "avx512f")]
 fn select_avx512(
     along: [&[f32]; 3],
+    numbers: &[u32],
     at: [f32; 3],
     reach_squared: f32,
-    first: u16,
     places: &mut [u16],
 ) -> usize {
     use std::arch::x86_64::*;
     let [x, y, z] = along;
-    let whole = x.len() / WIDTH * WIDTH;
+    let whole = numbers.len() / WIDTH * WIDTH;
     let [ax, ay, az] = [_mm512_set1_ps(at[0]), _mm512_set1_ps(at[1]), _mm512_set1_ps(at[2])];
     let reach = _mm512_set1_ps(reach_squared);
-    let ahead = _mm512_set1_epi32(WIDTH as i32);
-    let count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    let mut numbers = _mm512_add_epi32(count, _mm512_set1_epi32(i32::from(first)));
+    let one = _mm512_set1_epi32(1);
     let mut found = 0;
     for k in (0..whole).step_by(WIDTH) {
         assert!(found + WIDTH <= places.len());
-        // SAFETY: k + 16 is within the three slices, and found + 16 within the places.
+        let range = k..k + WIDTH;
+        // SAFETY: the slices are as long as a vector, and found + 16 is within the places.
         unsafe {
-            let dx = _mm512_sub_ps(_mm512_loadu_ps(x[k..].as_ptr()), ax);
-            let dy = _mm512_sub_ps(_mm512_loadu_ps(y[k..].as_ptr()), ay);
-            let dz = _mm512_sub_ps(_mm512_loadu_ps(z[k..].as_ptr()), az);
+            let dx = _mm512_sub_ps(_mm512_loadu_ps(x[range.clone()].as_ptr()), ax);
+            let dy = _mm512_sub_ps(_mm512_loadu_ps(y[range.clone()].as_ptr()), ay);
+            let dz = _mm512_sub_ps(_mm512_loadu_ps(z[range.clone()].as_ptr()), az);
             let xy = _mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy));
             let square = _mm512_add_ps(xy, _mm512_mul_ps(dz, dz));
             let near = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, reach);
-            let kept = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(near, numbers));
+            let number = _mm512_loadu_epi32(numbers[range].as_ptr().cast());
+            let place = _mm512_add_epi32(number, one);
+            let kept = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(near, place));
             _mm256_storeu_si256(places[found..].as_mut_ptr().cast(), kept);
             found += near.count_ones() as usize;
         }
-        numbers = _mm512_add_epi32(numbers, ahead);
     }
-    select_each(along, whole, at, reach_squared, first, places, found)
+    select_each(along, numbers, whole, at, reach_squared, places, found)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::body::sph::images::Ends;
+    use crate::body::sph::order::space_order;
 
     /// Two mirrors of which one is a wall; a wall, a lid and a period.
     fn models() -> [Images; 2] {
@@ -308,9 +340,10 @@ mod tests {
     fn ordered(count: usize) -> (Vec<[f64; 3]>, Neighbours) {
         let point = |i: usize| [3.0 * number(i), 3.0 * number(7 * i + 3), 3.0 * number(13 * i + 5)];
         let points: Vec<_> = (0..count).map(point).collect();
-        let (order, tree) = Neighbours::order(&points, 1);
-        let points = order.iter().map(|&i| points[i as usize]).collect();
-        (points, Neighbours::of_ordered(tree, count))
+        let order = space_order(&points, &Team::new(1));
+        let points: Vec<_> = order.iter().map(|&i| points[i as usize]).collect();
+        let neighbours = Neighbours::of(&points, &Team::new(1));
+        (points, neighbours)
     }
 
     /// Asserts that the lists hold all pairs within the support, and tells how many pairs they hold.
@@ -347,7 +380,7 @@ mod tests {
     fn the_lists_hold_what_a_loop_over_all_pairs_finds() {
         for (images, threads) in models().into_iter().zip([1, 3]) {
             let (points, mut neighbours) = ordered(700);
-            neighbours.prepare(&points, &vec![[0.0; 3]; 700], 1.0, &images, threads);
+            neighbours.prepare(&points, &Ways::none(700), &images, &Team::new(threads));
             let listed = assert_complete(&points, &neighbours, &images);
             let near = |i: usize, code: u8| {
                 let reach = (1.0 + SKINS[0]).powi(2);
@@ -367,11 +400,12 @@ mod tests {
     fn the_lists_stay_complete_while_particles_move() {
         let drift =
             |i: usize, step: usize| [0, 1, 2].map(|a| 0.03 * (number(i + 11 * a + step / 9) - 0.5));
-        for images in models() {
+        for (images, steps) in models().into_iter().zip([1.0, 9.0]) {
             let (mut points, mut neighbours) = ordered(700);
             for step in 0..40 {
                 let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
-                neighbours.prepare(&points, &drifts, 1.0, &images, 1);
+                let team = Team::new(1);
+                neighbours.prepare(&points, &Ways::along(&drifts, steps, &team), &images, &team);
                 assert_complete(&points, &neighbours, &images);
                 for (x, d) in points.iter_mut().zip(&drifts) {
                     *x = [0, 1, 2].map(|a| x[a] + d[a]);
@@ -385,10 +419,11 @@ mod tests {
     fn a_common_motion_wears_no_list_out() {
         let (mut points, mut neighbours) = ordered(500);
         let images = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
-        neighbours.prepare(&points, &vec![[0.0; 3]; 500], 1.0, &images, 1);
+        let team = Team::new(1);
+        neighbours.prepare(&points, &Ways::none(500), &images, &team);
         let slack = neighbours.blocks[0].slack;
         let drifts = vec![[0.5, -0.2, 0.1]; 500];
-        neighbours.prepare(&points, &drifts, 1.0, &images, 1);
+        neighbours.prepare(&points, &Ways::along(&drifts, 9.0, &team), &images, &team);
         points.iter_mut().for_each(|x| x[0] += 0.5);
         assert!((neighbours.blocks[0].slack - slack).abs() < 1e-15);
     }
