@@ -31,21 +31,21 @@ pub struct Team {
     in_use: Mutex<()>,
 }
 
-/// What the threads of a team tell each other.
+/// What the threads of a team tell each other. All but `post` is changed only by who holds that.
 #[derive(Default)]
 struct Shared {
     /// Grows with every call, and at the end.
     call: AtomicUsize,
-    /// Workers that have not yet answered the last call.
-    busy: AtomicUsize,
+    /// Workers that are at the work of the last call.
+    inside: AtomicUsize,
     post: Mutex<Post>,
     called: Condvar,
-    answered: Condvar,
+    left: Condvar,
 }
 
 #[derive(Default)]
 struct Post {
-    /// What each thread does with its number; there only during a call.
+    /// What each thread does with its number; there only while a worker may still begin with it.
     work: Option<&'static (dyn Fn(usize) + Sync)>,
     /// The first panic of a worker in this call.
     panic: Option<Box<dyn Any + Send>>,
@@ -83,9 +83,17 @@ impl Team {
 
     /// `f(i, &mut items[i])` for every item.
     pub fn for_each<T: Send>(&self, items: &mut [T], f: impl Fn(usize, &mut T) + Sync) {
+        self.for_pieces(items, |first, piece| {
+            piece.iter_mut().enumerate().for_each(|(i, item)| f(first + i, item));
+        });
+    }
+
+    /// `f(i, &mut items[i..k])` for pieces of the items that are all of them, for loops whose items share
+    /// memory.
+    pub fn for_pieces<T: Send>(&self, items: &mut [T], f: impl Fn(usize, &mut [T]) + Sync) {
         let threads = self.threads();
         if threads == 1 || items.len() <= 1 {
-            return items.iter_mut().enumerate().for_each(|(i, item)| f(i, item));
+            return f(0, items);
         }
         let size = items.len().div_ceil(threads * PIECES);
         // Each lock is taken once, so nobody waits for one.
@@ -100,8 +108,7 @@ impl Team {
         self.run(&|own: usize| {
             for t in (own..threads).chain(0..own) {
                 while let Some(p) = take(t) {
-                    let mut piece = pieces[p].lock().expect("a piece is taken once");
-                    piece.iter_mut().enumerate().for_each(|(i, item)| f(p * size + i, item));
+                    f(p * size, &mut pieces[p].lock().expect("a piece is taken once"));
                 }
             }
         });
@@ -119,8 +126,9 @@ impl Team {
         pairs.into_iter().map(|pair| pair.1.expect("every item had its turn")).collect()
     }
 
-    /// Calls `work` with the number of every thread, on that thread. Where the team is in a loop
-    /// already it is called with 0 only: any one call does what is left to do.
+    /// Calls `work` with 0, and with their numbers on workers that come while that goes on: any one
+    /// call does what is left to do, so nobody waits for a worker that the system has no time for.
+    /// Where the team is in a loop already, no worker comes.
     fn run(&self, work: &(dyn Fn(usize) + Sync)) {
         let _in_use = match self.in_use.try_lock() {
             Ok(guard) => guard,
@@ -128,10 +136,10 @@ impl Team {
             Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
             Err(TryLockError::WouldBlock) => return work(0),
         };
-        // SAFETY: workers use it only until they have answered, and this function returns after that.
-        self.shared.call(unsafe { transmute::<&_, &'static _>(work) }, self.workers.len());
+        // SAFETY: no worker begins with it or uses it after `close`.
+        self.shared.open(unsafe { transmute::<&_, &'static _>(work) });
         let own = catch_unwind(AssertUnwindSafe(|| work(0)));
-        let theirs = self.shared.wait();
+        let theirs = self.shared.close();
         if let Err(panic) = own {
             resume_unwind(panic);
         }
@@ -159,28 +167,27 @@ impl Shared {
         self.post.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn call(&self, work: &'static (dyn Fn(usize) + Sync), workers: usize) {
+    fn open(&self, work: &'static (dyn Fn(usize) + Sync)) {
         let mut post = self.post();
         post.work = Some(work);
-        self.busy.store(workers, Ordering::Relaxed);
         self.call.fetch_add(1, Ordering::Release);
         drop(post);
         self.called.notify_all();
     }
 
-    /// Until all workers have answered; the panic of one of them.
-    fn wait(&self) -> Option<Box<dyn Any + Send>> {
-        let is_busy = || self.busy.load(Ordering::Acquire) > 0;
-        look_while(is_busy);
+    /// Lets no further worker begin, and waits for those that have; the panic of one of them.
+    fn close(&self) -> Option<Box<dyn Any + Send>> {
+        self.post().work = None;
+        let is_waiting = || self.inside.load(Ordering::Acquire) > 0;
+        look_while(is_waiting);
         let mut post = self.post();
-        while is_busy() {
-            post = self.answered.wait(post).unwrap_or_else(PoisonError::into_inner);
+        while is_waiting() {
+            post = self.left.wait(post).unwrap_or_else(PoisonError::into_inner);
         }
-        post.work = None;
         post.panic.take()
     }
 
-    /// What a worker does: it answers calls until the end.
+    /// What a worker does until the end.
     fn serve(&self, number: usize) {
         let mut seen = 0;
         loop {
@@ -192,16 +199,17 @@ impl Shared {
             if post.over {
                 return;
             }
-            seen += 1;
-            let work = post.work.expect("a call has work");
+            seen = self.call.load(Ordering::Acquire);
+            let Some(work) = post.work else { continue };
+            self.inside.fetch_add(1, Ordering::Relaxed);
             drop(post);
             let result = catch_unwind(AssertUnwindSafe(|| work(number)));
             let mut post = self.post();
             if let Err(panic) = result {
                 post.panic.get_or_insert(panic);
             }
-            if self.busy.fetch_sub(1, Ordering::Release) == 1 {
-                self.answered.notify_one();
+            if self.inside.fetch_sub(1, Ordering::Release) == 1 {
+                self.left.notify_one();
             }
         }
     }

@@ -10,12 +10,15 @@ pub struct Spots {
     pub along: [[f32; BLOCK]; 3],
 }
 
-/// Particles that come near to a box, and their coordinates about its centre.
+/// Particles that come near to a box, and their coordinates about its centre. Its memory serves for
+/// one search after another.
 #[derive(Debug, Default)]
 pub struct Candidates {
-    /// Numbers in the list that they were last taken from.
-    pub numbers: Vec<u32>,
-    pub along: [Vec<f32>; 3],
+    count: usize,
+    /// Of those that were taken last.
+    from: usize,
+    numbers: Vec<u32>,
+    along: [Vec<f32>; 3],
 }
 
 /// What is searched: x is near if it comes nearer than `reach` to the box that extends from the
@@ -52,27 +55,41 @@ impl Candidates {
     /// Takes what is near of particles that stand at `signs · spot + shift` about the centre of the
     /// box. There are as many spots as fill whole vectors.
     pub fn take(&mut self, spots: [&[f32]; 3], signs: [f32; 3], shift: [f32; 3], near: Near) {
-        let count = spots[0].len();
-        self.numbers.clear();
-        self.numbers.resize(count + WIDTH, 0);
-        let start = self.along[0].len();
+        self.from = self.count;
         // Room for all, and for the last vector to be written whole.
-        self.along.iter_mut().for_each(|along| along.resize(start + count + WIDTH, 0.0));
-        let mut along = self.along.each_mut().map(|along| &mut along[start..]);
-        let found = compress(spots, signs, shift, near, &mut self.numbers, &mut along);
-        self.numbers.truncate(found);
-        self.along.iter_mut().for_each(|along| along.truncate(start + found));
+        let room = self.count + spots[0].len() + WIDTH;
+        if self.numbers.len() < room {
+            self.numbers.resize(room, 0);
+            self.along.iter_mut().for_each(|along| along.resize(room, 0.0));
+        }
+        let mut along = self.along.each_mut().map(|along| &mut along[self.from..]);
+        let numbers = &mut self.numbers[self.from..];
+        self.count += compress(spots, signs, shift, near, numbers, &mut along);
     }
 
     /// Forgets what was taken before.
     pub fn clear(&mut self) {
-        self.along.iter_mut().for_each(Vec::clear);
+        self.count = 0;
     }
 
-    /// Adds particles far away that fill the last vector.
-    pub fn fill_up(&mut self) {
-        let full = self.along[0].len().next_multiple_of(WIDTH);
-        self.along.iter_mut().for_each(|along| along.resize(full, f32::MAX));
+    /// Numbers of those that were taken last, in the list that they were taken from.
+    pub fn last_numbers(&self) -> &[u32] {
+        &self.numbers[self.from..self.count]
+    }
+
+    /// Numbers and coordinates of all, each followed by at least a vector of others: points far away,
+    /// which make whole vectors.
+    pub fn all(&mut self) -> (&[u32], [&[f32]; 3]) {
+        let (count, full) = (self.count, self.count.next_multiple_of(WIDTH) + WIDTH);
+        if self.numbers.len() < full {
+            self.numbers.resize(full, 0);
+        }
+        let along = self.along.each_mut().map(|along| {
+            along.resize(full.max(along.len()), 0.0);
+            along[count..full].fill(f32::MAX);
+            &along[..full]
+        });
+        (&self.numbers[..full], along)
     }
 }
 
@@ -187,19 +204,21 @@ mod tests {
                 };
                 let expected: Vec<u32> =
                     (0..count).filter(|&i| is_near(&points[i])).map(|i| i as u32).collect();
-                assert_eq!(taken.numbers, expected);
+                assert_eq!(taken.last_numbers(), expected);
                 for (n, &i) in expected.iter().enumerate() {
                     let at = image(&points[i as usize]);
                     for a in 0..3 {
-                        let apart = f64::from(taken.along[a][n]) - (at[a] - centre[a]);
+                        let apart = f64::from(taken.all().1[a][n]) - (at[a] - centre[a]);
                         assert!(apart.abs() < 1e-6);
                     }
                 }
                 let (mut numbers, mut places) = (vec![0; 200], [(); 3].map(|_| vec![0.0; 200]));
                 let mut slices = places.each_mut().map(|places| &mut places[..]);
                 let found = compress_each(along, signs, shift, near, &mut numbers, &mut slices);
-                assert_eq!(taken.numbers, numbers[..found]);
-                assert!((0..3).all(|a| taken.along[a] == places[a][..found]));
+                assert_eq!(taken.last_numbers(), &numbers[..found]);
+                let (_, along) = taken.all();
+                assert!((0..3).all(|a| along[a][..found] == places[a][..found]));
+                assert!(along[0].len() % WIDTH == 0 && along[0][found..].iter().all(|&x| x > 1e30));
             }
         }
     }

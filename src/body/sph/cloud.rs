@@ -67,6 +67,8 @@ pub struct Ledger {
 
 /// Numbers of a particle in a flat vector.
 const NUMBERS: usize = 25;
+/// Numbers that a thread copies at once.
+const COPY: usize = 4096;
 /// Numbers of the ledger before those of its cells.
 const HEAD: usize = 19;
 
@@ -178,28 +180,28 @@ pub fn particles_in(state: &[f64], cells: usize) -> Option<usize> {
     (rest % NUMBERS == 0).then_some(rest / NUMBERS)
 }
 
-/// Writes ledger and particles into a flat vector.
-pub fn flatten(ledger: &Ledger, cloud: &Cloud) -> Vec<f64> {
-    let mut state = Vec::new();
-    flatten_into(&mut state, ledger, cloud);
-    state
-}
-
-/// Writes them over a flat vector.
-pub fn flatten_into(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud) {
+/// Writes ledger and particles over a flat vector.
+pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team) {
     let exchange = &ledger.exchange;
-    state.clear();
-    state.reserve_exact(state_len(exchange.heat.len(), cloud.len()));
-    state.extend([ledger.time, ledger.released as f64, ledger.steps]);
-    state.extend([ledger.heat_released, ledger.heat_to_wall]);
-    state.extend(ledger.impulse_to_wall);
-    state.extend(ledger.impulse_of_gravity);
-    state.extend([exchange.duration, exchange.heat_outside]);
-    state.extend(exchange.impulse_outside);
-    state.extend([ledger.way, ledger.surface_energy, ledger.surrounded]);
-    state.extend(&exchange.heat);
-    state.extend(exchange.impulse.iter().flatten());
-    cloud.numbers().into_iter().for_each(|numbers| state.extend_from_slice(numbers));
+    let mut head = Vec::with_capacity(state_len(exchange.heat.len(), 0));
+    head.extend([ledger.time, ledger.released as f64, ledger.steps]);
+    head.extend([ledger.heat_released, ledger.heat_to_wall]);
+    head.extend(ledger.impulse_to_wall);
+    head.extend(ledger.impulse_of_gravity);
+    head.extend([exchange.duration, exchange.heat_outside]);
+    head.extend(exchange.impulse_outside);
+    head.extend([ledger.way, ledger.surface_energy, ledger.surrounded]);
+    head.extend(&exchange.heat);
+    head.extend(exchange.impulse.iter().flatten());
+    state.resize(state_len(exchange.heat.len(), cloud.len()), 0.0);
+    let (first, mut rest) = state.split_at_mut(head.len());
+    first.copy_from_slice(&head);
+    let mut copies = Vec::new();
+    for numbers in cloud.numbers() {
+        let places = rest.split_off_mut(..numbers.len()).expect("the state has room");
+        copies.extend(places.chunks_mut(COPY).zip(numbers.chunks(COPY)));
+    }
+    team.for_each(&mut copies, |_, (places, numbers)| places.copy_from_slice(numbers));
 }
 
 /// Reads the ledger of a state.
@@ -228,24 +230,39 @@ pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
 }
 
 /// Reads the particles of a state.
-pub fn cloud_of(state: &[f64], cells: usize) -> Cloud {
-    let mut rest = &state[state_len(cells, 0)..];
-    let count = rest.len() / NUMBERS;
-    let mut next = |width: usize| {
-        let (numbers, behind) = rest.split_at(width * count);
-        rest = behind;
-        numbers
-    };
+pub fn cloud_of(state: &[f64], cells: usize, team: &Team) -> Cloud {
+    let rest = &state[state_len(cells, 0)..];
+    let mut lists = Lists { rest, count: rest.len() / NUMBERS, team };
     Cloud {
-        position: next(3).as_chunks().0.to_vec(),
-        velocity: next(3).as_chunks().0.to_vec(),
-        mass: next(1).to_vec(),
-        density: next(1).to_vec(),
-        temperature: next(1).to_vec(),
-        heating: next(1).to_vec(),
-        acceleration: next(6).as_chunks().0.as_chunks().0.to_vec(),
-        gradient: next(3).as_chunks().0.to_vec(),
-        moment: next(6).as_chunks().0.to_vec(),
+        position: lists.next(|[numbers]| numbers),
+        velocity: lists.next(|[numbers]| numbers),
+        mass: lists.next(|[[number]]| number),
+        density: lists.next(|[[number]]| number),
+        temperature: lists.next(|[[number]]| number),
+        heating: lists.next(|[[number]]| number),
+        acceleration: lists.next(|both| both),
+        gradient: lists.next(|[numbers]| numbers),
+        moment: lists.next(|[numbers]| numbers),
+    }
+}
+
+/// What is left of a state, list after list.
+struct Lists<'a> {
+    rest: &'a [f64],
+    count: usize,
+    team: &'a Team,
+}
+
+impl Lists<'_> {
+    /// The next list, of B times A numbers a particle.
+    fn next<const A: usize, const B: usize, T: Send>(
+        &mut self,
+        entry: impl Fn([[f64; A]; B]) -> T + Sync,
+    ) -> Vec<T> {
+        let (numbers, rest) = self.rest.split_at(self.count * A * B);
+        self.rest = rest;
+        let entries: &[[[f64; A]; B]] = numbers.as_chunks().0.as_chunks().0;
+        self.team.map(self.count, |i| entry(entries[i]))
     }
 }
 
@@ -281,11 +298,13 @@ mod tests {
             exchange,
             ..Ledger::default()
         };
-        let state = flatten(&ledger, &cloud);
+        let team = Team::new(2);
+        let mut state = vec![7.0; 3];
+        flatten(&mut state, &ledger, &cloud, &team);
         assert_eq!(state.len(), state_len(3, 5));
         assert_eq!(particles_in(&state, 3), Some(5));
         assert_eq!(ledger_of(&state, 3), ledger);
-        assert_eq!(cloud_of(&state, 3), cloud);
+        assert_eq!(cloud_of(&state, 3, &team), cloud);
         assert_eq!(particles_in(&state[1..], 3), None);
     }
 }

@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::cloud::{
-    Cloud, Ledger, cloud_of, flatten, flatten_into, ledger_of, particles_in, state_len,
-};
+use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in, state_len};
 use super::failure::Failure;
 use super::images::copies;
 use super::loops::PART;
@@ -96,7 +94,7 @@ impl DropletSph {
         let ledger = Ledger { exchange: WallExchange::none(self.cells()), ..Ledger::default() };
         let (mut ledger, mut cloud) = (ledger, Cloud::default());
         self.release(&mut ledger, &mut cloud);
-        flatten(&ledger, &cloud)
+        flat(&ledger, &cloud)
     }
 
     /// A state at time zero of given particles, in place of the plan's droplets.
@@ -117,7 +115,7 @@ impl DropletSph {
             ..Ledger::default()
         };
         self.prime(&mut ledger, &mut cloud);
-        flatten(&ledger, &cloud)
+        flat(&ledger, &cloud)
     }
 
     /// Whether a vector may be a state of this model.
@@ -135,8 +133,9 @@ impl DropletSph {
         wall_temperature: &[f64],
         duration: f64,
     ) -> Result<(), Failure> {
+        let mut team = self.team(particles_in(state, self.cells()).unwrap_or(0));
         let (mut ledger, mut cloud) =
-            (ledger_of(state, self.cells()), cloud_of(state, self.cells()));
+            (ledger_of(state, self.cells()), cloud_of(state, self.cells(), &team));
         ledger.exchange = WallExchange::none(self.cells());
         ledger.exchange.duration = duration;
         let reference = self.reference_temperature();
@@ -146,13 +145,14 @@ impl DropletSph {
             let next = self.plan.releases.get(ledger.released).map_or(end, |r| r.time.min(end));
             let rest = next - ledger.time;
             if rest > 0.0 {
-                let team = self.team(&cloud);
                 Stepper::new(&self.method, &team, &mut cloud, &mut ledger, &wall).advance(rest)?;
             }
             ledger.time = next;
-            self.release(&mut ledger, &mut cloud);
+            if self.release(&mut ledger, &mut cloud) {
+                team = self.team(cloud.len());
+            }
         }
-        flatten_into(state, &ledger, &cloud);
+        flatten(state, &ledger, &cloud, &team);
         Ok(())
     }
 
@@ -162,12 +162,12 @@ impl DropletSph {
     }
 
     pub fn totals(&self, state: &[f64]) -> DropletTotals {
-        let (ledger, cloud) = (ledger_of(state, self.cells()), cloud_of(state, self.cells()));
+        let (ledger, cloud) = (ledger_of(state, self.cells()), self.cloud(state));
         totals(&self.plan, &self.method, &ledger, &cloud)
     }
 
     pub fn particles(&self, state: &[f64]) -> ParticleFields {
-        let cloud = cloud_of(state, self.cells());
+        let cloud = self.cloud(state);
         let units = &self.method.units;
         let reference = self.reference_temperature();
         let within = |mut x: [f64; 3]| {
@@ -214,8 +214,12 @@ impl DropletSph {
         self.plan.releases.first().map_or(0.0, |release| release.temperature)
     }
 
-    /// Adds all droplets whose time has come.
-    fn release(&self, ledger: &mut Ledger, cloud: &mut Cloud) {
+    fn cloud(&self, state: &[f64]) -> Cloud {
+        cloud_of(state, self.cells(), &Team::new(1))
+    }
+
+    /// Adds all droplets whose time has come; whether there are any.
+    fn release(&self, ledger: &mut Ledger, cloud: &mut Cloud) -> bool {
         let before = cloud.len();
         while let Some(release) =
             self.plan.releases.get(ledger.released).filter(|release| release.time <= ledger.time)
@@ -226,16 +230,17 @@ impl DropletSph {
         if cloud.len() > before {
             self.prime(ledger, cloud);
         }
+        cloud.len() > before
     }
 
     fn prime(&self, ledger: &mut Ledger, cloud: &mut Cloud) {
-        let team = self.team(cloud);
+        let team = self.team(cloud.len());
         Stepper::new(&self.method, &team, cloud, ledger, &vec![0.0; self.cells()]).prime();
     }
 
     /// Threads for some particles; no more than there are parts for them.
-    fn team(&self, cloud: &Cloud) -> Team {
-        Team::new(self.threads.min(cloud.len().div_ceil(PART)))
+    fn team(&self, particles: usize) -> Team {
+        Team::new(self.threads.min(particles.div_ceil(PART)))
     }
 
     fn add(&self, release: &Release, ledger: &mut Ledger, cloud: &mut Cloud) {
@@ -260,6 +265,12 @@ impl DropletSph {
             ledger.heat_released += images * share * mass * heat * temperature;
         }
     }
+}
+
+fn flat(ledger: &Ledger, cloud: &Cloud) -> Vec<f64> {
+    let mut state = Vec::new();
+    flatten(&mut state, ledger, cloud, &Team::new(1));
+    state
 }
 
 /// Sums over the fluid.

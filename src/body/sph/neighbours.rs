@@ -4,20 +4,22 @@
 //! Lengths are in units of the support radius. The lists reach farther than the kernel by a skin, so
 //! that they serve until neighbours have moved against each other by its width.
 
+use std::ops::Range;
+
 use super::candidates::{Candidates, Near, Spots};
 use super::images::{Images, Source};
 use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, GROUP};
 use crate::math::parallel::Team;
 
-/// Reach of the lists beyond the kernel, in steps of the motion against neighbours; its bounds.
-const SKIN_STEPS: f64 = 8.0;
-const SKINS: [f64; 2] = [0.05, 0.3];
+/// Reach of the lists beyond the kernel over the root of the motion against neighbours in a step, and
+/// its bounds. A step costs in proportion to `(1 + s)³ P + L m/s`, with s the skin, m the motion, P the
+/// time of all sums and L that of making lists, of which L/P is a sixth to a third; it is least at
+/// `s = √(m L/3P)`.
+const SKIN: f64 = 0.3;
+const SKINS: [f64; 2] = [1e-3, 0.3];
 /// Share of the skin that rounding in single precision could use.
 const MARGIN: f64 = 1e-5;
-/// Least skin.
-const THINNEST: f64 = 1e-3;
-
 /// Particles that stand together and all that surrounds them.
 pub struct Block {
     /// Index of the first particle.
@@ -36,6 +38,14 @@ pub struct Block {
     surroundings: Vec<(usize, u8)>,
     /// How far neighbours may still move against each other.
     slack: f64,
+}
+
+/// Memory of a search.
+#[derive(Default)]
+struct Desk {
+    near_block: Candidates,
+    near_group: Candidates,
+    places: Vec<u16>,
 }
 
 /// Neighbours of all particles.
@@ -101,30 +111,32 @@ impl Block {
 }
 
 impl Block {
-    /// Finds the neighbours of the block's particles among sources that stand `along` the axes about its
-    /// centre, those from `wall` on at the wall.
-    fn find_places(&mut self, own: &[[f64; 3]], along: [&[f32]; 3], wall: usize, reach: f64) {
+    /// Finds the neighbours of the block's particles among what is near the block, of which those from
+    /// `wall` on are at the wall.
+    fn find_places(&mut self, own: &[[f64; 3]], wall: usize, reach: f64, desk: &mut Desk) {
+        let Desk { near_block, near_group, places } = desk;
+        let (_, near_block) = near_block.all();
         self.places.clear();
         self.places.reserve(own.len() * 160);
         self.ends.clear();
-        let reach_squared = (reach * reach) as f32;
-        let mut found = vec![0; self.sources.len() + WIDTH];
-        let mut near_group = Candidates::default();
+        places.resize(near_block[0].len() + WIDTH, 0);
         for group in own.chunks(GROUP) {
             let bounds = Bounds::of(group.iter().copied());
             let middle = bounds.centre();
             let away = |a: usize| (self.centre[a] - middle[a]) as f32;
             let shift = [away(0), away(1), away(2)];
             near_group.clear();
-            near_group.take(along, [1.0; 3], shift, Near::to(&bounds, reach));
-            let numbers = &near_group.numbers;
-            let wall = numbers.partition_point(|&number| (number as usize) < wall);
+            near_group.take(near_block, [1.0; 3], shift, Near::to(&bounds, reach));
+            let wall = near_group.last_numbers().partition_point(|&n| (n as usize) < wall);
+            let count = near_group.last_numbers().len();
+            let (numbers, along) = near_group.all();
             for point in group {
-                let at = [0, 1, 2].map(|a| (point[a] - middle[a]) as f32);
-                let ends = [0..wall, wall..numbers.len()].map(|part| {
-                    let along = near_group.along.each_ref().map(|along| &along[part.clone()]);
-                    let count = select(along, &numbers[part], at, reach_squared, &mut found);
-                    self.places.extend_from_slice(&found[..count]);
+                let away = |a: usize| (point[a] - middle[a]) as f32;
+                let at = [away(0), away(1), away(2)];
+                let within = Within { at, square: (reach * reach) as f32 };
+                let ends = [0..wall, wall..count].map(|part| {
+                    let found = select(along, numbers, part, within, places);
+                    self.places.extend_from_slice(&places[..found]);
                     let full = self.places.len().next_multiple_of(WIDTH);
                     self.places.resize(full, 0);
                     full as u32
@@ -167,7 +179,12 @@ impl Neighbours {
         let tree = &self.tree;
         let blocks: Vec<&[[f64; 3]]> = points.chunks(BLOCK).collect();
         let spots = team.map(blocks.len(), |b| Spots::of(blocks[b]));
-        team.for_each(&mut worn, |_, block| list(block, points, &spots, ways, tree, images));
+        team.for_pieces(&mut worn, |_, blocks| {
+            let mut desk = Desk::default();
+            for block in blocks {
+                list(block, points, &spots, ways, tree, images, &mut desk);
+            }
+        });
     }
 }
 
@@ -187,6 +204,7 @@ fn list(
     ways: &Ways,
     tree: &BlockTree,
     images: &Images,
+    desk: &mut Desk,
 ) {
     let own = &points[block.first..block.first + block.count];
     let bounds = Bounds::of(own.iter().copied());
@@ -199,32 +217,31 @@ fn list(
         block.surroundings = surroundings(&bounds, tree, images, reach);
     }
     block.slack = skin - motion;
-    let (mut candidates, mut wall) = (Candidates::default(), 0);
+    let mut wall = 0;
     block.sources.clear();
+    desk.near_block.clear();
     for &(b, code) in &block.surroundings {
         let image = images.get(code);
         let origin = image.place(spots[b].origin);
         let away = |a: usize| (origin[a] - block.centre[a]) as f32;
         let (signs, shift) = (image.signs.map(|sign| sign as f32), [away(0), away(1), away(2)]);
         let along = spots[b].along.each_ref().map(|along| &along[..]);
-        candidates.take(along, signs, shift, Near::to(&bounds, reach));
+        desk.near_block.take(along, signs, shift, Near::to(&bounds, reach));
         let source = |&k: &u32| Source::new(b * BLOCK + k as usize, code);
-        block.sources.extend(candidates.numbers.iter().map(source));
+        block.sources.extend(desk.near_block.last_numbers().iter().map(source));
         if !images.is_at_wall(code) {
             wall = block.sources.len();
         }
     }
     assert!(block.sources.len() < usize::from(u16::MAX), "too many particles in one place");
-    candidates.fill_up();
-    let along = candidates.along.each_ref().map(|along| &along[..]);
-    block.find_places(own, along, wall, reach);
+    block.find_places(own, wall, reach, desk);
 }
 
 /// Reach beyond the kernel of lists that are to serve for some steps of a motion.
 fn skin(motion: f64, steps: f64) -> f64 {
-    // Particles may become faster by half, and never leave the lists within this step.
-    let needed = (1.5 * motion).max(THINNEST);
-    (SKIN_STEPS * motion).clamp(SKINS[0], SKINS[1]).min(steps * needed).max(needed)
+    // Particles may become faster by half, and do not leave the lists within this step.
+    let needed = 1.5 * motion;
+    (SKIN * motion.sqrt()).min(steps * needed).clamp(SKINS[0], SKINS[1]).max(needed)
 }
 
 /// Blocks whose images come near to `bounds`, those at the wall last.
@@ -244,78 +261,84 @@ fn surroundings(
     all
 }
 
-/// Writes the places of points within reach, in order; how many they are. There is room for all of
-/// them, and for the last vector to be written whole.
+/// Points nearer to a point than the root of a square.
+#[derive(Debug, Clone, Copy)]
+struct Within {
+    at: [f32; 3],
+    square: f32,
+}
+
+/// Writes the places of points of a range that are within, in order; how many they are. There is room
+/// for the whole range and a vector more, and behind the points there are as many others.
 fn select(
     along: [&[f32]; 3],
     numbers: &[u32],
-    at: [f32; 3],
-    reach_squared: f32,
+    range: Range<usize>,
+    within: Within,
     places: &mut [u16],
 ) -> usize {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx512f") {
         // SAFETY: the processor has what the function asks for.
-        return unsafe { select_avx512(along, numbers, at, reach_squared, places) };
+        return unsafe { select_avx512(along, numbers, range, within, places) };
     }
-    select_each(along, numbers, 0, at, reach_squared, places, 0)
+    select_each(along, numbers, range, within, places)
 }
 
-/// One point after the other from the `k`-th on, without a branch: written always, kept if near.
+/// One point after the other without a branch: written always, kept if near.
 fn select_each(
     [x, y, z]: [&[f32]; 3],
     numbers: &[u32],
-    from: usize,
-    at: [f32; 3],
-    reach_squared: f32,
+    range: Range<usize>,
+    Within { at, square }: Within,
     places: &mut [u16],
-    mut found: usize,
 ) -> usize {
-    for k in from..numbers.len() {
+    let mut found = 0;
+    for k in range {
         let d = [x[k] - at[0], y[k] - at[1], z[k] - at[2]];
-        let near = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach_squared;
+        let near = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < square;
         places[found] = numbers[k] as u16 + 1;
         found += usize::from(near);
     }
     found
 }
 
-/// Sixteen points at once.
+/// Sixteen points at once, with the same roundings.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
 fn select_avx512(
     along: [&[f32]; 3],
     numbers: &[u32],
-    at: [f32; 3],
-    reach_squared: f32,
+    range: Range<usize>,
+    Within { at, square }: Within,
     places: &mut [u16],
 ) -> usize {
     use std::arch::x86_64::*;
-    let [x, y, z] = along;
-    let whole = numbers.len() / WIDTH * WIDTH;
+    let length = along[0].len().min(along[1].len()).min(along[2].len()).min(numbers.len());
+    assert!(range.end + WIDTH <= length && range.len() + WIDTH <= places.len());
+    let [x, y, z] = along.map(<[f32]>::as_ptr);
     let [ax, ay, az] = [_mm512_set1_ps(at[0]), _mm512_set1_ps(at[1]), _mm512_set1_ps(at[2])];
-    let reach = _mm512_set1_ps(reach_squared);
-    let one = _mm512_set1_epi32(1);
+    let (reach, one) = (_mm512_set1_ps(square), _mm512_set1_epi32(1));
     let mut found = 0;
-    for k in (0..whole).step_by(WIDTH) {
-        assert!(found + WIDTH <= places.len());
-        let range = k..k + WIDTH;
-        // SAFETY: the slices are as long as a vector, and found + 16 is within the places.
+    for k in range.clone().step_by(WIDTH) {
+        let rest = (range.end - k).min(WIDTH);
+        let inside = (u32::MAX >> (32 - rest)) as u16;
+        // SAFETY: there are sixteen numbers from k on, and places from `found` on.
         unsafe {
-            let dx = _mm512_sub_ps(_mm512_loadu_ps(x[range.clone()].as_ptr()), ax);
-            let dy = _mm512_sub_ps(_mm512_loadu_ps(y[range.clone()].as_ptr()), ay);
-            let dz = _mm512_sub_ps(_mm512_loadu_ps(z[range.clone()].as_ptr()), az);
+            let dx = _mm512_sub_ps(_mm512_loadu_ps(x.add(k)), ax);
+            let dy = _mm512_sub_ps(_mm512_loadu_ps(y.add(k)), ay);
+            let dz = _mm512_sub_ps(_mm512_loadu_ps(z.add(k)), az);
             let xy = _mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy));
-            let square = _mm512_add_ps(xy, _mm512_mul_ps(dz, dz));
-            let near = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, reach);
-            let number = _mm512_loadu_epi32(numbers[range].as_ptr().cast());
-            let place = _mm512_add_epi32(number, one);
-            let kept = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(near, place));
-            _mm256_storeu_si256(places[found..].as_mut_ptr().cast(), kept);
+            let distance = _mm512_add_ps(xy, _mm512_mul_ps(dz, dz));
+            let near = inside & _mm512_cmp_ps_mask::<_CMP_LT_OQ>(distance, reach);
+            let number = _mm512_loadu_epi32(numbers.as_ptr().add(k).cast());
+            let place = _mm512_maskz_compress_epi32(near, _mm512_add_epi32(number, one));
+            let end = places.as_mut_ptr().add(found);
+            _mm256_storeu_si256(end.cast(), _mm512_cvtepi32_epi16(place));
             found += near.count_ones() as usize;
         }
     }
-    select_each(along, numbers, whole, at, reach_squared, places, found)
+    found
 }
 
 #[cfg(test)]
@@ -383,7 +406,7 @@ mod tests {
             neighbours.prepare(&points, &Ways::none(700), &images, &Team::new(threads));
             let listed = assert_complete(&points, &neighbours, &images);
             let near = |i: usize, code: u8| {
-                let reach = (1.0 + SKINS[0]).powi(2);
+                let reach = (1.0 + skin(0.0, 1.0)).powi(2);
                 let square = |p: &[f64; 3]| {
                     let other = images.get(code).place(*p);
                     (0..3).map(|a| (points[i][a] - other[a]).powi(2)).sum::<f64>()

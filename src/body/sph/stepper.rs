@@ -588,7 +588,8 @@ fn fill<T: Copy + Default + Send>(
 /// Velocity of a particle after `dt` under the accelerations of the step before.
 fn ahead(cloud: &Cloud, i: usize, dt: f64, gravity: [f64; 3]) -> [f64; 3] {
     let (v, [a, b]) = (cloud.velocity[i], cloud.acceleration[i]);
-    [0, 1, 2].map(|n| v[n] + dt * (a[n] + b[n] + gravity[n]))
+    let along = |n: usize| v[n] + dt * (a[n] + b[n] + gravity[n]);
+    [along(0), along(1), along(2)]
 }
 
 /// Whether some numbers are not all the same.
