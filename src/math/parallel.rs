@@ -16,9 +16,9 @@ pub const WORKER: &str = "impinge worker";
 /// Pieces into which each thread's share of a loop is cut, for others to take when they are done.
 const PIECES: usize = 16;
 
-/// How often a thread looks for what it waits for before it sleeps: some ten microseconds, as long
-/// as it takes to wake one.
-const LOOKS: usize = 1000;
+/// How often a thread looks for what it waits for before it sleeps: for some tens of microseconds, as
+/// long as it takes to wake one.
+const LOOKS: usize = 3000;
 
 /// Threads that run one loop after another, and end with the value. The thread that has it is one
 /// of them, so a team of one starts none.
