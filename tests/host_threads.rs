@@ -14,6 +14,8 @@ const SCENES: [&str; 2] = [include_str!("fmi/fuzz/scene.toml"), include_str!("fm
 /// Enough particles for some threads.
 const DROP: &str = r#"
 name = "Drop"
+stop_time = 1e-6
+step = 1e-8
 [body.drop]
 kind = "droplet"
 diameter = 1e-4
