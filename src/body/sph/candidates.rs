@@ -118,8 +118,8 @@ fn compress_each(
     numbers: &mut [u32],
     along: &mut [&mut [f32]; 3],
 ) -> usize {
-    let mut found = 0;
-    for k in 0..spots[0].len() {
+    let (count, mut found) = (spots[0].len(), 0);
+    for k in 0..count {
         let mut square = 0.0;
         numbers[found] = k as u32;
         for a in 0..3 {
