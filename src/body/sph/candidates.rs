@@ -118,12 +118,14 @@ fn compress_each(
     numbers: &mut [u32],
     along: &mut [&mut [f32]; 3],
 ) -> usize {
-    let (count, mut found) = (spots[0].len(), 0);
-    for k in 0..count {
+    let [along_x, along_y, along_z] = spots.map(<[f32]>::iter);
+    let mut found = 0;
+    for (k, ((&x, &y), &z)) in along_x.zip(along_y).zip(along_z).enumerate() {
+        let spot = [x, y, z];
         let mut square = 0.0;
         numbers[found] = k as u32;
         for a in 0..3 {
-            let at = signs[a] * spots[a][k] + shift[a];
+            let at = signs[a] * spot[a] + shift[a];
             let gap = (at.abs() - near.half[a]).max(0.0);
             square += gap * gap;
             along[a][found] = at;
