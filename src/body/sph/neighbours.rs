@@ -14,7 +14,7 @@ use crate::math::parallel::Team;
 
 /// Reach of the lists beyond the kernel over the root of the motion against neighbours in a step, and
 /// its bounds. A step costs in proportion to `(1 + s)³ P + L m/s`, with s the skin, m the motion, P the
-/// time of all sums and L that of making lists, of which L/P is a sixth to a third; it is least at
+/// time of all sums and L that of making lists, L a fifth to a half of it; it is least at
 /// `s = √(m L/3P)`.
 const SKIN: f64 = 0.3;
 const SKINS: [f64; 2] = [1e-3, 0.3];
