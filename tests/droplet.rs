@@ -102,6 +102,32 @@ fn threads_change_no_bit() {
     }
 }
 
+#[test]
+fn short_advances_keep_the_order_and_say_what_a_long_one_says() {
+    let drop = DropletSph::new(impact(24.0), 1);
+    let before = run(&drop, 2);
+    let [mut short, mut long] = [before.clone(), before.clone()];
+    let time = 5e-8;
+    for _ in 0..25 {
+        drop.advance(&mut short, &[COLD; RINGS], time / 25.0).unwrap();
+    }
+    drop.advance(&mut long, &[COLD; RINGS], time).unwrap();
+    let [before, now] = [&before, &short].map(|state| drop.particles(state).position);
+    for (x, y) in before.iter().zip(&now) {
+        let way: f64 = (0..3).map(|a| (x[a] - y[a]).powi(2)).sum();
+        assert!(way.sqrt() < 3.0 * SPEED * time, "another particle, or a very fast one");
+    }
+    let [short, long] = [&short, &long].map(|state| drop.totals(state));
+    for (a, b) in [
+        (short.kinetic_energy, long.kinetic_energy),
+        (short.heat_to_wall, long.heat_to_wall),
+        (short.impulse_to_wall[2], long.impulse_to_wall[2]),
+        (short.max_pressure, long.max_pressure),
+    ] {
+        assert!((a / b - 1.0).abs() < 0.01, "{a} {b}");
+    }
+}
+
 /// Position, velocity and density of all particles.
 fn flow(drop: &DropletSph, state: &[f64]) -> Vec<u64> {
     let ParticleFields { position, velocity, density, .. } = drop.particles(state);

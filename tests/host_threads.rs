@@ -1,25 +1,53 @@
-//! A unit that may use one thread starts none: masters unload its library, and many units share a
-//! machine. The count is that of the whole process, so this test has one to itself.
+//! A unit that may use one thread starts none, and those that a droplet uses end with its step: masters
+//! unload its library, and many units share a machine. The count is that of the whole process, so this
+//! test has one to itself.
 
 #![cfg(target_os = "linux")]
+
+use std::time::{Duration, Instant};
 
 use impinge::model::{Cache, Model};
 use impinge::scene;
 
 const SCENES: [&str; 2] = [include_str!("fmi/fuzz/scene.toml"), include_str!("fmi/scene.toml")];
 
+/// Enough particles for some threads.
+const DROP: &str = r#"
+name = "Drop"
+stop_time = 1e-6
+step = 1e-8
+[body.drop]
+kind = "droplet"
+diameter = 1e-4
+impact_velocity = 20.0
+initial_temperature = 350.0
+spacing = 4e-6
+fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6 }
+"#;
+
 fn threads() -> usize {
     std::fs::read_dir("/proc/self/task").unwrap().count()
 }
 
+fn step(text: &str, threads: usize) {
+    let scene = scene::parse(text, "scene.toml").unwrap();
+    let model = Model::build(&scene, threads).unwrap();
+    let mut state = model.initial_state();
+    model.step(&mut state, &mut Cache::default(), 1e-8).unwrap();
+}
+
 #[test]
-fn a_model_of_one_thread_starts_none() {
+fn no_thread_is_left() {
     let before = threads();
     for text in SCENES {
-        let scene = scene::parse(text, "scene.toml").unwrap();
-        let model = Model::build(&scene, 1).unwrap();
-        let mut state = model.initial_state();
-        model.step(&mut state, &mut Cache::default(), 1e-8).unwrap();
-        assert_eq!(threads(), before, "{}", scene.name);
+        step(text, 1);
+        assert_eq!(threads(), before, "{text}");
     }
+    step(DROP, 3);
+    // The system counts a thread for a moment after it has ended.
+    let begin = Instant::now();
+    while threads() > before && begin.elapsed() < Duration::from_secs(10) {
+        std::thread::yield_now();
+    }
+    assert_eq!(threads(), before);
 }

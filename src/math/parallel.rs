@@ -3,9 +3,12 @@
 //! Every item is computed by itself and stored in its own place, so results do not depend on how
 //! many threads there are.
 
-use std::sync::Mutex;
+use std::any::Any;
+use std::mem::transmute;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
+use std::thread::{self, JoinHandle};
 
 /// Name of the threads of these loops.
 pub const WORKER: &str = "impinge worker";
@@ -13,72 +16,222 @@ pub const WORKER: &str = "impinge worker";
 /// Pieces into which each thread's share of a loop is cut, for others to take when they are done.
 const PIECES: usize = 16;
 
-/// `[f(0), …, f(count − 1)]` on at most `threads` threads.
+/// How often a thread looks for what it waits for before it sleeps: for some tens of microseconds, as
+/// long as it takes to wake one.
+const LOOKS: usize = 3000;
+
+/// Threads that run one loop after another, and end with the value. The thread that has it is one
+/// of them, so a team of one starts none.
+///
+/// A loop inside a loop of the same team is run by the thread that meets it.
+pub struct Team {
+    shared: Arc<Shared>,
+    workers: Vec<JoinHandle<()>>,
+    /// Held while the workers are in a loop.
+    in_use: Mutex<()>,
+}
+
+/// What the threads of a team tell each other. All but `post` is changed only by who holds that.
+#[derive(Default)]
+struct Shared {
+    /// Grows with every call, and at the end.
+    call: AtomicUsize,
+    /// Workers that are at the work of the last call.
+    inside: AtomicUsize,
+    post: Mutex<Post>,
+    called: Condvar,
+    left: Condvar,
+}
+
+#[derive(Default)]
+struct Post {
+    /// What each thread does with its number; there only while a worker may still begin with it.
+    work: Option<&'static (dyn Fn(usize) + Sync)>,
+    /// The first panic of a worker in this call.
+    panic: Option<Box<dyn Any + Send>>,
+    over: bool,
+}
+
+impl Team {
+    /// `threads` = 0 is taken for 1.
+    pub fn new(threads: usize) -> Self {
+        let shared = Arc::new(Shared::default());
+        let mut team = Self { shared, workers: Vec::new(), in_use: Mutex::new(()) };
+        for number in 1..threads {
+            let shared = Arc::clone(&team.shared);
+            let worker = thread::Builder::new().name(WORKER.into());
+            let worker = worker.spawn(move || shared.serve(number));
+            team.workers.push(worker.expect("the system starts a thread"));
+        }
+        team
+    }
+
+    pub fn threads(&self) -> usize {
+        self.workers.len() + 1
+    }
+
+    /// `[f(0), …, f(count − 1)]`.
+    pub fn map<T: Send>(&self, count: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
+        let mut all = Vec::with_capacity(count);
+        self.for_each(&mut all.spare_capacity_mut()[..count], |i, place| {
+            place.write(f(i));
+        });
+        // SAFETY: the loop wrote all of them.
+        unsafe { all.set_len(count) };
+        all
+    }
+
+    /// `f(i, &mut items[i])` for every item.
+    pub fn for_each<T: Send>(&self, items: &mut [T], f: impl Fn(usize, &mut T) + Sync) {
+        self.for_pieces(items, |first, piece| {
+            piece.iter_mut().enumerate().for_each(|(i, item)| f(first + i, item));
+        });
+    }
+
+    /// `f(i, &mut items[i..k])` for pieces of the items that are all of them, for loops whose items share
+    /// memory.
+    pub fn for_pieces<T: Send>(&self, items: &mut [T], f: impl Fn(usize, &mut [T]) + Sync) {
+        let threads = self.threads();
+        if threads == 1 || items.len() <= 1 {
+            return f(0, items);
+        }
+        let size = items.len().div_ceil(threads * PIECES);
+        // Each lock is taken once, so nobody waits for one.
+        let pieces: Vec<Mutex<&mut [T]>> = items.chunks_mut(size).map(Mutex::new).collect();
+        let share = pieces.len().div_ceil(threads);
+        let taken: Vec<AtomicUsize> = (0..threads).map(|_| AtomicUsize::new(0)).collect();
+        let take = |t: usize| {
+            let p = t * share + taken[t].fetch_add(1, Ordering::Relaxed);
+            (p < ((t + 1) * share).min(pieces.len())).then_some(p)
+        };
+        // A thread does its own share first, which keeps to its own part of memory, then others'.
+        self.run(&|own: usize| {
+            for t in (own..threads).chain(0..own) {
+                while let Some(p) = take(t) {
+                    f(p * size, &mut pieces[p].lock().expect("a piece is taken once"));
+                }
+            }
+        });
+    }
+
+    /// `[f(&mut items[0]), …]`.
+    pub fn map_each<T: Send, R: Send>(
+        &self,
+        items: &mut [T],
+        f: impl Fn(&mut T) -> R + Sync,
+    ) -> Vec<R> {
+        let mut pairs: Vec<(&mut T, Option<R>)> =
+            items.iter_mut().map(|item| (item, None)).collect();
+        self.for_each(&mut pairs, |_, (item, result)| *result = Some(f(item)));
+        pairs.into_iter().map(|pair| pair.1.expect("every item had its turn")).collect()
+    }
+
+    /// Calls `work` with 0, and with their numbers on workers that come while that goes on: any one
+    /// call does what is left to do, so nobody waits for a worker that the system has no time for.
+    /// Where the team is in a loop already, no worker comes.
+    fn run(&self, work: &(dyn Fn(usize) + Sync)) {
+        let _in_use = match self.in_use.try_lock() {
+            Ok(guard) => guard,
+            // A panic went through an earlier loop, which was over then.
+            Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
+            Err(TryLockError::WouldBlock) => return work(0),
+        };
+        // SAFETY: no worker begins with it or uses it after `close`.
+        self.shared.open(unsafe { transmute::<&_, &'static _>(work) });
+        let own = catch_unwind(AssertUnwindSafe(|| work(0)));
+        let theirs = self.shared.close();
+        if let Err(panic) = own {
+            resume_unwind(panic);
+        }
+        if let Some(panic) = theirs {
+            resume_unwind(panic);
+        }
+    }
+}
+
+impl Drop for Team {
+    fn drop(&mut self) {
+        let mut post = self.shared.post();
+        post.over = true;
+        self.shared.call.fetch_add(1, Ordering::Release);
+        drop(post);
+        self.shared.called.notify_all();
+        for worker in self.workers.drain(..) {
+            worker.join().expect("panics of workers are caught");
+        }
+    }
+}
+
+impl Shared {
+    fn post(&self) -> MutexGuard<'_, Post> {
+        self.post.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn open(&self, work: &'static (dyn Fn(usize) + Sync)) {
+        let mut post = self.post();
+        post.work = Some(work);
+        self.call.fetch_add(1, Ordering::Release);
+        drop(post);
+        self.called.notify_all();
+    }
+
+    /// Lets no further worker begin, and waits for those that have; the panic of one of them.
+    fn close(&self) -> Option<Box<dyn Any + Send>> {
+        self.post().work = None;
+        let is_waiting = || self.inside.load(Ordering::Acquire) > 0;
+        look_while(is_waiting);
+        let mut post = self.post();
+        while is_waiting() {
+            post = self.left.wait(post).unwrap_or_else(PoisonError::into_inner);
+        }
+        post.panic.take()
+    }
+
+    /// What a worker does until the end.
+    fn serve(&self, number: usize) {
+        let mut seen = 0;
+        loop {
+            look_while(|| self.call.load(Ordering::Acquire) == seen);
+            let mut post = self.post();
+            while self.call.load(Ordering::Acquire) == seen {
+                post = self.called.wait(post).unwrap_or_else(PoisonError::into_inner);
+            }
+            if post.over {
+                return;
+            }
+            seen = self.call.load(Ordering::Acquire);
+            let Some(work) = post.work else { continue };
+            self.inside.fetch_add(1, Ordering::Relaxed);
+            drop(post);
+            let result = catch_unwind(AssertUnwindSafe(|| work(number)));
+            let mut post = self.post();
+            if let Err(panic) = result {
+                post.panic.get_or_insert(panic);
+            }
+            if self.inside.fetch_sub(1, Ordering::Release) == 1 {
+                self.left.notify_one();
+            }
+        }
+    }
+}
+
+fn look_while(waiting: impl Fn() -> bool) {
+    for _ in 0..LOOKS {
+        if !waiting() {
+            return;
+        }
+        std::hint::spin_loop();
+    }
+}
+
+/// [`Team::map`] on at most `threads` threads.
 pub fn map<T: Send>(threads: usize, count: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
-    let threads = threads.clamp(1, count.max(1));
-    if threads == 1 {
-        return (0..count).map(f).collect();
-    }
-    let size = count.div_ceil(threads * PIECES);
-    let mut pieces: Vec<Vec<T>> = (0..count.div_ceil(size)).map(|_| Vec::new()).collect();
-    for_each(threads, &mut pieces, |p, piece| {
-        *piece = (p * size..((p + 1) * size).min(count)).map(&f).collect();
-    });
-    let mut all = Vec::with_capacity(count);
-    pieces.into_iter().for_each(|piece| all.extend(piece));
-    all
+    Team::new(threads.min(count)).map(count, f)
 }
 
-/// `f(i, &mut items[i])` for every item on at most `threads` threads.
+/// [`Team::for_each`] on at most `threads` threads.
 pub fn for_each<T: Send>(threads: usize, items: &mut [T], f: impl Fn(usize, &mut T) + Sync) {
-    let threads = threads.clamp(1, items.len().max(1));
-    if threads == 1 {
-        return items.iter_mut().enumerate().for_each(|(i, item)| f(i, item));
-    }
-    let size = items.len().div_ceil(threads * PIECES);
-    // Each lock is taken once, so nobody waits for one.
-    let pieces: Vec<Mutex<&mut [T]>> = items.chunks_mut(size).map(Mutex::new).collect();
-    let share = pieces.len().div_ceil(threads);
-    let taken: Vec<AtomicUsize> = (0..threads).map(|_| AtomicUsize::new(0)).collect();
-    let take = |t: usize| {
-        let p = t * share + taken[t].fetch_add(1, Ordering::Relaxed);
-        (p < ((t + 1) * share).min(pieces.len())).then_some(p)
-    };
-    // A thread does its own share first, which keeps to its own part of memory, then others'.
-    let work = |own: usize| {
-        for t in (own..threads).chain(0..own) {
-            while let Some(p) = take(t) {
-                let mut piece = pieces[p].lock().expect("a piece is taken once");
-                piece.iter_mut().enumerate().for_each(|(i, item)| f(p * size + i, item));
-            }
-        }
-    };
-    let work = &work;
-    thread::scope(|scope| {
-        let workers: Vec<_> = (1..threads)
-            .map(|t| {
-                let worker = thread::Builder::new().name(WORKER.into());
-                worker.spawn_scoped(scope, move || work(t)).expect("the system starts a thread")
-            })
-            .collect();
-        work(0);
-        for worker in workers {
-            if let Err(panic) = worker.join() {
-                std::panic::resume_unwind(panic);
-            }
-        }
-    });
-}
-
-/// `[f(&mut items[0]), …]` on at most `threads` threads.
-pub fn map_each<T: Send, R: Send>(
-    threads: usize,
-    items: &mut [T],
-    f: impl Fn(&mut T) -> R + Sync,
-) -> Vec<R> {
-    let mut pairs: Vec<(&mut T, Option<R>)> = items.iter_mut().map(|item| (item, None)).collect();
-    for_each(threads, &mut pairs, |_, (item, result)| *result = Some(f(item)));
-    pairs.into_iter().map(|pair| pair.1.expect("every item had its turn")).collect()
+    Team::new(threads.min(items.len())).for_each(items, f);
 }
 
 #[cfg(test)]
@@ -88,19 +241,53 @@ mod tests {
     #[test]
     fn order_is_kept_on_any_number_of_threads() {
         for threads in [0, 1, 2, 3, 8, 100] {
-            for count in [0, 1, 7, 16] {
+            let team = Team::new(threads);
+            assert_eq!(team.threads(), threads.max(1));
+            for count in [0, 1, 7, 16, 1000] {
                 let expected: Vec<usize> = (0..count).map(|i| i * i).collect();
                 assert_eq!(map(threads, count, |i| i * i), expected);
+                assert_eq!(team.map(count, |i| i * i), expected);
                 let mut squares: Vec<usize> = (0..count).collect();
                 for_each(threads, &mut squares, |i, item| *item *= i);
                 assert_eq!(squares, expected);
-                let more = map_each(threads, &mut squares, |item| {
+                let more = team.map_each(&mut squares, |item| {
                     *item += 1;
                     *item
                 });
                 assert_eq!(more, squares);
                 assert!(squares.iter().zip(expected).all(|(square, before)| *square == before + 1));
             }
+        }
+    }
+
+    #[test]
+    fn a_team_serves_short_and_long_waits() {
+        let team = Team::new(3);
+        for n in 0..2000 {
+            if n % 500 == 0 {
+                thread::sleep(std::time::Duration::from_millis(2));
+            }
+            assert_eq!(team.map(5, |i| i + n), [n, n + 1, n + 2, n + 3, n + 4]);
+        }
+    }
+
+    #[test]
+    fn a_loop_inside_a_loop_is_run_by_one_thread() {
+        let team = Team::new(4);
+        let table = team.map(50, |i| team.map(i, |j| i * j));
+        for (i, row) in table.iter().enumerate() {
+            assert_eq!(*row, (0..i).map(|j| i * j).collect::<Vec<_>>());
+        }
+    }
+
+    #[test]
+    fn a_team_outlives_panics_of_its_loops() {
+        let team = Team::new(3);
+        for at in [0, 60, 99] {
+            let give_up = |i: usize| assert!(i != at, "gave up at {i}");
+            let panic = catch_unwind(AssertUnwindSafe(|| team.map(100, give_up))).unwrap_err();
+            assert_eq!(panic.downcast_ref::<String>(), Some(&format!("gave up at {at}")));
+            assert_eq!(team.map(3, |i| 2 * i), [0, 2, 4]);
         }
     }
 }

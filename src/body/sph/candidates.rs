@@ -7,15 +7,18 @@ use super::order::{BLOCK, Bounds};
 #[derive(Debug, Clone)]
 pub struct Spots {
     pub origin: [f64; 3],
-    along: [[f32; BLOCK]; 3],
+    pub along: [[f32; BLOCK]; 3],
 }
 
-/// Particles that come near to a box, and their coordinates about its centre.
+/// Particles that come near to a box, and their coordinates about its centre. Its memory serves for
+/// one search after another.
 #[derive(Debug, Default)]
 pub struct Candidates {
-    /// Numbers in the block that they were last taken from.
-    pub numbers: Vec<u32>,
-    pub along: [Vec<f32>; 3],
+    count: usize,
+    /// Of those that were taken last.
+    from: usize,
+    numbers: Vec<u32>,
+    along: [Vec<f32>; 3],
 }
 
 /// What is searched: x is near if it comes nearer than `reach` to the box that extends from the
@@ -49,23 +52,49 @@ impl Spots {
 }
 
 impl Candidates {
-    /// Takes what is near of a block whose particles stand at `signs · spot + shift` about the centre
-    /// of the box.
-    pub fn take(&mut self, spots: &Spots, signs: [f32; 3], shift: [f32; 3], near: Near) {
-        self.numbers.clear();
-        self.numbers.resize(BLOCK + WIDTH, 0);
-        let start = self.along[0].len();
+    /// Takes what is near of particles that stand at `signs · spot + shift` about the centre of the
+    /// box. There are as many spots as fill whole vectors.
+    pub fn take(&mut self, spots: [&[f32]; 3], signs: [f32; 3], shift: [f32; 3], near: Near) {
+        self.from = self.count;
         // Room for all, and for the last vector to be written whole.
-        self.along.iter_mut().for_each(|along| along.resize(start + BLOCK + WIDTH, 0.0));
-        let mut along = self.along.each_mut().map(|along| &mut along[start..]);
-        let found = compress(spots, signs, shift, near, &mut self.numbers, &mut along);
-        self.numbers.truncate(found);
-        self.along.iter_mut().for_each(|along| along.truncate(start + found));
+        let room = self.count + spots[0].len() + WIDTH;
+        if self.numbers.len() < room {
+            self.numbers.resize(room, 0);
+            self.along.iter_mut().for_each(|along| along.resize(room, 0.0));
+        }
+        let mut along = self.along.each_mut().map(|along| &mut along[self.from..]);
+        let numbers = &mut self.numbers[self.from..];
+        self.count += compress(spots, signs, shift, near, numbers, &mut along);
+    }
+
+    /// Forgets what was taken before.
+    pub fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// Numbers of those that were taken last, in the list that they were taken from.
+    pub fn last_numbers(&self) -> &[u32] {
+        &self.numbers[self.from..self.count]
+    }
+
+    /// Numbers and coordinates of all, each followed by at least a vector of others: points far away,
+    /// which make whole vectors.
+    pub fn all(&mut self) -> (&[u32], [&[f32]; 3]) {
+        let (count, full) = (self.count, self.count.next_multiple_of(WIDTH) + WIDTH);
+        if self.numbers.len() < full {
+            self.numbers.resize(full, 0);
+        }
+        let along = self.along.each_mut().map(|along| {
+            along.resize(full.max(along.len()), 0.0);
+            along[count..full].fill(f32::MAX);
+            &along[..full]
+        });
+        (&self.numbers[..full], along)
     }
 }
 
 fn compress(
-    spots: &Spots,
+    spots: [&[f32]; 3],
     signs: [f32; 3],
     shift: [f32; 3],
     near: Near,
@@ -82,19 +111,21 @@ fn compress(
 
 /// One after the other without a branch: written always, kept if near.
 fn compress_each(
-    spots: &Spots,
+    spots: [&[f32]; 3],
     signs: [f32; 3],
     shift: [f32; 3],
     near: Near,
     numbers: &mut [u32],
     along: &mut [&mut [f32]; 3],
 ) -> usize {
+    let [along_x, along_y, along_z] = spots.map(<[f32]>::iter);
     let mut found = 0;
-    for k in 0..BLOCK {
+    for (k, ((&x, &y), &z)) in along_x.zip(along_y).zip(along_z).enumerate() {
+        let spot = [x, y, z];
         let mut square = 0.0;
         numbers[found] = k as u32;
         for a in 0..3 {
-            let at = signs[a] * spots.along[a][k] + shift[a];
+            let at = signs[a] * spot[a] + shift[a];
             let gap = (at.abs() - near.half[a]).max(0.0);
             square += gap * gap;
             along[a][found] = at;
@@ -108,7 +139,7 @@ fn compress_each(
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
 fn compress_avx512(
-    spots: &Spots,
+    spots: [&[f32]; 3],
     signs: [f32; 3],
     shift: [f32; 3],
     near: Near,
@@ -119,12 +150,12 @@ fn compress_avx512(
     let ahead = _mm512_set1_epi32(WIDTH as i32);
     let mut number = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     let mut found = 0;
-    for k in (0..BLOCK).step_by(WIDTH) {
+    for k in (0..spots[0].len()).step_by(WIDTH) {
         let mut square = _mm512_setzero_ps();
         let mut at = [square; 3];
         for a in 0..3 {
-            // SAFETY: k + 16 is within the block.
-            let spot = unsafe { _mm512_loadu_ps(spots.along[a][k..k + WIDTH].as_ptr()) };
+            // SAFETY: the slice is as long as a vector.
+            let spot = unsafe { _mm512_loadu_ps(spots[a][k..k + WIDTH].as_ptr()) };
             let turned = _mm512_mul_ps(_mm512_set1_ps(signs[a]), spot);
             at[a] = _mm512_add_ps(turned, _mm512_set1_ps(shift[a]));
             let away = _mm512_sub_ps(_mm512_abs_ps(at[a]), _mm512_set1_ps(near.half[a]));
@@ -165,8 +196,9 @@ mod tests {
                 let spots = Spots::of(&points);
                 let shift = [0, 1, 2].map(|a| (signs[a] * spots.origin[a] - centre[a]) as f32);
                 let (signs, near) = (signs.map(|s| s as f32), Near::to(&bounds, reach));
+                let along = spots.along.each_ref().map(|along| &along[..]);
                 let mut taken = Candidates::default();
-                taken.take(&spots, signs, shift, near);
+                taken.take(along, signs, shift, near);
                 let gap = |x: f64, a: usize| (bounds.low[a] - x).max(x - bounds.high[a]).max(0.0);
                 let is_near = |p: &[f64; 3]| {
                     let at = image(p);
@@ -174,19 +206,21 @@ mod tests {
                 };
                 let expected: Vec<u32> =
                     (0..count).filter(|&i| is_near(&points[i])).map(|i| i as u32).collect();
-                assert_eq!(taken.numbers, expected);
+                assert_eq!(taken.last_numbers(), expected);
                 for (n, &i) in expected.iter().enumerate() {
                     let at = image(&points[i as usize]);
                     for a in 0..3 {
-                        let apart = f64::from(taken.along[a][n]) - (at[a] - centre[a]);
+                        let apart = f64::from(taken.all().1[a][n]) - (at[a] - centre[a]);
                         assert!(apart.abs() < 1e-6);
                     }
                 }
-                let (mut numbers, mut along) = (vec![0; 200], [(); 3].map(|_| vec![0.0; 200]));
-                let mut slices = along.each_mut().map(|along| &mut along[..]);
-                let found = compress_each(&spots, signs, shift, near, &mut numbers, &mut slices);
-                assert_eq!(taken.numbers, numbers[..found]);
-                assert!((0..3).all(|a| taken.along[a] == along[a][..found]));
+                let (mut numbers, mut places) = (vec![0; 200], [(); 3].map(|_| vec![0.0; 200]));
+                let mut slices = places.each_mut().map(|places| &mut places[..]);
+                let found = compress_each(along, signs, shift, near, &mut numbers, &mut slices);
+                assert_eq!(taken.last_numbers(), &numbers[..found]);
+                let (_, along) = taken.all();
+                assert!((0..3).all(|a| along[a][..found] == places[a][..found]));
+                assert!(along[0].len() % WIDTH == 0 && along[0][found..].iter().all(|&x| x > 1e30));
             }
         }
     }

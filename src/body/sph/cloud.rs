@@ -1,7 +1,7 @@
 //! The particles of a model and its ledger: all that changes, and how it lies in a flat vector.
 
 use super::wall::WallExchange;
-use crate::math::parallel;
+use crate::math::parallel::Team;
 
 /// Particles, each list with an entry for each. Lengths over H, velocities over c₀, masses over
 /// ρ₀H^d.
@@ -36,6 +36,7 @@ pub struct Part<'a> {
     pub temperature: &'a mut [f64],
     pub heating: &'a mut [f64],
     pub acceleration: &'a [[[f64; 3]; 2]],
+    pub potential: &'a [f64],
     pub gradient: &'a mut [[f64; 3]],
     pub moment: &'a mut [[f64; 6]],
 }
@@ -60,14 +61,19 @@ pub struct Ledger {
     pub way: f64,
     /// Of free and wetted surface [J].
     pub surface_energy: f64,
+    /// Volume that surrounded the blocks of particles, each counted for itself, when the particles
+    /// were last sorted, over H^d.
+    pub surrounded: f64,
     /// What the wall got during the last step.
     pub exchange: WallExchange,
 }
 
 /// Numbers of a particle in a flat vector.
 const NUMBERS: usize = 26;
+/// Numbers that a thread copies at once.
+const COPY: usize = 4096;
 /// Numbers of the ledger before those of its cells.
-const HEAD: usize = 18;
+const HEAD: usize = 19;
 
 impl Cloud {
     pub fn len(&self) -> usize {
@@ -90,6 +96,7 @@ impl Cloud {
         let mut temperature = self.temperature.chunks_mut(size);
         let mut heating = self.heating.chunks_mut(size);
         let mut acceleration = self.acceleration.chunks(size);
+        let mut potential = self.potential.chunks(size);
         let mut gradient = self.gradient.chunks_mut(size);
         let mut moment = self.moment.chunks_mut(size);
         let part = |first| {
@@ -102,6 +109,7 @@ impl Cloud {
                 temperature: temperature.next()?,
                 heating: heating.next()?,
                 acceleration: acceleration.next()?,
+                potential: potential.next()?,
                 gradient: gradient.next()?,
                 moment: moment.next()?,
             })
@@ -124,8 +132,8 @@ impl Cloud {
     }
 
     /// Puts the particles into another order.
-    pub fn permute(&mut self, order: &[u32], threads: usize) {
-        let permute = Permutation { order, threads };
+    pub fn permute(&mut self, order: &[u32], team: &Team) {
+        let permute = Permutation { order, team };
         permute.apply(&mut self.position);
         permute.apply(&mut self.velocity);
         permute.apply(&mut self.mass);
@@ -138,77 +146,34 @@ impl Cloud {
         permute.apply(&mut self.moment);
     }
 
-    fn reserve(&mut self, particles: usize) {
-        self.position.reserve(particles);
-        self.velocity.reserve(particles);
-        self.mass.reserve(particles);
-        self.density.reserve(particles);
-        self.temperature.reserve(particles);
-        self.heating.reserve(particles);
-        self.acceleration.reserve(particles);
-        self.potential.reserve(particles);
-        self.gradient.reserve(particles);
-        self.moment.reserve(particles);
-    }
-
-    fn numbers(&self, i: usize) -> [f64; NUMBERS] {
-        let ([x, y, z], [u, v, w]) = (self.position[i], self.velocity[i]);
-        let [[a, b, c], [d, e, f]] = self.acceleration[i];
-        let [g, h, k] = self.gradient[i];
-        let [xx, yy, zz, xy, yz, xz] = self.moment[i];
+    /// All numbers, list after list.
+    fn numbers(&self) -> [&[f64]; 10] {
         [
-            x,
-            y,
-            z,
-            u,
-            v,
-            w,
-            self.mass[i],
-            self.density[i],
-            self.temperature[i],
-            self.heating[i],
-            a,
-            b,
-            c,
-            d,
-            e,
-            f,
-            self.potential[i],
-            g,
-            h,
-            k,
-            xx,
-            yy,
-            zz,
-            xy,
-            yz,
-            xz,
+            self.position.as_flattened(),
+            self.velocity.as_flattened(),
+            &self.mass,
+            &self.density,
+            &self.temperature,
+            &self.heating,
+            self.acceleration.as_flattened().as_flattened(),
+            &self.potential,
+            self.gradient.as_flattened(),
+            self.moment.as_flattened(),
         ]
-    }
-
-    fn take(&mut self, n: &[f64; NUMBERS]) {
-        self.push([n[0], n[1], n[2]], [n[3], n[4], n[5]], n[6], n[8]);
-        let i = self.len() - 1;
-        self.density[i] = n[7];
-        self.heating[i] = n[9];
-        self.acceleration[i] = [[n[10], n[11], n[12]], [n[13], n[14], n[15]]];
-        self.potential[i] = n[16];
-        self.gradient[i] = [n[17], n[18], n[19]];
-        self.moment[i] = [n[20], n[21], n[22], n[23], n[24], n[25]];
     }
 }
 
 /// Another order of lists.
 struct Permutation<'a> {
     order: &'a [u32],
-    threads: usize,
+    team: &'a Team,
 }
 
 impl Permutation<'_> {
     fn apply<T: Copy + Send + Sync>(&self, list: &mut Vec<T>) {
         let before = &*list;
         let moved = |k: usize| before[self.order[k] as usize];
-        *list = parallel::map(self.threads, self.order.len(), moved);
+        *list = self.team.map(self.order.len(), moved);
     }
 }
 
@@ -223,21 +188,28 @@ pub fn particles_in(state: &[f64], cells: usize) -> Option<usize> {
     (rest % NUMBERS == 0).then_some(rest / NUMBERS)
 }
 
-/// Writes ledger and particles into a flat vector.
-pub fn flatten(ledger: &Ledger, cloud: &Cloud) -> Vec<f64> {
+/// Writes ledger and particles over a flat vector.
+pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team) {
     let exchange = &ledger.exchange;
-    let mut state = Vec::with_capacity(state_len(exchange.heat.len(), cloud.len()));
-    state.extend([ledger.time, ledger.released as f64, ledger.steps]);
-    state.extend([ledger.heat_released, ledger.heat_to_wall]);
-    state.extend(ledger.impulse_to_wall);
-    state.extend(ledger.impulse_of_gravity);
-    state.extend([exchange.duration, exchange.heat_outside]);
-    state.extend(exchange.impulse_outside);
-    state.extend([ledger.way, ledger.surface_energy]);
-    state.extend(&exchange.heat);
-    state.extend(exchange.impulse.iter().flatten());
-    (0..cloud.len()).for_each(|i| state.extend(cloud.numbers(i)));
-    state
+    let mut head = Vec::with_capacity(state_len(exchange.heat.len(), 0));
+    head.extend([ledger.time, ledger.released as f64, ledger.steps]);
+    head.extend([ledger.heat_released, ledger.heat_to_wall]);
+    head.extend(ledger.impulse_to_wall);
+    head.extend(ledger.impulse_of_gravity);
+    head.extend([exchange.duration, exchange.heat_outside]);
+    head.extend(exchange.impulse_outside);
+    head.extend([ledger.way, ledger.surface_energy, ledger.surrounded]);
+    head.extend(&exchange.heat);
+    head.extend(exchange.impulse.iter().flatten());
+    state.resize(state_len(exchange.heat.len(), cloud.len()), 0.0);
+    let (first, mut rest) = state.split_at_mut(head.len());
+    first.copy_from_slice(&head);
+    let mut copies = Vec::new();
+    for numbers in cloud.numbers() {
+        let places = rest.split_off_mut(..numbers.len()).expect("the state has room");
+        copies.extend(places.chunks_mut(COPY).zip(numbers.chunks(COPY)));
+    }
+    team.for_each(&mut copies, |_, (places, numbers)| places.copy_from_slice(numbers));
 }
 
 /// Reads the ledger of a state.
@@ -254,6 +226,7 @@ pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
         impulse_of_gravity: three(8),
         way: state[16],
         surface_energy: state[17],
+        surrounded: state[18],
         exchange: WallExchange {
             duration: state[11],
             heat_outside: state[12],
@@ -265,11 +238,41 @@ pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
 }
 
 /// Reads the particles of a state.
-pub fn cloud_of(state: &[f64], cells: usize) -> Cloud {
-    let mut cloud = Cloud::default();
-    cloud.reserve((state.len() - state_len(cells, 0)) / NUMBERS);
-    state[state_len(cells, 0)..].as_chunks().0.iter().for_each(|numbers| cloud.take(numbers));
-    cloud
+pub fn cloud_of(state: &[f64], cells: usize, team: &Team) -> Cloud {
+    let rest = &state[state_len(cells, 0)..];
+    let mut lists = Lists { rest, count: rest.len() / NUMBERS, team };
+    Cloud {
+        position: lists.next(|[numbers]| numbers),
+        velocity: lists.next(|[numbers]| numbers),
+        mass: lists.next(|[[number]]| number),
+        density: lists.next(|[[number]]| number),
+        temperature: lists.next(|[[number]]| number),
+        heating: lists.next(|[[number]]| number),
+        acceleration: lists.next(|both| both),
+        potential: lists.next(|[[number]]| number),
+        gradient: lists.next(|[numbers]| numbers),
+        moment: lists.next(|[numbers]| numbers),
+    }
+}
+
+/// What is left of a state, list after list.
+struct Lists<'a> {
+    rest: &'a [f64],
+    count: usize,
+    team: &'a Team,
+}
+
+impl Lists<'_> {
+    /// The next list, of B times A numbers a particle.
+    fn next<const A: usize, const B: usize, T: Send>(
+        &mut self,
+        entry: impl Fn([[f64; A]; B]) -> T + Sync,
+    ) -> Vec<T> {
+        let (numbers, rest) = self.rest.split_at(self.count * A * B);
+        self.rest = rest;
+        let entries: &[[[f64; A]; B]] = numbers.as_chunks().0.as_chunks().0;
+        self.team.map(self.count, |i| entry(entries[i]))
+    }
 }
 
 #[cfg(test)]
@@ -299,16 +302,19 @@ mod tests {
             released: 2,
             way: 0.25,
             surface_energy: 3.5,
+            surrounded: 4.5,
             impulse_to_wall: [1.0, 2.0, 3.0],
             impulse_of_gravity: [4.0, 5.0, 6.0],
             exchange,
             ..Ledger::default()
         };
-        let state = flatten(&ledger, &cloud);
+        let team = Team::new(2);
+        let mut state = vec![7.0; 3];
+        flatten(&mut state, &ledger, &cloud, &team);
         assert_eq!(state.len(), state_len(3, 5));
         assert_eq!(particles_in(&state, 3), Some(5));
         assert_eq!(ledger_of(&state, 3), ledger);
-        assert_eq!(cloud_of(&state, 3), cloud);
+        assert_eq!(cloud_of(&state, 3, &team), cloud);
         assert_eq!(particles_in(&state[1..], 3), None);
     }
 }

@@ -5,18 +5,21 @@ use std::f64::consts::PI;
 use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in, state_len};
 use super::failure::Failure;
 use super::images::copies;
+use super::loops::PART;
 use super::placement::place;
 use super::plan::{DropletPlan, Release};
 use super::spread::spread_diameter;
 use super::stepper::{Method, Stepper};
 use super::units::{compression_energy, density, pressure};
 use super::wall::WallExchange;
+use crate::math::parallel::Team;
 
 /// Droplets above a wall: everything known before time starts. What changes is a flat vector, whose
 /// length grows when a droplet is released.
 pub struct DropletSph {
     plan: DropletPlan,
     method: Method,
+    threads: usize,
 }
 
 /// Sums over the fluid, images at mirrors included (a plane model: per metre of depth).
@@ -78,8 +81,8 @@ impl DropletSph {
     /// # Panics
     /// If the plan's planes and periods do not go together, see [`Extent`](super::Extent).
     pub fn new(plan: DropletPlan, threads: usize) -> Self {
-        let method = Method::of(&plan, threads.max(1));
-        Self { plan, method }
+        let method = Method::of(&plan);
+        Self { plan, method, threads }
     }
 
     pub fn plan(&self) -> &DropletPlan {
@@ -91,7 +94,7 @@ impl DropletSph {
         let ledger = Ledger { exchange: WallExchange::none(self.cells()), ..Ledger::default() };
         let (mut ledger, mut cloud) = (ledger, Cloud::default());
         self.release(&mut ledger, &mut cloud);
-        flatten(&ledger, &cloud)
+        flat(&ledger, &cloud)
     }
 
     /// A state at time zero of given particles, in place of the plan's droplets.
@@ -111,8 +114,8 @@ impl DropletSph {
             exchange: WallExchange::none(self.cells()),
             ..Ledger::default()
         };
-        Stepper::new(&self.method, &mut cloud, &mut ledger, &vec![0.0; self.cells()]).prime();
-        flatten(&ledger, &cloud)
+        self.prime(&mut ledger, &mut cloud);
+        flat(&ledger, &cloud)
     }
 
     /// Whether a vector may be a state of this model.
@@ -130,8 +133,9 @@ impl DropletSph {
         wall_temperature: &[f64],
         duration: f64,
     ) -> Result<(), Failure> {
+        let mut team = self.team(particles_in(state, self.cells()).unwrap_or(0));
         let (mut ledger, mut cloud) =
-            (ledger_of(state, self.cells()), cloud_of(state, self.cells()));
+            (ledger_of(state, self.cells()), cloud_of(state, self.cells(), &team));
         ledger.exchange = WallExchange::none(self.cells());
         ledger.exchange.duration = duration;
         let reference = self.reference_temperature();
@@ -141,12 +145,14 @@ impl DropletSph {
             let next = self.plan.releases.get(ledger.released).map_or(end, |r| r.time.min(end));
             let rest = next - ledger.time;
             if rest > 0.0 {
-                Stepper::new(&self.method, &mut cloud, &mut ledger, &wall).advance(rest)?;
+                Stepper::new(&self.method, &team, &mut cloud, &mut ledger, &wall).advance(rest)?;
             }
             ledger.time = next;
-            self.release(&mut ledger, &mut cloud);
+            if self.release(&mut ledger, &mut cloud) {
+                team = self.team(cloud.len());
+            }
         }
-        *state = flatten(&ledger, &cloud);
+        flatten(state, &ledger, &cloud, &team);
         Ok(())
     }
 
@@ -156,12 +162,12 @@ impl DropletSph {
     }
 
     pub fn totals(&self, state: &[f64]) -> DropletTotals {
-        let (ledger, cloud) = (ledger_of(state, self.cells()), cloud_of(state, self.cells()));
+        let (ledger, cloud) = (ledger_of(state, self.cells()), self.cloud(state));
         totals(&self.plan, &self.method, &ledger, &cloud)
     }
 
     pub fn particles(&self, state: &[f64]) -> ParticleFields {
-        let cloud = cloud_of(state, self.cells());
+        let cloud = self.cloud(state);
         let units = &self.method.units;
         let reference = self.reference_temperature();
         let within = |mut x: [f64; 3]| {
@@ -191,7 +197,7 @@ impl DropletSph {
             plan.releases.iter().map(|r| share * volume(r.diameter) / cell).sum::<f64>();
         let speed = |r: &Release| r.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
         let fastest = plan.releases.iter().map(speed).fold(0.0, f64::max);
-        let method = Method::of(plan, 1);
+        let method = Method::of(plan);
         let gravity = plan.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
         let units = &method.units;
         let gravity = gravity * units.length / units.speed.powi(2);
@@ -208,8 +214,12 @@ impl DropletSph {
         self.plan.releases.first().map_or(0.0, |release| release.temperature)
     }
 
-    /// Adds all droplets whose time has come.
-    fn release(&self, ledger: &mut Ledger, cloud: &mut Cloud) {
+    fn cloud(&self, state: &[f64]) -> Cloud {
+        cloud_of(state, self.cells(), &Team::new(1))
+    }
+
+    /// Adds all droplets whose time has come; whether there are any.
+    fn release(&self, ledger: &mut Ledger, cloud: &mut Cloud) -> bool {
         let before = cloud.len();
         while let Some(release) =
             self.plan.releases.get(ledger.released).filter(|release| release.time <= ledger.time)
@@ -218,8 +228,19 @@ impl DropletSph {
             ledger.released += 1;
         }
         if cloud.len() > before {
-            Stepper::new(&self.method, cloud, ledger, &vec![0.0; self.cells()]).prime();
+            self.prime(ledger, cloud);
         }
+        cloud.len() > before
+    }
+
+    fn prime(&self, ledger: &mut Ledger, cloud: &mut Cloud) {
+        let team = self.team(cloud.len());
+        Stepper::new(&self.method, &team, cloud, ledger, &vec![0.0; self.cells()]).prime();
+    }
+
+    /// Threads for some particles; no more than there are parts for them.
+    fn team(&self, particles: usize) -> Team {
+        Team::new(self.threads.min(particles.div_ceil(PART)))
     }
 
     fn add(&self, release: &Release, ledger: &mut Ledger, cloud: &mut Cloud) {
@@ -248,6 +269,12 @@ impl DropletSph {
             ledger.heat_released += images * share * mass * heat * temperature;
         }
     }
+}
+
+fn flat(ledger: &Ledger, cloud: &Cloud) -> Vec<f64> {
+    let mut state = Vec::new();
+    flatten(&mut state, ledger, cloud, &Team::new(1));
+    state
 }
 
 /// Sums over the fluid.

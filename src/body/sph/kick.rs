@@ -1,6 +1,7 @@
 //! Changes of velocity, and what tells how fast the particles move after them.
 
 use super::cloud::Part;
+use super::order::{BLOCK, Bounds};
 
 /// Densities over that at rest which no weakly compressible flow has.
 pub const DENSITIES: [f64; 2] = [0.3, 3.0];
@@ -20,11 +21,12 @@ pub struct Motion {
     pub sound: bool,
     /// Particles that the wall pushes, in their order.
     pub pushed: Vec<usize>,
+    /// The box of the velocities of each block.
+    pub velocities: Vec<Bounds>,
 }
 
 impl Motion {
     fn none() -> Self {
-        let pushed = Vec::new();
         Self {
             sums: [0.0; 3],
             squares: 0.0,
@@ -32,7 +34,8 @@ impl Motion {
             most_accelerated: 0.0,
             mass: 0.0,
             sound: true,
-            pushed,
+            pushed: Vec::new(),
+            velocities: Vec::new(),
         }
     }
 
@@ -47,6 +50,7 @@ impl Motion {
             all.mass += part.mass;
             all.sound &= part.sound;
             all.pushed.extend(part.pushed);
+            all.velocities.extend(part.velocities);
         }
         all
     }
@@ -95,5 +99,7 @@ pub fn kick(part: &mut Part, dt: f64, gravity: [f64; 3]) -> Motion {
             motion.pushed.push(part.first + i);
         }
     }
+    let blocks = part.velocity.chunks(BLOCK);
+    motion.velocities.extend(blocks.map(|block| Bounds::of(block.iter().copied())));
     motion
 }

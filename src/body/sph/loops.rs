@@ -8,7 +8,7 @@ use super::lanes::{Annex, Array, Lanes, Record, WIDTH};
 use super::neighbours::Block;
 use super::order::BLOCK;
 use crate::kernel::{Kernel, Number, Shape};
-use crate::math::parallel;
+use crate::math::parallel::Team;
 use crate::with_kernel_shape;
 
 /// Blocks that share one local copy's memory, and their particles.
@@ -111,18 +111,15 @@ impl<R: Float + Number> Local<R> {
 pub fn for_all<P: PairSum<Output: Clone + Default>>(
     pass: &P,
     blocks: &[Block],
-    kernel: Kernel,
-    precision: Precision,
-    threads: usize,
+    (kernel, precision): (Kernel, Precision),
+    team: &Team,
     mut all: Vec<P::Output>,
 ) -> Vec<P::Output> {
     let count = blocks.iter().map(|block| block.count).sum();
     all.resize(count, P::Output::default());
     let mut parts: Vec<&mut [P::Output]> = all.chunks_mut(PART).collect();
-    let store = |part: &mut &mut [P::Output], sums: Vec<P::Output>| {
-        part.iter_mut().zip(sums).for_each(|(place, sum)| *place = sum);
-    };
-    for_parts(pass, blocks, (kernel, precision, threads), &mut parts, store);
+    let store = |part: &mut &mut [P::Output], sums: &[P::Output]| part.clone_from_slice(sums);
+    for_parts(pass, blocks, (kernel, precision), team, &mut parts, store);
     all
 }
 
@@ -131,61 +128,72 @@ pub fn for_all<P: PairSum<Output: Clone + Default>>(
 pub fn for_parts<P: PairSum, T: Send>(
     pass: &P,
     blocks: &[Block],
-    (kernel, precision, threads): (Kernel, Precision, usize),
+    (kernel, precision): (Kernel, Precision),
+    team: &Team,
     parts: &mut [T],
-    take: impl Fn(&mut T, Vec<P::Output>) + Sync,
+    take: impl Fn(&mut T, &[P::Output]) + Sync,
 ) {
-    let blocks: Vec<&[Block]> = blocks.chunks(GROUP).collect();
-    parallel::for_each(threads, parts, |p, part| {
-        let sums = with_kernel_shape!(kernel, S => dispatch::<P, S>(pass, blocks[p], precision));
-        take(part, sums);
+    team.for_pieces(parts, |first, parts| {
+        let last = blocks.len().min((first + parts.len()) * GROUP);
+        let work = Work { pass, blocks: &blocks[first * GROUP..last], parts, take: &take };
+        with_kernel_shape!(kernel, S => work.dispatch::<S>(precision));
     });
 }
 
-/// Takes the widest instructions that the processor has.
-fn dispatch<P: PairSum, S: Shape>(
-    pass: &P,
-    blocks: &[Block],
-    precision: Precision,
-) -> Vec<P::Output> {
-    if precision == Precision::Double {
-        return over_blocks::<P, Array<f64>, S>(pass, blocks);
+/// What one thread does at once.
+struct Work<'a, P, T, F> {
+    pass: &'a P,
+    /// [`GROUP`] for each part.
+    blocks: &'a [Block],
+    parts: &'a mut [T],
+    take: &'a F,
+}
+
+impl<P: PairSum, T, F: Fn(&mut T, &[P::Output])> Work<'_, P, T, F> {
+    /// Takes the widest instructions that the processor has.
+    fn dispatch<S: Shape>(self, precision: Precision) {
+        if precision == Precision::Double {
+            return self.run::<Array<f64>, S>();
+        }
+        #[cfg(target_arch = "x86_64")]
+        {
+            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
+                // SAFETY: the processor has what the function asks for.
+                return unsafe { self.run_avx512::<S>() };
+            }
+            if is_x86_feature_detected!("avx2") {
+                // SAFETY: as above.
+                return unsafe { self.run_avx2::<S>() };
+            }
+        }
+        self.run::<Array<f32>, S>();
     }
+
     #[cfg(target_arch = "x86_64")]
-    {
-        if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
-            // SAFETY: the processor has what the function asks for.
-            return unsafe { over_blocks_avx512::<P, S>(pass, blocks) };
-        }
-        if is_x86_feature_detected!("avx2") {
-            // SAFETY: as above.
-            return unsafe { over_blocks_avx2::<P, S>(pass, blocks) };
+    #[target_feature(enable = "avx512f,avx512vl")]
+    fn run_avx512<S: Shape>(self) {
+        self.run::<super::lanes::Avx512, S>();
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn run_avx2<S: Shape>(self) {
+        self.run::<Array<f32>, S>();
+    }
+
+    #[inline(always)]
+    fn run<L: Lanes, S: Shape>(self) {
+        let mut local = Local::<L::Real>::default();
+        let mut sums = Vec::with_capacity(PART);
+        for (part, blocks) in self.parts.iter_mut().zip(self.blocks.chunks(GROUP)) {
+            sums.clear();
+            for block in blocks {
+                local.fill::<P, L>(self.pass, block);
+                for k in 0..block.count {
+                    sums.push(self.pass.sum::<L, S>(block, k, &local));
+                }
+            }
+            (self.take)(part, &sums);
         }
     }
-    over_blocks::<P, Array<f32>, S>(pass, blocks)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512vl")]
-fn over_blocks_avx512<P: PairSum, S: Shape>(pass: &P, blocks: &[Block]) -> Vec<P::Output> {
-    over_blocks::<P, super::lanes::Avx512, S>(pass, blocks)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn over_blocks_avx2<P: PairSum, S: Shape>(pass: &P, blocks: &[Block]) -> Vec<P::Output> {
-    over_blocks::<P, Array<f32>, S>(pass, blocks)
-}
-
-#[inline(always)]
-fn over_blocks<P: PairSum, L: Lanes, S: Shape>(pass: &P, blocks: &[Block]) -> Vec<P::Output> {
-    let mut local = Local::<L::Real>::default();
-    let mut all = Vec::with_capacity(blocks.iter().map(|block| block.count).sum());
-    for block in blocks {
-        local.fill::<P, L>(pass, block);
-        for k in 0..block.count {
-            all.push(pass.sum::<L, S>(block, k, &local));
-        }
-    }
-    all
 }

@@ -4,20 +4,22 @@
 //! Lengths are in units of the support radius. The lists reach farther than the kernel by a skin, so
 //! that they serve until neighbours have moved against each other by its width.
 
+use std::ops::Range;
+
 use super::candidates::{Candidates, Near, Spots};
 use super::images::{Images, Source};
 use super::lanes::WIDTH;
-use super::order::{BLOCK, BlockTree, Bounds, space_order};
-use crate::math::parallel;
+use super::order::{BLOCK, BlockTree, Bounds, GROUP};
+use crate::math::parallel::Team;
 
-/// Reach of the lists beyond the kernel, in steps of the motion against neighbours; its bounds.
-const SKIN_STEPS: f64 = 8.0;
-const SKINS: [f64; 2] = [0.05, 0.3];
+/// Reach of the lists beyond the kernel over the root of the motion against neighbours in a step, and
+/// its bounds. A step costs in proportion to `(1 + s)³ P + L m/s`, with s the skin, m the motion, P the
+/// time of all sums and L that of making lists, L a fifth to a half of it; it is least at
+/// `s = √(m L/3P)`.
+const SKIN: f64 = 0.3;
+const SKINS: [f64; 2] = [1e-3, 0.3];
 /// Share of the skin that rounding in single precision could use.
 const MARGIN: f64 = 1e-5;
-/// Growth of the surroundings at which the particles are sorted anew.
-const GROWTH: f64 = 1.2;
-
 /// Particles that stand together and all that surrounds them.
 pub struct Block {
     /// Index of the first particle.
@@ -41,34 +43,60 @@ pub struct Block {
     clearance: f64,
 }
 
+/// Memory of a search.
+#[derive(Default)]
+struct Desk {
+    near_block: Candidates,
+    near_group: Candidates,
+    places: Vec<u16>,
+}
+
 /// Neighbours of all particles, or those of other points among the particles.
 #[derive(Default)]
 pub struct Neighbours {
     pub blocks: Vec<Block>,
-    /// Of the sources.
+    /// Over the sources.
     tree: BlockTree,
     /// How far a neighbour may be away.
     reach: f64,
-    /// Sources of all blocks when the particles were sorted.
-    sorted_sources: usize,
 }
 
-/// Points in the order of a tree's blocks, and the ways that they are about to go, up to a factor.
+/// Points that stand in blocks, and where they are about to go.
 #[derive(Clone, Copy)]
 pub struct Travelling<'a> {
     pub points: &'a [[f64; 3]],
-    pub ways: &'a [[f64; 3]],
-    pub factor: f64,
+    pub ways: &'a Ways,
 }
 
-impl Travelling<'_> {
-    /// Bounds of the ways of every block.
-    fn drifts(&self, threads: usize) -> Vec<Bounds> {
-        let count = self.points.len();
-        parallel::map(threads, count.div_ceil(BLOCK), |b| {
-            let range = b * BLOCK..((b + 1) * BLOCK).min(count);
-            Bounds::of(self.ways[range].iter().map(|way| way.map(|w| self.factor * w)))
-        })
+/// Ways that the particles of each block are about to go: the box of them all.
+pub struct Ways {
+    pub of_blocks: Vec<Bounds>,
+    /// Further steps for which the lists that are made now are to serve.
+    pub steps: f64,
+}
+
+impl Ways {
+    /// These vectors.
+    pub fn along(ways: &[[f64; 3]], steps: f64, team: &Team) -> Self {
+        let of_block = |b: usize| {
+            let range = b * BLOCK..((b + 1) * BLOCK).min(ways.len());
+            Bounds::of(ways[range].iter().copied())
+        };
+        Self { of_blocks: team.map(ways.len().div_ceil(BLOCK), of_block), steps }
+    }
+
+    /// Ways over a time, from velocities.
+    pub fn times(mut self, dt: f64) -> Self {
+        for Bounds { low, high } in &mut self.of_blocks {
+            low.iter_mut().chain(high).for_each(|v| *v *= dt);
+        }
+        self
+    }
+
+    /// None.
+    pub fn none(particles: usize) -> Self {
+        let nowhere = Bounds { low: [0.0; 3], high: [0.0; 3] };
+        Self { of_blocks: vec![nowhere; particles.div_ceil(BLOCK)], steps: f64::INFINITY }
     }
 }
 
@@ -96,87 +124,100 @@ impl Block {
     }
 }
 
-impl Neighbours {
-    /// Puts particles into blocks: the order in which all their numbers have to stand for
-    /// [`Self::of_ordered`].
-    pub fn order(points: &[[f64; 3]], threads: usize) -> (Vec<u32>, BlockTree) {
-        space_order(points, threads)
+impl Block {
+    /// Finds the neighbours of the block's particles among what is near the block, of which those from
+    /// `wall` on are at the wall.
+    fn find_places(&mut self, own: &[[f64; 3]], wall: usize, reach: f64, desk: &mut Desk) {
+        let Desk { near_block, near_group, places } = desk;
+        let (_, near_block) = near_block.all();
+        self.places.clear();
+        self.places.reserve(own.len() * 160);
+        self.ends.clear();
+        places.resize(near_block[0].len() + WIDTH, 0);
+        for group in own.chunks(GROUP) {
+            let bounds = Bounds::of(group.iter().copied());
+            let middle = bounds.centre();
+            let away = |a: usize| (self.centre[a] - middle[a]) as f32;
+            let shift = [away(0), away(1), away(2)];
+            near_group.clear();
+            near_group.take(near_block, [1.0; 3], shift, Near::to(&bounds, reach));
+            let wall = near_group.last_numbers().partition_point(|&n| (n as usize) < wall);
+            let count = near_group.last_numbers().len();
+            let (numbers, along) = near_group.all();
+            for point in group {
+                let away = |a: usize| (point[a] - middle[a]) as f32;
+                let at = [away(0), away(1), away(2)];
+                let within = Within { at, square: (reach * reach) as f32 };
+                let ends = [0..wall, wall..count].map(|part| {
+                    let found = select(along, numbers, part, within, places);
+                    self.places.extend_from_slice(&places[..found]);
+                    let full = self.places.len().next_multiple_of(WIDTH);
+                    self.places.resize(full, 0);
+                    full as u32
+                });
+                self.ends.push(ends);
+            }
+        }
     }
+}
 
-    /// Neighbours of particles that stand in the order of the tree's blocks; the lists are made when
-    /// they are first needed.
+impl Neighbours {
+    /// Neighbours of particles that stand in blocks; the lists are made when they are first needed.
     ///
     /// # Panics
     /// If there are more particles than [`Source::MOST`].
-    pub fn of_ordered(tree: BlockTree, particles: usize) -> Self {
-        assert!(particles <= Source::MOST, "{particles} particles, at most {}", Source::MOST);
-        Self::between(particles, tree, 1.0)
+    pub fn of(points: &[[f64; 3]], team: &Team) -> Self {
+        Self::between(points.len(), points, 1.0, team)
     }
 
-    /// Neighbours within `reach` of some targets among the sources that stand in the order of the tree's
-    /// blocks.
-    pub fn between(targets: usize, tree: BlockTree, reach: f64) -> Self {
+    /// Neighbours within `reach` of some targets among sources; both stand in blocks.
+    ///
+    /// # Panics
+    /// If there are more sources than [`Source::MOST`].
+    pub fn between(targets: usize, sources: &[[f64; 3]], reach: f64, team: &Team) -> Self {
+        let count = sources.len();
+        assert!(count <= Source::MOST, "{count} particles, at most {}", Source::MOST);
         let block = |b: usize| Block::empty(b * BLOCK, BLOCK.min(targets - b * BLOCK));
         let blocks = (0..targets.div_ceil(BLOCK)).map(block).collect();
-        Self { blocks, tree, reach, sorted_sources: 0 }
+        Self { blocks, tree: BlockTree::over(sources, team), reach }
     }
 
-    /// The tree over the sources.
-    pub fn tree(&self) -> &BlockTree {
-        &self.tree
+    /// Volume that surrounded the blocks when lists were last made, each counted for itself.
+    pub fn surrounded(&self) -> f64 {
+        self.tree.surrounded(1.0)
     }
 
-    /// Whether the particles have mixed so much that they should be sorted anew.
-    pub fn are_scattered(&self) -> bool {
-        self.sorted_sources > 0 && self.sources() as f64 > GROWTH * self.sorted_sources as f64
+    /// Makes the lists hold all neighbours of particles where they are and on their ways.
+    pub fn prepare(&mut self, points: &[[f64; 3]], ways: &Ways, images: &Images, team: &Team) {
+        let particles = Travelling { points, ways };
+        self.prepare_between(particles, particles, images, team);
     }
 
-    fn sources(&self) -> usize {
-        self.blocks.iter().map(|block| block.sources.len()).sum()
-    }
-
-    /// Makes the lists hold all neighbours of particles where they are and on their way.
-    pub fn prepare(&mut self, particles: Travelling, images: &Images, threads: usize) {
-        let drifts = particles.drifts(threads);
-        self.renew((particles.points, &drifts), (particles.points, &drifts), images, threads);
-    }
-
-    /// As [`Self::prepare`], for lists of sources round targets.
+    /// As [`Self::prepare`], for the sources round targets.
     pub fn prepare_between(
         &mut self,
         targets: Travelling,
         sources: Travelling,
         images: &Images,
-        threads: usize,
+        team: &Team,
     ) {
-        let [aims, drifts] = [targets, sources].map(|points| points.drifts(threads));
-        self.renew((targets.points, &aims), (sources.points, &drifts), images, threads);
-    }
-
-    /// Makes anew the lists that motions of targets and sources wear out.
-    fn renew(
-        &mut self,
-        (targets, aims): (&[[f64; 3]], &[Bounds]),
-        (points, drifts): (&[[f64; 3]], &[Bounds]),
-        images: &Images,
-        threads: usize,
-    ) {
+        let (aims, drifts) = (&targets.ways.of_blocks, &sources.ways.of_blocks);
         let motion = widest(aims, drifts, images);
-        let all = |block: &Block| span(&aims[block.first / BLOCK], drifts, block, images);
-        parallel::for_each(threads, &mut self.blocks, |_, block| {
-            block.slack -= all(block);
+        team.for_each(&mut self.blocks, |b, block| {
+            block.slack -= span(&aims[b], drifts, &block.surroundings, images);
             block.clearance -= motion;
         });
         let is_worn = |block: &Block| !(block.slack >= MARGIN && block.clearance >= MARGIN);
         if !self.blocks.iter().any(is_worn) {
             return;
         }
-        self.tree.refit(points);
-        let sources = Sources {
-            spots: parallel::map(threads, points.len().div_ceil(BLOCK), |b| {
-                Spots::of(&points[b * BLOCK..((b + 1) * BLOCK).min(points.len())])
-            }),
-            drifts,
+        self.tree.refit(sources.points, team);
+        let blocks: Vec<&[[f64; 3]]> = sources.points.chunks(BLOCK).collect();
+        let search = Search {
+            targets: targets.points,
+            aims,
+            ways: sources.ways,
+            spots: team.map(blocks.len(), |b| Spots::of(blocks[b])),
             tree: &self.tree,
             images,
             motion,
@@ -184,38 +225,16 @@ impl Neighbours {
         };
         let mut worn: Vec<&mut Block> =
             self.blocks.iter_mut().filter(|block| is_worn(block)).collect();
-        parallel::for_each(threads, &mut worn, |_, block| {
-            let (first, count) = (block.first, block.count);
-            let own = &targets[first..first + count];
-            if block.slack >= MARGIN && sources.are_all_around(block, own) {
-                block.clearance = SKINS[1] - motion;
-            } else {
-                **block = list(first, own, &aims[first / BLOCK], &sources);
+        team.for_pieces(&mut worn, |_, blocks| {
+            let mut desk = Desk::default();
+            for block in blocks {
+                if block.slack >= MARGIN && search.nothing_came_to(block) {
+                    block.clearance = SKINS[1] - motion;
+                } else {
+                    search.list(block, &mut desk);
+                }
             }
         });
-        if self.sorted_sources == 0 {
-            self.sorted_sources = self.sources();
-        }
-    }
-}
-
-/// What lists are made from.
-struct Sources<'a> {
-    spots: Vec<Spots>,
-    drifts: &'a [Bounds],
-    tree: &'a BlockTree,
-    images: &'a Images,
-    /// How far anything moves against anything at most.
-    motion: f64,
-    reach: f64,
-}
-
-impl Sources<'_> {
-    /// Whether nothing but its surroundings has come near to a block.
-    fn are_all_around(&self, block: &Block, own: &[[f64; 3]]) -> bool {
-        let bounds = Bounds::of(own.iter().copied());
-        let near = surroundings(&bounds, self.tree, self.images, self.reach + SKINS[1]);
-        self.motion < SKINS[1] - MARGIN && near.iter().all(|part| block.surroundings.contains(part))
     }
 }
 
@@ -227,64 +246,79 @@ fn widest(aims: &[Bounds], drifts: &[Bounds], images: &Images) -> f64 {
     images.codes().iter().fold(aim, image).diagonal()
 }
 
-/// How far a block's targets and what surrounds them move against each other at most; nothing where
-/// nothing surrounds them.
-fn span(aim: &Bounds, drifts: &[Bounds], block: &Block, images: &Images) -> f64 {
-    let drift = |&(b, code): &(usize, u8)| drifts[b].turned(images.get(code));
-    if block.surroundings.is_empty() {
-        return 0.0;
-    }
-    block.surroundings.iter().fold(*aim, |all, part| all.joined(&drift(part))).diagonal()
+/// How far the targets of a block and what surrounds them move against each other at most.
+fn span(aim: &Bounds, drifts: &[Bounds], surroundings: &[(usize, u8)], images: &Images) -> f64 {
+    let drift = |&(block, code): &(usize, u8)| drifts[block].turned(images.get(code));
+    surroundings.iter().fold(*aim, |all, part| all.joined(&drift(part))).diagonal()
 }
 
-/// Lists what surrounds a block of targets, whose ways have the bounds `aim`.
-fn list(first: usize, own: &[[f64; 3]], aim: &Bounds, sources: &Sources) -> Block {
-    let Sources { spots, drifts, tree, images, motion: most, .. } = sources;
-    let mut block = Block::empty(first, own.len());
-    let bounds = Bounds::of(own.iter().copied());
-    block.centre = bounds.centre();
-    let widest = sources.reach + SKINS[1];
-    block.surroundings = surroundings(&bounds, tree, images, widest);
-    let motion = span(aim, drifts, &block, images);
-    let skin = (SKIN_STEPS * motion).clamp(SKINS[0], SKINS[1]).max(1.5 * motion);
-    let reach = sources.reach + skin;
-    if skin > SKINS[1] {
-        block.surroundings = surroundings(&bounds, tree, images, reach);
+/// What lists are made from.
+struct Search<'a> {
+    targets: &'a [[f64; 3]],
+    aims: &'a [Bounds],
+    ways: &'a Ways,
+    spots: Vec<Spots>,
+    tree: &'a BlockTree,
+    images: &'a Images,
+    /// How far anything moves against anything at most.
+    motion: f64,
+    reach: f64,
+}
+
+impl Search<'_> {
+    fn own(&self, block: &Block) -> &[[f64; 3]] {
+        &self.targets[block.first..block.first + block.count]
     }
-    block.slack = skin - motion;
-    block.clearance = skin.max(SKINS[1]) - most;
-    let near = Near::to(&bounds, reach);
-    let mut candidates = Candidates::default();
-    let mut wall = 0;
-    for &(b, code) in &block.surroundings {
-        let image = images.get(code);
-        let origin = image.place(spots[b].origin);
-        let away = |a: usize| (origin[a] - block.centre[a]) as f32;
-        let shift = [away(0), away(1), away(2)];
-        candidates.take(&spots[b], image.signs.map(|sign| sign as f32), shift, near);
-        let source = |&k: &u32| Source::new(b * BLOCK + k as usize, code);
-        block.sources.extend(candidates.numbers.iter().map(source));
-        if !images.is_at_wall(code) {
-            wall = block.sources.len();
+
+    /// Whether only its surroundings are still near a block.
+    fn nothing_came_to(&self, block: &Block) -> bool {
+        let bounds = Bounds::of(self.own(block).iter().copied());
+        let near = surroundings(&bounds, self.tree, self.images, self.reach + SKINS[1]);
+        self.motion < SKINS[1] - MARGIN && near.iter().all(|part| block.surroundings.contains(part))
+    }
+
+    /// Lists what surrounds a block.
+    fn list(&self, block: &mut Block, desk: &mut Desk) {
+        let Search { aims, ways, spots, tree, images, .. } = self;
+        let own = self.own(block);
+        let bounds = Bounds::of(own.iter().copied());
+        block.centre = bounds.centre();
+        block.surroundings = surroundings(&bounds, tree, images, self.reach + SKINS[1]);
+        let aim = &aims[block.first / BLOCK];
+        let motion = span(aim, &ways.of_blocks, &block.surroundings, images);
+        let skin = skin(motion, ways.steps);
+        let reach = self.reach + skin;
+        if skin > SKINS[1] {
+            block.surroundings = surroundings(&bounds, tree, images, reach);
         }
+        block.slack = skin - motion;
+        block.clearance = skin.max(SKINS[1]) - self.motion;
+        let mut wall = 0;
+        block.sources.clear();
+        desk.near_block.clear();
+        for &(b, code) in &block.surroundings {
+            let image = images.get(code);
+            let origin = image.place(spots[b].origin);
+            let away = |a: usize| (origin[a] - block.centre[a]) as f32;
+            let (signs, shift) = (image.signs.map(|sign| sign as f32), [away(0), away(1), away(2)]);
+            let along = spots[b].along.each_ref().map(|along| &along[..]);
+            desk.near_block.take(along, signs, shift, Near::to(&bounds, reach));
+            let source = |&k: &u32| Source::new(b * BLOCK + k as usize, code);
+            block.sources.extend(desk.near_block.last_numbers().iter().map(source));
+            if !images.is_at_wall(code) {
+                wall = block.sources.len();
+            }
+        }
+        assert!(block.sources.len() < usize::from(u16::MAX), "too many particles in one place");
+        block.find_places(own, wall, reach, desk);
     }
-    assert!(block.sources.len() < usize::from(u16::MAX), "too many particles in one place");
-    block.places.reserve(block.count * 160);
-    let mut places = vec![0; block.sources.len() + WIDTH];
-    for point in own {
-        let at = [0, 1, 2].map(|a| (point[a] - block.centre[a]) as f32);
-        let ends = [0..wall, wall..block.sources.len()].map(|part| {
-            let along = candidates.along.each_ref().map(|along| &along[part.clone()]);
-            let first = (part.start + 1) as u16;
-            let found = select(along, at, (reach * reach) as f32, first, &mut places);
-            block.places.extend_from_slice(&places[..found]);
-            let full = block.places.len().next_multiple_of(WIDTH);
-            block.places.resize(full, 0);
-            full as u32
-        });
-        block.ends.push(ends);
-    }
-    block
+}
+
+/// Reach beyond the kernel of lists that are to serve for some steps of a motion.
+fn skin(motion: f64, steps: f64) -> f64 {
+    // Particles may become faster by half, and do not leave the lists within this step.
+    let needed = 1.5 * motion;
+    (SKIN * motion.sqrt()).min(steps * needed).clamp(SKINS[0], SKINS[1]).max(needed)
 }
 
 /// Blocks whose images come near to `bounds`, those at the wall last.
@@ -304,84 +338,91 @@ fn surroundings(
     all
 }
 
-/// Writes `first + k` for every k-th point within reach, in order; their number. There is room for
-/// all of them, and for the last vector to be written whole.
+/// Points nearer to a point than the root of a square.
+#[derive(Debug, Clone, Copy)]
+struct Within {
+    at: [f32; 3],
+    square: f32,
+}
+
+/// Writes the places of points of a range that are within, in order; how many they are. There is room
+/// for the whole range and a vector more, and behind the points there are as many others.
 fn select(
     along: [&[f32]; 3],
-    at: [f32; 3],
-    reach_squared: f32,
-    first: u16,
+    numbers: &[u32],
+    range: Range<usize>,
+    within: Within,
     places: &mut [u16],
 ) -> usize {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx512f") {
         // SAFETY: the processor has what the function asks for.
-        return unsafe { select_avx512(along, at, reach_squared, first, places) };
+        return unsafe { select_avx512(along, numbers, range, within, places) };
     }
-    select_each(along, 0, at, reach_squared, first, places, 0)
+    select_each(along, numbers, range, within, places)
 }
 
-/// One point after the other from the `k`-th on, without a branch: written always, kept if near.
+/// One point after the other without a branch: written always, kept if near.
 fn select_each(
     [x, y, z]: [&[f32]; 3],
-    from: usize,
-    at: [f32; 3],
-    reach_squared: f32,
-    first: u16,
+    numbers: &[u32],
+    range: Range<usize>,
+    Within { at, square }: Within,
     places: &mut [u16],
-    mut found: usize,
 ) -> usize {
-    for k in from..x.len() {
+    let mut found = 0;
+    for k in range {
         let d = [x[k] - at[0], y[k] - at[1], z[k] - at[2]];
-        let near = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < reach_squared;
-        places[found] = first + k as u16;
+        let near = d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < square;
+        places[found] = numbers[k] as u16 + 1;
         found += usize::from(near);
     }
     found
 }
 
-/// Sixteen points at once.
+/// Sixteen points at once, with the same roundings.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
 fn select_avx512(
     along: [&[f32]; 3],
-    at: [f32; 3],
-    reach_squared: f32,
-    first: u16,
+    numbers: &[u32],
+    range: Range<usize>,
+    Within { at, square }: Within,
     places: &mut [u16],
 ) -> usize {
     use std::arch::x86_64::*;
-    let [x, y, z] = along;
-    let whole = x.len() / WIDTH * WIDTH;
+    let length = along[0].len().min(along[1].len()).min(along[2].len()).min(numbers.len());
+    assert!(range.end + WIDTH <= length && range.len() + WIDTH <= places.len());
+    let [x, y, z] = along.map(<[f32]>::as_ptr);
     let [ax, ay, az] = [_mm512_set1_ps(at[0]), _mm512_set1_ps(at[1]), _mm512_set1_ps(at[2])];
-    let reach = _mm512_set1_ps(reach_squared);
-    let ahead = _mm512_set1_epi32(WIDTH as i32);
-    let count = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    let mut numbers = _mm512_add_epi32(count, _mm512_set1_epi32(i32::from(first)));
+    let (reach, one) = (_mm512_set1_ps(square), _mm512_set1_epi32(1));
     let mut found = 0;
-    for k in (0..whole).step_by(WIDTH) {
-        assert!(found + WIDTH <= places.len());
-        // SAFETY: k + 16 is within the three slices, and found + 16 within the places.
+    for k in range.clone().step_by(WIDTH) {
+        let rest = (range.end - k).min(WIDTH);
+        let inside = (u32::MAX >> (32 - rest)) as u16;
+        // SAFETY: there are sixteen numbers from k on, and places from `found` on.
         unsafe {
-            let dx = _mm512_sub_ps(_mm512_loadu_ps(x[k..].as_ptr()), ax);
-            let dy = _mm512_sub_ps(_mm512_loadu_ps(y[k..].as_ptr()), ay);
-            let dz = _mm512_sub_ps(_mm512_loadu_ps(z[k..].as_ptr()), az);
+            let dx = _mm512_sub_ps(_mm512_loadu_ps(x.add(k)), ax);
+            let dy = _mm512_sub_ps(_mm512_loadu_ps(y.add(k)), ay);
+            let dz = _mm512_sub_ps(_mm512_loadu_ps(z.add(k)), az);
             let xy = _mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy));
-            let square = _mm512_add_ps(xy, _mm512_mul_ps(dz, dz));
-            let near = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, reach);
-            let kept = _mm512_cvtepi32_epi16(_mm512_maskz_compress_epi32(near, numbers));
-            _mm256_storeu_si256(places[found..].as_mut_ptr().cast(), kept);
+            let distance = _mm512_add_ps(xy, _mm512_mul_ps(dz, dz));
+            let near = inside & _mm512_cmp_ps_mask::<_CMP_LT_OQ>(distance, reach);
+            let number = _mm512_loadu_epi32(numbers.as_ptr().add(k).cast());
+            let place = _mm512_maskz_compress_epi32(near, _mm512_add_epi32(number, one));
+            let end = places.as_mut_ptr().add(found);
+            _mm256_storeu_si256(end.cast(), _mm512_cvtepi32_epi16(place));
             found += near.count_ones() as usize;
         }
-        numbers = _mm512_add_epi32(numbers, ahead);
     }
-    select_each(along, whole, at, reach_squared, first, places, found)
+    found
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::body::sph::images::Ends;
+    use crate::body::sph::order::space_order;
 
     /// Two mirrors of which one is a wall; a wall, a lid and a period.
     fn models() -> [Images; 2] {
@@ -392,10 +433,6 @@ mod tests {
             .map(|ends| Images::new(ends, true, [0.0; 3]))
     }
 
-    fn on_way<'a>(points: &'a [[f64; 3]], ways: &'a [[f64; 3]]) -> Travelling<'a> {
-        Travelling { points, ways, factor: 1.0 }
-    }
-
     fn number(i: usize) -> f64 {
         (i as f64 * 0.754877666).fract()
     }
@@ -403,9 +440,10 @@ mod tests {
     fn ordered(count: usize) -> (Vec<[f64; 3]>, Neighbours) {
         let point = |i: usize| [3.0 * number(i), 3.0 * number(7 * i + 3), 3.0 * number(13 * i + 5)];
         let points: Vec<_> = (0..count).map(point).collect();
-        let (order, tree) = Neighbours::order(&points, 1);
-        let points = order.iter().map(|&i| points[i as usize]).collect();
-        (points, Neighbours::of_ordered(tree, count))
+        let order = space_order(&points, &Team::new(1));
+        let points: Vec<_> = order.iter().map(|&i| points[i as usize]).collect();
+        let neighbours = Neighbours::of(&points, &Team::new(1));
+        (points, neighbours)
     }
 
     /// Asserts that the lists hold all pairs within the support, and tells how many pairs they hold.
@@ -442,10 +480,10 @@ mod tests {
     fn the_lists_hold_what_a_loop_over_all_pairs_finds() {
         for (images, threads) in models().into_iter().zip([1, 3]) {
             let (points, mut neighbours) = ordered(700);
-            neighbours.prepare(on_way(&points, &[[0.0; 3]; 700]), &images, threads);
+            neighbours.prepare(&points, &Ways::none(700), &images, &Team::new(threads));
             let listed = assert_complete(&points, &neighbours, &images);
             let near = |i: usize, code: u8| {
-                let reach = (1.0 + SKINS[0]).powi(2);
+                let reach = (1.0 + skin(0.0, 1.0)).powi(2);
                 let square = |p: &[f64; 3]| {
                     let other = images.get(code).place(*p);
                     (0..3).map(|a| (points[i][a] - other[a]).powi(2)).sum::<f64>()
@@ -462,11 +500,12 @@ mod tests {
     fn the_lists_stay_complete_while_particles_move() {
         let drift =
             |i: usize, step: usize| [0, 1, 2].map(|a| 0.03 * (number(i + 11 * a + step / 9) - 0.5));
-        for images in models() {
+        for (images, steps) in models().into_iter().zip([1.0, 9.0]) {
             let (mut points, mut neighbours) = ordered(700);
             for step in 0..40 {
                 let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
-                neighbours.prepare(on_way(&points, &drifts), &images, 1);
+                let team = Team::new(1);
+                neighbours.prepare(&points, &Ways::along(&drifts, steps, &team), &images, &team);
                 assert_complete(&points, &neighbours, &images);
                 for (x, d) in points.iter_mut().zip(&drifts) {
                     *x = [0, 1, 2].map(|a| x[a] + d[a]);
@@ -480,10 +519,11 @@ mod tests {
     fn a_common_motion_wears_no_list_out() {
         let (mut points, mut neighbours) = ordered(500);
         let images = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
-        neighbours.prepare(on_way(&points, &[[0.0; 3]; 500]), &images, 1);
+        let team = Team::new(1);
+        neighbours.prepare(&points, &Ways::none(500), &images, &team);
         let slack = neighbours.blocks[0].slack;
         let drifts = vec![[0.5, -0.2, 0.1]; 500];
-        neighbours.prepare(on_way(&points, &drifts), &images, 1);
+        neighbours.prepare(&points, &Ways::along(&drifts, 9.0, &team), &images, &team);
         points.iter_mut().for_each(|x| x[0] += 0.5);
         assert!((neighbours.blocks[0].slack - slack).abs() < 1e-15);
     }
@@ -494,13 +534,14 @@ mod tests {
         let open = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
         let (mut points, _) = ordered(2 * BLOCK);
         points[BLOCK..].iter_mut().for_each(|x| x[0] += 7.0);
-        let (order, tree) = Neighbours::order(&points, 1);
+        let team = Team::new(1);
+        let order = space_order(&points, &team);
         points = order.iter().map(|&i| points[i as usize]).collect();
-        let mut neighbours = Neighbours::of_ordered(tree, points.len());
+        let mut neighbours = Neighbours::of(&points, &team);
         let ways: Vec<_> =
             points.iter().map(|x| [if x[0] > 5.0 { -0.07 } else { 0.0 }, 0.0, 0.0]).collect();
         for _ in 0..100 {
-            neighbours.prepare(on_way(&points, &ways), &open, 1);
+            neighbours.prepare(&points, &Ways::along(&ways, 100.0, &team), &open, &team);
             points.iter_mut().zip(&ways).for_each(|(x, way)| x[0] += way[0]);
             assert_complete(&points, &neighbours, &open);
         }
@@ -508,43 +549,38 @@ mod tests {
 
     #[test]
     fn other_points_find_their_neighbours_among_particles() {
+        const REACH: f64 = 1.2;
+        let team = Team::new(1);
         for images in models() {
-            let (mut points, particles) = ordered(700);
-            let mut targets = Neighbours::between(300, particles.tree().clone(), 0.8);
-            let mut at: Vec<[f64; 3]> =
-                points.iter().take(300).map(|x| x.map(|x| 3.0 - x)).collect();
-            let (order, _) = Neighbours::order(&at, 1);
-            at = order.iter().map(|&i| at[i as usize]).collect();
-            let ways: Vec<_> = (0..700).map(|i| [0.02 * number(i), 0.01, 0.0]).collect();
+            let (mut points, _) = ordered(700);
+            let at: Vec<[f64; 3]> = points[..300].iter().map(|x| x.map(|x| 3.0 - x)).collect();
+            let order = space_order(&at, &team);
+            let at: Vec<_> = order.iter().map(|&i| at[i as usize]).collect();
+            let mut neighbours = Neighbours::between(300, &points, REACH, &team);
+            let way: Vec<_> = (0..700).map(|i| [0.02 * number(i), 0.01, 0.0]).collect();
             for _ in 0..20 {
-                let still = [[0.0; 3]; 300];
-                targets.prepare_between(on_way(&at, &still), on_way(&points, &ways), &images, 1);
-                points.iter_mut().zip(&ways).for_each(|(x, w)| (0..3).for_each(|a| x[a] += w[a]));
-                for block in &targets.blocks {
-                    for k in 0..block.count {
-                        let listed: usize = (block.neighbours(k).into_iter().flatten().flatten())
-                            .filter(|&&place| place > 0)
-                            .map(|&place| block.sources[place as usize - 1])
-                            .filter(|s| {
-                                gap(
-                                    at[block.first + k],
-                                    images.get(s.code()).place(points[s.particle()]),
-                                ) < 0.8
-                            })
-                            .count();
-                        let all =
-                            images.codes().iter().flat_map(|&c| points.iter().map(move |p| (c, p)));
-                        let near = all.filter(|(c, p)| {
-                            gap(at[block.first + k], images.get(*c).place(**p)) < 0.8
-                        });
-                        assert_eq!(listed, near.count());
+                let (none, ways) = (Ways::none(300), Ways::along(&way, 20.0, &team));
+                let targets = Travelling { points: &at, ways: &none };
+                let sources = Travelling { points: &points, ways: &ways };
+                neighbours.prepare_between(targets, sources, &images, &team);
+                points.iter_mut().zip(&way).for_each(|(x, w)| (0..3).for_each(|a| x[a] += w[a]));
+                for block in &neighbours.blocks {
+                    for (k, point) in at[block.first..block.first + block.count].iter().enumerate()
+                    {
+                        let is_near = |particle: usize, code: u8| {
+                            let other = images.get(code).place(points[particle]);
+                            (0..3).map(|a| (point[a] - other[a]).powi(2)).sum::<f64>()
+                                < REACH * REACH
+                        };
+                        let places = block.neighbours(k).into_iter().flatten().flatten();
+                        let listed = places.filter(|&&place| place > 0);
+                        let sources = listed.map(|&place| block.sources[place as usize - 1]);
+                        let found = sources.filter(|s| is_near(s.particle(), s.code())).count();
+                        let of_code = |&code: &u8| (0..700).filter(|&j| is_near(j, code)).count();
+                        assert_eq!(found, images.codes().iter().map(of_code).sum::<usize>());
                     }
                 }
             }
         }
-    }
-
-    fn gap(a: [f64; 3], b: [f64; 3]) -> f64 {
-        (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>().sqrt()
     }
 }

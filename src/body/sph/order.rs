@@ -1,10 +1,14 @@
 //! Particles in an order in which near ones stand together: blocks of a balanced k-d tree.
 
+use std::ops::Range;
+
 use super::images::Image;
-use crate::math::parallel;
+use crate::math::parallel::Team;
 
 /// Particles in a block; the last block may have fewer.
 pub const BLOCK: usize = 128;
+/// Particles of a block that stand together within it.
+pub const GROUP: usize = 16;
 
 /// Corners of a box along x, y, z.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,62 +80,73 @@ impl Bounds {
     }
 }
 
-/// The order that puts `points` into blocks, and the tree over the blocks.
-pub fn space_order(points: &[[f64; 3]], threads: usize) -> (Vec<u32>, BlockTree) {
+/// The order that puts `points` into blocks, and those of a block into groups.
+pub fn space_order(points: &[[f64; 3]], team: &Team) -> Vec<u32> {
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
-    let mut tree = BlockTree::default();
-    if !points.is_empty() {
-        tree.nodes = grown(points, &mut order, 0, threads);
-    }
-    (order, tree)
-}
-
-/// The part of the tree for some of the points, its root first; puts them in order.
-fn grown(points: &[[f64; 3]], order: &mut [u32], first_block: usize, threads: usize) -> Vec<Node> {
-    let bounds = Bounds::of(order.iter().map(|&i| points[i as usize]));
-    let mut nodes = vec![Node { bounds, parts: Parts::Block(first_block) }];
-    if order.len() > BLOCK {
-        let left = order.len().div_ceil(BLOCK) / 2;
-        let extent = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
-        let axis = (1..3).fold(0, |best, a| if extent[a] > extent[best] { a } else { best });
-        let place = |&i: &u32| points[i as usize][axis];
-        // Ties are broken by the index, so that equal points have one order.
-        order.select_nth_unstable_by(left * BLOCK, |a, b| {
-            place(a).total_cmp(&place(b)).then(a.cmp(b))
-        });
-        let (low, high) = order.split_at_mut(left * BLOCK);
-        let mut halves = [(low, first_block), (high, first_block + left)];
-        let [low, high] = match threads {
-            0 | 1 => halves.map(|(order, first)| grown(points, order, first, 1)),
-            _ => {
-                let grow = |(order, first): &mut (&mut [u32], usize)| {
-                    grown(points, order, *first, threads / 2)
-                };
-                let grown = parallel::map_each(2, &mut halves, grow);
-                grown.try_into().expect("there are two halves")
-            }
-        };
-        let starts = [1, 1 + low.len()];
-        nodes[0].parts = Parts::Two(starts);
-        for (part, start) in [low, high].into_iter().zip(starts) {
-            nodes.extend(part.into_iter().map(|node| node.moved(start)));
+    // Halves are split by one thread each, so first there are to be enough of them.
+    let mut parts = vec![&mut order[..]];
+    while team.threads() > 1 && parts.len() < 4 * team.threads() {
+        let halves = team.map_each(&mut parts, |part| split(points, std::mem::take(part)));
+        let before = halves.len();
+        parts = halves.into_iter().flatten().filter(|part| !part.is_empty()).collect();
+        if parts.len() == before {
+            break;
         }
     }
-    nodes
+    team.for_each(&mut parts, |_, part| order_within(points, part));
+    order
 }
 
-impl Node {
-    /// The node in a list in which its part of the tree begins at `start`.
-    fn moved(self, start: usize) -> Self {
-        let parts = match self.parts {
-            Parts::Two(parts) => Parts::Two(parts.map(|part| part + start)),
-            block => block,
-        };
-        Self { parts, ..self }
+/// Halves of which the first has whole blocks, or within a block whole groups; a group is left whole.
+fn split<'a>(points: &[[f64; 3]], order: &'a mut [u32]) -> [&'a mut [u32]; 2] {
+    let size = if order.len() > BLOCK { BLOCK } else { GROUP };
+    if order.len() <= size {
+        return [order, &mut []];
     }
+    let bounds = Bounds::of(order.iter().map(|&i| points[i as usize]));
+    let extent = [0, 1, 2].map(|a| bounds.high[a] - bounds.low[a]);
+    let axis = (1..3).fold(0, |best, a| if extent[a] > extent[best] { a } else { best });
+    let place = |&i: &u32| points[i as usize][axis];
+    let middle = left(order.len().div_ceil(size)) * size;
+    // Ties are broken by the index, so that equal points have one order.
+    order.select_nth_unstable_by(middle, |a, b| place(a).total_cmp(&place(b)).then(a.cmp(b)));
+    order.split_at_mut(middle).into()
+}
+
+fn order_within(points: &[[f64; 3]], order: &mut [u32]) {
+    if order.len() > GROUP {
+        split(points, order).into_iter().for_each(|half| order_within(points, half));
+    }
+}
+
+/// How many of some blocks the first half has.
+fn left(blocks: usize) -> usize {
+    blocks / 2
 }
 
 impl BlockTree {
+    /// Over some points that stand in [`space_order`] or did so.
+    pub fn over(points: &[[f64; 3]], team: &Team) -> Self {
+        let mut tree = Self::default();
+        if !points.is_empty() {
+            tree.grow(0..points.len().div_ceil(BLOCK));
+            tree.refit(points, team);
+        }
+        tree
+    }
+
+    /// Adds the part of the tree for some blocks, with empty boxes; its index.
+    fn grow(&mut self, blocks: Range<usize>) -> usize {
+        let (index, bounds) = (self.nodes.len(), Bounds::of([].into_iter()));
+        self.nodes.push(Node { bounds, parts: Parts::Block(blocks.start) });
+        if blocks.len() > 1 {
+            let middle = blocks.start + left(blocks.len());
+            let parts = [blocks.start..middle, middle..blocks.end].map(|half| self.grow(half));
+            self.nodes[index].parts = Parts::Two(parts);
+        }
+        index
+    }
+
     /// Blocks of whose boxes the images come nearer to `bounds` than `reach`, in their order.
     pub fn near(&self, bounds: &Bounds, image: &Image, reach: f64, found: &mut Vec<usize>) {
         if !self.nodes.is_empty() {
@@ -141,17 +156,30 @@ impl BlockTree {
     }
 
     /// Fits the boxes to points that have moved.
-    pub fn refit(&mut self, points: &[[f64; 3]]) {
+    pub fn refit(&mut self, points: &[[f64; 3]], team: &Team) {
+        let boxes = team.map(points.len().div_ceil(BLOCK), |block| {
+            let range = block * BLOCK..((block + 1) * BLOCK).min(points.len());
+            Bounds::of(points[range].iter().copied())
+        });
         // Parts stand behind what they are parts of.
         for node in (0..self.nodes.len()).rev() {
             self.nodes[node].bounds = match self.nodes[node].parts {
-                Parts::Block(block) => {
-                    let range = block * BLOCK..((block + 1) * BLOCK).min(points.len());
-                    Bounds::of(points[range].iter().copied())
-                }
+                Parts::Block(block) => boxes[block],
                 Parts::Two([a, b]) => self.nodes[a].bounds.joined(&self.nodes[b].bounds),
             };
         }
+    }
+
+    /// Volume within reach of the boxes, each counted for itself: how much surrounds the blocks.
+    pub fn surrounded(&self, reach: f64) -> f64 {
+        let volume = |node: &Node| match node.parts {
+            Parts::Block(_) => {
+                let extent = |a: usize| node.bounds.high[a] - node.bounds.low[a] + 2.0 * reach;
+                (0..3).map(extent).product()
+            }
+            Parts::Two(_) => 0.0,
+        };
+        self.nodes.iter().map(volume).sum()
     }
 
     fn search(&self, node: usize, bounds: &Bounds, reach_squared: f64, found: &mut Vec<usize>) {
@@ -181,9 +209,8 @@ mod tests {
     #[test]
     fn every_point_stands_in_one_block() {
         for count in [0, 1, 64, 65, 1000] {
-            let (mut order, tree) = space_order(&points(count), 1);
-            let (same, other) = space_order(&points(count), 5);
-            assert!(same == order && other.nodes == tree.nodes);
+            let mut order = space_order(&points(count), &Team::new(1));
+            assert_eq!(order, space_order(&points(count), &Team::new(5)));
             order.sort_unstable();
             assert_eq!(order, (0..count as u32).collect::<Vec<_>>());
         }
@@ -192,12 +219,14 @@ mod tests {
     #[test]
     fn the_search_finds_the_blocks_that_a_loop_over_all_finds() {
         let points = points(2000);
-        let (order, tree) = space_order(&points, 1);
+        let order = space_order(&points, &Team::new(1));
+        let points: Vec<_> = order.iter().map(|&i| points[i as usize]).collect();
+        let tree = BlockTree::over(&points, &Team::new(2));
         let block = |b: usize| {
-            let range = b * BLOCK..((b + 1) * BLOCK).min(order.len());
-            Bounds::of(order[range].iter().map(|&i| points[i as usize]))
+            let range = b * BLOCK..((b + 1) * BLOCK).min(points.len());
+            Bounds::of(points[range].iter().copied())
         };
-        let blocks = order.len().div_ceil(BLOCK);
+        let blocks = points.len().div_ceil(BLOCK);
         let ends = [Ends::Planes { near: true, far: None }, Ends::Period(5.0), Ends::Period(3.0)];
         let images = Images::new(ends, false, [0.0; 3]);
         for image in images.codes().iter().map(|&code| images.get(code)) {

@@ -18,14 +18,15 @@ use super::kick::{DENSITIES, Motion, kick};
 use super::loops::{PART, PairSum, Precision, for_all, for_parts};
 use super::moment::{filled, least_eigenvalue, renormalised};
 use super::momentum::{Accelerations, Momentum};
-use super::neighbours::{Neighbours, Travelling};
+use super::neighbours::{Neighbours, Ways};
+use super::order::space_order;
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
 use super::tension::{Pull, SurfaceEnergy};
 use super::units::{Units, pressure};
 use super::wall::WallCells;
 use crate::kernel::Kernel;
-use crate::math::parallel;
+use crate::math::parallel::Team;
 
 /// Numbers of the method that a plan fixes, without dimension.
 pub struct Method {
@@ -50,12 +51,12 @@ pub struct Method {
     spacing: f64,
     shifts: bool,
     wall: Option<WallCells>,
-    threads: usize,
 }
 
 /// Everything of a run between two communication points.
 pub struct Stepper<'a> {
     method: &'a Method,
+    team: &'a Team,
     cloud: &'a mut Cloud,
     ledger: &'a mut Ledger,
     neighbours: Neighbours,
@@ -66,11 +67,24 @@ pub struct Stepper<'a> {
     /// What the loops over pairs read and give, in memory that is kept for the next ones.
     records: Vec<[f64; 8]>,
     annexes: Vec<[f64; 4]>,
+    /// Temperature of the wall below every particle.
+    walls: Vec<f64>,
+    /// Density of every particle.
+    densities: Vec<f64>,
     accelerations: Vec<[[f64; 3]; 2]>,
     /// Free surfaces, where they have tension.
     free_surface: FreeSurface,
 }
 
+/// Heat [J] and impulse [N s] for the wall, and where [m].
+struct Gift {
+    at: [f64; 2],
+    heat: f64,
+    impulse: [f64; 3],
+}
+
+/// Growth of what surrounds the blocks at which the particles are sorted anew.
+const GROWTH: f64 = 1.2;
 /// Share of H/c₀ that a step may take.
 const COURANT: f64 = 0.2;
 /// Shares of H²/ν, √(H/a) and of the shortest capillary wave's period.
@@ -81,7 +95,7 @@ const CAPILLARY: f64 = 0.25;
 const SHIFT_WAY: f64 = 0.05;
 
 impl Method {
-    pub fn of(plan: &DropletPlan, threads: usize) -> Self {
+    pub fn of(plan: &DropletPlan) -> Self {
         let units = Units::of(plan);
         let fluid = &plan.fluid;
         let (h, c) = (units.length, units.speed);
@@ -102,14 +116,18 @@ impl Method {
             diffusion: plan.density_diffusion,
             corrects: plan.corrected_diffusion && plan.density_diffusion > 0.0,
             tension,
-            surface: (tension > 0.0).then(|| surface(plan, tension, &images, threads)),
+            surface: (tension > 0.0).then(|| surface(plan, tension, &images)),
             gravity,
             heat_unit: c * c / fluid.specific_heat,
             spacing: 1.0 / plan.support,
             shifts: plan.shifting,
             wall: plan.wall.as_ref().map(|wall| wall.cells.clone()),
-            threads,
         }
+    }
+
+    /// Whether the moments of the particles' neighbours are asked for.
+    fn needs_moments(&self) -> bool {
+        self.corrects || self.shifts
     }
 
     /// Changes density and temperature of the k-th particle of a part at its rates.
@@ -132,6 +150,44 @@ impl Method {
         part.temperature[k] += dt * part.heating[k];
     }
 
+    /// Where the wall is that a particle is above [m].
+    fn place(&self, mut position: [f64; 3]) -> [f64; 2] {
+        self.images.wrap(&mut position);
+        [position[0], position[1]].map(|x| x * self.units.length)
+    }
+
+    /// Temperature of the wall below a particle; the particle's own where it has no wall near.
+    fn wall_below(&self, wall_temperature: &[f64], position: [f64; 3], own: f64) -> f64 {
+        match &self.wall {
+            Some(cells) if position[2] < 1.0 => {
+                let [x, y] = self.place(position);
+                let share = cells.share(x, y);
+                share.cells.iter().map(|&(cell, weight)| weight * wall_temperature[cell]).sum()
+            }
+            _ => own,
+        }
+    }
+
+    /// A particle that meets its image at a plane exchanges its place with it: exactly what two mirror
+    /// images do that pass through each other.
+    fn rebound(&self, part: &mut Part, gifts: &mut Vec<Gift>) {
+        let momentum = self.units.mass() * self.units.speed;
+        for k in 0..part.mass.len() {
+            let below = part.position[k][2] < 0.0;
+            let signs = self.images.put_back(&mut part.position[k]);
+            if signs == [1.0; 3] {
+                continue;
+            }
+            (0..3).for_each(|a| part.velocity[k][a] *= signs[a]);
+            // Without a wall there is nothing that gets it.
+            if below && signs[2] < 0.0 {
+                let impulse = -2.0 * momentum * part.mass[k] * part.velocity[k][2];
+                let at = self.place(part.position[k]);
+                gifts.push(Gift { at, heat: 0.0, impulse: [0.0, 0.0, impulse] });
+            }
+        }
+    }
+
     /// Largest stable step, over H/c₀.
     pub fn stable_step(&self, fastest: f64, most_accelerated: f64) -> f64 {
         [
@@ -146,17 +202,18 @@ impl Method {
 }
 
 impl<'a> Stepper<'a> {
-    /// Sorts the particles and lists their neighbours.
     pub fn new(
         method: &'a Method,
+        team: &'a Team,
         cloud: &'a mut Cloud,
         ledger: &'a mut Ledger,
         wall_temperature: &'a [f64],
     ) -> Self {
         let temperatures = cloud.temperature.iter().chain(wall_temperature);
         let heats = method.conduction > 0.0 && differ(temperatures.copied());
-        let mut stepper = Self {
+        Self {
             method,
+            team,
             cloud,
             ledger,
             neighbours: Neighbours::default(),
@@ -164,35 +221,44 @@ impl<'a> Stepper<'a> {
             heats,
             records: Vec::new(),
             annexes: Vec::new(),
+            walls: Vec::new(),
+            densities: Vec::new(),
             accelerations: Vec::new(),
             free_surface: FreeSurface::default(),
-        };
-        stepper.sort();
-        stepper
+        }
+    }
+
+    /// Whether it is time to sort: particles have mixed, or are to be brought back into a period.
+    fn is_untidy(&self) -> bool {
+        self.neighbours.surrounded() > GROWTH * self.ledger.surrounded
+            || self.method.images.are_astray(&self.cloud.position)
     }
 
     fn sort(&mut self) {
         self.cloud.position.iter_mut().for_each(|x| self.method.images.wrap(x));
-        let (order, tree) = Neighbours::order(&self.cloud.position, self.method.threads);
-        self.cloud.permute(&order, self.method.threads);
-        self.neighbours = Neighbours::of_ordered(tree, self.cloud.len());
+        let order = space_order(&self.cloud.position, self.team);
+        self.cloud.permute(&order, self.team);
+        self.neighbours = Neighbours::of(&self.cloud.position, self.team);
+        self.ledger.surrounded = self.neighbours.surrounded();
         self.free_surface.forget();
     }
 
-    /// Lists neighbours for ways that the particles are about to go: these vectors times `factor`.
-    fn list(&mut self, ways: &[[f64; 3]], factor: f64) {
-        let Method { images, threads, .. } = self.method;
-        let particles = Travelling { points: &self.cloud.position, ways, factor };
-        self.neighbours.prepare(particles, images, *threads);
+    /// Lists neighbours for ways that the particles are about to go.
+    fn list(&mut self, ways: &Ways) {
+        self.neighbours.prepare(&self.cloud.position, ways, &self.method.images, self.team);
         if let Some(setting) = &self.method.surface {
-            let tree = self.neighbours.tree();
-            self.free_surface.prepare(setting, self.cloud, tree, ways, factor);
+            self.free_surface.prepare(setting, self.cloud, ways, self.team);
         }
     }
 
-    /// Advances by `duration` [s].
+    /// Advances by `duration` [s]. Lists of neighbours are made anew, so that what comes out follows from
+    /// the state alone; the order of the particles is part of that, and stays while it is good.
     pub fn advance(&mut self, duration: f64) -> Result<(), Failure> {
         let method = self.method;
+        self.neighbours = Neighbours::of(&self.cloud.position, self.team);
+        if self.is_untidy() {
+            self.sort();
+        }
         let mut rest = duration / method.units.time();
         let mut motion = self.kick(0.0);
         while rest > 0.0 && self.cloud.len() > 0 {
@@ -201,38 +267,38 @@ impl<'a> Stepper<'a> {
                 return Err(self.not_finite("velocity"));
             }
             // Equal steps to the end, so that none is tiny.
-            let dt = rest / (rest / stable).ceil();
-            motion = self.step(dt)?;
+            let steps = (rest / stable).ceil();
+            let dt = rest / steps;
+            motion = self.step(dt, steps)?;
             rest = if dt == rest { 0.0 } else { rest - dt };
             self.ledger.steps += 1.0;
         }
         Ok(())
     }
 
-    /// Accelerations of particles that stand where they are, for a start.
+    /// Order and accelerations of particles that stand where they are, for a start.
     pub fn prime(&mut self) {
-        self.list(&vec![[0.0; 3]; self.cloud.len()], 1.0);
+        self.sort();
+        self.list(&Ways::none(self.cloud.len()));
         self.accelerate(0.0);
     }
 
-    fn step(&mut self, dt: f64) -> Result<Motion, Failure> {
+    /// The first of some steps that are left.
+    fn step(&mut self, dt: f64, steps: f64) -> Result<Motion, Failure> {
         let motion = self.kick(0.5 * dt);
         let speed = motion.root_mean_square_speed(self.cloud.len(), self.method.mirrors);
         self.ledger.way += dt * speed;
         if self.ledger.way > SHIFT_WAY {
             self.shift();
         }
-        let astray = self.method.images.are_astray(&self.cloud.position);
-        if astray || self.neighbours.are_scattered() {
+        let mut ways = Ways { of_blocks: motion.velocities, steps };
+        if self.is_untidy() {
             self.sort();
+            ways = Ways::along(&self.cloud.velocity, steps, self.team);
         }
-        let velocity = std::mem::take(&mut self.cloud.velocity);
-        self.list(&velocity, dt);
-        self.cloud.velocity = velocity;
-        self.drift(0.5 * dt);
+        self.list(&ways.times(dt));
+        self.depart(dt);
         self.change_density_and_heat(dt);
-        self.drift(0.5 * dt);
-        self.rebound();
         self.accelerate(0.5 * dt);
         let motion = self.kick(0.5 * dt);
         self.ledger.time += dt * self.method.units.time();
@@ -242,25 +308,46 @@ impl<'a> Stepper<'a> {
         Ok(motion)
     }
 
-    fn drift(&mut self, dt: f64) {
-        parallel::for_each(self.method.threads, &mut self.cloud.parts(PART), |_, part| {
-            for (x, v) in part.position.iter_mut().zip(&*part.velocity) {
-                (0..3).for_each(|a| x[a] += dt * v[a]);
+    /// Moves particles to the middle of a step, and notes what its rates are made of there.
+    fn depart(&mut self, dt: f64) {
+        let method = self.method;
+        let count = self.cloud.len();
+        let annexed = self.heats || method.needs_moments();
+        self.records.resize(count, [0.0; 8]);
+        self.densities.resize(count, 0.0);
+        self.annexes.resize(if annexed { count } else { 0 }, [0.0; 4]);
+        self.walls.resize(if self.heats { count } else { 0 }, 0.0);
+        let mut annexes = self.annexes.chunks_mut(PART);
+        let mut walls = self.walls.chunks_mut(PART);
+        let noted = self.records.chunks_mut(PART).zip(self.densities.chunks_mut(PART));
+        let parts = self.cloud.parts(PART).into_iter().zip(noted);
+        let mut parts: Vec<_> =
+            parts.map(|(part, noted)| (part, noted, annexes.next(), walls.next())).collect();
+        let wall_temperature = self.wall_temperature;
+        self.team.for_each(&mut parts, |_, (part, (records, densities), annexes, walls)| {
+            drift(part, 0.5 * dt);
+            for (k, record) in records.iter_mut().enumerate() {
+                let ([x, y, z], [u, v, w]) = (part.position[k], part.velocity[k]);
+                let density = part.density[k];
+                let diffused = density + part.potential[k];
+                *record = [x, y, z, u, v, w, part.mass[k] / (1.0 + density), diffused];
+                densities[k] = density;
+            }
+            for (k, annex) in annexes.iter_mut().flat_map(|list| list.iter_mut()).enumerate() {
+                let [x, y, z] = part.gradient[k];
+                *annex = [x, y, z, part.temperature[k] + 0.5 * dt * part.heating[k]];
+            }
+            for (k, wall) in walls.iter_mut().flat_map(|list| list.iter_mut()).enumerate() {
+                *wall = method.wall_below(wall_temperature, part.position[k], part.temperature[k]);
             }
         });
     }
 
-    /// Velocity of a particle after `dt` under the accelerations of the step before.
-    fn ahead(&self, i: usize, dt: f64) -> [f64; 3] {
-        let (v, [a, b]) = (self.cloud.velocity[i], self.cloud.acceleration[i]);
-        [0, 1, 2].map(|n| v[n] + dt * (a[n] + b[n] + self.method.gravity[n]))
-    }
-
     /// Changes velocities by the accelerations, and gives the wall's part to the wall.
     fn kick(&mut self, dt: f64) -> Motion {
-        let Method { gravity, threads, .. } = *self.method;
+        let gravity = self.method.gravity;
         let kick = |part: &mut Part| kick(part, dt, gravity);
-        let mut motion = Motion::of(parallel::map_each(threads, &mut self.cloud.parts(PART), kick));
+        let mut motion = Motion::of(self.team.map_each(&mut self.cloud.parts(PART), kick));
         if dt == 0.0 {
             return motion;
         }
@@ -271,15 +358,16 @@ impl<'a> Stepper<'a> {
         }
         for i in std::mem::take(&mut motion.pushed) {
             let by_wall = self.cloud.acceleration[i][1];
-            self.give(i, 0.0, by_wall.map(|a| -momentum * self.cloud.mass[i] * dt * a));
+            let impulse = by_wall.map(|a| -momentum * self.cloud.mass[i] * dt * a);
+            let at = self.method.place(self.cloud.position[i]);
+            self.give(Gift { at, heat: 0.0, impulse });
         }
         motion
     }
 
-    /// Gives heat [J] and impulse [N s] of a particle and of its images at mirrors to the wall below.
-    fn give(&mut self, i: usize, heat: f64, impulse: [f64; 3]) {
+    /// Gives heat and impulse of a particle and of its images at mirrors to the wall.
+    fn give(&mut self, Gift { at: [x, y], heat, impulse }: Gift) {
         let Some(cells) = &self.method.wall else { return };
-        let [x, y] = self.place(i);
         if cells.are_radial() {
             // All images are equally far out, and push alike along their radius.
             return deposit(cells, self.ledger, [x, y], heat, impulse, self.method.mirrors);
@@ -293,16 +381,8 @@ impl<'a> Stepper<'a> {
         }
     }
 
-    /// Where the wall is that a particle is above [m].
-    fn place(&self, i: usize) -> [f64; 2] {
-        let mut at = self.cloud.position[i];
-        self.method.images.wrap(&mut at);
-        [at[0], at[1]].map(|x| x * self.method.units.length)
-    }
-
     fn change_density_and_heat(&mut self, dt: f64) {
-        let moments = self.method.corrects || self.method.shifts;
-        match (self.heats, moments) {
+        match (self.heats, self.method.needs_moments()) {
             (false, false) => self.change_density::<false, false>(dt),
             (false, true) => self.change_density::<false, true>(dt),
             (true, false) => self.change_density::<true, false>(dt),
@@ -310,70 +390,44 @@ impl<'a> Stepper<'a> {
         }
     }
 
+    /// Changes densities and temperatures over a step from what was noted at its middle, and moves the
+    /// particles to its end.
     fn change_density<const HEAT: bool, const MOMENTS: bool>(&mut self, dt: f64) {
         let method = self.method;
-        let cloud = &*self.cloud;
-        let mut records = std::mem::take(&mut self.records);
-        fill(&mut records, cloud.len(), method.threads, |i| {
-            record(cloud, i, cloud.velocity[i], cloud.density[i] + cloud.potential[i])
-        });
-        let annex = |i: usize| {
-            let [x, y, z] = cloud.gradient[i];
-            [x, y, z, cloud.temperature[i] + 0.5 * dt * cloud.heating[i]]
-        };
-        let mut annexes = std::mem::take(&mut self.annexes);
-        let mut wall_temperature = Vec::new();
-        if HEAT || MOMENTS {
-            fill(&mut annexes, cloud.len(), method.threads, annex);
-        }
-        if HEAT {
-            fill(&mut wall_temperature, cloud.len(), method.threads, |i| self.wall_below(i));
-        }
-        let densities = cloud.density.clone();
         let pass = Continuity::<HEAT, MOMENTS> {
             images: &method.images,
-            records: &records,
-            densities: &densities,
-            annexes: &annexes,
-            wall_temperature: &wall_temperature,
+            records: &self.records,
+            densities: &self.densities,
+            annexes: &self.annexes,
+            wall_temperature: &self.walls,
             normalisation: method.normalisation,
             diffusion: method.diffusion,
             conduction: method.conduction,
         };
+        let heat = method.units.energy() / method.heat_unit;
         let parts = self.cloud.parts(PART);
         let mut parts: Vec<_> = parts.into_iter().map(|part| (part, Vec::new())).collect();
         for_parts(
             &pass,
             &self.neighbours.blocks,
-            (method.kernel, method.precision, method.threads),
+            (method.kernel, method.precision),
+            self.team,
             &mut parts,
-            |(part, heated), rates| {
+            |(part, gifts), rates| {
                 for (k, rate) in rates.iter().enumerate() {
                     method.change::<MOMENTS>(part, k, rate, dt);
                     if HEAT && rate.temperature[1] != 0.0 {
-                        heated.push((part.first + k, rate.temperature[1]));
+                        let heat = -heat * part.mass[k] * dt * rate.temperature[1];
+                        let at = method.place(part.position[k]);
+                        gifts.push(Gift { at, heat, impulse: [0.0; 3] });
                     }
                 }
+                drift(part, 0.5 * dt);
+                method.rebound(part, gifts);
             },
         );
-        let heated: Vec<_> = parts.into_iter().flat_map(|(_, heated)| heated).collect();
-        let heat = method.units.energy() / method.heat_unit;
-        for (i, by_wall) in heated {
-            self.give(i, -heat * self.cloud.mass[i] * dt * by_wall, [0.0; 3]);
-        }
-        (self.records, self.annexes) = (records, annexes);
-    }
-
-    /// Temperature of the wall below a particle; the particle's own where it has no wall near.
-    fn wall_below(&self, i: usize) -> f64 {
-        match &self.method.wall {
-            Some(cells) if self.cloud.position[i][2] < 1.0 => {
-                let [x, y] = self.place(i);
-                let share = cells.share(x, y);
-                share.cells.iter().map(|&(cell, weight)| weight * self.wall_temperature[cell]).sum()
-            }
-            _ => self.cloud.temperature[i],
-        }
+        let gifts: Vec<Gift> = parts.into_iter().flat_map(|(_, gifts)| gifts).collect();
+        gifts.into_iter().for_each(|gift| self.give(gift));
     }
 
     /// Accelerations for the velocities after `dt` under those of the step before.
@@ -381,8 +435,8 @@ impl<'a> Stepper<'a> {
         let method = self.method;
         let cloud = &*self.cloud;
         let mut records = std::mem::take(&mut self.records);
-        fill(&mut records, cloud.len(), method.threads, |i| {
-            record(cloud, i, self.ahead(i, dt), pressure(cloud.density[i]))
+        fill(&mut records, cloud.len(), self.team, |i| {
+            record(cloud, i, ahead(cloud, i, dt, method.gravity), pressure(cloud.density[i]))
         });
         let pass = Momentum {
             images: &method.images,
@@ -394,7 +448,7 @@ impl<'a> Stepper<'a> {
         let memory = std::mem::take(&mut self.accelerations);
         let mut acceleration = self.over_pairs(&pass, memory);
         if let Some(setting) = &method.surface {
-            let (pulls, energy) = self.free_surface.pulls(setting, self.cloud);
+            let (pulls, energy) = self.free_surface.pulls(setting, self.cloud, self.team);
             self.pull(&mut acceleration, pulls);
             let images = copies(method.mirrors);
             self.ledger.surface_energy = images * method.units.energy() * energy;
@@ -435,24 +489,8 @@ impl<'a> Stepper<'a> {
         pass: &P,
         memory: Vec<P::Output>,
     ) -> Vec<P::Output> {
-        let Method { kernel, precision, threads, .. } = *self.method;
-        for_all(pass, &self.neighbours.blocks, kernel, precision, threads, memory)
-    }
-
-    /// A particle that meets its image at a plane exchanges its place with it: exactly what two mirror
-    /// images do that pass through each other.
-    fn rebound(&mut self) {
-        let momentum = self.method.units.mass() * self.method.units.speed;
-        for i in 0..self.cloud.len() {
-            let below = self.cloud.position[i][2] < 0.0;
-            let signs = self.method.images.put_back(&mut self.cloud.position[i]);
-            (0..3).for_each(|a| self.cloud.velocity[i][a] *= signs[a]);
-            // Without a wall there is nothing that gets it.
-            if below && signs[2] < 0.0 {
-                let impulse = -2.0 * momentum * self.cloud.mass[i] * self.cloud.velocity[i][2];
-                self.give(i, 0.0, [0.0, 0.0, impulse]);
-            }
-        }
+        let Method { kernel, precision, .. } = *self.method;
+        for_all(pass, &self.neighbours.blocks, (kernel, precision), self.team, memory)
     }
 
     /// Moves particles from crowded places to empty ones.
@@ -461,13 +499,13 @@ impl<'a> Stepper<'a> {
         if !self.method.shifts {
             return;
         }
-        let fullness: Vec<f64> = self.cloud.moment.iter().map(least_eigenvalue).collect();
-        // After sorting there are no lists yet.
-        self.list(&vec![[0.0; 3]; self.cloud.len()], 1.0);
-        let method = self.method;
+        let (method, team) = (self.method, self.team);
+        // At the beginning and after sorting there are no lists yet.
+        self.list(&Ways::none(self.cloud.len()));
         let cloud = &*self.cloud;
-        let records: Vec<[f64; 8]> =
-            (0..cloud.len()).map(|i| record(cloud, i, [0.0; 3], fullness[i])).collect();
+        let fullness = team.map(cloud.len(), |i| least_eigenvalue(&cloud.moment[i]));
+        let mut records = std::mem::take(&mut self.records);
+        fill(&mut records, cloud.len(), team, |i| record(cloud, i, [0.0; 3], fullness[i]));
         let value = |q: f64| method.kernel.value(q, 1.0, method.dimension) / method.normalisation;
         let pass = Crowding {
             images: &method.images,
@@ -476,16 +514,13 @@ impl<'a> Stepper<'a> {
             reference: 1.0 / value(method.spacing),
         };
         let sums = self.over_pairs(&pass, Vec::new());
-        let shifts: Vec<[f64; 3]> = sums
-            .iter()
-            .zip(&fullness)
-            .map(|(sums, &fullness)| displacement(sums, fullness, way))
-            .collect();
-        self.list(&shifts, 1.0);
-        for (x, shift) in self.cloud.position.iter_mut().zip(&shifts) {
-            (0..3).for_each(|a| x[a] += shift[a]);
+        let shifts = team.map(sums.len(), |i| displacement(&sums[i], fullness[i], way));
+        self.records = records;
+        self.list(&Ways::along(&shifts, f64::INFINITY, team));
+        team.for_each(&mut self.cloud.position, |i, x| {
+            (0..3).for_each(|a| x[a] += shifts[i][a]);
             method.images.put_back(x);
-        }
+        });
     }
 
     fn check(&self) -> Result<(), Failure> {
@@ -512,7 +547,7 @@ impl<'a> Stepper<'a> {
 }
 
 /// What free surfaces of a plan are computed with.
-fn surface(plan: &DropletPlan, tension: f64, images: &Images, threads: usize) -> Setting {
+fn surface(plan: &DropletPlan, tension: f64, images: &Images) -> Setting {
     let cosine = plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos());
     let spacing = 1.0 / plan.support;
     let energy = SurfaceEnergy::of(tension, cosine, plan.kernel, spacing, plan.dimension);
@@ -522,7 +557,13 @@ fn surface(plan: &DropletPlan, tension: f64, images: &Images, threads: usize) ->
         images: images.clone(),
         kernel: plan.kernel,
         precision: plan.precision,
-        threads,
+    }
+}
+
+/// Moves particles along their velocities.
+fn drift(part: &mut Part, dt: f64) {
+    for (x, v) in part.position.iter_mut().zip(&*part.velocity) {
+        (0..3).for_each(|a| x[a] += dt * v[a]);
     }
 }
 
@@ -530,14 +571,18 @@ fn surface(plan: &DropletPlan, tension: f64, images: &Images, threads: usize) ->
 fn fill<T: Copy + Default + Send>(
     list: &mut Vec<T>,
     count: usize,
-    threads: usize,
+    team: &Team,
     number: impl Fn(usize) -> T + Sync,
 ) {
     list.resize(count, T::default());
-    let mut parts: Vec<&mut [T]> = list.chunks_mut(PART).collect();
-    parallel::for_each(threads, &mut parts, |p, part| {
-        part.iter_mut().enumerate().for_each(|(k, place)| *place = number(p * PART + k));
-    });
+    team.for_each(list, |i, place| *place = number(i));
+}
+
+/// Velocity of a particle after `dt` under the accelerations of the step before.
+fn ahead(cloud: &Cloud, i: usize, dt: f64, gravity: [f64; 3]) -> [f64; 3] {
+    let (v, [a, b]) = (cloud.velocity[i], cloud.acceleration[i]);
+    let along = |n: usize| v[n] + dt * (a[n] + b[n] + gravity[n]);
+    [along(0), along(1), along(2)]
 }
 
 /// Whether some numbers are not all the same.

@@ -9,27 +9,30 @@ use crate::kernel::{Kernel, Shape};
 /// Support radius h of the smoothed volume fraction over the distance of particles: at 3 the energy of
 /// a lattice that is cut along steps is 2 % above that of its plane surfaces, here half of that.
 const REACH: f64 = 4.0;
-/// Volume fractions between which surfaces are counted: beyond them are single particles, and the
-/// unevenness of the bulk.
-const FRACTIONS: [f64; 2] = [0.0, 0.95];
-/// Least fraction that makes a difference.
+/// Volume fraction c above which no surfaces are counted, so that the unevenness of the bulk has no
+/// energy.
+const FULL: f64 = 0.95;
+/// Volume fraction below which surfaces have no weight to speak of.
 const FAINTEST: f64 = 0.035;
 /// Share of 1/h below which a gradient of the volume fraction has no certain direction.
 const FAINT: f64 = 0.01;
 
 /// The energy of free and wetted surface.
 ///
-/// With the smoothed volume fraction `C(x) = Σ V_j W(x − x_j)`, of support radius h, the area of its
-/// surfaces between two fractions, each counted with a weight f of `∫ f dC = 1`, is a volume integral
-/// (coarea formula, Federer 1959, Trans. Am. Math. Soc. 93, 418–491, doi 10.2307/1993504), so that
+/// With the smoothed volume fraction `C(x) = Σ V_j W(x − x_j)`, of support radius h and volumes at rest,
+/// the area of its surfaces of equal C, each with a weight f of `∫ f dC = 1`, is an integral over
+/// space (coarea formula, Federer 1959, Trans. Am. Math. Soc. 93, 418–491, doi 10.2307/1993504):
 ///
-/// `E = σ ∫ f(C) |∇C| dV − σ cos θ ∫ F(C) dA`,  `F = ∫ f dC`,  `f = 6 s (1 − s)/(c₁ − c₀)`,
-/// `s = (C − c₀)/(c₁ − c₀)` between c₀ and c₁,
+/// `E = σ ∫ f(C) |∇C| dV − σ cos θ ∫ F(C) dA`,  `F = ∫ f dC`,  `f = 60 s² (1 − s)³/c`,  `s = C/c`,
 ///
 /// the second part over the wall z = 0 with contact angle θ (Young 1805, Phil. Trans. R. Soc. 95,
-/// 65–87, doi 10.1098/rstl.1805.0005). Both integrals are sums over points of a grid, see
-/// [`FreeSurface`](super::free_surface::FreeSurface), and forces are the exact derivatives of the sums.
-/// f is symmetric about C = ½, so that E of a sphere has no term in its curvature; nothing is fitted.
+/// 65–87, doi 10.1098/rstl.1805.0005). Both are sums over points of a grid, see
+/// [`FreeSurface`](super::free_surface::FreeSurface), and forces the exact derivatives of the sums.
+/// A plane surface has the energy σ a unit of area with nothing fitted; that of a sphere of radius R
+/// is counted Δx/4 outside of it.
+///
+/// The outermost particles have to be pressed onto the others, or they come loose and take the energy
+/// of the flow: f begins and ends smoothly, and favours the outer surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SurfaceEnergy {
     /// σ over ρ₀c₀²H, and cos θ.
@@ -73,8 +76,7 @@ impl SurfaceEnergy {
     pub fn is_near(&self, fraction: &Fraction, distance: f64) -> bool {
         // Twice the slope, for it grows towards the surface; unevenness besides.
         let change = 2.0 * norm(fraction.gradient, 0.0) * distance + 0.03;
-        let [low, high] = FRACTIONS;
-        fraction.value + change > low + FAINTEST && fraction.value - change < high
+        fraction.value + change > FAINTEST && fraction.value - change < FULL
     }
 
     /// Of a point that stands for a volume in the space above the wall.
@@ -105,12 +107,13 @@ fn norm([x, y, z]: [f64; 3], least: f64) -> f64 {
 
 /// F, f and f′ of a volume fraction.
 fn weights(fraction: f64) -> [f64; 3] {
-    let [low, high] = FRACTIONS;
-    let width = high - low;
-    let s = ((fraction - low) / width).clamp(0.0, 1.0);
-    let inside = s > 0.0 && s < 1.0;
-    let change = if inside { 6.0 * (1.0 - 2.0 * s) / (width * width) } else { 0.0 };
-    [s * s * (3.0 - 2.0 * s), 6.0 * s * (1.0 - s) / width, change]
+    let s = (fraction / FULL).clamp(0.0, 1.0);
+    let (t, width) = (1.0 - s, FULL);
+    [
+        s * s * s * (15.0 - 30.0 * s + 21.0 * s * s - 5.0 * s * s * s),
+        15.0 * s * s * t * t * (1.0 + 2.0 * t) / width,
+        30.0 * s * t * ((1.0 + 2.0 * t) * (t - s) - s * t) / (width * width),
+    ]
 }
 
 /// Volume fractions at points among the particles.
