@@ -50,6 +50,7 @@ fn impact(resolution: f64) -> DropletPlan {
         wall: Some(Wall {
             cells: WallCells::Rings { count: RINGS, radius: 1.5e-4 },
             contact_angle: 0.5 * PI,
+            effusivity: None,
         }),
     }
 }
@@ -245,7 +246,7 @@ fn contact_heat(spacing: f64) -> f64 {
     plan.fluid.sound_speed = 5.0;
     plan.fluid.viscosity = 1e-2;
     let cells = WallCells::Tiles { count: [1, 1], size: [1e-3, 1e-3] };
-    plan.wall = Some(Wall { cells, contact_angle: 0.5 * PI });
+    plan.wall = Some(Wall { cells, contact_angle: 0.5 * PI, effusivity: None });
     let drop = DropletSph::new(plan, 1);
     let mut block = ParticleFields::default();
     let count = |length: f64| (length / spacing).round() as usize;

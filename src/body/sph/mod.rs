@@ -25,6 +25,7 @@ mod shifting;
 mod spread;
 mod stepper;
 mod tension;
+mod thin_layer;
 mod units;
 mod wall;
 mod wetting;

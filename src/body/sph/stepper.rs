@@ -20,6 +20,7 @@ use super::neighbours::Neighbours;
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
 use super::tension::{Surface, SurfaceEnergy, SurfaceSums};
+use super::thin_layer::ThinLayer;
 use super::units::{Units, pressure};
 use super::wall::WallCells;
 use super::wetting;
@@ -51,6 +52,7 @@ pub struct Method {
     spacing: f64,
     shifts: bool,
     wall: Option<WallCells>,
+    thin_layer: Option<ThinLayer>,
     threads: usize,
 }
 
@@ -109,6 +111,7 @@ impl Method {
             spacing: 1.0 / plan.support,
             shifts: plan.shifting,
             wall: plan.wall.as_ref().map(|wall| wall.cells.clone()),
+            thin_layer: ThinLayer::of(plan, &units),
             threads,
         }
     }
@@ -326,6 +329,8 @@ impl<'a> Stepper<'a> {
         if HEAT {
             fill(&mut wall_temperature, cloud.len(), method.threads, |i| self.wall_below(i));
         }
+        let exchange = self.ledger.exchange.duration;
+        let thin_layer = method.thin_layer.map(|layer| layer.between_exchanges(exchange));
         let pass = Continuity::<HEAT, MOMENTS> {
             images: &method.images,
             records: &records,
@@ -343,8 +348,13 @@ impl<'a> Stepper<'a> {
             (method.kernel, method.precision, method.threads),
             &mut parts,
             |(part, heated), rates| {
-                for (k, rate) in rates.iter().enumerate() {
-                    method.change::<MOMENTS>(part, k, rate, dt);
+                for (k, mut rate) in rates.into_iter().enumerate() {
+                    if HEAT && let Some(layer) = &thin_layer {
+                        let (height, temperature) = (part.position[k][2], part.temperature[k]);
+                        let wall = wall_temperature[part.first + k];
+                        rate.temperature[1] += layer.heating(height, temperature, wall, dt);
+                    }
+                    method.change::<MOMENTS>(part, k, &rate, dt);
                     if HEAT && rate.temperature[1] != 0.0 {
                         heated.push((part.first + k, rate.temperature[1]));
                     }
