@@ -159,6 +159,15 @@ fn contact_with_a_held_wall() {
             study.add(&format!("Δx = layer/{fineness}"), 1.0 / fineness, errors);
         }
         study.print();
+        if case.thin {
+            // At any spacing; what is left of the temperatures is of second order.
+            let [least, most] = study.range(&[0, 1, 2]);
+            assert!(least > -0.01 && most < 0.02, "{title}: {least} {most}");
+            assert!(study.order(3) > 1.7 && study.finest(3) < 5e-3, "{title}");
+        } else {
+            study.require(&[1, 2, 3], 1.3, 6e-3);
+            assert!(study.order(1) > 1.8, "{title}");
+        }
     }
     keep("contact_wall.csv", "kind,fineness,early_heat,heat,flux,temperatures", table);
 }
@@ -243,6 +252,13 @@ fn contact_with_a_plate() {
             );
         }
         study.print();
+        if thin {
+            let [least, most] = study.range(&[1, 2, 3, 4, 5]);
+            assert!(least > -0.015 && most < 0.02, "{least} {most}");
+            assert!(study.finest(2) < 1e-3);
+        } else {
+            study.require(&[1, 2, 4, 5], 1.3, 6e-3);
+        }
     }
     keep("contact_plate.csv", "thin,fineness,time,flux,temperature", table);
     let coarse = Joint { fineness: 0.5, ..usual };
