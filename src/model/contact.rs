@@ -128,7 +128,8 @@ impl Contact {
 ///   space under a constant flux (H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*,
 ///   Oxford 1959, §2.9 (7)),
 ///
-/// but no shorter than a time step of the droplet.
+/// but no shorter than a time step of the droplet. The larger flux of a layer thinner than Δx is bounded for
+/// itself.
 fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan, time_step: f64) -> f64 {
     let flow = droplet.spacing / droplet.fastest_flow();
     let reach = CHANGE_BETWEEN_EXCHANGES * effusivity(plan) * droplet.spacing;
