@@ -248,6 +248,26 @@ fn a_warmer_wall_takes_less_heat() {
     assert!(alike.abs() < 1e-9 * cold, "{alike}");
 }
 
+/// The first step of a drop on a poor conductor, whose surface a half space's heat would drive far beyond the
+/// drop's temperature.
+#[test]
+fn a_wall_of_known_effusivity_gets_no_more_than_it_can_answer() {
+    const EFFUSIVITY: f64 = 400.0;
+    let flux = |key: &str| {
+        let text = wall(RINGS).replace("under =", &format!("{key}\nunder ="));
+        let mut trial = Trial::new(&(drop("") + &text));
+        let fluxes = (0..5).map(|_| {
+            trial.step(1e-7);
+            trial.get("wall.heat_flux[1]")
+        });
+        fluxes.fold(0.0, f64::max)
+    };
+    let answer = |flux: f64| 2.0 * flux * (1e-7 / PI).sqrt() / EFFUSIVITY;
+    let [held, solid] = ["", &format!("effusivity = {EFFUSIVITY:?}")].map(flux).map(answer);
+    // A quarter of the difference of temperatures, and what images take.
+    assert!(held > 60.0 && (10.0..25.0).contains(&solid), "{held} K, {solid} K");
+}
+
 #[test]
 fn nothing_has_happened_before_the_first_step() {
     let mut trial = Trial::new(&(drop("") + &wall(RINGS)));

@@ -69,7 +69,10 @@ impl DropletModel {
             (None, Some(wall)) => cells_of(&scene.wall[wall].footprint),
             (None, None) => None,
         };
-        let effusivity = contact.as_ref().map(Contact::effusivity);
+        let effusivity = match (&contact, wall) {
+            (Some(contact), _) => Some(contact.effusivity()),
+            (None, wall) => wall.and_then(|wall| scene.wall[wall].effusivity),
+        };
         let mut notes = notes(droplet);
         notes.extend(contact.as_ref().map(Contact::note));
         let below = match (contact, wall) {
