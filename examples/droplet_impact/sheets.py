@@ -78,7 +78,7 @@ def draw_drop(drops: list[dict], folder: Path):
             c=drop["temperature"][near] - shared.ZERO_CELSIUS,
             s=3,
             cmap="coolwarm",
-            vmin=70,
+            vmin=85,
             vmax=100,
         )
         panel.set(aspect="equal", xlim=(-REACH, REACH), ylim=(0, 105), ylabel="z / µm")
