@@ -48,6 +48,7 @@ verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent fin
 	cargo test --release --features verification --test verification -- --nocapture --test-threads 1
 	$(BIN)/python tests/verification/particles.py target/tmp out/verification/particles.png
 	$(BIN)/python tests/verification/flows.py target/tmp out/verification
+	$(BIN)/python tests/verification/contact.py target/tmp out/verification/contact.png
 	$(BIN)/python tests/verification/tension.py target/tmp out/verification
 	$(BIN)/python tests/verification/spread.py target/tmp out/verification
 	$(BIN)/python tests/verification/independent_code.py

@@ -161,7 +161,8 @@ impl Model {
         }
         let mut droplets = Vec::new();
         for (name, droplet) in scene.droplets() {
-            let (particles, time_step) = DropletSph::forecast(&droplets::plan_of(droplet, None));
+            let (particles, time_step) =
+                DropletSph::forecast(&droplets::plan_of(droplet, None, None));
             let threads = resolve_threads(threads, particles >= PARTICLES_WORTH_THREADS);
             most_threads = most_threads.max(threads);
             let contact = contact_of(scene, (name, droplet), &bodies, time_step);

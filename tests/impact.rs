@@ -93,6 +93,8 @@ fn the_force_of_the_drop_goes_through_the_plate() {
     let field = "[[field]]\nname = \"below\"\non = \"plate.bottom\"\ngrid = [50, 50]\ngives = \
                  [\"stress\"]\n";
     let text = drop("") + &plate(BOX, "auto", 10.0, "") + &probe(0.0) + field;
+    // As cold as the plate, which would else swell.
+    let text = text.replace("initial_temperature = 350.0", "initial_temperature = 300.0");
     let mut trial = Trial::new(&text);
     steps(&mut trial, 8, 1e-7);
     let force = trial.get("drop.force");
@@ -120,7 +122,8 @@ fn a_quarter_and_the_whole_say_the_same() {
     let quarter = values("precision = \"double\"", "quarter");
     let whole = values("precision = \"double\"\nsymmetry = \"none\"", "none");
     for (a, b) in quarter.into_iter().zip(whole) {
-        assert!(off(a, b) < 1e-4, "{quarter:?} {whole:?}");
+        // The two plates have other nodes.
+        assert!(off(a, b) < 2e-4, "{quarter:?} {whole:?}");
     }
 }
 
@@ -145,6 +148,27 @@ fn a_disc_and_a_box_take_the_same_heat() {
         (trial.get("drop.heat"), trial.get("plate.max_temperature"))
     });
     assert!(off(on_disc.0, on_box.0) < 0.02, "{on_disc:?} {on_box:?}");
+}
+
+/// A coarse drop, whose particles are fifteen times as thick as the thermal layer, on plates into which
+/// heat goes more and less easily than into the drop.
+#[test]
+fn the_surface_takes_the_contact_temperature_and_nothing_beyond() {
+    let effusivity = |conductivity: f64, capacity: f64| (conductivity * capacity).sqrt();
+    for conductivity in [10.0, 0.05] {
+        let text = drop("") + &plate(BOX, "auto", conductivity, "traction = false") + &probe(0.0);
+        let mut trial = Trial::new(&text.replace("depth_spacing = 1e-6", "depth_spacing = 2e-7"));
+        let (mut mean, mut highest) = (0.0, 0.0_f64);
+        for _ in 0..8 {
+            trial.step(1e-7);
+            mean += (trial.get("spot.temperature") - 300.0) / 8.0;
+            highest = highest.max(trial.get("plate.max_temperature"));
+        }
+        let [water, solid] = [effusivity(0.6, 4.18e6), effusivity(conductivity, 3950.0 * 900.0)];
+        let contact = 50.0 * water / (water + solid);
+        assert!((0.5..1.3).contains(&(mean / contact)), "{conductivity}: {mean} K of {contact} K");
+        assert!(highest < 350.0, "{conductivity}: {highest} K");
+    }
 }
 
 #[test]
@@ -222,6 +246,26 @@ fn a_warmer_wall_takes_less_heat() {
     let [cold, warm, alike] = [300.0, 325.0, 350.0].map(heat);
     assert!(off(warm, 0.5 * cold) < 1e-3, "{cold} {warm}");
     assert!(alike.abs() < 1e-9 * cold, "{alike}");
+}
+
+/// The first step of a drop on a poor conductor, whose surface a half space's heat would drive far beyond the
+/// drop's temperature.
+#[test]
+fn a_wall_of_known_effusivity_gets_no_more_than_it_can_answer() {
+    const EFFUSIVITY: f64 = 400.0;
+    let flux = |key: &str| {
+        let text = wall(RINGS).replace("under =", &format!("{key}\nunder ="));
+        let mut trial = Trial::new(&(drop("") + &text));
+        let fluxes = (0..5).map(|_| {
+            trial.step(1e-7);
+            trial.get("wall.heat_flux[1]")
+        });
+        fluxes.fold(0.0, f64::max)
+    };
+    let answer = |flux: f64| 2.0 * flux * (1e-7 / PI).sqrt() / EFFUSIVITY;
+    let [held, solid] = ["", &format!("effusivity = {EFFUSIVITY:?}")].map(flux).map(answer);
+    // A quarter of the difference of temperatures, and what images take.
+    assert!(held > 60.0 && (10.0..25.0).contains(&solid), "{held} K, {solid} K");
 }
 
 #[test]

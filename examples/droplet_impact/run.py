@@ -134,9 +134,9 @@ def draw_plate(axes, result: Result):
     for values, depth in zip(result.temperatures.T, DEPTHS.values(), strict=True):
         plot.plot(times, values, label="surface" if depth == 0 else f"{depth} µm deep")
     plot.axhline(CONTACT, **shared.CLOSED_FORM, label="two half spaces")
-    plot.set(ylabel="temperature / °C")
+    plot.set(ylabel="temperature / °C", ylim=(None, 65.0))
     plot.set_title("The heat comes and stays")
-    plot.legend()
+    plot.legend(loc="upper left", ncols=2)
     plot = axes[1]
     stress_times = result.stress_times * 1e6
     plot.plot(stress_times, result.stresses[:, 0] / 1e6, "o-", label=r"$\sigma_{xx}$ at the centre")

@@ -14,6 +14,7 @@ import shared  # noqa: E402
 DIAMETER, TIME = 100.0, 2.0  # µm, µs: the drop and the time in which it flies that far
 SHARES = np.arange(0.25, 1.76, 0.25)  # of TIME
 REACH, DEPTH = 250.0, 22.0  # µm
+MIDDLE = 40.0  # µm, radius of what counts as the middle of the surface
 COLOURS = shared.plt.cm.viridis(np.linspace(0, 0.92, len(SHARES)))
 
 
@@ -54,6 +55,9 @@ class Plate:
         temperature = arrays["temperature"].reshape(shape) - shared.ZERO_CELSIUS
         stress = 1e-6 * arrays["von_mises"].reshape(shape)
         self.temperature, self.stress = temperature[top, middle], stress[top, middle]
+        weights = np.outer(np.gradient(y), np.gradient(self.x))
+        weights[np.hypot(*np.meshgrid(self.x, y)) > MIDDLE] = 0.0
+        self.mean_temperature = np.average(temperature[top], weights=weights)
         self.deep_temperature = temperature[:, middle, centre]
         self.deep_stress = stress[:, middle, centre]
 
@@ -114,6 +118,7 @@ def report(plates: list[Plate]):
     head = [
         "t U/D",
         "centre/°C",
+        "middle/°C",
         "warmest/°C",
         "warm patch/D",
         "centre/MPa",
@@ -125,6 +130,7 @@ def report(plates: list[Plate]):
         order = np.argsort(plate.depth)
         values = [
             plate.deep_temperature[order[0]],
+            plate.mean_temperature,
             plate.temperature.max(),
             plate.patch(),
             plate.deep_stress[order[0]],

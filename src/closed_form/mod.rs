@@ -7,6 +7,7 @@
 //! | [`half_space_surface`] | half space with sudden surface temperature, or sudden convection |
 //! | [`gaussian_flux`] | half space under a Gaussian flux, at rest or moving |
 //! | [`contact`] | two half spaces brought together |
+//! | [`spreading_film`] | film of fluid that spreads over a wall |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
 //! | [`constrained_layer`] | step heating of a laterally constrained surface |
 //! | [`free_plate`] | free plate, temperature through the thickness |
@@ -33,6 +34,7 @@ pub mod medium;
 pub mod quadrature;
 pub mod slab;
 pub mod special;
+pub mod spreading_film;
 pub mod square_plate;
 pub mod thick_cylinder;
 
@@ -50,5 +52,6 @@ pub use half_space_surface::{ConvectiveSurface, SuddenSurface};
 pub use heated_disc::{LongCylinder, ThinDisc};
 pub use medium::{Conductor, Elastic};
 pub use slab::HeatedSlab;
+pub use spreading_film::flux_over_rest;
 pub use square_plate::SquarePlate;
 pub use thick_cylinder::ThickCylinder;

@@ -19,6 +19,7 @@ pub struct Contact {
     /// Longest time between two exchanges [s].
     interval: f64,
     face: TopFace,
+    effusivity: f64,
     initial_temperature: f64,
     geometry: Geometry,
     /// Planes in which the droplet mirrors itself.
@@ -38,6 +39,7 @@ impl Contact {
             solid,
             interval: interval(coupling, droplet, plan, time_step),
             face: TopFace::of(&plan.mesh),
+            effusivity: effusivity(plan),
             initial_temperature: plan.initial_temperature,
             geometry: plan.mesh.geometry,
             symmetric: droplet.mirrors(),
@@ -47,6 +49,11 @@ impl Contact {
 
     pub fn cells(&self) -> WallCells {
         self.face.cells()
+    }
+
+    /// √(kρc) of the solid [W √s/(m² K)].
+    pub fn effusivity(&self) -> f64 {
+        self.effusivity
     }
 
     /// Number of equal parts of a step of `dt` [s], each with one exchange.
@@ -121,13 +128,17 @@ impl Contact {
 ///   space under a constant flux (H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*,
 ///   Oxford 1959, §2.9 (7)),
 ///
-/// but no shorter than a time step of the droplet.
+/// but no shorter than a time step of the droplet. The larger flux of a layer thinner than Δx is bounded for
+/// itself.
 fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan, time_step: f64) -> f64 {
     let flow = droplet.spacing / droplet.fastest_flow();
-    let effusivity = (plan.law.conductivity * plan.law.heat_capacity()).sqrt();
-    let reach = CHANGE_BETWEEN_EXCHANGES * effusivity * droplet.spacing;
+    let reach = CHANGE_BETWEEN_EXCHANGES * effusivity(plan) * droplet.spacing;
     let heat = PI * (reach / (4.0 * droplet.fluid.conductivity)).powi(2);
     coupling.interval.unwrap_or_else(|| flow.min(heat).max(time_step))
+}
+
+fn effusivity(plan: &Plan) -> f64 {
+    (plan.law.conductivity * plan.law.heat_capacity()).sqrt()
 }
 
 /// Where a droplet spreads: as far as it is expected to, but no faster than it arrives.

@@ -30,7 +30,7 @@ const PARTICLE_RATE: f64 = 1.4e6;
 impl DropletForecast {
     /// Estimates without building the droplet.
     pub(super) fn of(scene: &Scene, name: &str, droplet: &Droplet) -> Self {
-        let (particles, time_step) = DropletSph::forecast(&droplets::plan_of(droplet, None));
+        let (particles, time_step) = DropletSph::forecast(&droplets::plan_of(droplet, None, None));
         let threads =
             resolve_threads(scene.solver.threads, particles >= PARTICLES_WORTH_THREADS) as f64;
         let contact = scene.coupling_from(name).and_then(|index| {

@@ -69,6 +69,10 @@ impl DropletModel {
             (None, Some(wall)) => cells_of(&scene.wall[wall].footprint),
             (None, None) => None,
         };
+        let effusivity = match (&contact, wall) {
+            (Some(contact), _) => Some(contact.effusivity()),
+            (None, wall) => wall.and_then(|wall| scene.wall[wall].effusivity),
+        };
         let mut notes = notes(droplet);
         notes.extend(contact.as_ref().map(Contact::note));
         let below = match (contact, wall) {
@@ -81,7 +85,7 @@ impl DropletModel {
         };
         Self {
             name: name.to_owned(),
-            droplet: DropletSph::new(plan_of(droplet, cells), threads),
+            droplet: DropletSph::new(plan_of(droplet, cells, effusivity), threads),
             below,
             copies: droplet.mirrors().iter().map(|&m| if m { 2.0 } else { 1.0 }).product(),
             rest: Rest { density: droplet.fluid.density, temperature: droplet.initial_temperature },
@@ -218,7 +222,11 @@ fn a_time(amount: f64, exchange: &WallExchange) -> f64 {
 }
 
 /// What the engine builds a droplet from, above the cells of a wall or none.
-pub fn plan_of(droplet: &Droplet, cells: Option<WallCells>) -> DropletPlan {
+pub fn plan_of(
+    droplet: &Droplet,
+    cells: Option<WallCells>,
+    effusivity: Option<f64>,
+) -> DropletPlan {
     let fluid = &droplet.fluid;
     let releases = droplet.arrivals.iter().map(|arrival| Release {
         time: arrival.time,
@@ -249,7 +257,11 @@ pub fn plan_of(droplet: &Droplet, cells: Option<WallCells>) -> DropletPlan {
         mirrors: droplet.mirrors(),
         extents: [Extent::Open; 3],
         releases: releases.collect(),
-        wall: cells.map(|cells| sph::Wall { cells, contact_angle: fluid.contact_angle }),
+        wall: cells.map(|cells| sph::Wall {
+            cells,
+            contact_angle: fluid.contact_angle,
+            effusivity,
+        }),
     }
 }
 

@@ -133,6 +133,11 @@ pub struct Wall {
     pub under: String,
     /// Rings or tiles, centred on the origin.
     pub footprint: Footprint,
+    /// √(kρc) of the solid to which a master takes the heat [W √s/(m² K)], which then bounds the heat of first
+    /// contact by what the solid's surface can answer within a step; left out for a wall whose
+    /// temperature is held.
+    #[serde(default)]
+    pub effusivity: Option<f64>,
     #[serde(default)]
     pub start: WallStart,
 }

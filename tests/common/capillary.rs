@@ -88,7 +88,7 @@ pub fn on_wall(across: f64, angle: f64) -> (DropletSph, Vec<f64>) {
     let drop = DropletSph::new(
         DropletPlan {
             mirrors: [true, false],
-            wall: Some(Wall { cells, contact_angle: angle }),
+            wall: Some(Wall { cells, contact_angle: angle, effusivity: None }),
             ..plan(2, across, 1e-2)
         },
         1,

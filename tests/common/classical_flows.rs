@@ -110,7 +110,7 @@ impl Setup {
             mirrors: [false; 2],
             extents: self.extents,
             releases: Vec::new(),
-            wall: self.cells.map(|cells| Wall { cells, contact_angle: 0.5 * PI }),
+            wall: self.cells.map(|cells| Wall { cells, contact_angle: 0.5 * PI, effusivity: None }),
         }
     }
 }

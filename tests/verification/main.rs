@@ -11,6 +11,8 @@ mod classical_flows;
 #[path = "../common/mod.rs"]
 #[allow(dead_code)]
 mod common;
+mod conduction;
+mod contact;
 mod elasticity;
 mod flows;
 mod heat;

@@ -82,6 +82,7 @@ fn drop_of(weber: f64, resolution: usize) -> DropletSph {
         wall: Some(Wall {
             cells: WallCells::Rings { count: 1, radius: 5.0 * DIAMETER },
             contact_angle: CONTACT_ANGLE,
+            effusivity: None,
         }),
     };
     DropletSph::new(plan, 2)

@@ -99,6 +99,12 @@ impl Study {
         self.rows.last().map_or(f64::NAN, |(.., errors)| errors[quantity].abs())
     }
 
+    /// Least and largest error of some quantities in all runs.
+    pub fn range(&self, quantities: &[usize]) -> [f64; 2] {
+        let errors = || self.rows.iter().flat_map(|(.., e)| quantities.iter().map(|&q| e[q]));
+        [errors().fold(f64::INFINITY, f64::min), errors().fold(f64::NEG_INFINITY, f64::max)]
+    }
+
     /// Fails unless the named quantities converge at this order at least, first run to last, and
     /// end below this error.
     pub fn require(&self, quantities: &[usize], least_order: f64, most_error: f64) {

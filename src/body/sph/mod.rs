@@ -27,6 +27,7 @@ mod shifting;
 mod spread;
 mod stepper;
 mod tension;
+mod thin_layer;
 mod units;
 mod wall;
 

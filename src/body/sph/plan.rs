@@ -92,4 +92,7 @@ pub struct Wall {
     pub cells: WallCells,
     /// Contact angle of the fluid [rad].
     pub contact_angle: f64,
+    /// `√(kρc)` of a solid below [W √s/(m² K)], whose surface answers after a step; nothing for a wall
+    /// whose temperature is held.
+    pub effusivity: Option<f64>,
 }

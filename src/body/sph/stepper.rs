@@ -23,6 +23,7 @@ use super::order::space_order;
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
 use super::tension::{Pull, SurfaceEnergy};
+use super::thin_layer::ThinLayer;
 use super::units::{Units, pressure};
 use super::wall::WallCells;
 use crate::kernel::Kernel;
@@ -51,6 +52,7 @@ pub struct Method {
     spacing: f64,
     shifts: bool,
     wall: Option<WallCells>,
+    thin_layer: Option<ThinLayer>,
 }
 
 /// Everything of a run between two communication points.
@@ -122,6 +124,7 @@ impl Method {
             spacing: 1.0 / plan.support,
             shifts: plan.shifting,
             wall: plan.wall.as_ref().map(|wall| wall.cells.clone()),
+            thin_layer: ThinLayer::of(plan, &units),
         }
     }
 
@@ -394,12 +397,15 @@ impl<'a> Stepper<'a> {
     /// particles to its end.
     fn change_density<const HEAT: bool, const MOMENTS: bool>(&mut self, dt: f64) {
         let method = self.method;
+        let exchange = self.ledger.exchange.duration;
+        let thin_layer = method.thin_layer.map(|layer| layer.between_exchanges(exchange));
+        let walls = &self.walls;
         let pass = Continuity::<HEAT, MOMENTS> {
             images: &method.images,
             records: &self.records,
             densities: &self.densities,
             annexes: &self.annexes,
-            wall_temperature: &self.walls,
+            wall_temperature: walls,
             normalisation: method.normalisation,
             diffusion: method.diffusion,
             conduction: method.conduction,
@@ -414,8 +420,13 @@ impl<'a> Stepper<'a> {
             self.team,
             &mut parts,
             |(part, gifts), rates| {
-                for (k, rate) in rates.iter().enumerate() {
-                    method.change::<MOMENTS>(part, k, rate, dt);
+                for (k, mut rate) in rates.iter().copied().enumerate() {
+                    if HEAT && let Some(layer) = &thin_layer {
+                        let (height, temperature) = (part.position[k][2], part.temperature[k]);
+                        let wall = walls[part.first + k];
+                        rate.temperature[1] += layer.heating(height, temperature, wall, dt);
+                    }
+                    method.change::<MOMENTS>(part, k, &rate, dt);
                     if HEAT && rate.temperature[1] != 0.0 {
                         let heat = -heat * part.mass[k] * dt * rate.temperature[1];
                         let at = method.place(part.position[k]);

@@ -12,6 +12,9 @@ pub fn check(checker: &mut Checker) {
         load::footprint(checker, &path.at("footprint"), &wall.footprint);
         cells(checker, &path.at("footprint"), &wall.footprint);
         let has_cells = checker.problems.len() == before;
+        let positive = wall.effusivity.is_none_or(|effusivity| effusivity > 0.0);
+        let message = "the effusivity √(kρc) of what lies below is positive";
+        checker.require(positive, &path.at("effusivity"), message, "> 0 (W √s/(m² K))");
         if has_cells {
             temperatures(checker, &path.at("start.temperature"), wall);
         }
