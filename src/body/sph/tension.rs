@@ -264,3 +264,92 @@ fn about<L: Lanes>(point: [f64; 3], block: &Block) -> [L; 3] {
     let [x, y, z] = block.centre;
     lanes([point[0] - x, point[1] - y, point[2] - z])
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_are_an_integral_its_derivative_and_that_of_it() {
+        const STEP: f64 = 1e-6;
+        for fraction in [0.02, 0.2, 0.4, 0.7, 0.93] {
+            let [low, here, high] = [-STEP, 0.0, STEP].map(|step| weights(fraction + step));
+            for n in 0..2 {
+                let slope = (high[n] - low[n]) / (2.0 * STEP);
+                assert!((slope - here[n + 1]).abs() < 1e-6, "{fraction} {slope} {here:?}");
+            }
+        }
+        assert_eq!(weights(-0.1), [0.0; 3]);
+        assert!((weights(1.1)[0] - 1.0).abs() < 1e-14 && weights(1.1)[1] == 0.0);
+    }
+
+    /// Two steps within a layer of particles in a volume 1 each, the way from one layer to the next above
+    /// it, and their gap.
+    struct Layers {
+        steps: [[f64; 2]; 2],
+        aside: [f64; 2],
+        gap: f64,
+    }
+
+    fn cubic() -> Layers {
+        Layers { steps: [[1.0, 0.0], [0.0, 1.0]], aside: [0.0; 2], gap: 1.0 }
+    }
+
+    /// Closest packing along its closest layers, and along its square ones.
+    fn closest() -> [Layers; 2] {
+        let row = 2f64.powf(1.0 / 6.0);
+        let steps = [[row, 0.0], [0.5 * row, 0.75f64.sqrt() * row]];
+        let aside = [0.5 * row, row / 12f64.sqrt()];
+        let triangles = Layers { steps, aside, gap: (2.0f64 / 3.0).sqrt() * row };
+        let steps = [[row, 0.0], [0.0, row]];
+        [triangles, Layers { steps, aside: [0.5 * row; 2], gap: row / 2f64.sqrt() }]
+    }
+
+    /// A plane surface of layers, its energy and the depth at which it is counted.
+    fn surface(layers: &Layers) -> [f64; 2] {
+        const POINTS: i32 = 12;
+        let energy = SurfaceEnergy::of(1.0, 0.0, Kernel::WendlandC2, 1.0, 3);
+        let Layers { steps: [a, b], aside, gap } = layers;
+        let fraction = |x: f64, y: f64, z: f64| {
+            let mut sum = Fraction::default();
+            for k in 0..8 {
+                let k = f64::from(k);
+                for (i, j) in (-8..=8).flat_map(|i| (-8..=8).map(move |j| (i, j))) {
+                    let (i, j) = (f64::from(i), f64::from(j));
+                    // Layers are as wide as needed about the axis, whatever they are moved by.
+                    let shift = [0, 1].map(|n| -k * aside[n]);
+                    let back = (k / 3.0).floor();
+                    let at = [0, 1].map(|n| (i + back) * a[n] + (j + back) * b[n] + shift[n]);
+                    let d = [x - at[0], y - at[1], z + gap * (k + 0.5)];
+                    let r = norm(d, 0.0);
+                    let slope = Kernel::WendlandC2.gradient_factor(r, REACH, 3);
+                    sum.value += Kernel::WendlandC2.value(r, REACH, 3);
+                    (0..3).for_each(|n| sum.gradient[n] += slope * d[n]);
+                }
+            }
+            sum
+        };
+        let step = REACH / f64::from(POINTS);
+        let mut sums = [0.0; 2];
+        for (m, n) in [(0.0, 0.0), (0.5, 0.0), (0.25, 0.5), (0.75, 0.25)] {
+            let [x, y] = [0, 1].map(|axis| m * a[axis] + n * b[axis]);
+            for k in -POINTS..POINTS {
+                let z = step * (f64::from(k) + 0.5);
+                let part = 0.25 * energy.of_free(&fraction(x, y, z), step).energy;
+                sums[0] += part;
+                sums[1] += z * part;
+            }
+        }
+        [sums[0], sums[1] / sums[0]]
+    }
+
+    #[test]
+    fn surfaces_of_all_lattices_have_the_energy_asked_for() {
+        let [triangles, squares] = closest();
+        for layers in [cubic(), triangles, squares] {
+            let [energy, height] = surface(&layers);
+            assert!((energy - 1.0).abs() < 0.012, "{energy}");
+            assert!((0.0..0.25).contains(&height), "{height}");
+        }
+    }
+}
