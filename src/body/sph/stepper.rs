@@ -460,7 +460,7 @@ impl<'a> Stepper<'a> {
         let mut acceleration = self.over_pairs(&pass, memory);
         if let Some(setting) = &method.surface {
             let (pulls, energy) = self.free_surface.pulls(setting, self.cloud, self.team);
-            self.pull(&mut acceleration, pulls);
+            self.pull(&mut acceleration, &pulls);
             let images = copies(method.mirrors);
             self.ledger.surface_energy = images * method.units.energy() * energy;
         }
@@ -473,7 +473,7 @@ impl<'a> Stepper<'a> {
     /// All its force on the fluid across the wall is the wall's, which gets it where images of the grid
     /// pull. Far from a wall it is what rounding and, along z, the grid's place above the wall leave, and
     /// taken from all particles alike.
-    fn pull(&mut self, acceleration: &mut [Accelerations], pulls: Vec<Pull>) {
+    fn pull(&mut self, acceleration: &mut [Accelerations], pulls: &[Pull]) {
         let cloud = &mut *self.cloud;
         let (mut total, mut across, mut mass) = ([0.0; 3], 0.0, 0.0);
         for (Pull { by_fluid, by_wall, .. }, m) in pulls.iter().zip(&cloud.mass) {
@@ -485,14 +485,14 @@ impl<'a> Stepper<'a> {
         let share = if walled { total[2] / across } else { 0.0 };
         let free = [!self.method.mirrors[0], !self.method.mirrors[1], !walled];
         let left = [0, 1, 2].map(|a| if free[a] { total[a] / mass } else { 0.0 });
-        for (i, pull) in pulls.into_iter().enumerate() {
-            let [by_fluid, by_wall] = &mut acceleration[i];
+        self.team.for_each(acceleration, |i, [by_fluid, by_wall]| {
+            let pull = &pulls[i];
             let to_wall = share * pull.by_wall[2].abs();
             (0..3).for_each(|a| by_fluid[a] += pull.by_fluid[a] + pull.by_wall[a] - left[a]);
             by_fluid[2] -= to_wall;
             by_wall[2] += to_wall;
-            cloud.potential[i] = pull.potential;
-        }
+        });
+        self.team.for_each(&mut cloud.potential, |i, potential| *potential = pulls[i].potential);
     }
 
     fn over_pairs<P: PairSum<Output: Clone + Default>>(
