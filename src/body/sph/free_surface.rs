@@ -14,8 +14,8 @@ use crate::math::parallel::Team;
 /// a drop of 28 particles over its diameter, at 6 no more.
 pub const FINENESS: f64 = 6.0;
 /// Reach of the set of points beyond the surface, in steps of the motion against the grid; its bounds.
-const SKIN_STEPS: f64 = 8.0;
-const SKINS: [f64; 2] = [0.05, 0.25];
+const SKIN_STEPS: f64 = 20.0;
+const SKINS: [f64; 2] = [0.1, 0.3];
 
 /// What a model's free surfaces are computed with.
 #[derive(Debug, Clone)]

@@ -14,6 +14,8 @@ const REACH: f64 = 4.0;
 const FULL: f64 = 0.95;
 /// Volume fraction below which surfaces have no weight to speak of.
 const FAINTEST: f64 = 0.035;
+/// How much particles that stand unevenly lower the volume fraction beyond what its slope tells.
+const UNEVENNESS: f64 = 0.03;
 /// Share of 1/h below which a gradient of the volume fraction has no certain direction.
 const FAINT: f64 = 0.01;
 
@@ -74,9 +76,9 @@ impl SurfaceEnergy {
 
     /// Whether the surface may pass within `distance` of a point.
     pub fn is_near(&self, fraction: &Fraction, distance: f64) -> bool {
-        // Twice the slope, for it grows towards the surface; unevenness besides.
-        let change = 2.0 * norm(fraction.gradient, 0.0) * distance + 0.03;
-        fraction.value + change > FAINTEST && fraction.value - change < FULL
+        // Twice the slope, for it grows towards the surface.
+        let change = 2.0 * norm(fraction.gradient, 0.0) * distance;
+        fraction.value + change > FAINTEST && fraction.value - change < FULL + UNEVENNESS
     }
 
     /// Of a point that stands for a volume in the space above the wall.
