@@ -114,8 +114,8 @@ pub fn half_width(angle: f64) -> f64 {
     radius * angle.sin()
 }
 
-/// That of particles.
+/// That of particles: of those of the first layer.
 pub fn found_half_width(particles: &ParticleFields, spacing: f64) -> f64 {
-    let near = particles.position.iter().filter(|x| x[2] < 3.0 * spacing);
+    let near = particles.position.iter().filter(|x| x[2] < 1.5 * spacing);
     (near.map(|x| x[0]).fold(0.0, f64::max) + 0.5 * spacing) / RADIUS
 }

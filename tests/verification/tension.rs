@@ -48,7 +48,7 @@ fn tension_of_a_swinging_drop() {
             println!("{label:8} D/Δx {across}: {lasting:.3}  {left:.2}  {pressure:+.3}");
             assert!((lasting - 1.0).abs() < error, "{label} {across}: {lasting}");
             assert!((pressure - 1.0).abs() < error, "{label} {across}: {pressure}");
-            assert!((0.8..1.0).contains(&left), "{label} {across}: {left}");
+            assert!((0.75..1.0).contains(&left), "{label} {across}: {left}");
         }
     }
 }
@@ -85,6 +85,8 @@ fn tension_of_a_drop_on_a_wall() {
         });
         let asked = half_width(angle);
         println!("{degrees}°: {asked:.3}  {:.3}  {:.3}", found[0], found[1]);
-        assert!((found[1] - asked).abs() < 0.1, "{degrees}");
+        // Two distances of particles, three at the edge of a thin wedge.
+        let error = if degrees < 60.0 { 0.15 } else { 0.1 };
+        assert!((found[1] - asked).abs() < error, "{degrees}");
     }
 }
