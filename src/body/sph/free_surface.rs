@@ -266,7 +266,7 @@ mod tests {
             let kept = surface.pulls(&setting, &cloud, &team).1;
             let anew = pulls(&setting, &cloud).1;
             // Points where the surface is faint may be left out.
-            assert!((kept - anew).abs() < 1e-5 * anew, "{step}: {kept} {anew}");
+            assert!((kept - anew).abs() < 3e-5 * anew, "{step}: {kept} {anew}");
         }
     }
 }

@@ -13,7 +13,7 @@ const REACH: f64 = 4.0;
 /// energy.
 const FULL: f64 = 0.95;
 /// Volume fraction below which surfaces have no weight to speak of.
-const FAINTEST: f64 = 0.035;
+const FAINTEST: f64 = 0.02;
 /// How much particles that stand unevenly lower the volume fraction beyond what its slope tells.
 const UNEVENNESS: f64 = 0.03;
 /// Share of 1/h below which a gradient of the volume fraction has no certain direction.
