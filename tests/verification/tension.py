@@ -26,7 +26,9 @@ def smooth(values):
 
 
 def main(tables, pictures):
-    figure, both = plt.subplots(2, 2, figsize=(11, 7), sharex=True, sharey="row", layout="constrained")
+    figure, both = plt.subplots(
+        2, 2, figsize=(11, 7), sharex=True, sharey="row", layout="constrained"
+    )
     axes = both[0]
     for axis, below, (kind, label) in zip(axes, both[1], LABELS.items(), strict=True):
         for across in (20, 28, 40):
