@@ -313,7 +313,7 @@ pub fn notes(droplet: &Droplet) -> Vec<String> {
     if droplet.fluid.surface_tension == 0.0 {
         notes.push("surface tension is left out: the scene names none".to_owned());
     } else if !droplet.shifts() && droplet.shifting.is_none() {
-        notes.push("particles are not shifted: surface tension keeps their distances".to_owned());
+        notes.push("particles are not shifted: surface tension rules this drop".to_owned());
     }
     if droplet.fluid.conductivity == 0.0 {
         notes.push("heat is left out: the fluid does not conduct any".to_owned());

@@ -50,8 +50,7 @@ pub struct Droplet {
     #[serde(default = "yes")]
     pub corrected_diffusion: bool,
     /// Whether particles are moved from crowded places to empty ones. If nothing is said, they are not
-    /// where surface tension rules (up to a Weber number of 1000), which keeps their distances too and
-    /// with which shifting makes pressure.
+    /// where surface tension rules (up to a Weber number of 1000).
     #[serde(default)]
     pub shifting: Option<bool>,
     /// A copy of the drop for each entry.

@@ -6,13 +6,14 @@ use super::images::Images;
 use super::loops::{Precision, for_all};
 use super::neighbours::{Neighbours, Travelling, Ways};
 use super::order::{BLOCK, Bounds, space_order};
+use super::plan::DropletPlan;
 use super::tension::{Fraction, Fractions, Pull, Pulls, Slopes, SurfaceEnergy};
 use crate::kernel::Kernel;
 use crate::math::parallel::Team;
 
 /// Points of the grid over the support radius of the volume fraction. At 5 the grid slows the flow of
 /// a drop of 28 particles over its diameter, at 6 no more.
-pub const FINENESS: f64 = 6.0;
+const FINENESS: f64 = 6.0;
 /// Reach of the set of points beyond the surface, in steps of the motion against the grid; its bounds.
 const SKIN_STEPS: f64 = 20.0;
 const SKINS: [f64; 2] = [0.1, 0.3];
@@ -25,6 +26,22 @@ pub struct Setting {
     pub images: Images,
     pub kernel: Kernel,
     pub precision: Precision,
+}
+
+impl Setting {
+    /// For a plan with images of the model, and a surface tension over ρ₀c₀²H.
+    pub fn of(plan: &DropletPlan, tension: f64, images: &Images) -> Self {
+        let cosine = plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos());
+        let spacing = 1.0 / plan.support;
+        let energy = SurfaceEnergy::of(tension, cosine, plan.kernel, spacing, plan.dimension);
+        Self {
+            energy,
+            grid: Grid::of(images.ends(), energy.reach / FINENESS, plan.dimension),
+            images: images.clone(),
+            kernel: plan.kernel,
+            precision: plan.precision,
+        }
+    }
 }
 
 /// Points near free surfaces, and their neighbours among the particles.

@@ -20,6 +20,7 @@ const SKIN: f64 = 0.3;
 const SKINS: [f64; 2] = [1e-3, 0.3];
 /// Share of the skin that rounding in single precision could use.
 const MARGIN: f64 = 1e-5;
+
 /// Particles that stand together and all that surrounds them.
 pub struct Block {
     /// Index of the first particle.
@@ -122,9 +123,7 @@ impl Block {
         let [middle, end] = self.ends[k].map(|end| end as usize);
         [start..middle, middle..end].map(|range| self.places[range].as_chunks().0)
     }
-}
 
-impl Block {
     /// Finds the neighbours of the block's particles among what is near the block, of which those from
     /// `wall` on are at the wall.
     fn find_places(&mut self, own: &[[f64; 3]], wall: usize, reach: f64, desk: &mut Desk) {

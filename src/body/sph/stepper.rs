@@ -11,8 +11,7 @@ use super::cloud::{Cloud, Ledger, Part};
 use super::continuity::{Continuity, ContinuityRates};
 use super::deposit::deposit;
 use super::failure::Failure;
-use super::free_surface::{FINENESS, FreeSurface, Setting};
-use super::grid::Grid;
+use super::free_surface::{FreeSurface, Setting};
 use super::images::{Images, copies};
 use super::kick::{DENSITIES, Motion, kick};
 use super::loops::{PART, PairSum, Precision, for_all, for_parts};
@@ -22,7 +21,7 @@ use super::neighbours::{Neighbours, Ways};
 use super::order::space_order;
 use super::plan::DropletPlan;
 use super::shifting::{Crowding, displacement};
-use super::tension::{Pull, SurfaceEnergy};
+use super::tension::Pull;
 use super::thin_layer::ThinLayer;
 use super::units::{Units, pressure};
 use super::wall::WallCells;
@@ -118,7 +117,7 @@ impl Method {
             diffusion: plan.density_diffusion,
             corrects: plan.corrected_diffusion && plan.density_diffusion > 0.0,
             tension,
-            surface: (tension > 0.0).then(|| surface(plan, tension, &images)),
+            surface: (tension > 0.0).then(|| Setting::of(plan, tension, &images)),
             gravity,
             heat_unit: c * c / fluid.specific_heat,
             spacing: 1.0 / plan.support,
@@ -554,20 +553,6 @@ impl<'a> Stepper<'a> {
 
     fn not_finite(&self, quantity: &'static str) -> Failure {
         Failure::NotFinite { quantity, time: self.ledger.time }
-    }
-}
-
-/// What free surfaces of a plan are computed with.
-fn surface(plan: &DropletPlan, tension: f64, images: &Images) -> Setting {
-    let cosine = plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos());
-    let spacing = 1.0 / plan.support;
-    let energy = SurfaceEnergy::of(tension, cosine, plan.kernel, spacing, plan.dimension);
-    Setting {
-        energy,
-        grid: Grid::of(images.ends(), energy.reach / FINENESS, plan.dimension),
-        images: images.clone(),
-        kernel: plan.kernel,
-        precision: plan.precision,
     }
 }
 

@@ -25,13 +25,13 @@ const FAINT: f64 = 0.01;
 /// the area of its surfaces of equal C, each with a weight f of `∫ f dC = 1`, is an integral over
 /// space (coarea formula, Federer 1959, Trans. Am. Math. Soc. 93, 418–491, doi 10.2307/1993504):
 ///
-/// `E = σ ∫ f(C) |∇C| dV − σ cos θ ∫ F(C) dA`,  `F = ∫ f dC`,  `f = 60 s² (1 − s)³/c`,  `s = C/c`,
+/// `E = σ ∫ f(C) |∇C| dV − σ cos θ ∫ F(C) dA`,  `F = ∫ f dC`,  `f = 15 s² (1 − s)² (3 − 2s)/c`,  `s = C/c`,
 ///
 /// the second part over the wall z = 0 with contact angle θ (Young 1805, Phil. Trans. R. Soc. 95,
 /// 65–87, doi 10.1098/rstl.1805.0005). Both are sums over points of a grid, see
 /// [`FreeSurface`](super::free_surface::FreeSurface), and forces the exact derivatives of the sums.
 /// A plane surface has the energy σ a unit of area with nothing fitted; that of a sphere of radius R
-/// is counted Δx/4 outside of it.
+/// is counted Δx/6 outside of it.
 ///
 /// The outermost particles have to be pressed onto the others, or they come loose and take the energy
 /// of the flow: f begins and ends smoothly, and favours the outer surfaces.
