@@ -25,6 +25,8 @@ pub trait Number:
 
     fn max(self, other: Self) -> Self;
 
+    fn sqrt(self) -> Self;
+
     /// `low` where this is below the limit, `high` elsewhere.
     fn choose_below(self, limit: f64, low: Self, high: Self) -> Self;
 }
@@ -40,6 +42,11 @@ macro_rules! number {
             #[inline(always)]
             fn max(self, other: Self) -> Self {
                 if self > other { self } else { other }
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                <$real>::sqrt(self)
             }
 
             #[inline(always)]

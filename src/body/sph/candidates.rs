@@ -1,5 +1,6 @@
 //! Which particles come near to a box: the coarse half of the search for neighbours.
 
+use super::images::Image;
 use super::lanes::WIDTH;
 use super::order::{BLOCK, Bounds};
 
@@ -19,6 +20,19 @@ pub struct Candidates {
     from: usize,
     numbers: Vec<u32>,
     along: [Vec<f32>; 3],
+}
+
+/// Numbers of candidates, in memory that serves for one list after another.
+#[derive(Debug, Default)]
+pub struct Numbers {
+    count: usize,
+    list: Vec<u32>,
+}
+
+impl Numbers {
+    pub fn list(&self) -> &[u32] {
+        &self.list[..self.count]
+    }
 }
 
 /// What is searched: x is near if it comes nearer than `reach` to the box that extends from the
@@ -65,6 +79,25 @@ impl Candidates {
         let mut along = self.along.each_mut().map(|along| &mut along[self.from..]);
         let numbers = &mut self.numbers[self.from..];
         self.count += compress(spots, signs, shift, near, numbers, &mut along);
+    }
+
+    /// Takes what is near of the images of some particles, for a box with this centre.
+    pub fn take_images(&mut self, spots: &Spots, image: &Image, centre: [f64; 3], near: Near) {
+        let origin = image.place(spots.origin);
+        let shift = [0, 1, 2].map(|a| (origin[a] - centre[a]) as f32);
+        let along = spots.along.each_ref().map(|along| &along[..]);
+        self.take(along, image.signs.map(|sign| sign as f32), shift, near);
+    }
+
+    /// Lists the numbers of those that come near to another box, about whose centre they stand displaced
+    /// by `shift`.
+    pub fn narrow(&mut self, shift: [f32; 3], near: Near, numbers: &mut Numbers) {
+        let (_, along) = self.all();
+        let room = along[0].len() + WIDTH;
+        if numbers.list.len() < room {
+            numbers.list.resize(room, 0);
+        }
+        numbers.count = select(along, shift, near, &mut numbers.list);
     }
 
     /// Forgets what was taken before.
@@ -179,6 +212,66 @@ fn compress_avx512(
     found
 }
 
+/// Writes the numbers of points that are near, of whole vectors of them, into a list that is longer by
+/// a vector; how many they are.
+fn select(along: [&[f32]; 3], shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx512f") {
+        // SAFETY: the processor has what the function asks for.
+        return unsafe { select_avx512(along, shift, near, numbers) };
+    }
+    select_each(along, shift, near, numbers)
+}
+
+/// One after the other without a branch: written always, kept if near.
+fn select_each([x, y, z]: [&[f32]; 3], shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
+    let mut found = 0;
+    for (k, ((&x, &y), &z)) in x.iter().zip(y).zip(z).enumerate() {
+        let spot = [x, y, z];
+        let mut square = 0.0;
+        for a in 0..3 {
+            let gap = ((spot[a] + shift[a]).abs() - near.half[a]).max(0.0);
+            square += gap * gap;
+        }
+        numbers[found] = k as u32;
+        found += usize::from(square < near.reach_squared);
+    }
+    found
+}
+
+/// Sixteen at once, with the same roundings.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f")]
+fn select_avx512(along: [&[f32]; 3], shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
+    use std::arch::x86_64::*;
+    let length = along[0].len();
+    let is_whole = length.is_multiple_of(WIDTH) && along.iter().all(|along| along.len() == length);
+    assert!(is_whole && numbers.len() >= length + WIDTH);
+    let ahead = _mm512_set1_epi32(WIDTH as i32);
+    let mut number = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    let mut found = 0;
+    for k in (0..length).step_by(WIDTH) {
+        let mut square = _mm512_setzero_ps();
+        for a in 0..3 {
+            // SAFETY: the slices hold whole vectors.
+            let spot = unsafe { _mm512_loadu_ps(along[a].as_ptr().add(k)) };
+            let at = _mm512_add_ps(spot, _mm512_set1_ps(shift[a]));
+            let away = _mm512_sub_ps(_mm512_abs_ps(at), _mm512_set1_ps(near.half[a]));
+            let gap = _mm512_max_ps(away, _mm512_setzero_ps());
+            square = _mm512_add_ps(square, _mm512_mul_ps(gap, gap));
+        }
+        let kept = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, _mm512_set1_ps(near.reach_squared));
+        // SAFETY: no more were found than there are points so far, and there is a vector more.
+        unsafe {
+            let place = numbers.as_mut_ptr().add(found);
+            _mm512_storeu_epi32(place.cast(), _mm512_maskz_compress_epi32(kept, number));
+        }
+        found += kept.count_ones() as usize;
+        number = _mm512_add_epi32(number, ahead);
+    }
+    found
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -223,5 +316,32 @@ mod tests {
                 assert!(along[0].len() % WIDTH == 0 && along[0][found..].iter().all(|&x| x > 1e30));
             }
         }
+    }
+
+    #[test]
+    fn what_it_is_narrowed_to_is_what_is_nearer() {
+        let number = |i: usize| (i as f64 * 0.754877666).fract();
+        let points: Vec<_> =
+            (0..BLOCK).map(|i| [number(i), number(7 * i + 3), number(13 * i + 5)]).collect();
+        let (spots, mut all) = (Spots::of(&points), Candidates::default());
+        let along = spots.along.each_ref().map(|along| &along[..]);
+        let whole = Near { half: [5.0; 3], reach_squared: 1.0 };
+        all.take(along, [1.0; 3], [0.0; 3], whole);
+        let near = Near { half: [0.1, 0.2, 0.0], reach_squared: 0.09 };
+        let shift = [0.3, -0.2, 0.1];
+        let mut numbers = Numbers::default();
+        all.narrow(shift, near, &mut numbers);
+        let is_near = |p: &[f64; 3]| {
+            let at = [0, 1, 2].map(|a| (p[a] - spots.origin[a]) as f32 + shift[a]);
+            let gap = |a: usize| (at[a].abs() - near.half[a]).max(0.0);
+            (0..3).map(|a| gap(a) * gap(a)).sum::<f32>() < near.reach_squared
+        };
+        let expected: Vec<u32> =
+            (0..BLOCK).filter(|&i| is_near(&points[i])).map(|i| i as u32).collect();
+        assert!(!expected.is_empty() && expected.len() < BLOCK / 2);
+        assert_eq!(numbers.list(), expected);
+        let mut plain = vec![0; 2 * BLOCK];
+        let found = select_each(all.all().1, shift, near, &mut plain);
+        assert_eq!(numbers.list(), &plain[..found]);
     }
 }

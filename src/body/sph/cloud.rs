@@ -16,9 +16,11 @@ pub struct Cloud {
     pub temperature: Vec<f64>,
     /// Rate of the step before.
     pub heating: Vec<f64>,
-    /// By fluid and by the wall.
+    /// By fluid and by the wall, without what follows.
     pub acceleration: Vec<[[f64; 3]; 2]>,
-    /// Surface tension's φ over ρ₀c₀², see [`Pull`](super::tension::Pull).
+    /// By surface tension: by fluid along x, y, z and by the wall along z.
+    pub tension: Vec<[f64; 4]>,
+    /// Surface tension's φ over ρ₀c₀², see [`Pull`](super::pulls::Pull).
     pub potential: Vec<f64>,
     /// Renormalised gradient of the density and the potential.
     pub gradient: Vec<[f64; 3]>,
@@ -36,6 +38,7 @@ pub struct Part<'a> {
     pub temperature: &'a mut [f64],
     pub heating: &'a mut [f64],
     pub acceleration: &'a [[[f64; 3]; 2]],
+    pub tension: &'a [[f64; 4]],
     pub potential: &'a [f64],
     pub gradient: &'a mut [[f64; 3]],
     pub moment: &'a mut [[f64; 6]],
@@ -69,7 +72,7 @@ pub struct Ledger {
 }
 
 /// Numbers of a particle in a flat vector.
-const NUMBERS: usize = 26;
+const NUMBERS: usize = 30;
 /// Numbers that a thread copies at once.
 const COPY: usize = 4096;
 /// Numbers of the ledger before those of its cells.
@@ -96,6 +99,7 @@ impl Cloud {
         let mut temperature = self.temperature.chunks_mut(size);
         let mut heating = self.heating.chunks_mut(size);
         let mut acceleration = self.acceleration.chunks(size);
+        let mut tension = self.tension.chunks(size);
         let mut potential = self.potential.chunks(size);
         let mut gradient = self.gradient.chunks_mut(size);
         let mut moment = self.moment.chunks_mut(size);
@@ -109,6 +113,7 @@ impl Cloud {
                 temperature: temperature.next()?,
                 heating: heating.next()?,
                 acceleration: acceleration.next()?,
+                tension: tension.next()?,
                 potential: potential.next()?,
                 gradient: gradient.next()?,
                 moment: moment.next()?,
@@ -126,6 +131,7 @@ impl Cloud {
         self.temperature.push(temperature);
         self.heating.push(0.0);
         self.acceleration.push([[0.0; 3]; 2]);
+        self.tension.push([0.0; 4]);
         self.potential.push(0.0);
         self.gradient.push([0.0; 3]);
         self.moment.push([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
@@ -141,13 +147,14 @@ impl Cloud {
         permute.apply(&mut self.temperature);
         permute.apply(&mut self.heating);
         permute.apply(&mut self.acceleration);
+        permute.apply(&mut self.tension);
         permute.apply(&mut self.potential);
         permute.apply(&mut self.gradient);
         permute.apply(&mut self.moment);
     }
 
     /// All numbers, list after list.
-    fn numbers(&self) -> [&[f64]; 10] {
+    fn numbers(&self) -> [&[f64]; 11] {
         [
             self.position.as_flattened(),
             self.velocity.as_flattened(),
@@ -156,6 +163,7 @@ impl Cloud {
             &self.temperature,
             &self.heating,
             self.acceleration.as_flattened().as_flattened(),
+            self.tension.as_flattened(),
             &self.potential,
             self.gradient.as_flattened(),
             self.moment.as_flattened(),
@@ -249,6 +257,7 @@ pub fn cloud_of(state: &[f64], cells: usize, team: &Team) -> Cloud {
         temperature: lists.next(|[[number]]| number),
         heating: lists.next(|[[number]]| number),
         acceleration: lists.next(|both| both),
+        tension: lists.next(|[numbers]| numbers),
         potential: lists.next(|[[number]]| number),
         gradient: lists.next(|[numbers]| numbers),
         moment: lists.next(|[numbers]| numbers),
@@ -289,6 +298,7 @@ mod tests {
             cloud.density[last] = 0.01 * x;
             cloud.heating[last] = -x;
             cloud.acceleration[last] = [[x, 1.0, 2.0], [3.0, x, 4.0]];
+            cloud.tension[last] = [7.0, x, 5.0, -x];
             cloud.potential[last] = 0.125 * x;
             cloud.gradient[last] = [0.5, x, 0.25];
             cloud.moment[last] = [x, 1.0, 2.0, 0.1, 0.2, 0.3];

@@ -1,15 +1,18 @@
 //! The grid on both sides of free surfaces over which their energy is summed.
 
 use super::cloud::Cloud;
+use super::field::Field;
+use super::fractions::{Energies, Fractions, Sheet, Slopes, from};
 use super::grid::Grid;
 use super::images::Images;
-use super::loops::{Precision, for_all};
-use super::neighbours::{Neighbours, Travelling, Ways};
+use super::lanes::WIDTH;
+use super::neighbours::Ways;
 use super::order::{BLOCK, Bounds, space_order};
 use super::plan::DropletPlan;
-use super::tension::{Fraction, Fractions, Pull, Pulls, Slopes, SurfaceEnergy};
-use crate::kernel::Kernel;
+use super::pulls::{Pull, Pulls};
+use super::tension::SurfaceEnergy;
 use crate::math::parallel::Team;
+use crate::scene::Precision;
 
 /// Points of the grid over the support radius of the volume fraction. At 5 the grid slows the flow of
 /// a drop of 28 particles over its diameter, at 6 no more.
@@ -17,6 +20,8 @@ const FINENESS: f64 = 6.0;
 /// Reach of the set of points beyond the surface, in steps of the motion against the grid; its bounds.
 const SKIN_STEPS: f64 = 20.0;
 const SKINS: [f64; 2] = [0.1, 0.3];
+/// Bins for whose points particles are looked for at once.
+const TOGETHER: usize = 4;
 
 /// What a model's free surfaces are computed with.
 #[derive(Debug, Clone)]
@@ -24,7 +29,6 @@ pub struct Setting {
     pub energy: SurfaceEnergy,
     pub grid: Grid,
     pub images: Images,
-    pub kernel: Kernel,
     pub precision: Precision,
 }
 
@@ -33,31 +37,42 @@ impl Setting {
     pub fn of(plan: &DropletPlan, tension: f64, images: &Images) -> Self {
         let cosine = plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos());
         let spacing = 1.0 / plan.support;
-        let energy = SurfaceEnergy::of(tension, cosine, plan.kernel, spacing, plan.dimension);
+        let energy = SurfaceEnergy::of(tension, cosine, spacing, plan.dimension);
         Self {
             energy,
-            grid: Grid::of(images.ends(), energy.reach / FINENESS, plan.dimension),
+            grid: Grid::of(images.ends(), energy.smoothing.reach / FINENESS, plan.dimension),
             images: images.clone(),
-            kernel: plan.kernel,
             precision: plan.precision,
+        }
+    }
+
+    fn fractions<'a>(&'a self, cloud: &'a Cloud, field: &'a Field) -> Fractions<'a> {
+        Fractions {
+            field,
+            images: &self.images,
+            positions: &cloud.position,
+            volumes: &cloud.mass,
+            smoothing: self.energy.smoothing,
+            precision: self.precision,
+            origin: mean(&cloud.position, &cloud.mass, &self.grid),
         }
     }
 }
 
-/// Points near free surfaces, and their neighbours among the particles.
+/// Sheets of points near free surfaces.
 ///
 /// Along axes without planes and periods the grid moves with the fluid's centre of mass, so that the
 /// energy depends on no place in space and its forces change no momentum.
 #[derive(Default)]
 pub struct FreeSurface {
-    /// About the grid's origin, and whether they stand for the wall.
-    bases: Vec<([f64; 3], bool)>,
-    points: Vec<[f64; 3]>,
-    round_points: Neighbours,
-    round_particles: Neighbours,
-    /// How far the fluid may still move against the grid; nothing where no points are known.
+    sheets: Vec<Sheet>,
+    /// How many sheets in turn stand together.
+    together: Vec<usize>,
+    /// How far the fluid may still move against the grid; nothing where no sheets are known.
     slack: Option<f64>,
-    fractions: Vec<Fraction>,
+    /// Of all sheets, and what they do to all particles.
+    slopes: Vec<Slopes>,
+    pulls: Vec<Pull>,
 }
 
 impl FreeSurface {
@@ -66,8 +81,7 @@ impl FreeSurface {
         self.slack = None;
     }
 
-    /// Makes sure of all points near surfaces, and of their neighbours, where the particles of `cloud`
-    /// are and on their ways.
+    /// Makes sure of all points near surfaces where the particles of `cloud` are and on their ways.
     pub fn prepare(&mut self, setting: &Setting, cloud: &Cloud, ways: &Ways, team: &Team) {
         let drift = middle_way(ways, cloud, &setting.grid);
         let apart = |way: &Bounds| way.joined(&drift).diagonal();
@@ -78,98 +92,72 @@ impl FreeSurface {
             self.find(setting, cloud, skin, team);
             self.slack = Some(skin - motion);
         }
-        let blocks = self.points.len().div_ceil(BLOCK);
-        let drifts = Ways { of_blocks: vec![drift; blocks], steps: ways.steps };
-        let points = Travelling { points: &self.points, ways: &drifts };
-        let particles = Travelling { points: &cloud.position, ways };
-        self.round_points.prepare_between(points, particles, &setting.images, team);
-        self.round_particles.prepare_between(particles, points, &setting.images, team);
     }
 
-    /// Finds all points that a surface may come to within `skin`.
+    /// Finds all sheets with points that a surface may come to within `skin`.
     fn find(&mut self, setting: &Setting, cloud: &Cloud, skin: f64, team: &Team) {
         let Setting { grid, energy, .. } = setting;
-        let origin = mean(&cloud.position, &cloud.mass, grid);
-        let from_origin = |base: [f64; 3]| [0, 1, 2].map(|a| origin[a] + base[a]);
-        let bins = grid.bins(&cloud.position, origin);
-        let cells: Vec<[i32; 3]> = bins.into_iter().flat_map(|bin| grid.cells(bin)).collect();
-        let middles: Vec<_> = cells.iter().map(|&cell| from_origin(grid.middle(cell))).collect();
+        let field = Field::of(&cloud.position, team);
+        let fractions = setting.fractions(cloud, &field);
+        let bins = grid.bins(&cloud.position, fractions.origin);
+        let middles: Vec<_> = bins.iter().map(|&bin| grid.middle(bin)).collect();
         let order = space_order(&middles, team);
-        let cells: Vec<_> = order.iter().map(|&k| cells[k as usize]).collect();
         let middles: Vec<_> = order.iter().map(|&k| middles[k as usize]).collect();
-        let particles = &cloud.position;
-        let mut neighbours = Neighbours::between(middles.len(), particles, energy.reach, team);
-        let [still, at_rest] = [middles.len(), cloud.len()].map(Ways::none);
-        neighbours.prepare_between(
-            Travelling { points: &middles, ways: &still },
-            Travelling { points: particles, ways: &at_rest },
-            &setting.images,
-            team,
-        );
-        let fractions = fractions(setting, cloud, &middles, &neighbours, team, Vec::new());
-        let reach = grid.cell_radius() + skin;
-        let near = cells.iter().zip(&fractions).filter(|(_, f)| energy.is_near(f, reach));
-        let points: Vec<[i32; 3]> = near.flat_map(|(&cell, _)| grid.points(cell)).collect();
-        let mut bases: Vec<_> = points.iter().map(|&point| (grid.place(point), false)).collect();
-        if energy.wets() {
-            let lowest = points.iter().filter(|point| point[2] == 0);
-            bases.extend(lowest.map(|&point| {
-                let [x, y, _] = grid.place(point);
-                ([x, y, 0.0], true)
-            }));
+        let quarters = fractions.about(&middles, &grid.quarters(), team);
+        let reach = grid.quarter_radius() + skin;
+        let is_near = |&[fraction, length]: &[f64; 2]| energy.is_near(fraction, length, reach);
+        self.sheets.clear();
+        self.together.clear();
+        for (numbers, quarters) in order.chunks(TOGETHER).zip(quarters.chunks(TOGETHER)) {
+            let before = self.sheets.len();
+            for (&k, quarters) in numbers.iter().zip(quarters) {
+                let of_sheets = quarters.chunks(WIDTH / 4);
+                let near = of_sheets.map(|quarters| quarters.iter().any(is_near));
+                self.keep(setting, bins[k as usize], near);
+            }
+            self.together.push(self.sheets.len() - before);
         }
-        let places: Vec<_> = bases.iter().map(|&(base, _)| from_origin(base)).collect();
-        let order = space_order(&places, team);
-        self.bases = order.iter().map(|&k| bases[k as usize]).collect();
-        self.points = order.iter().map(|&k| places[k as usize]).collect();
-        let count = self.points.len();
-        self.round_points = Neighbours::between(count, particles, energy.reach, team);
-        self.round_particles = Neighbours::between(cloud.len(), &self.points, energy.reach, team);
+        self.together.retain(|&count| count > 0);
+    }
+
+    /// Keeps the sheets of a bin that a surface may come to, and what lies in the wall below the lowest.
+    fn keep(&mut self, setting: &Setting, bin: [i32; 3], near: impl Iterator<Item = bool>) {
+        let Setting { grid, energy, .. } = setting;
+        let sheets = grid.sheets(bin).into_iter().zip(near).enumerate();
+        for (n, (middle, _)) in sheets.filter(|&(_, (_, near))| near) {
+            self.sheets.push(Sheet { middle, at_wall: 0 });
+            let below = grid.at_wall(bin).filter(|_| n == 0 && energy.wets());
+            self.sheets.extend(below.map(|(middle, at_wall)| Sheet { middle, at_wall }));
+        }
     }
 
     /// Pull on all particles, and the energy over ρ₀c₀²H^d.
-    pub fn pulls(&mut self, setting: &Setting, cloud: &Cloud, team: &Team) -> (Vec<Pull>, f64) {
-        let Setting { grid, energy, images, kernel, precision } = setting;
-        let origin = mean(&cloud.position, &cloud.mass, grid);
-        for (point, (base, _)) in self.points.iter_mut().zip(&self.bases) {
-            *point = [0, 1, 2].map(|a| origin[a] + base[a]);
-        }
-        let memory = std::mem::take(&mut self.fractions);
-        let round = &self.round_points;
-        self.fractions = fractions(setting, cloud, &self.points, round, team, memory);
-        let (volume, area) = (grid.volume(), grid.area());
-        let slopes: Vec<Slopes> = team.map(self.points.len(), |k| match self.bases[k].1 {
-            true => energy.of_wall(&self.fractions[k], area),
-            false => energy.of_free(&self.fractions[k], volume),
-        });
-        let records: Vec<[f64; 8]> = team.map(self.points.len(), |k| {
-            let ([x, y, z], slopes) = (self.points[k], &slopes[k]);
-            let [a, b, c] = slopes.by_gradient;
-            [x, y, z, a, b, c, slopes.by_fraction, 0.0]
-        });
-        let pass = Pulls { images, records: &records, points: &cloud.position, energy: *energy };
-        let blocks = &self.round_particles.blocks;
-        let pulls = for_all(&pass, blocks, (*kernel, *precision), team, Vec::new());
-        (pulls, slopes.iter().map(|slopes| slopes.energy).sum())
+    pub fn pulls(&mut self, setting: &Setting, cloud: &Cloud, team: &Team) -> (&[Pull], f64) {
+        let Setting { grid, energy, images, precision, .. } = setting;
+        let field = Field::of(&cloud.position, team);
+        let fractions = setting.fractions(cloud, &field);
+        let spread = grid.spread();
+        let energies = Energies { law: *energy, volume: grid.volume(), area: grid.area() };
+        self.slopes.resize(self.sheets.len(), Slopes::default());
+        let sheets = (&self.sheets[..], &self.together[..]);
+        fractions.slopes(sheets, (&energies, &spread), &mut self.slopes, team);
+        let at = |n: u32| from(fractions.origin, self.sheets[n as usize].middle);
+        let all = 0..self.sheets.len() as u32;
+        let pulling: Vec<u32> = all.filter(|&n| !self.slopes[n as usize].are_none()).collect();
+        let middles: Vec<[f64; 3]> = pulling.iter().map(|&n| at(n)).collect();
+        let pass = Pulls {
+            images,
+            smoothing: energy.smoothing,
+            precision: *precision,
+            spread: &spread,
+            sheets: &pulling,
+            middles: &middles,
+            slopes: &self.slopes,
+        };
+        self.pulls.resize(cloud.len(), Pull::default());
+        pass.on(&cloud.position, &mut self.pulls, team);
+        (&self.pulls, self.slopes.iter().map(|slopes| slopes.energy).sum())
     }
-}
-
-fn fractions(
-    setting: &Setting,
-    cloud: &Cloud,
-    points: &[[f64; 3]],
-    neighbours: &Neighbours,
-    team: &Team,
-    memory: Vec<Fraction>,
-) -> Vec<Fraction> {
-    let Setting { images, energy, kernel, precision, .. } = setting;
-    // Volumes are those at rest, so that the energy depends on places alone.
-    let records: Vec<[f64; 8]> = team.map(cloud.len(), |i| {
-        let [x, y, z] = cloud.position[i];
-        [x, y, z, 0.0, 0.0, 0.0, cloud.mass[i], 0.0]
-    });
-    let pass = Fractions { images, records: &records, points, energy: *energy };
-    for_all(&pass, &neighbours.blocks, (*kernel, *precision), team, memory)
 }
 
 /// Mean of a vector of every particle along the axes in which the grid is free; 0 along others.
@@ -211,12 +199,11 @@ mod tests {
         let open = Ends::Planes { near: false, far: None };
         let plane = Ends::Planes { near: true, far: None };
         let ends = [plane, open, plane];
-        let energy = SurfaceEnergy::of(1.0, cosine, Kernel::WendlandC2, SPACING, 3);
+        let energy = SurfaceEnergy::of(1.0, cosine, SPACING, 3);
         let setting = Setting {
             energy,
-            grid: Grid::of(ends, energy.reach / FINENESS, 3),
+            grid: Grid::of(ends, energy.smoothing.reach / FINENESS, 3),
             images: Images::new(ends, true, [0.0; 3]),
-            kernel: Kernel::WendlandC2,
             precision: Precision::Double,
         };
         (setting, cloud)
@@ -225,7 +212,8 @@ mod tests {
     fn pulls(setting: &Setting, cloud: &Cloud) -> (Vec<Pull>, f64) {
         let (team, mut surface) = (Team::new(1), FreeSurface::default());
         surface.prepare(setting, cloud, &Ways::none(cloud.len()), &team);
-        surface.pulls(setting, cloud, &team)
+        let (pulls, energy) = surface.pulls(setting, cloud, &team);
+        (pulls.to_vec(), energy)
     }
 
     #[test]

@@ -1,11 +1,30 @@
 //! Points of a grid along a model's axes.
 
 use super::images::Ends;
+use super::lanes::WIDTH;
+use super::order::Bounds;
 
-/// Points of a bin along each of its edges: bins are what is looked for first.
+/// Points of a bin along each of its edges. Those of two edges are a sheet, which fills a vector.
 const BIN: i32 = 4;
-/// Points along an edge of the cells into which bins are divided.
-const CELL: i32 = 2;
+const _: () = assert!((BIN * BIN) as usize == WIDTH);
+
+/// Places of sixteen points about a middle, and half the extent of them all, along x, y, z.
+#[derive(Debug, Clone)]
+pub struct Spread {
+    pub along: [[f64; WIDTH]; 3],
+    pub half: [f64; 3],
+}
+
+impl Spread {
+    fn of(along: [[f64; WIDTH]; 3]) -> Self {
+        Self { along, half: along.map(|places| places.into_iter().fold(0.0, f64::max)) }
+    }
+
+    /// The box of all points.
+    pub fn bounds(&self, middle: [f64; 3]) -> Bounds {
+        Bounds { low: middle, high: middle }.widened(self.half)
+    }
+}
 
 /// A grid that fits between the planes and into the periods of a model; along open axes it has an
 /// origin that may move.
@@ -67,12 +86,6 @@ impl Grid {
         self.volume() / self.spacing[2]
     }
 
-    /// Half the diagonal of a cell.
-    pub fn cell_radius(&self) -> f64 {
-        let half = |&(a, _): &(usize, Axis)| 0.5 * f64::from(CELL) * self.spacing[a];
-        self.axes.iter().map(|axis| half(axis).powi(2)).sum::<f64>().sqrt()
-    }
-
     /// All bins in which points are, and those beside them, once each.
     pub fn bins(&self, points: &[[f64; 3]], origin: [f64; 3]) -> Vec<[i32; 3]> {
         let bin = |x: &[f64; 3]| {
@@ -83,6 +96,8 @@ impl Grid {
             bin
         };
         let mut bins: Vec<[i32; 3]> = points.iter().map(bin).collect();
+        // Points that stand together follow one another.
+        bins.dedup();
         for &(a, axis) in &self.axes {
             bins.sort_unstable();
             bins.dedup();
@@ -101,46 +116,81 @@ impl Grid {
         bins
     }
 
-    /// The cells of a bin.
-    pub fn cells(&self, bin: [i32; 3]) -> Vec<[i32; 3]> {
-        self.divided(bin, BIN / CELL)
-    }
-
-    /// The points of a cell.
-    pub fn points(&self, cell: [i32; 3]) -> Vec<[i32; 3]> {
-        self.divided(cell, CELL)
-    }
-
-    fn divided(&self, whole: [i32; 3], parts: i32) -> Vec<[i32; 3]> {
-        let mut all = vec![[0; 3]];
-        for &(a, _) in &self.axes {
-            let part = |all: [i32; 3], k: i32| {
-                let mut part = all;
-                part[a] = parts * whole[a] + k;
-                part
-            };
-            all = all.iter().flat_map(|&all| (0..parts).map(move |k| part(all, k))).collect();
+    /// Places of a sheet's points about its middle.
+    pub fn spread(&self) -> Spread {
+        let mut spread = [[0.0; WIDTH]; 3];
+        for (&(a, _), stride) in self.axes.iter().zip([1, BIN as usize]) {
+            for (lane, place) in spread[a].iter_mut().enumerate() {
+                *place = self.spacing[a] * along_bin(lane / stride % BIN as usize);
+            }
         }
-        all
+        Spread::of(spread)
     }
 
-    /// The middle of a cell about the origin.
-    pub fn middle(&self, cell: [i32; 3]) -> [f64; 3] {
-        self.placed(cell, f64::from(CELL))
-    }
-
-    /// A point about the origin.
-    pub fn place(&self, point: [i32; 3]) -> [f64; 3] {
-        self.placed(point, 1.0)
-    }
-
-    fn placed(&self, number: [i32; 3], size: f64) -> [f64; 3] {
-        let mut place = [0.0; 3];
-        for &(a, _) in &self.axes {
-            place[a] = size * self.spacing[a] * (f64::from(number[a]) + 0.5);
+    /// Middles of the quarters of all sheets of a bin about its middle, sheet by sheet. A plane model
+    /// has one sheet a bin, and the others' are points like its.
+    pub fn quarters(&self) -> Spread {
+        let mut quarters = [[0.0; WIDTH]; 3];
+        for (n, &(a, _)) in self.axes.iter().enumerate() {
+            for (lane, place) in quarters[a].iter_mut().enumerate() {
+                *place = self.spacing[a]
+                    * match n {
+                        2 => along_bin(lane / 4),
+                        _ => [-1.0, 1.0][lane >> n & 1],
+                    };
+            }
         }
-        place
+        Spread::of(quarters)
     }
+
+    /// How far the points of a quarter are away from its middle.
+    pub fn quarter_radius(&self) -> f64 {
+        let half = |&(a, _): &(usize, Axis)| 0.5 * self.spacing[a];
+        self.axes.iter().take(2).map(|axis| half(axis).powi(2)).sum::<f64>().sqrt()
+    }
+
+    /// The middle of a bin about the origin.
+    pub fn middle(&self, bin: [i32; 3]) -> [f64; 3] {
+        let mut middle = [0.0; 3];
+        for &(a, _) in &self.axes {
+            middle[a] = f64::from(BIN) * self.spacing[a] * (f64::from(bin[a]) + 0.5);
+        }
+        middle
+    }
+
+    /// Middles of the sheets of a bin about the origin, of which the first is the lowest.
+    pub fn sheets(&self, bin: [i32; 3]) -> Vec<[f64; 3]> {
+        let middle = self.middle(bin);
+        match self.axes.get(2) {
+            None => vec![middle],
+            Some(&(a, _)) => (0..BIN as usize)
+                .map(|k| {
+                    let mut sheet = middle;
+                    sheet[a] += self.spacing[a] * along_bin(k);
+                    sheet
+                })
+                .collect(),
+        }
+    }
+
+    /// The middle of the sheet of which points lie in the wall below a bin's lowest sheet, and how many
+    /// do, from the first on; nothing where the bin is higher.
+    pub fn at_wall(&self, bin: [i32; 3]) -> Option<([f64; 3], usize)> {
+        if bin[2] != 0 {
+            return None;
+        }
+        let [x, y, _] = self.middle(bin);
+        // A sheet of a plane model stands on the wall.
+        Some(match self.axes.len() {
+            2 => ([x, y, -self.spacing[2] * along_bin(0)], BIN as usize),
+            _ => ([x, y, 0.0], WIDTH),
+        })
+    }
+}
+
+/// Place of the k-th point of a bin about its middle, in distances of points.
+fn along_bin(k: usize) -> f64 {
+    k as f64 - 0.5 * f64::from(BIN - 1)
 }
 
 impl Axis {
@@ -175,25 +225,75 @@ mod tests {
         assert_eq!(bins.len(), 3 * 2 * 3);
     }
 
+    /// All points of the sheets of a bin about the origin, in units of their distance.
+    fn points(grid: &Grid, bin: [i32; 3]) -> Vec<[i32; 3]> {
+        let spread = grid.spread();
+        let mut points = Vec::new();
+        for middle in grid.sheets(bin) {
+            for lane in 0..WIDTH {
+                let place = [0, 1, 2].map(|a| (middle[a] + spread.along[a][lane]) / 0.1 - 0.5);
+                points.push(place.map(|x| (1e6 * x).round() as i32));
+            }
+        }
+        points
+    }
+
     #[test]
-    fn cells_hold_the_points_of_their_bin_once() {
+    fn sheets_hold_the_points_of_their_bin_once() {
         for (dimension, count) in [(2, 16), (3, 64)] {
             let grid = Grid::of([OPEN; 3], 0.1, dimension);
-            let cells = grid.cells([-1, 0, 2]);
-            let mut points = Vec::new();
-            for cell in cells {
-                let middle = grid.middle(cell);
-                for point in grid.points(cell) {
-                    let place = grid.place(point);
-                    let square = (0..3).map(|a| (place[a] - middle[a]).powi(2)).sum::<f64>();
-                    assert!(square.sqrt() < 0.5 * grid.cell_radius() + 1e-12);
-                    points.push(point);
+            let along = |a: usize, first: i32| match (dimension, a) {
+                (2, 1) => vec![-500_000],
+                _ => (first..first + 4).map(|k| 1_000_000 * k).collect(),
+            };
+            let mut all = Vec::new();
+            for x in along(0, -4) {
+                for y in along(1, 0) {
+                    all.extend(along(2, 8).into_iter().map(|z| [x, y, z]));
                 }
             }
-            points.sort_unstable();
-            points.dedup();
-            assert_eq!(points.len(), count);
+            let mut found = points(&grid, [-1, 0, 2]);
+            found.sort_unstable();
+            assert_eq!((found.len(), found), (count, all));
             assert!((grid.volume() - 0.1f64.powi(dimension as i32)).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn every_point_of_a_sheet_is_in_a_quarter_of_it() {
+        for dimension in [2, 3] {
+            let grid = Grid::of([OPEN; 3], 0.1, dimension);
+            let (spread, quarters) = (grid.spread(), grid.quarters());
+            let bin = [0, 0, 0];
+            for (n, middle) in grid.sheets(bin).iter().enumerate() {
+                let of_sheet: Vec<[f64; 3]> = (4 * n..4 * n + 4)
+                    .map(|k| [0, 1, 2].map(|a| grid.middle(bin)[a] + quarters.along[a][k]))
+                    .collect();
+                for lane in 0..WIDTH {
+                    let point = [0, 1, 2].map(|a| middle[a] + spread.along[a][lane]);
+                    let away =
+                        |q: &[f64; 3]| (0..3).map(|a| (q[a] - point[a]).powi(2)).sum::<f64>();
+                    let nearest = of_sheet.iter().map(away).fold(f64::INFINITY, f64::min).sqrt();
+                    assert!((nearest - grid.quarter_radius()).abs() < 1e-12);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn points_in_the_wall_lie_below_those_of_the_lowest_sheet() {
+        for (dimension, count) in [(2, 4), (3, WIDTH)] {
+            let grid = Grid::of([OPEN, OPEN, MIRROR], 0.1, dimension);
+            let (bin, spread) = ([1, 0, 0], grid.spread());
+            assert_eq!(grid.at_wall([1, 0, 1]), None);
+            let (middle, points) = grid.at_wall(bin).unwrap();
+            assert_eq!(points, count);
+            let lowest = grid.sheets(bin)[0];
+            for lane in 0..points {
+                let at = |middle: [f64; 3], a: usize| middle[a] + spread.along[a][lane];
+                assert!(at(middle, 2).abs() < 1e-15 && (at(lowest, 2) - 0.05).abs() < 1e-15);
+                assert!((0..2).all(|a| at(middle, a) == at(lowest, a)));
+            }
         }
     }
 }

@@ -72,16 +72,34 @@ impl Motion {
     }
 }
 
+/// For how long accelerations act, over H/c₀.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Times {
+    pub dt: f64,
+    /// Those by surface tension; nothing between their turns.
+    pub tension: Option<f64>,
+}
+
+impl Times {
+    pub const NONE: Self = Self { dt: 0.0, tension: Some(0.0) };
+}
+
 /// Changes velocities by the accelerations, of which those by gravity are the same for all.
-pub fn kick(part: &mut Part, dt: f64, gravity: [f64; 3]) -> Motion {
+pub fn kick(part: &mut Part, times: Times, gravity: [f64; 3]) -> Motion {
     let mut motion = Motion::none();
     for i in 0..part.mass.len() {
         let [by_fluid, by_wall] = part.acceleration[i];
         let mut velocity = part.velocity[i];
         let (mut speed, mut acceleration) = (0.0, 0.0);
+        let (pull, turn) = match times.tension {
+            Some(turn) => (part.tension[i], turn),
+            None => ([0.0; 4], 0.0),
+        };
+        let pulls = [pull[0], pull[1], pull[2] + pull[3]];
         for a in 0..3 {
             let rate = by_fluid[a] + by_wall[a] + gravity[a];
-            velocity[a] += dt * rate;
+            velocity[a] += times.dt * rate + turn * pulls[a];
+            let rate = rate + pulls[a];
             speed += velocity[a] * velocity[a];
             acceleration += rate * rate;
         }
@@ -95,7 +113,7 @@ pub fn kick(part: &mut Part, dt: f64, gravity: [f64; 3]) -> Motion {
         let finite = (x + y + z + speed + part.temperature[i]).is_finite();
         let density = 1.0 + part.density[i];
         motion.sound &= finite && (DENSITIES[0]..DENSITIES[1]).contains(&density);
-        if by_wall != [0.0; 3] {
+        if by_wall != [0.0; 3] || pull[3] != 0.0 {
             motion.pushed.push(part.first + i);
         }
     }

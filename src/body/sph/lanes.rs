@@ -22,7 +22,9 @@ pub type Annex<R> = [R; 4];
 pub trait Lanes: Number {
     type Real: Float + Number + Default + Into<f64> + Send + Sync;
 
-    fn sqrt(self) -> Self;
+    /// These, lane by lane, and one for all.
+    fn of_array(values: &[Self::Real; WIDTH]) -> Self;
+    fn splat(value: Self::Real) -> Self;
     fn to_array(self) -> [Self::Real; WIDTH];
 
     /// A record of differences from an origin.
@@ -109,6 +111,14 @@ impl<R: Float + Number> Number for Array<R> {
     }
 
     #[inline(always)]
+    fn sqrt(mut self) -> Self {
+        for lane in 0..WIDTH {
+            self.0[lane] = Number::sqrt(self.0[lane]);
+        }
+        self
+    }
+
+    #[inline(always)]
     fn choose_below(self, limit: f64, low: Self, mut high: Self) -> Self {
         for lane in 0..WIDTH {
             high.0[lane] = self.0[lane].choose_below(limit, low.0[lane], high.0[lane]);
@@ -121,11 +131,13 @@ impl<R: Float + Number + Default + Into<f64> + Send + Sync> Lanes for Array<R> {
     type Real = R;
 
     #[inline(always)]
-    fn sqrt(mut self) -> Self {
-        for lane in 0..WIDTH {
-            self.0[lane] = self.0[lane].sqrt();
-        }
-        self
+    fn of_array(values: &[R; WIDTH]) -> Self {
+        Self(*values)
+    }
+
+    #[inline(always)]
+    fn splat(value: R) -> Self {
+        Self([value; WIDTH])
     }
 
     #[inline(always)]
@@ -203,6 +215,11 @@ mod avx512 {
         }
 
         #[inline(always)]
+        fn sqrt(self) -> Self {
+            Self(unsafe { _mm512_sqrt_ps(self.0) })
+        }
+
+        #[inline(always)]
         fn choose_below(self, limit: f64, low: Self, high: Self) -> Self {
             Self(unsafe {
                 let below = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(self.0, Self::constant(limit).0);
@@ -215,8 +232,13 @@ mod avx512 {
         type Real = f32;
 
         #[inline(always)]
-        fn sqrt(self) -> Self {
-            Self(unsafe { _mm512_sqrt_ps(self.0) })
+        fn of_array(values: &[f32; WIDTH]) -> Self {
+            Self(unsafe { _mm512_loadu_ps(values.as_ptr()) })
+        }
+
+        #[inline(always)]
+        fn splat(value: f32) -> Self {
+            Self(unsafe { _mm512_set1_ps(value) })
         }
 
         #[inline(always)]

@@ -1,14 +1,17 @@
 //! Loops over pairs of particles: blocks over threads, neighbours over the lanes of a vector.
 
-pub use crate::scene::Precision;
+use std::marker::PhantomData;
+
 use num_traits::Float;
 
+use super::dispatch::{Work, dispatch};
 use super::images::{Images, Source};
-use super::lanes::{Annex, Array, Lanes, Record, WIDTH};
+use super::lanes::{Annex, Lanes, Record, WIDTH};
 use super::neighbours::Block;
 use super::order::BLOCK;
 use crate::kernel::{Kernel, Number, Shape};
 use crate::math::parallel::Team;
+use crate::scene::Precision;
 use crate::with_kernel_shape;
 
 /// Blocks that share one local copy's memory, and their particles.
@@ -135,54 +138,27 @@ pub fn for_parts<P: PairSum, T: Send>(
 ) {
     team.for_pieces(parts, |first, parts| {
         let last = blocks.len().min((first + parts.len()) * GROUP);
-        let work = Work { pass, blocks: &blocks[first * GROUP..last], parts, take: &take };
-        with_kernel_shape!(kernel, S => work.dispatch::<S>(precision));
+        let (blocks, take) = (&blocks[first * GROUP..last], &take);
+        with_kernel_shape!(kernel, S => {
+            let shape = PhantomData::<S>;
+            dispatch(PairWork { pass, blocks, parts, take, shape }, precision);
+        });
     });
 }
 
 /// What one thread does at once.
-struct Work<'a, P, T, F> {
+struct PairWork<'a, P, T, F, S> {
     pass: &'a P,
     /// [`GROUP`] for each part.
     blocks: &'a [Block],
     parts: &'a mut [T],
     take: &'a F,
+    shape: PhantomData<S>,
 }
 
-impl<P: PairSum, T, F: Fn(&mut T, &[P::Output])> Work<'_, P, T, F> {
-    /// Takes the widest instructions that the processor has.
-    fn dispatch<S: Shape>(self, precision: Precision) {
-        if precision == Precision::Double {
-            return self.run::<Array<f64>, S>();
-        }
-        #[cfg(target_arch = "x86_64")]
-        {
-            if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
-                // SAFETY: the processor has what the function asks for.
-                return unsafe { self.run_avx512::<S>() };
-            }
-            if is_x86_feature_detected!("avx2") {
-                // SAFETY: as above.
-                return unsafe { self.run_avx2::<S>() };
-            }
-        }
-        self.run::<Array<f32>, S>();
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx512f,avx512vl")]
-    fn run_avx512<S: Shape>(self) {
-        self.run::<super::lanes::Avx512, S>();
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn run_avx2<S: Shape>(self) {
-        self.run::<Array<f32>, S>();
-    }
-
+impl<P: PairSum, T, F: Fn(&mut T, &[P::Output]), S: Shape> Work for PairWork<'_, P, T, F, S> {
     #[inline(always)]
-    fn run<L: Lanes, S: Shape>(self) {
+    fn run<L: Lanes>(self) {
         let mut local = Local::<L::Real>::default();
         let mut sums = Vec::with_capacity(PART);
         for (part, blocks) in self.parts.iter_mut().zip(self.blocks.chunks(GROUP)) {

@@ -52,21 +52,11 @@ struct Desk {
     places: Vec<u16>,
 }
 
-/// Neighbours of all particles, or those of other points among the particles.
+/// Neighbours of all particles.
 #[derive(Default)]
 pub struct Neighbours {
     pub blocks: Vec<Block>,
-    /// Over the sources.
     tree: BlockTree,
-    /// How far a neighbour may be away.
-    reach: f64,
-}
-
-/// Points that stand in blocks, and where they are about to go.
-#[derive(Clone, Copy)]
-pub struct Travelling<'a> {
-    pub points: &'a [[f64; 3]],
-    pub ways: &'a Ways,
 }
 
 /// Ways that the particles of each block are about to go: the box of them all.
@@ -166,19 +156,11 @@ impl Neighbours {
     /// # Panics
     /// If there are more particles than [`Source::MOST`].
     pub fn of(points: &[[f64; 3]], team: &Team) -> Self {
-        Self::between(points.len(), points, 1.0, team)
-    }
-
-    /// Neighbours within `reach` of some targets among sources; both stand in blocks.
-    ///
-    /// # Panics
-    /// If there are more sources than [`Source::MOST`].
-    pub fn between(targets: usize, sources: &[[f64; 3]], reach: f64, team: &Team) -> Self {
-        let count = sources.len();
+        let count = points.len();
         assert!(count <= Source::MOST, "{count} particles, at most {}", Source::MOST);
-        let block = |b: usize| Block::empty(b * BLOCK, BLOCK.min(targets - b * BLOCK));
-        let blocks = (0..targets.div_ceil(BLOCK)).map(block).collect();
-        Self { blocks, tree: BlockTree::over(sources, team), reach }
+        let block = |b: usize| Block::empty(b * BLOCK, BLOCK.min(count - b * BLOCK));
+        let blocks = (0..count.div_ceil(BLOCK)).map(block).collect();
+        Self { blocks, tree: BlockTree::over(points, team) }
     }
 
     /// Volume that surrounded the blocks when lists were last made, each counted for itself.
@@ -188,39 +170,25 @@ impl Neighbours {
 
     /// Makes the lists hold all neighbours of particles where they are and on their ways.
     pub fn prepare(&mut self, points: &[[f64; 3]], ways: &Ways, images: &Images, team: &Team) {
-        let particles = Travelling { points, ways };
-        self.prepare_between(particles, particles, images, team);
-    }
-
-    /// As [`Self::prepare`], for the sources round targets.
-    pub fn prepare_between(
-        &mut self,
-        targets: Travelling,
-        sources: Travelling,
-        images: &Images,
-        team: &Team,
-    ) {
-        let (aims, drifts) = (&targets.ways.of_blocks, &sources.ways.of_blocks);
-        let motion = widest(aims, drifts, images);
+        let drifts = &ways.of_blocks;
+        let motion = widest(drifts, images);
         team.for_each(&mut self.blocks, |b, block| {
-            block.slack -= span(&aims[b], drifts, &block.surroundings, images);
+            block.slack -= span(&drifts[b], drifts, &block.surroundings, images);
             block.clearance -= motion;
         });
         let is_worn = |block: &Block| !(block.slack >= MARGIN && block.clearance >= MARGIN);
         if !self.blocks.iter().any(is_worn) {
             return;
         }
-        self.tree.refit(sources.points, team);
-        let blocks: Vec<&[[f64; 3]]> = sources.points.chunks(BLOCK).collect();
+        self.tree.refit(points, team);
+        let blocks: Vec<&[[f64; 3]]> = points.chunks(BLOCK).collect();
         let search = Search {
-            targets: targets.points,
-            aims,
-            ways: sources.ways,
+            points,
+            ways,
             spots: team.map(blocks.len(), |b| Spots::of(blocks[b])),
             tree: &self.tree,
             images,
             motion,
-            reach: self.reach,
         };
         let mut worn: Vec<&mut Block> =
             self.blocks.iter_mut().filter(|block| is_worn(block)).collect();
@@ -237,56 +205,58 @@ impl Neighbours {
     }
 }
 
-/// How far any target moves against any source or image at most.
-fn widest(aims: &[Bounds], drifts: &[Bounds], images: &Images) -> f64 {
-    let joined = |all: &[Bounds]| all.iter().copied().reduce(|all, part| all.joined(&part));
-    let (Some(aim), Some(drift)) = (joined(aims), joined(drifts)) else { return 0.0 };
+/// How far any particle moves against any particle or image at most.
+fn widest(drifts: &[Bounds], images: &Images) -> f64 {
+    let all = drifts.iter().copied().reduce(|all, part| all.joined(&part));
+    let Some(drift) = all else { return 0.0 };
     let image = |all: Bounds, &code: &u8| all.joined(&drift.turned(images.get(code)));
-    images.codes().iter().fold(aim, image).diagonal()
+    images.codes().iter().fold(drift, image).diagonal()
 }
 
-/// How far the targets of a block and what surrounds them move against each other at most.
-fn span(aim: &Bounds, drifts: &[Bounds], surroundings: &[(usize, u8)], images: &Images) -> f64 {
+/// How far the particles of a block and what surrounds them move against each other at most.
+fn span(own: &Bounds, drifts: &[Bounds], surroundings: &[(usize, u8)], images: &Images) -> f64 {
     let drift = |&(block, code): &(usize, u8)| drifts[block].turned(images.get(code));
-    surroundings.iter().fold(*aim, |all, part| all.joined(&drift(part))).diagonal()
+    surroundings.iter().fold(*own, |all, part| all.joined(&drift(part))).diagonal()
 }
 
 /// What lists are made from.
 struct Search<'a> {
-    targets: &'a [[f64; 3]],
-    aims: &'a [Bounds],
+    points: &'a [[f64; 3]],
     ways: &'a Ways,
     spots: Vec<Spots>,
     tree: &'a BlockTree,
     images: &'a Images,
     /// How far anything moves against anything at most.
     motion: f64,
-    reach: f64,
 }
 
 impl Search<'_> {
     fn own(&self, block: &Block) -> &[[f64; 3]] {
-        &self.targets[block.first..block.first + block.count]
+        &self.points[block.first..block.first + block.count]
     }
 
     /// Whether only its surroundings are still near a block.
     fn nothing_came_to(&self, block: &Block) -> bool {
         let bounds = Bounds::of(self.own(block).iter().copied());
-        let near = surroundings(&bounds, self.tree, self.images, self.reach + SKINS[1]);
+        let near = surroundings(&bounds, self.tree, self.images, 1.0 + SKINS[1]);
         self.motion < SKINS[1] - MARGIN && near.iter().all(|part| block.surroundings.contains(part))
     }
 
     /// Lists what surrounds a block.
     fn list(&self, block: &mut Block, desk: &mut Desk) {
-        let Search { aims, ways, spots, tree, images, .. } = self;
+        let Search { ways, spots, tree, images, .. } = self;
         let own = self.own(block);
         let bounds = Bounds::of(own.iter().copied());
         block.centre = bounds.centre();
-        block.surroundings = surroundings(&bounds, tree, images, self.reach + SKINS[1]);
-        let aim = &aims[block.first / BLOCK];
-        let motion = span(aim, &ways.of_blocks, &block.surroundings, images);
+        block.surroundings = surroundings(&bounds, tree, images, 1.0 + SKINS[1]);
+        let motion = span(
+            &ways.of_blocks[block.first / BLOCK],
+            &ways.of_blocks,
+            &block.surroundings,
+            images,
+        );
         let skin = skin(motion, ways.steps);
-        let reach = self.reach + skin;
+        let reach = 1.0 + skin;
         if skin > SKINS[1] {
             block.surroundings = surroundings(&bounds, tree, images, reach);
         }
@@ -296,12 +266,8 @@ impl Search<'_> {
         block.sources.clear();
         desk.near_block.clear();
         for &(b, code) in &block.surroundings {
-            let image = images.get(code);
-            let origin = image.place(spots[b].origin);
-            let away = |a: usize| (origin[a] - block.centre[a]) as f32;
-            let (signs, shift) = (image.signs.map(|sign| sign as f32), [away(0), away(1), away(2)]);
-            let along = spots[b].along.each_ref().map(|along| &along[..]);
-            desk.near_block.take(along, signs, shift, Near::to(&bounds, reach));
+            let near = Near::to(&bounds, reach);
+            desk.near_block.take_images(&spots[b], images.get(code), block.centre, near);
             let source = |&k: &u32| Source::new(b * BLOCK + k as usize, code);
             block.sources.extend(desk.near_block.last_numbers().iter().map(source));
             if !images.is_at_wall(code) {
@@ -543,43 +509,6 @@ mod tests {
             neighbours.prepare(&points, &Ways::along(&ways, 100.0, &team), &open, &team);
             points.iter_mut().zip(&ways).for_each(|(x, way)| x[0] += way[0]);
             assert_complete(&points, &neighbours, &open);
-        }
-    }
-
-    #[test]
-    fn other_points_find_their_neighbours_among_particles() {
-        const REACH: f64 = 1.2;
-        let team = Team::new(1);
-        for images in models() {
-            let (mut points, _) = ordered(700);
-            let at: Vec<[f64; 3]> = points[..300].iter().map(|x| x.map(|x| 3.0 - x)).collect();
-            let order = space_order(&at, &team);
-            let at: Vec<_> = order.iter().map(|&i| at[i as usize]).collect();
-            let mut neighbours = Neighbours::between(300, &points, REACH, &team);
-            let way: Vec<_> = (0..700).map(|i| [0.02 * number(i), 0.01, 0.0]).collect();
-            for _ in 0..20 {
-                let (none, ways) = (Ways::none(300), Ways::along(&way, 20.0, &team));
-                let targets = Travelling { points: &at, ways: &none };
-                let sources = Travelling { points: &points, ways: &ways };
-                neighbours.prepare_between(targets, sources, &images, &team);
-                points.iter_mut().zip(&way).for_each(|(x, w)| (0..3).for_each(|a| x[a] += w[a]));
-                for block in &neighbours.blocks {
-                    for (k, point) in at[block.first..block.first + block.count].iter().enumerate()
-                    {
-                        let is_near = |particle: usize, code: u8| {
-                            let other = images.get(code).place(points[particle]);
-                            (0..3).map(|a| (point[a] - other[a]).powi(2)).sum::<f64>()
-                                < REACH * REACH
-                        };
-                        let places = block.neighbours(k).into_iter().flatten().flatten();
-                        let listed = places.filter(|&&place| place > 0);
-                        let sources = listed.map(|&place| block.sources[place as usize - 1]);
-                        let found = sources.filter(|s| is_near(s.particle(), s.code())).count();
-                        let of_code = |&code: &u8| (0..700).filter(|&j| is_near(j, code)).count();
-                        assert_eq!(found, images.codes().iter().map(of_code).sum::<usize>());
-                    }
-                }
-            }
         }
     }
 }

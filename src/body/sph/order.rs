@@ -53,6 +53,14 @@ impl Bounds {
         }
     }
 
+    /// Larger to both sides by `by`.
+    pub fn widened(&self, by: [f64; 3]) -> Self {
+        Self {
+            low: [0, 1, 2].map(|a| self.low[a] - by[a]),
+            high: [0, 1, 2].map(|a| self.high[a] + by[a]),
+        }
+    }
+
     pub fn image(&self, image: &Image) -> Self {
         Self::between(image.place(self.low), image.place(self.high))
     }

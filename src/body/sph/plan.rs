@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::loops::Precision;
 use super::wall::WallCells;
 use crate::kernel::Kernel;
 pub use crate::scene::Placement;
+use crate::scene::Precision;
 
 /// Droplets of one fluid above one wall.
 #[derive(Debug, Clone, PartialEq)]

@@ -13,20 +13,21 @@ use super::deposit::deposit;
 use super::failure::Failure;
 use super::free_surface::{FreeSurface, Setting};
 use super::images::{Images, copies};
-use super::kick::{DENSITIES, Motion, kick};
-use super::loops::{PART, PairSum, Precision, for_all, for_parts};
+use super::kick::{DENSITIES, Motion, Times, kick};
+use super::loops::{PART, PairSum, for_all, for_parts};
 use super::moment::{filled, least_eigenvalue, renormalised};
-use super::momentum::{Accelerations, Momentum};
+use super::momentum::Momentum;
 use super::neighbours::{Neighbours, Ways};
 use super::order::space_order;
 use super::plan::DropletPlan;
+use super::pulls::{Bounded, balanced};
 use super::shifting::{Crowding, displacement};
-use super::tension::Pull;
 use super::thin_layer::ThinLayer;
 use super::units::{Units, pressure};
 use super::wall::WallCells;
 use crate::kernel::Kernel;
 use crate::math::parallel::Team;
+use crate::scene::Precision;
 
 /// Numbers of the method that a plan fixes, without dimension.
 pub struct Method {
@@ -88,10 +89,16 @@ struct Gift {
 const GROWTH: f64 = 1.2;
 /// Share of H/c₀ that a step may take.
 const COURANT: f64 = 0.2;
-/// Shares of H²/ν, √(H/a) and of the shortest capillary wave's period.
+/// Shares of H²/ν, √(H/a) and of √(ρλ³/16πσ), with which the shortest capillary wave passes half its
+/// length λ (Brackbill, Kothe & Zemach 1992, J. Comput. Phys. 100, 335–354, doi
+/// 10.1016/0021-9991(92)90240-Y).
 const DIFFUSIVE: f64 = 0.02;
 const FORCED: f64 = 0.18;
 const CAPILLARY: f64 = 0.25;
+/// Most steps that surface tension acts for at once, as it changes slowly beside sound: impulses between
+/// steps keep its energy (reversible reference system propagator, Tuckerman, Berne & Martyna 1992,
+/// J. Chem. Phys. 97, 1990–2001, doi 10.1063/1.463137).
+const TURN: f64 = 4.0;
 /// Way at the mean speed over H after which particles are moved from crowded places.
 const SHIFT_WAY: f64 = 0.05;
 
@@ -196,10 +203,24 @@ impl Method {
             COURANT / (1.0 + fastest),
             DIFFUSIVE / self.viscosity.max(self.conduction),
             FORCED / most_accelerated.sqrt(),
-            CAPILLARY * (self.spacing.powi(3) / (2.0 * PI * self.tension)).sqrt(),
+            self.capillary_step(),
         ]
         .into_iter()
         .fold(f64::INFINITY, f64::min)
+    }
+
+    /// For the shortest wave that surface tension, smoothed over h, still drives.
+    fn capillary_step(&self) -> f64 {
+        let Some(Setting { energy, .. }) = &self.surface else { return f64::INFINITY };
+        CAPILLARY * (energy.smoothing.reach.powi(3) / (16.0 * PI * self.tension)).sqrt()
+    }
+
+    /// Number of steps that surface tension may act for at once.
+    fn turn(&self, dt: f64) -> f64 {
+        if self.surface.is_none() {
+            return 1.0;
+        }
+        (self.capillary_step() / dt).floor().clamp(1.0, TURN)
     }
 }
 
@@ -262,7 +283,7 @@ impl<'a> Stepper<'a> {
             self.sort();
         }
         let mut rest = duration / method.units.time();
-        let mut motion = self.kick(0.0);
+        let mut motion = self.kick(Times::NONE);
         while rest > 0.0 && self.cloud.len() > 0 {
             let stable = method.stable_step(motion.fastest(), motion.most_accelerated());
             if !stable.is_finite() || stable <= 0.0 {
@@ -271,9 +292,9 @@ impl<'a> Stepper<'a> {
             // Equal steps to the end, so that none is tiny.
             let steps = (rest / stable).ceil();
             let dt = rest / steps;
-            motion = self.step(dt, steps)?;
-            rest = if dt == rest { 0.0 } else { rest - dt };
-            self.ledger.steps += 1.0;
+            let turn = method.turn(dt).min(steps);
+            motion = self.round(dt, turn, steps)?;
+            rest = if turn == steps { 0.0 } else { rest - turn * dt };
         }
         Ok(())
     }
@@ -282,12 +303,33 @@ impl<'a> Stepper<'a> {
     pub fn prime(&mut self) {
         self.sort();
         self.list(&Ways::none(self.cloud.len()));
-        self.accelerate(0.0);
+        self.accelerate(Times::NONE);
+        self.tense();
     }
 
-    /// The first of some steps that are left.
-    fn step(&mut self, dt: f64, steps: f64) -> Result<Motion, Failure> {
-        let motion = self.kick(0.5 * dt);
+    /// Steps, the first of some that are left, between which surface tension does not act: impulses of half
+    /// their time at both ends.
+    fn round(&mut self, dt: f64, turn: f64, steps: f64) -> Result<Motion, Failure> {
+        let impulse = 0.5 * turn * dt;
+        let mut left = turn;
+        let mut motion = None;
+        while left > 0.0 {
+            let begins = (left == turn).then_some(impulse);
+            let ends = (left == 1.0).then_some(impulse);
+            motion = Some(self.step(dt, steps - (turn - left), [begins, ends])?);
+            left -= 1.0;
+        }
+        Ok(motion.expect("a round has a step"))
+    }
+
+    /// The first of some steps that are left, with surface tension at its ends.
+    fn step(
+        &mut self,
+        dt: f64,
+        steps: f64,
+        [begins, ends]: [Option<f64>; 2],
+    ) -> Result<Motion, Failure> {
+        let motion = self.kick(Times { dt: 0.5 * dt, tension: begins });
         let speed = motion.root_mean_square_speed(self.cloud.len(), self.method.mirrors);
         self.ledger.way += dt * speed;
         if self.ledger.way > SHIFT_WAY {
@@ -301,9 +343,14 @@ impl<'a> Stepper<'a> {
         self.list(&ways.times(dt));
         self.depart(dt);
         self.change_density_and_heat(dt);
-        self.accelerate(0.5 * dt);
-        let motion = self.kick(0.5 * dt);
+        let times = Times { dt: 0.5 * dt, tension: ends };
+        self.accelerate(times);
+        if ends.is_some() {
+            self.tense();
+        }
+        let motion = self.kick(times);
         self.ledger.time += dt * self.method.units.time();
+        self.ledger.steps += 1.0;
         if !motion.sound {
             self.check()?;
         }
@@ -346,21 +393,24 @@ impl<'a> Stepper<'a> {
     }
 
     /// Changes velocities by the accelerations, and gives the wall's part to the wall.
-    fn kick(&mut self, dt: f64) -> Motion {
+    fn kick(&mut self, times: Times) -> Motion {
         let gravity = self.method.gravity;
-        let kick = |part: &mut Part| kick(part, dt, gravity);
+        let kick = |part: &mut Part| kick(part, times, gravity);
         let mut motion = Motion::of(self.team.map_each(&mut self.cloud.parts(PART), kick));
-        if dt == 0.0 {
+        if times == Times::NONE {
             return motion;
         }
+        let Times { dt, tension } = times;
         let images = copies(self.method.mirrors);
         let momentum = self.method.units.mass() * self.method.units.speed;
         for (impulse, gravity) in self.ledger.impulse_of_gravity.iter_mut().zip(gravity) {
             *impulse += images * momentum * motion.mass * dt * gravity;
         }
         for i in std::mem::take(&mut motion.pushed) {
-            let by_wall = self.cloud.acceleration[i][1];
-            let impulse = by_wall.map(|a| -momentum * self.cloud.mass[i] * dt * a);
+            let [x, y, z] = self.cloud.acceleration[i][1];
+            let pulled = tension.map_or(0.0, |turn| turn * self.cloud.tension[i][3]);
+            let change = [dt * x, dt * y, dt * z + pulled];
+            let impulse = change.map(|v| -momentum * self.cloud.mass[i] * v);
             let at = self.method.place(self.cloud.position[i]);
             self.give(Gift { at, heat: 0.0, impulse });
         }
@@ -440,13 +490,13 @@ impl<'a> Stepper<'a> {
         gifts.into_iter().for_each(|gift| self.give(gift));
     }
 
-    /// Accelerations for the velocities after `dt` under those of the step before.
-    fn accelerate(&mut self, dt: f64) {
+    /// Accelerations for the velocities after some times under those of the step before.
+    fn accelerate(&mut self, times: Times) {
         let method = self.method;
         let cloud = &*self.cloud;
         let mut records = std::mem::take(&mut self.records);
         fill(&mut records, cloud.len(), self.team, |i| {
-            record(cloud, i, ahead(cloud, i, dt, method.gravity), pressure(cloud.density[i]))
+            record(cloud, i, ahead(cloud, i, times, method.gravity), pressure(cloud.density[i]))
         });
         let pass = Momentum {
             images: &method.images,
@@ -456,42 +506,22 @@ impl<'a> Stepper<'a> {
             viscosity: method.viscosity,
         };
         let memory = std::mem::take(&mut self.accelerations);
-        let mut acceleration = self.over_pairs(&pass, memory);
-        if let Some(setting) = &method.surface {
-            let (pulls, energy) = self.free_surface.pulls(setting, self.cloud, self.team);
-            self.pull(&mut acceleration, &pulls);
-            let images = copies(method.mirrors);
-            self.ledger.surface_energy = images * method.units.energy() * energy;
-        }
+        let acceleration = self.over_pairs(&pass, memory);
         self.accelerations = std::mem::replace(&mut self.cloud.acceleration, acceleration);
         self.records = records;
     }
 
-    /// Adds surface tension, so that it changes no momentum but that of the wall.
-    ///
-    /// All its force on the fluid across the wall is the wall's, which gets it where images of the grid
-    /// pull. Far from a wall it is what rounding and, along z, the grid's place above the wall leave, and
-    /// taken from all particles alike.
-    fn pull(&mut self, acceleration: &mut [Accelerations], pulls: &[Pull]) {
-        let cloud = &mut *self.cloud;
-        let (mut total, mut across, mut mass) = ([0.0; 3], 0.0, 0.0);
-        for (Pull { by_fluid, by_wall, .. }, m) in pulls.iter().zip(&cloud.mass) {
-            (0..3).for_each(|a| total[a] += m * (by_fluid[a] + by_wall[a]));
-            across += m * by_wall[2].abs();
-            mass += m;
-        }
-        let walled = self.method.wall.is_some() && across > 0.0;
-        let share = if walled { total[2] / across } else { 0.0 };
-        let free = [!self.method.mirrors[0], !self.method.mirrors[1], !walled];
-        let left = [0, 1, 2].map(|a| if free[a] { total[a] / mass } else { 0.0 });
-        self.team.for_each(acceleration, |i, [by_fluid, by_wall]| {
-            let pull = &pulls[i];
-            let to_wall = share * pull.by_wall[2].abs();
-            (0..3).for_each(|a| by_fluid[a] += pull.by_fluid[a] + pull.by_wall[a] - left[a]);
-            by_fluid[2] -= to_wall;
-            by_wall[2] += to_wall;
-        });
-        self.team.for_each(&mut cloud.potential, |i, potential| *potential = pulls[i].potential);
+    /// Accelerations by surface tension.
+    fn tense(&mut self) {
+        let method = self.method;
+        let Some(setting) = &method.surface else { return };
+        let (cloud, team) = (&mut *self.cloud, self.team);
+        let (pulls, energy) = self.free_surface.pulls(setting, cloud, team);
+        let bounded = Bounded { mirrors: method.mirrors, walled: method.wall.is_some() };
+        cloud.tension = balanced(pulls, &cloud.mass, bounded, team);
+        team.for_each(&mut cloud.potential, |i, potential| *potential = pulls[i].potential);
+        let images = copies(method.mirrors);
+        self.ledger.surface_energy = images * method.units.energy() * energy;
     }
 
     fn over_pairs<P: PairSum<Output: Clone + Default>>(
@@ -574,11 +604,14 @@ fn fill<T: Copy + Default + Send>(
     team.for_each(list, |i, place| *place = number(i));
 }
 
-/// Velocity of a particle after `dt` under the accelerations of the step before.
-fn ahead(cloud: &Cloud, i: usize, dt: f64, gravity: [f64; 3]) -> [f64; 3] {
+/// Velocity of a particle after some times under the accelerations of the step before.
+fn ahead(cloud: &Cloud, i: usize, times: Times, gravity: [f64; 3]) -> [f64; 3] {
     let (v, [a, b]) = (cloud.velocity[i], cloud.acceleration[i]);
-    let along = |n: usize| v[n] + dt * (a[n] + b[n] + gravity[n]);
-    [along(0), along(1), along(2)]
+    let along = |n: usize| v[n] + times.dt * (a[n] + b[n] + gravity[n]);
+    let velocity = [along(0), along(1), along(2)];
+    let Some(turn) = times.tension else { return velocity };
+    let [x, y, z, by_wall] = cloud.tension[i];
+    [velocity[0] + turn * x, velocity[1] + turn * y, velocity[2] + turn * (z + by_wall)]
 }
 
 /// Whether some numbers are not all the same.

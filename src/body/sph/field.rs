@@ -1,0 +1,76 @@
+//! Points to be searched for those near a box.
+
+use super::candidates::{Candidates, Near, Numbers, Spots};
+use super::images::Image;
+use super::order::{BLOCK, BlockTree, Bounds};
+use crate::math::parallel::Team;
+
+/// Points that stand in blocks.
+pub struct Field {
+    tree: BlockTree,
+    spots: Vec<Spots>,
+}
+
+impl Field {
+    pub fn of(points: &[[f64; 3]], team: &Team) -> Self {
+        let blocks: Vec<_> = points.chunks(BLOCK).collect();
+        let spots = team.map(blocks.len(), |b| Spots::of(blocks[b]));
+        Self { tree: BlockTree::over(points, team), spots }
+    }
+
+    /// Takes the points whose images come nearer to a box than `reach`.
+    pub fn take(&self, (bounds, reach): (&Bounds, f64), image: &Image, nearby: &mut Nearby) {
+        let Nearby { candidates, blocks, indices, .. } = nearby;
+        blocks.clear();
+        self.tree.near(bounds, image, reach, blocks);
+        let (centre, near) = (bounds.centre(), Near::to(bounds, reach));
+        for &b in &*blocks {
+            candidates.take_images(&self.spots[b], image, centre, near);
+            let index = |&k: &u32| (b * BLOCK) as u32 + k;
+            indices.extend(candidates.last_numbers().iter().map(index));
+        }
+    }
+}
+
+/// Points near a box. Its memory serves for one box after another.
+#[derive(Default)]
+pub struct Nearby {
+    pub centre: [f64; 3],
+    candidates: Candidates,
+    blocks: Vec<usize>,
+    indices: Vec<u32>,
+}
+
+impl Nearby {
+    /// Forgets what was near another box.
+    pub fn clear(&mut self, bounds: &Bounds) {
+        self.centre = bounds.centre();
+        self.candidates.clear();
+        self.indices.clear();
+    }
+
+    /// Of all that were taken from fields, in their order.
+    pub fn indices(&self) -> &[u32] {
+        &self.indices
+    }
+
+    /// Takes those of some others that come near to a box within theirs.
+    pub fn narrow(&mut self, others: &mut Nearby, bounds: &Bounds, reach: f64) {
+        self.clear(bounds);
+        let shift = [0, 1, 2].map(|a| (others.centre[a] - self.centre[a]) as f32);
+        let (_, along) = others.candidates.all();
+        self.candidates.take(along, [1.0; 3], shift, Near::to(bounds, reach));
+    }
+
+    /// Numbers of those that come near to a box.
+    pub fn near(&mut self, bounds: &Bounds, reach: f64, numbers: &mut Numbers) {
+        let centre = bounds.centre();
+        let shift = [0, 1, 2].map(|a| (self.centre[a] - centre[a]) as f32);
+        self.candidates.narrow(shift, Near::to(bounds, reach), numbers);
+    }
+
+    /// Of all that were taken from others, numbers in their list.
+    pub fn numbers(&self) -> &[u32] {
+        self.candidates.last_numbers()
+    }
+}

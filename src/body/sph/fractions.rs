@@ -1,0 +1,257 @@
+//! Smoothed volume fractions at the points of a grid, and what their energy asks of the particles.
+
+use super::candidates::Numbers;
+use super::dispatch::{Work, dispatch};
+use super::field::{Field, Nearby};
+use super::grid::Spread;
+use super::images::Images;
+use super::lanes::{Lanes, WIDTH};
+use super::order::{Bounds, GROUP};
+use super::smoothing::{FractionSum, Smoothing};
+use super::tension::SurfaceEnergy;
+use crate::kernel::Number;
+use crate::math::parallel::Team;
+use crate::scene::Precision;
+
+/// Sixteen points of the grid.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Sheet {
+    /// About the grid's origin.
+    pub middle: [f64; 3],
+    /// How many of the points, from the first on, stand for the wall; none where all stand for the space
+    /// above it.
+    pub at_wall: usize,
+}
+
+/// Derivatives of the energy by ∇C and by C at the points of a sheet, and their energy.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Slopes {
+    pub by_gradient: [[f64; WIDTH]; 3],
+    pub by_fraction: [f64; WIDTH],
+    pub energy: f64,
+}
+
+impl Slopes {
+    /// Whether the points have no say.
+    pub fn are_none(&self) -> bool {
+        let mut all = self.by_gradient.iter().flatten().chain(&self.by_fraction);
+        all.all(|&slope| slope == 0.0)
+    }
+}
+
+/// Fractions and lengths of their gradients at sixteen points.
+pub type Sample = [[f64; 2]; WIDTH];
+
+/// The particles of which there are fractions, and the grid.
+pub struct Fractions<'a> {
+    pub field: &'a Field,
+    pub images: &'a Images,
+    pub positions: &'a [[f64; 3]],
+    /// At rest, so that the energy depends on places alone.
+    pub volumes: &'a [f64],
+    pub smoothing: Smoothing,
+    pub precision: Precision,
+    /// Of the grid.
+    pub origin: [f64; 3],
+}
+
+impl Fractions<'_> {
+    /// Fractions and lengths of their gradients at sixteen points about each of some middles.
+    pub fn about(&self, middles: &[[f64; 3]], spread: &Spread, team: &Team) -> Vec<Sample> {
+        let mut samples = vec![[[0.0; 2]; WIDTH]; middles.len()];
+        let mut groups: Vec<_> = middles.chunks(GROUP).zip(samples.chunks_mut(GROUP)).collect();
+        team.for_pieces(&mut groups, |_, groups| {
+            dispatch(Samples { fractions: self, spread, groups }, self.precision);
+        });
+        samples
+    }
+
+    /// Slopes at the points of sheets, of which so many in turn as it says stand together.
+    pub fn slopes(
+        &self,
+        (mut sheets, together): (&[Sheet], &[usize]),
+        (energies, spread): (&Energies, &Spread),
+        mut slopes: &mut [Slopes],
+        team: &Team,
+    ) {
+        let mut groups = Vec::with_capacity(together.len());
+        for &count in together {
+            let group = slopes.split_off_mut(..count).expect("there are slopes for all sheets");
+            groups.push((&sheets[..count], group));
+            sheets = &sheets[count..];
+        }
+        team.for_pieces(&mut groups, |_, groups| {
+            dispatch(SlopesOfSheets { fractions: self, energies, spread, groups }, self.precision);
+        });
+    }
+}
+
+/// The energy of points that stand for a volume, and of those that stand for an area of the wall.
+pub struct Energies {
+    pub law: SurfaceEnergy,
+    pub volume: f64,
+    pub area: f64,
+}
+
+/// Work: fractions and lengths of gradients.
+struct Samples<'a, 'b> {
+    fractions: &'a Fractions<'a>,
+    spread: &'a Spread,
+    groups: &'a mut [(&'b [[f64; 3]], &'b mut [Sample])],
+}
+
+impl Work for Samples<'_, '_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Fractions { smoothing, origin, .. } = *self.fractions;
+        let spread = spread_lanes::<L>(self.spread, smoothing.reach);
+        let mut round = Round::<L::Real>::default();
+        for (middles, samples) in self.groups {
+            let bounds = |middle: &[f64; 3]| self.spread.bounds(from(origin, *middle));
+            round.gather(self.fractions, middles.iter().map(bounds));
+            for (middle, sample) in middles.iter().zip(&mut **samples) {
+                let sum = round.sum::<L>(&bounds(middle), &spread, smoothing.reach);
+                let [value, x, y, z] = fraction(sum, smoothing);
+                let length = (x * x + y * y + z * z).sqrt();
+                let (value, length) = (value.to_array(), length.to_array());
+                for lane in 0..WIDTH {
+                    sample[lane] = [value[lane].into(), length[lane].into()];
+                }
+            }
+        }
+    }
+}
+
+/// Work: slopes of groups of sheets.
+struct SlopesOfSheets<'a, 'b> {
+    fractions: &'a Fractions<'a>,
+    energies: &'a Energies,
+    spread: &'a Spread,
+    groups: &'a mut [(&'b [Sheet], &'b mut [Slopes])],
+}
+
+impl Work for SlopesOfSheets<'_, '_> {
+    #[inline(always)]
+    fn run<L: Lanes>(self) {
+        let Energies { law, volume, area } = self.energies;
+        let Fractions { smoothing, origin, .. } = *self.fractions;
+        let spread = spread_lanes::<L>(self.spread, smoothing.reach);
+        let mut round = Round::<L::Real>::default();
+        for (sheets, slopes) in self.groups {
+            let bounds = |sheet: &Sheet| self.spread.bounds(from(origin, sheet.middle));
+            round.gather(self.fractions, sheets.iter().map(bounds));
+            for (sheet, slopes) in sheets.iter().zip(&mut **slopes) {
+                let sum = round.sum::<L>(&bounds(sheet), &spread, smoothing.reach);
+                let [value, x, y, z] = fraction(sum, smoothing);
+                if sheet.at_wall > 0 {
+                    let (by_fraction, energy) = law.of_wall(value, *area);
+                    let none = L::constant(0.0);
+                    slopes.store(sheet.at_wall, [none, none, none, by_fraction, energy]);
+                } else {
+                    let ([x, y, z], by_fraction, energy) = law.of_free(value, [x, y, z], *volume);
+                    slopes.store(WIDTH, [x, y, z, by_fraction, energy]);
+                }
+            }
+        }
+    }
+}
+
+impl Slopes {
+    /// Takes derivatives by ∇C and C, and the energy, of the first `count` points.
+    #[inline(always)]
+    fn store<L: Lanes>(&mut self, count: usize, [x, y, z, by_fraction, energy]: [L; 5]) {
+        let (by_gradient, energy) = ([x.to_array(), y.to_array(), z.to_array()], energy.to_array());
+        let by_fraction = by_fraction.to_array();
+        *self = Self::default();
+        for lane in 0..count {
+            for (slopes, along) in self.by_gradient.iter_mut().zip(&by_gradient) {
+                slopes[lane] = along[lane].into();
+            }
+            self.by_fraction[lane] = by_fraction[lane].into();
+            self.energy += energy[lane].into();
+        }
+    }
+}
+
+/// A place of the grid that is given about its origin.
+pub fn from(origin: [f64; 3], place: [f64; 3]) -> [f64; 3] {
+    [origin[0] + place[0], origin[1] + place[1], origin[2] + place[2]]
+}
+
+/// C and ∇C.
+#[inline(always)]
+fn fraction<L: Lanes>(sum: FractionSum<L>, smoothing: Smoothing) -> [L; 4] {
+    let [scale, steep] = smoothing.of_fraction();
+    let (scale, steep) = (L::constant(scale), L::constant(steep));
+    let [x, y, z] = sum.gradient;
+    [scale * sum.value, steep * x, steep * y, steep * z]
+}
+
+/// Particles round a box. Its memory serves for one box after another.
+#[derive(Default)]
+struct Round<R> {
+    of_box: Nearby,
+    of_sheet: Numbers,
+    /// Position about the centre, over h, and volume.
+    records: Vec<[R; 4]>,
+}
+
+impl<R: Number> Round<R> {
+    #[inline(always)]
+    fn gather(&mut self, fractions: &Fractions, boxes: impl Iterator<Item = Bounds>) {
+        let bounds = boxes.reduce(|all, one| all.joined(&one)).expect("there is a box");
+        let Fractions { field, images, positions, volumes, smoothing, .. } = *fractions;
+        self.of_box.clear(&bounds);
+        self.records.clear();
+        let ([x, y, z], nearer) = (self.of_box.centre, 1.0 / smoothing.reach);
+        for &code in images.codes() {
+            let image = images.get(code);
+            let before = self.of_box.indices().len();
+            field.take((&bounds, smoothing.reach), image, &mut self.of_box);
+            for &i in &self.of_box.indices()[before..] {
+                let [u, v, w] = image.place(positions[i as usize]);
+                self.records.push([
+                    R::constant(nearer * (u - x)),
+                    R::constant(nearer * (v - y)),
+                    R::constant(nearer * (w - z)),
+                    R::constant(volumes[i as usize]),
+                ]);
+            }
+        }
+    }
+
+    /// Over the particles near sixteen of the points that these are round, which stand at `spread` about
+    /// the middle of their box, in lengths of h.
+    #[inline(always)]
+    fn sum<L: Lanes<Real = R>>(
+        &mut self,
+        bounds: &Bounds,
+        spread: &[L; 3],
+        reach: f64,
+    ) -> FractionSum<L> {
+        self.of_box.near(bounds, reach, &mut self.of_sheet);
+        let (own, mut at) = (bounds.centre(), *spread);
+        for a in 0..3 {
+            at[a] = at[a] + L::constant((own[a] - self.of_box.centre[a]) / reach);
+        }
+        let mut sum = FractionSum::none();
+        for &k in self.of_sheet.list() {
+            sum.add(&at, &self.records[k as usize]);
+        }
+        sum
+    }
+}
+
+/// A spread over h.
+#[inline(always)]
+pub fn spread_lanes<L: Lanes>(spread: &Spread, reach: f64) -> [L; 3] {
+    let mut lanes = [L::constant(0.0); 3];
+    for (lanes, along) in lanes.iter_mut().zip(&spread.along) {
+        let mut places = lanes.to_array();
+        for (place, along) in places.iter_mut().zip(along) {
+            *place = L::Real::constant(along / reach);
+        }
+        *lanes = L::of_array(&places);
+    }
+    lanes
+}

@@ -1,0 +1,114 @@
+//! The smoothed volume fraction and what derives from it: the innermost loops of surface tension.
+
+use super::lanes::{Lanes, WIDTH};
+use crate::kernel::{Kernel, Shape, WendlandC2};
+
+/// The kernel W of support h that smooths. Kernels of which the Fourier transform has zeros, such as
+/// (1 − q²)ⁿ, are blind to unevenness of some wavelengths, and particles come loose.
+///
+/// The sums below take lengths over h and leave out factors that all their terms have.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Smoothing {
+    /// h over H.
+    pub reach: f64,
+    /// σ_d/h^d.
+    scale: f64,
+}
+
+impl Smoothing {
+    pub fn of(reach: f64, dimension: usize) -> Self {
+        Self { reach, scale: Kernel::WendlandC2.scale(reach, dimension) }
+    }
+
+    /// What the sums of [`FractionSum`] have to be multiplied by: C, ∇C.
+    pub fn of_fraction(&self) -> [f64; 2] {
+        [self.scale, self.scale / self.reach]
+    }
+
+    /// What A and b have to be multiplied by for [`SheetSlopes`], and the potential that comes out.
+    pub fn of_pull(&self) -> [f64; 3] {
+        let slope = self.scale / self.reach;
+        [slope / self.reach, slope, self.reach]
+    }
+}
+
+/// Sums over particles at points in lanes: `Σ V w` and `Σ V (w′/q) ξ`, ξ from the particle to the point.
+#[derive(Clone, Copy)]
+pub struct FractionSum<L> {
+    pub value: L,
+    pub gradient: [L; 3],
+}
+
+impl<L: Lanes> FractionSum<L> {
+    #[inline(always)]
+    pub fn none() -> Self {
+        Self { value: L::constant(0.0), gradient: [L::constant(0.0); 3] }
+    }
+
+    /// Adds a particle with its position and volume.
+    #[inline(always)]
+    pub fn add(&mut self, at: &[L; 3], &[x, y, z, volume]: &[L::Real; 4]) {
+        let d = [at[0] - L::splat(x), at[1] - L::splat(y), at[2] - L::splat(z)];
+        let q = length(d);
+        let slope = L::splat(volume) * WendlandC2::slope_over_q(q);
+        self.value = self.value + L::splat(volume) * WendlandC2::value(q);
+        for (sum, d) in self.gradient.iter_mut().zip(d) {
+            *sum = *sum + slope * d;
+        }
+    }
+}
+
+/// Sums over points in lanes, ξ from the particle to the points: the force
+/// `Σ [((w′/q)′/q ξ·a + β w′/q) ξ + (w′/q) a]` and the potential `Σ [(w′/q) ξ·a + β w]`.
+#[derive(Clone, Copy)]
+pub struct PullSum<L> {
+    force: [L; 3],
+    potential: L,
+}
+
+/// Sixteen points: their middle, and a and β.
+#[derive(Debug, Clone, Copy)]
+pub struct SheetSlopes<R> {
+    pub middle: [R; 3],
+    pub by_gradient: [[R; WIDTH]; 3],
+    pub by_fraction: [R; WIDTH],
+}
+
+impl<L: Lanes> PullSum<L> {
+    #[inline(always)]
+    pub fn none() -> Self {
+        Self { force: [L::constant(0.0); 3], potential: L::constant(0.0) }
+    }
+
+    /// Adds a sheet whose points stand at `spread` about its middle.
+    #[inline(always)]
+    pub fn add(&mut self, at: &[L::Real; 3], spread: &[L; 3], sheet: &SheetSlopes<L::Real>) {
+        let mut d = *spread;
+        let mut a = *spread;
+        for n in 0..3 {
+            d[n] = d[n] + (L::splat(sheet.middle[n]) - L::splat(at[n]));
+            a[n] = L::of_array(&sheet.by_gradient[n]);
+        }
+        let b = L::of_array(&sheet.by_fraction);
+        let q = length(d);
+        let slope = WendlandC2::slope_over_q(q);
+        let down = d[0] * a[0] + d[1] * a[1] + d[2] * a[2];
+        let along = WendlandC2::bend_over_q(q) * down + b * slope;
+        for n in 0..3 {
+            self.force[n] = self.force[n] + (along * d[n] + slope * a[n]);
+        }
+        self.potential = self.potential + (slope * down + b * WendlandC2::value(q));
+    }
+
+    /// Force and potential.
+    #[inline(always)]
+    pub fn total(self) -> [f64; 4] {
+        let [x, y, z] = self.force;
+        [x.sum().into(), y.sum().into(), z.sum().into(), self.potential.sum().into()]
+    }
+}
+
+#[inline(always)]
+fn length<L: Lanes>(d: [L; 3]) -> L {
+    (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt()
+}
