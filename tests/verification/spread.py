@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 REYNOLDS = 500.0
-COARSE, FINE = 24, 36  # Particles over the diameter.
+COARSE, FINE = 24, 48  # Particles over the diameter.
 NAMES = {
     "clanet": "Clanet et al. 2004",
     "pasandideh_fard": "Pasandideh-Fard et al. 1996, 90°",
@@ -30,6 +30,13 @@ def correlations(weber):
     }
 
 
+def wildeman(weber):
+    """D_max/D; source in spread.rs."""
+    beta = np.linspace(1.0, 6.0, 5001)[:, None]
+    energy = beta**2 * (3 / weber + 0.7 * np.sqrt((beta - 1) / REYNOLDS))
+    return beta[np.argmin(np.abs(energy - 12 / weber - 0.5), axis=0), 0]
+
+
 def largest(axes, table):
     """Largest spread over the Weber number."""
     weber = np.geomspace(8, 500, 100)
@@ -38,7 +45,16 @@ def largest(axes, table):
     axes.fill_between(weber, low, high, color="0.92", label="between all four")
     for (name, values), style in zip(curves.items(), ["-", "--", "-.", ":"], strict=True):
         axes.plot(weber, values, style, color="0.35", lw=1.5, label=NAMES[name])
-    marks = {16: ("C2", "v"), COARSE: ("C0", "o"), FINE: ("C3", "s"), 48: ("C1", "^")}
+    axes.plot(
+        weber[weber >= 30], wildeman(weber[weber >= 30]), "C4", label="Wildeman et al. 2016, 90°"
+    )
+    marks = {
+        16: ("C2", "v"),
+        COARSE: ("C0", "o"),
+        36: ("C5", "<"),
+        FINE: ("C3", "s"),
+        64: ("C1", "^"),
+    }
     for resolution, (colour, mark) in marks.items():
         run = table[table["resolution"] == resolution]
         label = f"computed, D/Δx = {resolution}"
@@ -70,7 +86,7 @@ def histories(axes, table):
 def shapes(panels, table):
     """Side views of the drops when they are widest."""
     for panel, weber in zip(panels, np.unique(table["weber"]), strict=True):
-        run = table[(table["weber"] == weber) & (table["resolution"] == COARSE)]
+        run = table[(table["weber"] == weber) & (table["resolution"] == FINE)]
         colours = {"c": run["speed"], "vmin": 0, "vmax": 0.5, "cmap": "viridis", "s": 3}
         panel.scatter(run["radius"], run["height"], **colours)
         points = panel.scatter(-run["radius"], run["height"], **colours)
@@ -97,7 +113,7 @@ def main(tables: Path, folder: Path):
     rows[2, 1].axis("off")
     points = shapes(rows.flat[:5], read("spread_shape"))
     lower.colorbar(points, ax=rows, label="speed over U")
-    lower.suptitle(f"Widest shapes from the side, D/Δx = {COARSE}")
+    lower.suptitle(f"Widest shapes from the side, D/Δx = {FINE}")
     figure.savefig(folder / "spread.png", dpi=110)
     print(folder / "spread.png")
 
