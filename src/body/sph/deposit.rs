@@ -2,20 +2,64 @@
 
 use super::cloud::Ledger;
 use super::images::copies;
-use super::wall::{WallCells, WallExchange};
+use super::wall::{WallCells, WallExchange, WallShare};
+use crate::math::parallel::Team;
 
-/// Adds heat [J] and impulse [N s] at a place of the wall and at its images at `mirrors`, which have to
-/// lie in the same cells.
-pub fn deposit(
+/// Heat [J] and impulse [N s] for the wall, and where [m].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gift {
+    pub at: [f64; 2],
+    pub heat: f64,
+    pub impulse: [f64; 3],
+}
+
+impl Gift {
+    /// Where mirrors turn it.
+    fn turned(&self, [along_x, along_y]: [f64; 2]) -> Self {
+        let ([x, y], [u, v, w]) = (self.at, self.impulse);
+        let (at, impulse) = ([along_x * x, along_y * y], [along_x * u, along_y * v, w]);
+        Self { at, impulse, ..*self }
+    }
+}
+
+/// Adds gifts and their images at `mirrors`.
+pub fn give(
+    gifts: &[Gift],
     cells: &WallCells,
     ledger: &mut Ledger,
-    [x, y]: [f64; 2],
-    heat: f64,
-    impulse: [f64; 3],
+    mirrors: [bool; 2],
+    team: &Team,
+) {
+    // All images are equally far out, and push alike along their radius.
+    let (together, apart) = match cells.are_radial() {
+        true => (mirrors, [false; 2]),
+        false => ([false; 2], mirrors),
+    };
+    let sides = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
+    for &along_x in sides(apart[0]) {
+        for &along_y in sides(apart[1]) {
+            let turned = |gift: &Gift| gift.turned([along_x, along_y]);
+            let shares = team.map(gifts.len(), |i| {
+                let [x, y] = turned(&gifts[i]).at;
+                cells.share(x, y)
+            });
+            for (gift, share) in gifts.iter().zip(&shares) {
+                deposit(&turned(gift), share, cells, ledger, together);
+            }
+        }
+    }
+}
+
+/// Adds what is given at one place and at its images at `mirrors`, which have to lie in the same cells.
+fn deposit(
+    gift: &Gift,
+    share: &WallShare,
+    cells: &WallCells,
+    ledger: &mut Ledger,
     mirrors: [bool; 2],
 ) {
+    let Gift { at: [x, y], heat, impulse } = *gift;
     let exchange: &mut WallExchange = &mut ledger.exchange;
-    let share = cells.share(x, y);
     let images = copies(mirrors);
     let (heat, impulse) = (images * heat, impulse.map(|p| images * p));
     ledger.heat_to_wall += heat;

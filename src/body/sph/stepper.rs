@@ -9,7 +9,7 @@ use std::f64::consts::PI;
 
 use super::cloud::{Cloud, Ledger, Part};
 use super::continuity::{Continuity, ContinuityRates};
-use super::deposit::deposit;
+use super::deposit::{Gift, give};
 use super::failure::Failure;
 use super::free_surface::{FreeSurface, Setting};
 use super::images::{Images, copies};
@@ -76,13 +76,8 @@ pub struct Stepper<'a> {
     accelerations: Vec<[[f64; 3]; 2]>,
     /// Free surfaces, where they have tension.
     free_surface: FreeSurface,
-}
-
-/// Heat [J] and impulse [N s] for the wall, and where [m].
-struct Gift {
-    at: [f64; 2],
-    heat: f64,
-    impulse: [f64; 3],
+    /// Kicks of which the wall has not got its part yet.
+    owed: Vec<Times>,
 }
 
 /// Growth of what surrounds the blocks at which the particles are sorted anew.
@@ -248,6 +243,7 @@ impl<'a> Stepper<'a> {
             densities: Vec::new(),
             accelerations: Vec::new(),
             free_surface: FreeSurface::default(),
+            owed: Vec::new(),
         }
     }
 
@@ -296,6 +292,7 @@ impl<'a> Stepper<'a> {
             motion = self.round(dt, turn, steps)?;
             rest = if turn == steps { 0.0 } else { rest - turn * dt };
         }
+        self.pay(&motion.pushed);
         Ok(())
     }
 
@@ -330,6 +327,7 @@ impl<'a> Stepper<'a> {
         [begins, ends]: [Option<f64>; 2],
     ) -> Result<Motion, Failure> {
         let motion = self.kick(Times { dt: 0.5 * dt, tension: begins });
+        self.pay(&motion.pushed);
         let speed = motion.root_mean_square_speed(self.cloud.len(), self.method.mirrors);
         self.ledger.way += dt * speed;
         if self.ledger.way > SHIFT_WAY {
@@ -392,44 +390,44 @@ impl<'a> Stepper<'a> {
         });
     }
 
-    /// Changes velocities by the accelerations, and gives the wall's part to the wall.
+    /// Changes velocities by the accelerations, of which the wall is owed its part.
     fn kick(&mut self, times: Times) -> Motion {
         let gravity = self.method.gravity;
         let kick = |part: &mut Part| kick(part, times, gravity);
-        let mut motion = Motion::of(self.team.map_each(&mut self.cloud.parts(PART), kick));
+        let motion = Motion::of(self.team.map_each(&mut self.cloud.parts(PART), kick));
         if times == Times::NONE {
             return motion;
         }
-        let Times { dt, tension } = times;
         let images = copies(self.method.mirrors);
         let momentum = self.method.units.mass() * self.method.units.speed;
         for (impulse, gravity) in self.ledger.impulse_of_gravity.iter_mut().zip(gravity) {
-            *impulse += images * momentum * motion.mass * dt * gravity;
+            *impulse += images * momentum * motion.mass * times.dt * gravity;
         }
-        for i in std::mem::take(&mut motion.pushed) {
-            let [x, y, z] = self.cloud.acceleration[i][1];
-            let pulled = tension.map_or(0.0, |turn| turn * self.cloud.tension[i][3]);
-            let change = [dt * x, dt * y, dt * z + pulled];
-            let impulse = change.map(|v| -momentum * self.cloud.mass[i] * v);
-            let at = self.method.place(self.cloud.position[i]);
-            self.give(Gift { at, heat: 0.0, impulse });
-        }
+        self.owed.push(times);
         motion
     }
 
-    /// Gives heat and impulse of a particle and of its images at mirrors to the wall.
-    fn give(&mut self, Gift { at: [x, y], heat, impulse }: Gift) {
-        let Some(cells) = &self.method.wall else { return };
-        if cells.are_radial() {
-            // All images are equally far out, and push alike along their radius.
-            return deposit(cells, self.ledger, [x, y], heat, impulse, self.method.mirrors);
-        }
-        let sides = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
-        for &right in sides(self.method.mirrors[0]) {
-            for &back in sides(self.method.mirrors[1]) {
-                let impulse = [right * impulse[0], back * impulse[1], impulse[2]];
-                deposit(cells, self.ledger, [right * x, back * y], heat, impulse, [false; 2]);
-            }
+    /// Gives the wall its part of the kicks since that was last done, between which nothing moved, to
+    /// particles that it pushes.
+    fn pay(&mut self, pushed: &[usize]) {
+        let (method, cloud) = (self.method, &*self.cloud);
+        let owed = std::mem::take(&mut self.owed);
+        let dt: f64 = owed.iter().map(|times| times.dt).sum();
+        let turn: f64 = owed.iter().filter_map(|times| times.tension).sum();
+        let momentum = method.units.mass() * method.units.speed;
+        let gifts = self.team.map(pushed.len(), |k| {
+            let i = pushed[k];
+            let [x, y, z] = cloud.acceleration[i][1];
+            let change = [dt * x, dt * y, dt * z + turn * cloud.tension[i][3]];
+            let impulse = change.map(|v| -momentum * cloud.mass[i] * v);
+            Gift { at: method.place(cloud.position[i]), heat: 0.0, impulse }
+        });
+        self.give(&gifts);
+    }
+
+    fn give(&mut self, gifts: &[Gift]) {
+        if let Some(cells) = &self.method.wall {
+            give(gifts, cells, self.ledger, self.method.mirrors, self.team);
         }
     }
 
@@ -487,7 +485,7 @@ impl<'a> Stepper<'a> {
             },
         );
         let gifts: Vec<Gift> = parts.into_iter().flat_map(|(_, gifts)| gifts).collect();
-        gifts.into_iter().for_each(|gift| self.give(gift));
+        self.give(&gifts);
     }
 
     /// Accelerations for the velocities after some times under those of the step before.
