@@ -10,7 +10,7 @@ use capillary::{
     DENSITY, RADIUS, TENSION, core_pressure, elongation, found_half_width, half_width, on_wall,
     period, plan, stretched,
 };
-use impinge::body::sph::DropletPlan;
+use impinge::body::sph::{DropletPlan, DropletSph};
 
 /// Samples in a period.
 const SAMPLES: f64 = 100.0;
@@ -86,4 +86,31 @@ fn what_pulls_a_drop_to_the_wall_pulls_at_the_wall() {
         assert!(balance.abs() < 1e-6 * totals.mass * speed, "{balance:e}");
         assert!(totals.momentum[2].abs() > 1e-4 * totals.mass * speed);
     }
+}
+
+#[test]
+fn tension_that_acts_every_fourth_step_drives_the_same_swing() {
+    // Sound is so fast that a step is short beside capillary waves.
+    let mut plan = plan(3, 12.0, 1e-3);
+    plan.fluid.sound_speed *= 4.0;
+    let step = 0.9 * DropletSph::forecast(&plan).1;
+    let (drop, start) = stretched(plan, 1.1);
+    const STEPS: usize = 400;
+    let (mut at_once, mut one_by_one) = (start.clone(), start.clone());
+    drop.advance(&mut at_once, &[], STEPS as f64 * step).unwrap();
+    for _ in 0..STEPS {
+        drop.advance(&mut one_by_one, &[], step).unwrap();
+    }
+    assert_eq!(drop.totals(&one_by_one).steps, STEPS as f64);
+    assert_ne!(at_once, one_by_one);
+    let [before, rare, often] =
+        [&start, &at_once, &one_by_one].map(|state| elongation(&drop.particles(state)));
+    let energy = |state: &[f64]| {
+        let totals = drop.totals(state);
+        totals.kinetic_energy + totals.compression_energy + totals.surface_energy
+    };
+    assert!((often - before).abs() > 0.1 * before, "the drop moved: {before} {often}");
+    assert!((rare - often).abs() < 0.01 * (often - before).abs(), "{before} {rare} {often}");
+    let lost = [&at_once, &one_by_one].map(|state| 1.0 - energy(state) / energy(&start));
+    assert!((lost[0] - lost[1]).abs() < 2e-4, "{lost:?}");
 }

@@ -6,10 +6,11 @@ use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in, st
 use super::failure::Failure;
 use super::images::copies;
 use super::loops::PART;
+use super::method::Method;
 use super::placement::place;
 use super::plan::{DropletPlan, Release};
 use super::spread::spread_diameter;
-use super::stepper::{Method, Stepper};
+use super::stepper::Stepper;
 use super::units::{compression_energy, density, pressure};
 use super::wall::WallExchange;
 use crate::math::parallel::Team;

@@ -20,6 +20,7 @@ mod images;
 mod kick;
 mod lanes;
 mod loops;
+mod method;
 mod moment;
 mod momentum;
 mod neighbours;

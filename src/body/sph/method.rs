@@ -1,0 +1,178 @@
+//! What a plan of droplets comes to: its numbers without dimension, its limits of time steps, and what they
+//! do to single particles.
+
+use std::f64::consts::PI;
+
+use super::cloud::Part;
+use super::continuity::ContinuityRates;
+use super::deposit::Gift;
+use super::free_surface::Setting;
+use super::images::Images;
+use super::moment::{filled, renormalised};
+use super::plan::DropletPlan;
+use super::thin_layer::ThinLayer;
+use super::units::Units;
+use super::wall::WallCells;
+use crate::kernel::Kernel;
+use crate::scene::Precision;
+
+/// Numbers of the method that a plan fixes, without dimension.
+pub struct Method {
+    pub units: Units,
+    pub dimension: usize,
+    pub kernel: Kernel,
+    pub precision: Precision,
+    pub normalisation: f64,
+    pub mirrors: [bool; 2],
+    pub images: Images,
+    pub viscosity: f64,
+    pub conduction: f64,
+    pub diffusion: f64,
+    /// Whether density diffusion is corrected by renormalised gradients.
+    pub corrects: bool,
+    /// Surface tension over ρ₀c₀²H, and what it is computed with where there is any.
+    pub tension: f64,
+    pub surface: Option<Setting>,
+    pub gravity: [f64; 3],
+    /// c₀²/c of the fluid [K], to turn energy of a unit of mass into temperature.
+    pub heat_unit: f64,
+    pub spacing: f64,
+    pub shifts: bool,
+    pub wall: Option<WallCells>,
+    pub thin_layer: Option<ThinLayer>,
+}
+
+/// Share of H/c₀ that a step may take.
+const COURANT: f64 = 0.2;
+/// Shares of H²/ν, √(H/a) and of √(ρλ³/16πσ), with which the shortest capillary wave passes half its
+/// length λ (Brackbill, Kothe & Zemach 1992, J. Comput. Phys. 100, 335–354, doi
+/// 10.1016/0021-9991(92)90240-Y).
+const DIFFUSIVE: f64 = 0.02;
+const FORCED: f64 = 0.18;
+const CAPILLARY: f64 = 0.25;
+/// Most steps that surface tension acts for at once, as it changes slowly beside sound: impulses between
+/// steps keep its energy (reversible reference system propagator, Tuckerman, Berne & Martyna 1992,
+/// J. Chem. Phys. 97, 1990–2001, doi 10.1063/1.463137).
+const TURN: f64 = 4.0;
+
+impl Method {
+    pub fn of(plan: &DropletPlan) -> Self {
+        let units = Units::of(plan);
+        let fluid = &plan.fluid;
+        let (h, c) = (units.length, units.speed);
+        let normalisation = plan.kernel.scale(1.0, plan.dimension);
+        let tension = fluid.surface_tension / (units.density * c * c * h);
+        let gravity = plan.gravity.map(|g| g * h / (c * c));
+        let images = Images::of(plan, h, gravity);
+        Self {
+            units,
+            dimension: plan.dimension,
+            kernel: plan.kernel,
+            precision: plan.precision,
+            normalisation,
+            mirrors: plan.mirrors,
+            images: images.clone(),
+            viscosity: fluid.viscosity / (units.density * c * h),
+            conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
+            diffusion: plan.density_diffusion,
+            corrects: plan.corrected_diffusion && plan.density_diffusion > 0.0,
+            tension,
+            surface: (tension > 0.0).then(|| Setting::of(plan, tension, &images)),
+            gravity,
+            heat_unit: c * c / fluid.specific_heat,
+            spacing: 1.0 / plan.support,
+            shifts: plan.shifting,
+            wall: plan.wall.as_ref().map(|wall| wall.cells.clone()),
+            thin_layer: ThinLayer::of(plan, &units),
+        }
+    }
+
+    /// Whether the moments of the particles' neighbours are asked for.
+    pub fn needs_moments(&self) -> bool {
+        self.corrects || self.shifts
+    }
+
+    /// Changes density and temperature of the k-th particle of a part at its rates.
+    pub fn change<const MOMENTS: bool>(
+        &self,
+        part: &mut Part,
+        k: usize,
+        rate: &ContinuityRates,
+        dt: f64,
+    ) {
+        if MOMENTS {
+            let moment = filled(rate.moment, self.dimension);
+            part.moment[k] = moment;
+            if self.corrects {
+                part.gradient[k] = renormalised(&moment, rate.gradient);
+            }
+        }
+        part.density[k] += dt * rate.density;
+        part.heating[k] = rate.temperature[0] + rate.temperature[1];
+        part.temperature[k] += dt * part.heating[k];
+    }
+
+    /// Where the wall is that a particle is above [m].
+    pub fn place(&self, mut position: [f64; 3]) -> [f64; 2] {
+        self.images.wrap(&mut position);
+        [position[0], position[1]].map(|x| x * self.units.length)
+    }
+
+    /// Temperature of the wall below a particle; the particle's own where it has no wall near.
+    pub fn wall_below(&self, wall_temperature: &[f64], position: [f64; 3], own: f64) -> f64 {
+        match &self.wall {
+            Some(cells) if position[2] < 1.0 => {
+                let [x, y] = self.place(position);
+                let share = cells.share(x, y);
+                share.cells.iter().map(|&(cell, weight)| weight * wall_temperature[cell]).sum()
+            }
+            _ => own,
+        }
+    }
+
+    /// A particle that meets its image at a plane exchanges its place with it: exactly what two mirror
+    /// images do that pass through each other.
+    pub fn rebound(&self, part: &mut Part, gifts: &mut Vec<Gift>) {
+        let momentum = self.units.mass() * self.units.speed;
+        for k in 0..part.mass.len() {
+            let below = part.position[k][2] < 0.0;
+            let signs = self.images.put_back(&mut part.position[k]);
+            if signs == [1.0; 3] {
+                continue;
+            }
+            (0..3).for_each(|a| part.velocity[k][a] *= signs[a]);
+            // Without a wall there is nothing that gets it.
+            if below && signs[2] < 0.0 {
+                let impulse = -2.0 * momentum * part.mass[k] * part.velocity[k][2];
+                let at = self.place(part.position[k]);
+                gifts.push(Gift { at, heat: 0.0, impulse: [0.0, 0.0, impulse] });
+            }
+        }
+    }
+
+    /// Largest stable step, over H/c₀.
+    pub fn stable_step(&self, fastest: f64, most_accelerated: f64) -> f64 {
+        [
+            COURANT / (1.0 + fastest),
+            DIFFUSIVE / self.viscosity.max(self.conduction),
+            FORCED / most_accelerated.sqrt(),
+            self.capillary_step(),
+        ]
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
+    }
+
+    /// For the shortest wave that surface tension, smoothed over h, still drives.
+    fn capillary_step(&self) -> f64 {
+        let Some(Setting { energy, .. }) = &self.surface else { return f64::INFINITY };
+        CAPILLARY * (energy.smoothing.reach.powi(3) / (16.0 * PI * self.tension)).sqrt()
+    }
+
+    /// Number of steps that surface tension may act for at once.
+    pub fn turn(&self, dt: f64) -> f64 {
+        if self.surface.is_none() {
+            return 1.0;
+        }
+        (self.capillary_step() / dt).floor().clamp(1.0, TURN)
+    }
+}
