@@ -96,6 +96,25 @@ def shapes(panels, table):
     return points
 
 
+def costs(axes, table):
+    """Error of the largest spread over the time that it took to compute."""
+    for weber, colour in [(30, "C1"), (100, "C2")]:
+        runs = np.sort(table[table["weber"] == weber], order="resolution")
+        error = 100 * np.abs(runs["spread"] / runs["spread"][-1] - 1)[:-1]
+        axes.loglog(runs["seconds"][:-1], error, "o-", color=colour, label=f"We {weber}")
+        for run, percent in zip(runs, error, strict=False):
+            place = {"xytext": (4, 4), "textcoords": "offset points", "fontsize": 7}
+            axes.annotate(f"{run['resolution']:.0f}", (run["seconds"], percent), **place)
+    axes.set(
+        xlabel="computed in / s, two threads",
+        ylabel="off / %",
+        title="Spread against D/Δx = 64, numbers are D/Δx",
+    )
+    axes.title.set_fontsize(9)
+    axes.grid(alpha=0.3)
+    axes.legend(fontsize=7)
+
+
 def main(tables: Path, folder: Path):
     def read(name):
         return np.genfromtxt(tables / f"{name}.csv", delimiter=",", names=True)
@@ -110,7 +129,7 @@ def main(tables: Path, folder: Path):
         axes.grid(alpha=0.3)
         axes.legend(fontsize=8)
     rows = lower.subplots(3, 2)
-    rows[2, 1].axis("off")
+    costs(rows[2, 1], read("spread"))
     points = shapes(rows.flat[:5], read("spread_shape"))
     lower.colorbar(points, ax=rows, label="speed over U")
     lower.suptitle(f"Widest shapes from the side, D/Δx = {FINE}")

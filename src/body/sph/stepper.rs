@@ -3,7 +3,8 @@
 //! Kick, drift, kick with one evaluation of each rate: density and temperature are advanced with
 //! rates at the middle of the step, velocities with accelerations at its ends, so the scheme is of
 //! second order and its pressure waves are neither damped nor amplified by it (Adami, Hu & Adams
-//! 2012, J. Comput. Phys. 231, 7057–7075, doi 10.1016/j.jcp.2012.05.005).
+//! 2012, J. Comput. Phys. 231, 7057–7075, doi 10.1016/j.jcp.2012.05.005). Surface tension, which changes
+//! slowly, acts as impulses between rounds of steps.
 
 use super::cloud::{Cloud, Ledger, Part};
 use super::continuity::Continuity;
