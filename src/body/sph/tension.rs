@@ -100,6 +100,8 @@ fn weights<N: Number>(fraction: N) -> [N; 3] {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::PI;
+
     use super::*;
     use crate::kernel::Kernel;
 
@@ -186,6 +188,34 @@ mod tests {
             let [energy, height] = surface(&layers);
             assert!((energy - 1.0).abs() < 0.012, "{energy}");
             assert!((0.0..0.25).contains(&height), "{height}");
+        }
+    }
+
+    /// Surface energy of a film without unevenness over σ, by its thickness over the distance of particles:
+    /// both surfaces' `∫ f dC` up to the fraction in its middle.
+    fn film(thickness: f64) -> f64 {
+        const POINTS: usize = 400;
+        let step = REACH / POINTS as f64;
+        let middle = |k: usize| step * (k as f64 + 0.5);
+        // Cylinders about the middle, and what of each is in the film.
+        let inside = |radius: f64| -> f64 {
+            let heights = (0..POINTS).map(middle).filter(|&z| z < 0.5 * thickness);
+            let weight = |z: f64| Kernel::WendlandC2.value(radius.hypot(z), REACH, 3);
+            heights.map(weight).sum::<f64>() * 2.0 * step
+        };
+        let rings = (0..POINTS).map(middle).map(|r| 2.0 * PI * r * step * inside(r));
+        2.0 * weights(rings.sum::<f64>())[0]
+    }
+
+    #[test]
+    fn thin_films_have_less_tension() {
+        let expected =
+            [(5.0, 1.0), (3.5, 0.99), (3.0, 0.92), (2.5, 0.70), (2.0, 0.30), (1.5, -0.15)];
+        for (thickness, share) in expected {
+            // At a given volume a film that widens becomes thinner.
+            let change = (film(thickness + 0.1) - film(thickness - 0.1)) / 0.2;
+            let tension = film(thickness) - thickness * change;
+            assert!((tension / 2.0 - share).abs() < 0.02, "{thickness}: {tension}");
         }
     }
 }
