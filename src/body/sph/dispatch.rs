@@ -9,23 +9,49 @@ pub trait Work {
     fn run<L: Lanes>(self);
 }
 
+/// What a processor has, or may use.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Instructions {
+    Plain,
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
 /// Takes the widest instructions that the processor has.
 pub fn dispatch(work: impl Work, precision: Precision) {
     if precision == Precision::Double {
         return work.run::<Array<f64>>();
     }
+    match widest() {
+        Instructions::Plain => work.run::<Array<f32>>(),
+        // SAFETY: the processor has what the functions ask for.
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Avx2 => unsafe { run_avx2(work) },
+        #[cfg(target_arch = "x86_64")]
+        Instructions::Avx512 => unsafe { run_avx512(work) },
+    }
+}
+
+fn widest() -> Instructions {
+    #[cfg(test)]
+    return tests::LIMIT.get().map_or(found(), |limit| limit.min(found()));
+    #[cfg(not(test))]
+    found()
+}
+
+fn found() -> Instructions {
     #[cfg(target_arch = "x86_64")]
     {
         if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl") {
-            // SAFETY: the processor has what the function asks for.
-            return unsafe { run_avx512(work) };
+            return Instructions::Avx512;
         }
         if is_x86_feature_detected!("avx2") {
-            // SAFETY: as above.
-            return unsafe { run_avx2(work) };
+            return Instructions::Avx2;
         }
     }
-    work.run::<Array<f32>>();
+    Instructions::Plain
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -38,4 +64,77 @@ fn run_avx512(work: impl Work) {
 #[target_feature(enable = "avx2")]
 fn run_avx2(work: impl Work) {
     work.run::<Array<f32>>();
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::Instructions;
+    use crate::body::sph::{DropletPlan, DropletSph, Extent, Fluid, Placement, Precision};
+    use crate::body::sph::{Release, Wall, WallCells};
+    use crate::kernel::Kernel;
+
+    thread_local! {
+        /// What a test lets its thread use.
+        pub static LIMIT: Cell<Option<Instructions>> = const { Cell::new(None) };
+    }
+
+    /// A hot drop that meets a wall that it wets, with all that droplets can have, on this thread.
+    fn drop() -> DropletSph {
+        let (diameter, spacing) = (1e-4, 1e-5);
+        let fluid = Fluid {
+            density: 1000.0,
+            viscosity: 1e-3,
+            specific_heat: 4000.0,
+            conductivity: 0.6,
+            surface_tension: 0.07,
+            sound_speed: 100.0,
+        };
+        let release = Release {
+            time: 0.0,
+            centre: [0.0, 0.0, 0.5 * (diameter + spacing)],
+            diameter,
+            velocity: [0.0, 0.0, -5.0],
+            temperature: 350.0,
+        };
+        let cells = WallCells::Tiles { count: [3, 3], size: [4.0 * diameter; 2] };
+        let plan = DropletPlan {
+            dimension: 3,
+            spacing,
+            support: 3.0,
+            kernel: Kernel::WendlandC2,
+            fluid,
+            placement: Placement::Lattice,
+            precision: Precision::Single,
+            density_diffusion: 0.1,
+            corrected_diffusion: true,
+            shifting: true,
+            gravity: [0.0, 0.0, -9.81],
+            mirrors: [true, false],
+            extents: [Extent::Open; 3],
+            releases: vec![release],
+            wall: Some(Wall { cells, contact_angle: 1.0, effusivity: None }),
+        };
+        DropletSph::new(plan, 1)
+    }
+
+    #[test]
+    fn results_are_the_same_to_the_bit_with_all_instructions() {
+        let run = |limit: Instructions| {
+            LIMIT.set(Some(limit));
+            let drop = drop();
+            let mut state = drop.initial_state();
+            drop.advance(&mut state, &[300.0; 9], 1e-5).unwrap();
+            assert!(drop.totals(&state).steps > 100.0);
+            LIMIT.set(None);
+            state
+        };
+        let plain = run(Instructions::Plain);
+        #[cfg(target_arch = "x86_64")]
+        for limit in [Instructions::Avx2, Instructions::Avx512] {
+            assert!(run(limit) == plain, "{limit:?}");
+        }
+        assert!(plain.iter().all(|number| number.is_finite()));
+    }
 }
