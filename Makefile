@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 PEERS := .venv-peers
 NAMES := $(sort $(patsubst examples/%/scene.toml,%,$(wildcard examples/*/scene.toml)))
 RELEASE := target/release
-PY_FILES := $(wildcard python tests/fmpy tests/verification benches examples)
+PY_FILES := $(wildcard python build-fmu/*.py tests/fmpy tests/verification benches examples)
 
 .DEFAULT_GOAL := help
 .PHONY: help demo units examples test rust-test python-test fuzz verify bench bench-droplet build clean

@@ -26,21 +26,24 @@ def linked(metadata):
     while left:
         for dependency in nodes[left.pop()]["deps"]:
             normal = any(kind["kind"] is None for kind in dependency["dep_kinds"])
-            targets = {kind for target in packages[dependency["pkg"]]["targets"] for kind in target["kind"]}
-            if normal and "proc-macro" not in targets and dependency["pkg"] not in found:
+            targets = packages[dependency["pkg"]]["targets"]
+            kinds = {kind for target in targets for kind in target["kind"]}
+            if normal and "proc-macro" not in kinds and dependency["pkg"] not in found:
                 found.add(dependency["pkg"])
                 left.append(dependency["pkg"])
-    return sorted((packages[i] for i in found), key=lambda package: (package["name"], package["version"]))
+    return sorted((packages[i] for i in found), key=lambda p: (p["name"], p["version"]))
 
 
 def main():
     root = pathlib.Path(__file__).parent.parent
-    command = ["cargo", "metadata", "--locked", "--format-version", "1", "--filter-platform", "x86_64-unknown-linux-gnu"]
+    command = ["cargo", "metadata", "--locked", "--format-version", "1"]
+    command += ["--filter-platform", "x86_64-unknown-linux-gnu"]
     metadata = json.loads(subprocess.run(command, cwd=root, check=True, capture_output=True).stdout)
-    rows = [
-        f"| {p['name']} | {p['version']} | {p['license'] or p['license_file']} | {p['repository'] or ''} |\n"
-        for p in linked(metadata)
-    ]
+    rows = []
+    for package in linked(metadata):
+        licence = package["license"] or package["license_file"]
+        cells = [package["name"], package["version"], licence, package["repository"] or ""]
+        rows.append(f"| {' | '.join(cells)} |\n")
     (root / "THIRD-PARTY.md").write_text(HEAD + "".join(rows))
 
 
