@@ -49,6 +49,30 @@ impl Near {
         let half = [0, 1, 2].map(|a| (0.5 * (bounds.high[a] - bounds.low[a])) as f32 + 1e-6);
         Self { half, reach_squared: (reach * reach) as f32 + 1e-6 }
     }
+
+    /// Whether a place about the centre is near.
+    fn has(&self, at: [f32; 3]) -> bool {
+        let mut square = 0.0;
+        for (at, half) in at.into_iter().zip(self.half) {
+            let gap = (at.abs() - half).max(0.0);
+            square += gap * gap;
+        }
+        square < self.reach_squared
+    }
+
+    /// Which of sixteen places are near, with the same roundings.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f")]
+    fn has_of_sixteen(&self, at: [std::arch::x86_64::__m512; 3]) -> u16 {
+        use std::arch::x86_64::*;
+        let mut square = _mm512_setzero_ps();
+        for (at, half) in at.into_iter().zip(self.half) {
+            let away = _mm512_sub_ps(_mm512_abs_ps(at), _mm512_set1_ps(half));
+            let gap = _mm512_max_ps(away, _mm512_setzero_ps());
+            square = _mm512_add_ps(square, _mm512_mul_ps(gap, gap));
+        }
+        _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, _mm512_set1_ps(self.reach_squared))
+    }
 }
 
 impl Spots {
@@ -155,15 +179,10 @@ fn compress_each(
     let mut found = 0;
     for (k, ((&x, &y), &z)) in along_x.zip(along_y).zip(along_z).enumerate() {
         let spot = [x, y, z];
-        let mut square = 0.0;
+        let at = [0, 1, 2].map(|a| signs[a] * spot[a] + shift[a]);
         numbers[found] = k as u32;
-        for a in 0..3 {
-            let at = signs[a] * spot[a] + shift[a];
-            let gap = (at.abs() - near.half[a]).max(0.0);
-            square += gap * gap;
-            along[a][found] = at;
-        }
-        found += usize::from(square < near.reach_squared);
+        (0..3).for_each(|a| along[a][found] = at[a]);
+        found += usize::from(near.has(at));
     }
     found
 }
@@ -184,18 +203,14 @@ fn compress_avx512(
     let mut number = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     let mut found = 0;
     for k in (0..spots[0].len()).step_by(WIDTH) {
-        let mut square = _mm512_setzero_ps();
-        let mut at = [square; 3];
+        let mut at = [_mm512_setzero_ps(); 3];
         for a in 0..3 {
             // SAFETY: the slice is as long as a vector.
             let spot = unsafe { _mm512_loadu_ps(spots[a][k..k + WIDTH].as_ptr()) };
             let turned = _mm512_mul_ps(_mm512_set1_ps(signs[a]), spot);
             at[a] = _mm512_add_ps(turned, _mm512_set1_ps(shift[a]));
-            let away = _mm512_sub_ps(_mm512_abs_ps(at[a]), _mm512_set1_ps(near.half[a]));
-            let gap = _mm512_max_ps(away, _mm512_setzero_ps());
-            square = _mm512_add_ps(square, _mm512_mul_ps(gap, gap));
         }
-        let kept = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, _mm512_set1_ps(near.reach_squared));
+        let kept = near.has_of_sixteen(at);
         if kept != 0 {
             let end = found + WIDTH;
             let place = numbers[found..end].as_mut_ptr();
@@ -227,14 +242,8 @@ fn select(along: [&[f32]; 3], shift: [f32; 3], near: Near, numbers: &mut [u32]) 
 fn select_each([x, y, z]: [&[f32]; 3], shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
     let mut found = 0;
     for (k, ((&x, &y), &z)) in x.iter().zip(y).zip(z).enumerate() {
-        let spot = [x, y, z];
-        let mut square = 0.0;
-        for a in 0..3 {
-            let gap = ((spot[a] + shift[a]).abs() - near.half[a]).max(0.0);
-            square += gap * gap;
-        }
         numbers[found] = k as u32;
-        found += usize::from(square < near.reach_squared);
+        found += usize::from(near.has([x + shift[0], y + shift[1], z + shift[2]]));
     }
     found
 }
@@ -251,16 +260,13 @@ fn select_avx512(along: [&[f32]; 3], shift: [f32; 3], near: Near, numbers: &mut 
     let mut number = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     let mut found = 0;
     for k in (0..length).step_by(WIDTH) {
-        let mut square = _mm512_setzero_ps();
+        let mut at = [_mm512_setzero_ps(); 3];
         for a in 0..3 {
             // SAFETY: the slices hold whole vectors.
             let spot = unsafe { _mm512_loadu_ps(along[a].as_ptr().add(k)) };
-            let at = _mm512_add_ps(spot, _mm512_set1_ps(shift[a]));
-            let away = _mm512_sub_ps(_mm512_abs_ps(at), _mm512_set1_ps(near.half[a]));
-            let gap = _mm512_max_ps(away, _mm512_setzero_ps());
-            square = _mm512_add_ps(square, _mm512_mul_ps(gap, gap));
+            at[a] = _mm512_add_ps(spot, _mm512_set1_ps(shift[a]));
         }
-        let kept = _mm512_cmp_ps_mask::<_CMP_LT_OQ>(square, _mm512_set1_ps(near.reach_squared));
+        let kept = near.has_of_sixteen(at);
         // SAFETY: no more were found than there are points so far, and there is a vector more.
         unsafe {
             let place = numbers.as_mut_ptr().add(found);

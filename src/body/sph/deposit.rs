@@ -71,14 +71,15 @@ fn deposit(
         (0..3).for_each(|n| exchange.impulse_outside[n] += along(n));
         return;
     }
-    let radius = x.hypot(y);
-    let impulse = match cells {
-        WallCells::Tiles { .. } | WallCells::Nodes { .. } => impulse,
-        _ if radius > 0.0 => [(x * impulse[0] + y * impulse[1]) / radius, 0.0, impulse[2]],
-        _ => [0.0, 0.0, impulse[2]],
-    };
+    let impulse = if cells.are_radial() { radially([x, y], impulse) } else { impulse };
     for (cell, weight) in share.cells {
         exchange.heat[cell] += weight * heat;
         (0..3).for_each(|n| exchange.impulse[cell][n] += weight * impulse[n]);
     }
+}
+
+/// The impulse at a place along its radius from the origin, 0, and along z.
+fn radially([x, y]: [f64; 2], [u, v, w]: [f64; 3]) -> [f64; 3] {
+    let radius = x.hypot(y);
+    if radius > 0.0 { [(x * u + y * v) / radius, 0.0, w] } else { [0.0, 0.0, w] }
 }
