@@ -503,7 +503,9 @@ fn contact_of(
 ) -> Option<Contact> {
     let coupling = &scene.coupling[scene.coupling_from(name)?];
     let solid = bodies.iter().position(|body| Some(body.name.as_str()) == coupling.solid())?;
-    Some(Contact::of(coupling, droplet, (solid, &bodies[solid].plan), time_step))
+    let body = &bodies[solid];
+    let modes = body.solid.top_modes();
+    Some(Contact::of(coupling, droplet, (solid, &body.plan), modes, time_step))
 }
 
 fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {

@@ -184,7 +184,7 @@ fn a_step_is_the_sum_of_its_exchanges() {
 }
 
 #[test]
-fn a_shorter_interval_comes_nearer_to_the_limit() {
+fn the_interval_hardly_matters() {
     // Shifted particles stand elsewhere for the least reason.
     let drop = drop("shifting = false");
     let heat = |interval: f64| {
@@ -194,7 +194,7 @@ fn a_shorter_interval_comes_nearer_to_the_limit() {
         trial.get("drop.heat")
     };
     let [coarse, middle, fine] = [1e-6, 2.5e-7, 6.25e-8].map(heat);
-    assert!((middle - fine).abs() < 0.6 * (coarse - fine).abs(), "{coarse} {middle} {fine}");
+    assert!(off(coarse, fine) < 0.03 && off(middle, fine) < 0.03, "{coarse} {middle} {fine}");
 }
 
 #[test]
@@ -264,8 +264,8 @@ fn a_wall_of_known_effusivity_gets_no_more_than_it_can_answer() {
     };
     let answer = |flux: f64| 2.0 * flux * (1e-7 / PI).sqrt() / EFFUSIVITY;
     let [held, solid] = ["", &format!("effusivity = {EFFUSIVITY:?}")].map(flux).map(answer);
-    // A quarter of the difference of temperatures, and what images take.
-    assert!(held > 60.0 && (10.0..25.0).contains(&solid), "{held} K, {solid} K");
+    // As a flux that is held, that of contact with a half space takes its surface by 4/π of 39.9 K.
+    assert!(held > 100.0 && (30.0..51.0).contains(&solid), "{held} K, {solid} K");
 }
 
 #[test]

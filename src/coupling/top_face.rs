@@ -9,25 +9,35 @@ use crate::math::separable::{Side, transform};
 
 use super::symmetry::split_load;
 
-/// The nodes of the whole top of a solid, images at mirrors included.
+/// The whole top of a solid, images at mirrors included, in cells about the ends of elements.
 ///
-/// The fluid gives its heat and force to functions that are linear between neighbouring nodes; seen
+/// The fluid gives its heat and force to functions that are linear between the ends of elements; seen
 /// as densities, these become the nodal vectors of the elements' own shape functions. Both sets of
-/// functions sum to one everywhere, so all that is given arrives, and what is uniform stays so.
+/// functions sum to one everywhere, so all that is given arrives, and what is uniform stays so. As the shape
+/// functions can be those densities, the surface takes them without going beyond: it is never warmer than
+/// the fluid that warms it.
 pub struct TopFace {
     mesh: Mesh,
-    /// `(node, is it the image)` along x and y, coordinates ascending.
+    /// `(node, is it the image)` of the ends of elements along x and y, coordinates ascending.
     places: [Vec<(usize, bool)>; 2],
     /// From amounts on the linear functions to nodal vectors, along x and y of the mesh.
     consistent: [Mat<f64>; 2],
 }
 
 impl TopFace {
-    pub fn of(mesh: &Mesh) -> Self {
+    /// `lumped` for particles, each of which has a volume of its own.
+    pub fn of(mesh: &Mesh, lumped: bool) -> Self {
         Self {
             mesh: mesh.clone(),
-            places: [0, 1].map(|axis| mesh.unfolded(axis)),
-            consistent: [0, 1].map(|axis| consistent(&mesh.axes[axis])),
+            places: [0, 1].map(|axis| {
+                let order = mesh.order();
+                let is_end = |&(node, _): &(usize, bool)| node % order == 0;
+                mesh.unfolded(axis).into_iter().filter(is_end).collect()
+            }),
+            consistent: [0, 1].map(|axis| match lumped {
+                true => Mat::identity(mesh.axes[axis].len(), mesh.axes[axis].len()),
+                false => consistent(&mesh.axes[axis]),
+            }),
         }
     }
 
@@ -48,20 +58,38 @@ impl TopFace {
 
     /// Temperature above the initial one at each cell [K].
     pub fn rise(&self, temperatures: &Temperatures) -> Vec<f64> {
-        let [nx, ny, nz] = self.mesh.node_counts();
-        let top = nx * ny * (nz - 1);
-        let mut rise = vec![0.0; self.places[0].len() * self.places[1].len()];
-        let parts = self.mesh.parities().into_iter().zip(temperatures);
+        let [.., nz] = self.mesh.node_counts();
+        self.unfolded(temperatures, nz - 1)
+    }
+
+    /// Parts of the temperature at each cell [K], those of each cell together, from lists of `count` layers of
+    /// top nodes, class by class.
+    pub fn parts(&self, layers: &[Vec<f64>], count: usize) -> Vec<f64> {
+        let cells = self.places[0].len() * self.places[1].len();
+        let mut parts = vec![0.0; cells * count];
+        for layer in 0..count {
+            let values = self.unfolded(layers, layer).into_iter().enumerate();
+            values.for_each(|(cell, value)| parts[cell * count + layer] = value);
+        }
+        parts
+    }
+
+    /// The whole face from a layer of nodes of each symmetry class; classes that are zero are empty.
+    fn unfolded(&self, classes: &[Vec<f64>], layer: usize) -> Vec<f64> {
+        let [nx, ny, _] = self.mesh.node_counts();
+        let first = nx * ny * layer;
+        let mut whole = vec![0.0; self.places[0].len() * self.places[1].len()];
+        let parts = self.mesh.parities().into_iter().zip(classes);
         for (parity, part) in parts.filter(|(_, part)| !part.is_empty()) {
             for (row, &(j, image_y)) in
-                rise.chunks_exact_mut(self.places[0].len()).zip(&self.places[1])
+                whole.chunks_exact_mut(self.places[0].len()).zip(&self.places[1])
             {
                 for (value, &(i, image_x)) in row.iter_mut().zip(&self.places[0]) {
-                    *value += parity.sign([image_x, image_y]) * part[top + i + nx * j];
+                    *value += parity.sign([image_x, image_y]) * part[first + i + nx * j];
                 }
             }
         }
-        rise
+        whole
     }
 
     /// Nodal vectors, one a symmetry class, of an amount at each cell: heat, or a component of a
@@ -83,11 +111,11 @@ impl TopFace {
     /// The amounts on the meshed part as they are at its image; the symmetry planes halve those on
     /// them.
     fn seen(&self, amounts: &[f64], image: [bool; 2]) -> Vec<f64> {
-        let [nx, ny, _] = self.mesh.node_counts();
+        let [nx, ny] = [0, 1].map(|axis| self.consistent[axis].ncols());
         let place = |axis: usize, node: usize| match (self.mesh.mirrored[axis], image[axis]) {
             (false, _) => (node, 1.0),
             (true, is_image) => {
-                let middle = self.mesh.axes[axis].len() - 1;
+                let middle = self.consistent[axis].ncols() - 1;
                 let at = if is_image { middle - node } else { middle + node };
                 (at, if node == 0 { 0.5 } else { 1.0 })
             }
@@ -105,21 +133,20 @@ impl TopFace {
     }
 }
 
-/// `∫ N_i h_j w dx / ∫ h_j w dx` for shape functions N and functions h that are linear between
-/// neighbouring nodes; every column sums to 1.
+/// `∫ N_i h_j w dx / ∫ h_j w dx` for shape functions N and functions h that are linear between the ends of
+/// elements; every column sums to 1.
 fn consistent(axis: &Axis) -> Mat<f64> {
     let n = axis.len();
-    let mut matrix = Mat::<f64>::zeros(n, n);
     if n == 1 {
-        matrix[(0, 0)] = 1.0;
-        return matrix;
+        return Mat::from_fn(1, 1, |_, _| 1.0);
     }
-    for below in 0..n - 1 {
-        let [a, b] = [axis.nodes[below], axis.nodes[below + 1]];
+    let mut matrix = Mat::<f64>::zeros(n, axis.elements() + 1);
+    for below in 0..axis.elements() {
+        let [a, b] = axis.bounds(below);
         // Linear times quadratic times the radius: four Gauss points are exact.
         for (x, w) in gauss_on(4, a, b) {
             let weight = w * axis.weight_at(x);
-            let shape = axis.shape_at(x);
+            let shape = axis.shape_in(below, x);
             let share = (x - a) / (b - a);
             for (j, hat) in [(below, 1.0 - share), (below + 1, share)] {
                 for i in 0..shape.count {
@@ -128,7 +155,7 @@ fn consistent(axis: &Axis) -> Mat<f64> {
             }
         }
     }
-    for j in 0..n {
+    for j in 0..matrix.ncols() {
         let sum: f64 = (0..n).map(|i| matrix[(i, j)]).sum();
         (0..n).for_each(|i| matrix[(i, j)] /= sum);
     }
@@ -161,7 +188,7 @@ mod tests {
     fn given(face: &TopFace, x: f64, y: f64, amount: f64) -> Vec<f64> {
         let cells = face.cells();
         let mut out = vec![0.0; cells.len()];
-        for (cell, weight) in cells.share(x, y).cells {
+        for (cell, weight) in cells.cover([[x; 2], [y; 2]]).cells {
             out[cell] += weight * amount;
         }
         out
@@ -170,7 +197,7 @@ mod tests {
     #[test]
     fn all_that_is_given_anywhere_arrives() {
         for mesh in meshes() {
-            let face = TopFace::of(&mesh);
+            let face = TopFace::of(&mesh, false);
             for (x, y) in [(0.0, 0.0), (-0.33, 0.2), (0.7, -1.0), (0.05, 0.05)] {
                 let parts = face.nodal(&given(&face, x, y, 3.0), [false; 2], [false; 2]);
                 let total = mesh.copies() * parts[0].iter().sum::<f64>();
@@ -182,7 +209,7 @@ mod tests {
     #[test]
     fn the_parts_of_a_force_give_back_the_force_on_each_side() {
         let mesh = mesh(2, [true, false]);
-        let face = TopFace::of(&mesh);
+        let face = TopFace::of(&mesh, false);
         let flips = [true, false]; // A force along x.
         let parts = face.nodal(&given(&face, -0.6, 0.1, 2.0), flips, [false; 2]);
         let side = |image: bool| -> f64 {
@@ -196,7 +223,7 @@ mod tests {
     #[test]
     fn a_uniform_density_becomes_the_load_of_the_shape_functions() {
         let mesh = mesh(2, [false, false]);
-        let face = TopFace::of(&mesh);
+        let face = TopFace::of(&mesh, false);
         let [x, y] = [&mesh.axes[0], &mesh.axes[1]];
         let widths = |axis: &Axis| -> Vec<f64> {
             let at = |i: usize| axis.nodes[i.min(axis.len() - 1)];
@@ -215,7 +242,7 @@ mod tests {
     #[test]
     fn a_symmetric_fluid_makes_no_odd_part() {
         let mesh = mesh(1, [true, true]);
-        let face = TopFace::of(&mesh);
+        let face = TopFace::of(&mesh, false);
         let amounts: Vec<f64> = (0..face.cells().len()).map(|i| 1.0 + 1e-16 * i as f64).collect();
         let parts = face.nodal(&amounts, [false; 2], [true; 2]);
         assert!(!parts[0].is_empty() && parts[1..].iter().all(Vec::is_empty));
@@ -224,7 +251,7 @@ mod tests {
     #[test]
     fn temperatures_are_seen_on_both_sides_of_a_mirror() {
         let mesh = mesh(1, [true, false]);
-        let face = TopFace::of(&mesh);
+        let face = TopFace::of(&mesh, false);
         let [nx, ny, nz] = mesh.node_counts();
         let field = |f: &dyn Fn(f64) -> f64| -> Vec<f64> {
             (0..nx * ny * nz).map(|node| f(mesh.axes[0].nodes[node % nx])).collect()
@@ -243,7 +270,7 @@ mod tests {
         let z = Axis::from_element_ends(&[-0.2, 0.0], 2, Weight::Uniform);
         let axes = [r, Axis::point(), z];
         let mesh = Mesh { axes, mirrored: [false; 2], geometry: Geometry::Axisymmetric };
-        let face = TopFace::of(&mesh);
+        let face = TopFace::of(&mesh, false);
         for x in [0.0, 0.05, 0.6] {
             let parts = face.nodal(&given(&face, x, 0.0, 1.0), [true, false], [true; 2]);
             assert!((parts[0].iter().sum::<f64>() - 1.0).abs() < 1e-14);

@@ -3,6 +3,7 @@
 
 pub mod chebyshev;
 pub mod cholesky;
+pub mod disc_rectangle;
 pub mod exponential;
 pub mod gauss;
 pub mod lagrange;

@@ -1,16 +1,13 @@
 //! A droplet on the top of a solid: what the one takes from the other, and how often.
 
-use std::f64::consts::PI;
-
 use super::loads::add;
-use crate::body::fem::{Geometry, Plan, Refinement, SolidFem, SolidLoads};
-use crate::body::sph::{WallCells, WallExchange};
+use crate::body::fem::{Geometry, Plan, Refinement, SolidFem, SolidLoads, Temperatures};
+use crate::body::sph::{Surface, SurfaceResponse, WallCells, WallExchange};
 use crate::coupling::TopFace;
 use crate::scene::{Arrival, Coupling, Droplet};
 
-/// Part of the difference of temperatures by which the contact may change the solid's surface
-/// between two exchanges.
-const CHANGE_BETWEEN_EXCHANGES: f64 = 0.02;
+/// Least part of a squared element's length over which heat may diffuse along it between two exchanges.
+const LEAST_ALONG: f64 = 0.01;
 
 /// How a droplet and a solid are joined.
 pub struct Contact {
@@ -19,7 +16,7 @@ pub struct Contact {
     /// Longest time between two exchanges [s].
     interval: f64,
     face: TopFace,
-    effusivity: f64,
+    response: SurfaceResponse,
     initial_temperature: f64,
     geometry: Geometry,
     /// Planes in which the droplet mirrors itself.
@@ -33,13 +30,15 @@ impl Contact {
         coupling: &Coupling,
         droplet: &Droplet,
         (solid, plan): (usize, &Plan),
+        [rates, gains]: [Vec<f64>; 2],
         time_step: f64,
     ) -> Self {
+        let face = TopFace::of(&plan.mesh, plan.sph.is_some());
         Self {
             solid,
             interval: interval(coupling, droplet, plan, time_step),
-            face: TopFace::of(&plan.mesh),
-            effusivity: effusivity(plan),
+            face,
+            response: SurfaceResponse { rates, gains },
             initial_temperature: plan.initial_temperature,
             geometry: plan.mesh.geometry,
             symmetric: droplet.mirrors(),
@@ -51,11 +50,6 @@ impl Contact {
         self.face.cells()
     }
 
-    /// √(kρc) of the solid [W √s/(m² K)].
-    pub fn effusivity(&self) -> f64 {
-        self.effusivity
-    }
-
     /// Number of equal parts of a step of `dt` [s], each with one exchange.
     pub fn parts(&self, dt: f64) -> usize {
         // A step that is an interval but for rounding is one part.
@@ -63,14 +57,36 @@ impl Contact {
     }
 
     /// Temperature of the solid's surface at each cell [K].
-    pub fn wall_temperature(
+    fn at_cells(&self, temperatures: &Temperatures) -> Vec<f64> {
+        let rise = self.face.rise(temperatures);
+        rise.into_iter().map(|rise| self.initial_temperature + rise).collect()
+    }
+
+    /// The solid's surface over a step of `dt` [s] if the droplet gives nothing, and how it answers to heat.
+    ///
+    /// Every place answers as the whole top would that is heated as it is: during a step heat hardly passes
+    /// along the surface. How far the solid itself goes in the step is exact, as drift about these modes.
+    pub fn surface(
         &self,
         solid: &SolidFem,
         unknowns: &[f64],
         loads: &SolidLoads,
-    ) -> Vec<f64> {
-        let rise = self.face.rise(&solid.temperatures(unknowns, loads));
-        rise.into_iter().map(|rise| self.initial_temperature + rise).collect()
+        dt: f64,
+    ) -> Surface {
+        let temperatures = solid.temperatures(unknowns, loads);
+        let start = self.at_cells(&temperatures);
+        let response = self.response.clone();
+        let count = response.len();
+        let amplitudes = self.face.parts(&solid.top_amplitudes(&temperatures), count);
+        let rest = |(t, parts): (f64, &[f64])| t - parts.iter().sum::<f64>();
+        let base = start.into_iter().zip(amplitudes.chunks_exact(count)).map(rest).collect();
+        let mut later = unknowns.to_vec();
+        solid.advance(&mut later, std::slice::from_ref(loads), dt);
+        let end = self.at_cells(&solid.temperatures(&later, loads));
+        let mut surface = Surface { response, base, amplitudes, drift: vec![0.0; end.len()] };
+        let free = surface.free(1.0, dt);
+        surface.drift = end.iter().zip(free).map(|(end, free)| end - free).collect();
+        surface
     }
 
     /// Adds what the droplet gave during its last step, as rates, to what acts on the solid.
@@ -92,6 +108,24 @@ impl Contact {
                 add(&mut loads.force[class][1][component], &vector, 1.0);
             }
         }
+    }
+
+    /// What acts on the solid over a step of `dt` [s]: loads that are held, what the droplet gave, and changes of
+    /// its heat in the course of the step [W], which leave the surface as warm as the droplet found it.
+    pub fn loads_during(
+        &self,
+        mut loads: SolidLoads,
+        exchange: &WallExchange,
+        falling: &[f64],
+        dt: f64,
+    ) -> [SolidLoads; 2] {
+        self.add(&mut loads, exchange);
+        let mut rates = loads.zero();
+        for (class, vector) in self.parts_of(falling, [false; 2]) {
+            add(&mut loads.heat[class][1], &vector, 1.0);
+            add(&mut rates.heat[class][1], &vector, -2.0 / dt);
+        }
+        [loads, rates]
     }
 
     fn parts_of(
@@ -121,24 +155,34 @@ impl Contact {
     }
 }
 
-/// Longest time between exchanges [s]: the scene's own, or the shorter of the times in which
+/// Longest time between exchanges [s]: the scene's own, or the shorter of those in which
 /// - the flow goes by a distance of particles, Δx/U, and
-/// - a flux 2k(T_f − T_s)/Δx, that of fluid half a distance from the wall, changes the surface of a
-///   solid with effusivity e by the part ε of T_f − T_s: `Δt = π (ε e Δx / 4k)²`, from the half
-///   space under a constant flux (H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*,
-///   Oxford 1959, §2.9 (7)),
+/// - heat that passes along the surface within an exchange, which only the next one finds there, stays small:
+///   `a Δt/h² ≤ e/(e + e_f)`, but no less than [`LEAST_ALONG`], with the solid's diffusivity a, its shortest
+///   element h, and effusivities e and e_f of solid and fluid. On a good insulator it would else take places
+///   that are as warm as the fluid beyond its temperature;
 ///
-/// but no shorter than a time step of the droplet. The larger flux of a layer thinner than Δx is bounded for
-/// itself.
+/// but no shorter than a time step of the droplet.
 fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan, time_step: f64) -> f64 {
     let flow = droplet.spacing / droplet.fastest_flow();
-    let reach = CHANGE_BETWEEN_EXCHANGES * effusivity(plan) * droplet.spacing;
-    let heat = PI * (reach / (4.0 * droplet.fluid.conductivity)).powi(2);
-    coupling.interval.unwrap_or_else(|| flow.min(heat).max(time_step))
+    let fluid = &droplet.fluid;
+    let solid = (plan.law.conductivity * plan.law.heat_capacity()).sqrt();
+    let of_fluid = (fluid.conductivity * fluid.density * fluid.specific_heat).sqrt();
+    let share = (solid / (solid + of_fluid)).max(LEAST_ALONG);
+    let along =
+        share * shortest_element(plan).powi(2) * plan.law.heat_capacity() / plan.law.conductivity;
+    coupling.interval.unwrap_or_else(|| flow.min(along).max(time_step))
 }
 
-fn effusivity(plan: &Plan) -> f64 {
-    (plan.law.conductivity * plan.law.heat_capacity()).sqrt()
+/// Along the surface [m].
+fn shortest_element(plan: &Plan) -> f64 {
+    let lengths = plan.mesh.axes[..2].iter().flat_map(|axis| {
+        (0..axis.elements()).map(|element| {
+            let [start, end] = axis.bounds(element);
+            end - start
+        })
+    });
+    lengths.fold(f64::INFINITY, f64::min)
 }
 
 /// Where a droplet spreads: as far as it is expected to, but no faster than it arrives.

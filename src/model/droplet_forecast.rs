@@ -37,7 +37,7 @@ impl DropletForecast {
             let coupling = &scene.coupling[index];
             let solid = coupling.solid()?;
             let plan = plan(scene, solid, scene.solid(solid)?);
-            Some(Contact::of(coupling, droplet, (0, &plan), time_step))
+            Some(Contact::of(coupling, droplet, (0, &plan), Default::default(), time_step))
         });
         let mut notes = droplets::notes(droplet);
         notes.extend(contact.as_ref().map(Contact::note));

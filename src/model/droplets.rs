@@ -1,13 +1,12 @@
 //! Droplets: from scene to plan, and what is read from their states.
 
-use std::f64::consts::PI;
 use std::ops::Range;
 
 use super::ModelError;
 use super::contact::Contact;
 use crate::body::sph::{
-    self, DropletPlan, DropletSph, DropletTotals, Extent, ParticleFields, Release, WallCells,
-    WallExchange,
+    self, Domain, DropletPlan, DropletSph, DropletTotals, Extent, ParticleFields, Release, Surface,
+    WallCells, WallExchange,
 };
 use crate::scene::{Droplet, Footprint, Scene};
 use crate::variables::{DropletTotal, InputLayout, WallOutput};
@@ -70,7 +69,7 @@ impl DropletModel {
             (None, None) => None,
         };
         let effusivity = match (&contact, wall) {
-            (Some(contact), _) => Some(contact.effusivity()),
+            (Some(_), _) => None,
             (None, wall) => wall.and_then(|wall| scene.wall[wall].effusivity),
         };
         let mut notes = notes(droplet);
@@ -79,7 +78,8 @@ impl DropletModel {
             (Some(contact), _) => Below::Solid(Box::new(contact)),
             (None, Some(wall)) => Below::Wall(WallBelow {
                 inputs: layout.walls[wall].clone(),
-                areas: areas(&scene.wall[wall].footprint, droplet.dimension),
+                areas: cells_of(&scene.wall[wall].footprint)
+                    .map_or(Vec::new(), |cells| cells.areas(Domain::whole(droplet.dimension))),
             }),
             (None, None) => Below::Nothing,
         };
@@ -115,6 +115,19 @@ impl DropletModel {
         let name = || self.name.clone();
         self.droplet
             .advance(state, wall_temperature, dt)
+            .map_err(|failure| ModelError::Droplet { name: name(), failure })
+    }
+
+    /// The same above the surface of a solid that answers to the droplet's heat; the rises of its cells [K m²].
+    pub fn advance_above(
+        &self,
+        state: &mut Vec<f64>,
+        surface: &Surface,
+        dt: f64,
+    ) -> Result<Vec<f64>, ModelError> {
+        let name = || self.name.clone();
+        self.droplet
+            .advance_above(state, surface, dt)
             .map_err(|failure| ModelError::Droplet { name: name(), failure })
     }
 
@@ -271,21 +284,6 @@ pub fn cells_of(footprint: &Footprint) -> Option<WallCells> {
         Footprint::Rings { count, radius } => Some(WallCells::Rings { count, radius }),
         Footprint::Tiles { count, size } => Some(WallCells::Tiles { count, size }),
         Footprint::Disc { .. } | Footprint::Gaussian { .. } => None,
-    }
-}
-
-/// Area of each cell [m²]; tiles of a plane model are a metre deep.
-fn areas(footprint: &Footprint, dimension: usize) -> Vec<f64> {
-    match *footprint {
-        Footprint::Rings { count, radius } => {
-            let inner = PI * (radius / count as f64).powi(2);
-            (0..count).map(|ring| inner * (2 * ring + 1) as f64).collect()
-        }
-        Footprint::Tiles { count: [nx, ny], size: [x, y] } => {
-            let depth = if dimension == 2 { 1.0 } else { y / ny as f64 };
-            vec![x / nx as f64 * depth; nx * ny]
-        }
-        Footprint::Disc { .. } | Footprint::Gaussian { .. } => Vec::new(),
     }
 }
 

@@ -51,11 +51,13 @@ impl Model {
         let part = dt / parts as f64;
         for n in 0..parts {
             let inputs = path.at(0, (n as f64 + 0.5) * part);
-            let mut loads = body.loads.assemble(&self.scene, &inputs, body.solid.mesh());
-            let surface = contact.wall_temperature(&body.solid, solid, &loads);
-            droplet.advance(fluid, &surface, part)?;
-            contact.add(&mut loads, &droplet.droplet.exchange(fluid));
-            body.solid.advance(solid, std::slice::from_ref(&loads), part);
+            let loads = body.loads.assemble(&self.scene, &inputs, body.solid.mesh());
+            let surface = contact.surface(&body.solid, solid, &loads, part);
+            let rises = droplet.advance_above(fluid, &surface, part)?;
+            let exchange = droplet.droplet.exchange(fluid);
+            let falling = surface.falling_parts(&exchange.heat, &rises, part);
+            let loads = contact.loads_during(loads, &exchange, &falling, part);
+            body.solid.advance(solid, &loads, part);
         }
         Ok(())
     }

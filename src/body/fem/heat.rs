@@ -10,6 +10,8 @@
 
 mod rates;
 
+use faer::Mat;
+
 use super::mesh::{Mesh, MeshFace, Parity};
 use super::modes::{AxisModes, EndCondition};
 use crate::math::exponential;
@@ -363,14 +365,7 @@ impl HeatClass {
         faces: &[(MeshFace, ThermalFace)],
     ) -> Self {
         let modes = [0, 1, 2].map(|axis| {
-            let mut ends = [EndCondition::Natural; 2];
-            for (face, condition) in faces.iter().filter(|(face, _)| face.axis == axis) {
-                ends[usize::from(face.high)] = match condition {
-                    ThermalFace::Flux => EndCondition::Natural,
-                    ThermalFace::Prescribed => EndCondition::Prescribed,
-                    ThermalFace::Convective(h) => EndCondition::Convective(h / conductivity),
-                };
-            }
+            let mut ends = end_conditions(faces, axis, conductivity);
             if axis < 2 && parity.odd[axis] {
                 ends[0] = EndCondition::Prescribed;
             }
@@ -429,7 +424,7 @@ impl HeatClass {
             return;
         }
         let [x, y, z] = &self.modes;
-        let plane = faer::Mat::from_fn(1, 1, |_, _| 1.0);
+        let plane = Mat::from_fn(1, 1, |_, _| 1.0);
         let modal = transform(nodal, [&x.shapes, &y.shapes, &plane], Side::Transposed);
         let end = z.at_node(if high { z.shapes.nrows() - 1 } else { 0 });
         for (slab, amplitude) in out.chunks_exact_mut(modal.len()).zip(end) {
@@ -524,6 +519,23 @@ impl FaceDrive {
     }
 }
 
+/// Conditions at both ends of an axis.
+pub fn end_conditions(
+    faces: &[(MeshFace, ThermalFace)],
+    axis: usize,
+    conductivity: f64,
+) -> [EndCondition; 2] {
+    let mut ends = [EndCondition::Natural; 2];
+    for (face, condition) in faces.iter().filter(|(face, _)| face.axis == axis) {
+        ends[usize::from(face.high)] = match condition {
+            ThermalFace::Flux => EndCondition::Natural,
+            ThermalFace::Prescribed => EndCondition::Prescribed,
+            ThermalFace::Convective(h) => EndCondition::Convective(h / conductivity),
+        };
+    }
+    ends
+}
+
 /// Factor along one axis of `∫ N dA` over a face.
 fn face_factor(mesh: &Mesh, face: MeshFace, axis: usize) -> Vec<f64> {
     let along = &mesh.axes[axis];
@@ -551,7 +563,7 @@ fn taylor<'a>(lists: impl Iterator<Item = &'a [f64]>, shift: usize, t: f64) -> V
     sum
 }
 
-fn multiply(matrix: &faer::Mat<f64>, v: &[f64]) -> Vec<f64> {
+fn multiply(matrix: &Mat<f64>, v: &[f64]) -> Vec<f64> {
     (0..matrix.nrows()).map(|i| (0..v.len()).map(|j| matrix[(i, j)] * v[j]).sum()).collect()
 }
 

@@ -7,8 +7,9 @@ use faer::Mat;
 use super::axis::Axis;
 use super::conduction::Conduction;
 use super::elastic::{ElasticProblem, Strains};
-use super::heat::{HeatLoads, HeatTotals};
+use super::heat::{HeatLoads, HeatTotals, end_conditions};
 use super::mesh::{Geometry, Mesh, Parity};
+use super::modes::AxisModes;
 use super::plan::Plan;
 use super::recovery::{Beyond, recovery_matrix};
 use crate::material::Thermoelastic;
@@ -22,6 +23,8 @@ pub struct SolidFem {
     law: Thermoelastic,
     initial_temperature: f64,
     heat: Conduction,
+    /// Modes of heat along z.
+    depth: AxisModes,
     elastic: Option<ElasticProblem>,
     /// From strain sampling points to nodes along each axis, of even and of odd components.
     recovery: [[Mat<f64>; 2]; 3],
@@ -72,6 +75,17 @@ struct Weights {
 }
 
 impl SolidLoads {
+    /// As many lists of nothing.
+    pub fn zero(&self) -> Self {
+        let empty =
+            |lists: &[Vec<Vec<f64>>; 2]| lists.each_ref().map(|l| vec![Vec::new(); l.len()]);
+        Self {
+            heat: vec![[Vec::new(), Vec::new()]; self.heat.len()],
+            force: self.force.iter().map(empty).collect(),
+            faces: self.faces.iter().map(|values| vec![0.0; values.len()]).collect(),
+        }
+    }
+
     fn thermal(&self) -> HeatLoads<'_> {
         HeatLoads { surface: &self.heat, faces: &self.faces }
     }
@@ -83,6 +97,10 @@ impl SolidFem {
         let mesh = plan.mesh.clone();
         let law = plan.law.clone();
         let heat = Conduction::new(plan, threads);
+        let depth = AxisModes::of(
+            &mesh.axes[2],
+            end_conditions(&plan.thermal_faces, 2, plan.law.conductivity),
+        );
         let elastic = plan
             .mechanics
             .then(|| ElasticProblem::new(&mesh, &law, plan.supports.clone(), threads));
@@ -98,7 +116,7 @@ impl SolidFem {
         });
         let parities = mesh.parities();
         let initial_temperature = plan.initial_temperature;
-        Ok(Self { mesh, law, initial_temperature, heat, elastic, recovery, parities })
+        Ok(Self { mesh, law, initial_temperature, heat, depth, elastic, recovery, parities })
     }
 
     pub fn mesh(&self) -> &Mesh {
@@ -155,6 +173,33 @@ impl SolidFem {
         };
         let (place, image) = self.mesh.locate(point);
         modes.temperature_at(&self.mesh, state, &loads.faces, place, image)
+    }
+
+    /// How the top answers to an impulse of heat per area, uniform along it: rates λ [1/s] and gains g
+    /// [K m²/J] of `Σ g e^{−λt}`.
+    pub fn top_modes(&self) -> [Vec<f64>; 2] {
+        let capacity = self.law.heat_capacity();
+        let top = self.depth.at_node(self.depth.shapes.nrows() - 1);
+        let rate = |decay: &f64| self.law.conductivity / capacity * decay;
+        let rates = self.depth.decay.iter().map(rate).collect();
+        [rates, top.iter().map(|value| value * value / capacity).collect()]
+    }
+
+    /// What each of these modes adds to the temperature of the top's nodes [K], mode after mode, class by
+    /// class; empty for a class that is zero.
+    pub fn top_amplitudes(&self, temperatures: &Temperatures) -> Vec<Vec<f64>> {
+        let depth = &self.depth;
+        let top = depth.at_node(depth.shapes.nrows() - 1);
+        let projection = depth.shapes.transpose() * &depth.mass;
+        let scaled = |m: usize, k: usize| top[m] * projection[(m, k)];
+        let projection = Mat::from_fn(depth.count(), depth.shapes.nrows(), scaled);
+        let [nx, ny, _] = self.mesh.node_counts();
+        let [x, y] = [nx, ny].map(|n| Mat::<f64>::identity(n, n));
+        let of_class = |part: &Vec<f64>| match part.is_empty() {
+            true => Vec::new(),
+            false => transform(part, [&x, &y, &projection], Side::Direct),
+        };
+        temperatures.iter().map(of_class).collect()
     }
 
     pub fn temperatures(&self, state: &[f64], loads: &SolidLoads) -> Temperatures {

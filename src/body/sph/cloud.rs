@@ -14,8 +14,6 @@ pub struct Cloud {
     pub density: Vec<f64>,
     /// Above the model's reference [K].
     pub temperature: Vec<f64>,
-    /// Rate of the step before.
-    pub heating: Vec<f64>,
     /// By fluid and by the wall, without what follows.
     pub acceleration: Vec<[[f64; 3]; 2]>,
     /// By surface tension: by fluid along x, y, z and by the wall along z.
@@ -36,7 +34,6 @@ pub struct Part<'a> {
     pub mass: &'a [f64],
     pub density: &'a mut [f64],
     pub temperature: &'a mut [f64],
-    pub heating: &'a mut [f64],
     pub acceleration: &'a [[[f64; 3]; 2]],
     pub tension: &'a [[f64; 4]],
     pub potential: &'a [f64],
@@ -72,7 +69,7 @@ pub struct Ledger {
 }
 
 /// Numbers of a particle in a flat vector.
-const NUMBERS: usize = 30;
+const NUMBERS: usize = 29;
 /// Numbers that a thread copies at once.
 const COPY: usize = 4096;
 /// Numbers of the ledger before those of its cells.
@@ -97,7 +94,6 @@ impl Cloud {
         let mut mass = self.mass.chunks(size);
         let mut density = self.density.chunks_mut(size);
         let mut temperature = self.temperature.chunks_mut(size);
-        let mut heating = self.heating.chunks_mut(size);
         let mut acceleration = self.acceleration.chunks(size);
         let mut tension = self.tension.chunks(size);
         let mut potential = self.potential.chunks(size);
@@ -111,7 +107,6 @@ impl Cloud {
                 mass: mass.next()?,
                 density: density.next()?,
                 temperature: temperature.next()?,
-                heating: heating.next()?,
                 acceleration: acceleration.next()?,
                 tension: tension.next()?,
                 potential: potential.next()?,
@@ -129,7 +124,6 @@ impl Cloud {
         self.mass.push(mass);
         self.density.push(0.0);
         self.temperature.push(temperature);
-        self.heating.push(0.0);
         self.acceleration.push([[0.0; 3]; 2]);
         self.tension.push([0.0; 4]);
         self.potential.push(0.0);
@@ -145,7 +139,6 @@ impl Cloud {
         permute.apply(&mut self.mass);
         permute.apply(&mut self.density);
         permute.apply(&mut self.temperature);
-        permute.apply(&mut self.heating);
         permute.apply(&mut self.acceleration);
         permute.apply(&mut self.tension);
         permute.apply(&mut self.potential);
@@ -154,14 +147,13 @@ impl Cloud {
     }
 
     /// All numbers, list after list.
-    fn numbers(&self) -> [&[f64]; 11] {
+    fn numbers(&self) -> [&[f64]; 10] {
         [
             self.position.as_flattened(),
             self.velocity.as_flattened(),
             &self.mass,
             &self.density,
             &self.temperature,
-            &self.heating,
             self.acceleration.as_flattened().as_flattened(),
             self.tension.as_flattened(),
             &self.potential,
@@ -255,7 +247,6 @@ pub fn cloud_of(state: &[f64], cells: usize, team: &Team) -> Cloud {
         mass: lists.next(|[[number]]| number),
         density: lists.next(|[[number]]| number),
         temperature: lists.next(|[[number]]| number),
-        heating: lists.next(|[[number]]| number),
         acceleration: lists.next(|both| both),
         tension: lists.next(|[numbers]| numbers),
         potential: lists.next(|[[number]]| number),
@@ -296,7 +287,6 @@ mod tests {
             cloud.push([x, 1.0 + x, 2.0], [3.0, 4.0, x], 0.1 * x, 300.0 + x);
             let last = cloud.len() - 1;
             cloud.density[last] = 0.01 * x;
-            cloud.heating[last] = -x;
             cloud.acceleration[last] = [[x, 1.0, 2.0], [3.0, x, 4.0]];
             cloud.tension[last] = [7.0, x, 5.0, -x];
             cloud.potential[last] = 0.125 * x;

@@ -17,8 +17,8 @@ use crate::kernel::Shape;
 /// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. Images at planes slip in the first
 /// equation, and under a body force the density goes on in them as it does at rest, so that a fluid at
 /// rest is not diffused; neither is one at rest under surface tension, because r in the diffusion stands
-/// for r + φ with the tension's potential φ (0 without). In the second those at the wall are as much colder than it as their original
-/// is hotter.
+/// for r + φ with the tension's potential φ (0 without). In the second they are as warm as their originals:
+/// heat of the wall comes by [`WallHeat`](super::wall_heat::WallHeat).
 ///
 /// Only with `HEAT` is heat conducted; without `MOMENTS` all g are 0, and neither they nor what B is
 /// made of are summed.
@@ -35,8 +35,6 @@ pub struct Continuity<'a, const HEAT: bool, const MOMENTS: bool> {
     pub densities: &'a [f64],
     /// g and temperature of every particle; nothing where neither is asked for.
     pub annexes: &'a [[f64; 4]],
-    /// Temperature of the wall below every particle; nothing without heat.
-    pub wall_temperature: &'a [f64],
     /// σ of the kernel.
     pub normalisation: f64,
     /// δ.
@@ -50,8 +48,8 @@ pub struct Continuity<'a, const HEAT: bool, const MOMENTS: bool> {
 pub struct ContinuityRates {
     /// dr/dt.
     pub density: f64,
-    /// dT/dt by fluid and by the wall.
-    pub temperature: [f64; 2],
+    /// dT/dt.
+    pub temperature: f64,
     /// −Σ V F x ⊗ x: xx, yy, zz, xy, yz, xz.
     pub moment: [f64; 6],
     /// Σ V_j F (r_j − r_i) x_ij.
@@ -117,28 +115,20 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
         };
         let [fluid, wall] = block.neighbours(k);
         let mut sums = Sums::<L, HEAT, MOMENTS>::zero();
-        sums.add_all::<S>(&here, fluid, local, L::constant(1.0));
-        let by_fluid = sums.temperature.sum().into();
-        let mut by_wall = 0.0;
-        if !wall.is_empty() {
-            sums.temperature = L::constant(0.0);
-            let twice_wall = if HEAT { 2.0 * self.wall_temperature[i] } else { 0.0 };
-            let here = Here { temperature: L::constant(annex[3] - twice_wall), ..here };
-            sums.add_all::<S>(&here, wall, local, L::constant(-1.0));
-            by_wall = sums.temperature.sum().into();
-        }
+        sums.add_all::<S>(&here, fluid, local);
+        sums.add_all::<S>(&here, wall, local);
         let scale = self.normalisation;
         let dense = 1.0 + self.densities[i];
         let heating = 2.0 * self.conduction * scale / dense;
         let mut rates = ContinuityRates {
             density: scale * dense * sums.divergence.sum().into()
                 - scale * self.diffusion * sums.diffusion.sum().into(),
-            temperature: [0.0; 2],
+            temperature: 0.0,
             moment: [0.0; 6],
             gradient: [0.0; 3],
         };
         if HEAT {
-            rates.temperature = [heating * by_fluid, heating * by_wall];
+            rates.temperature = heating * sums.temperature.sum().into();
         }
         if MOMENTS {
             for (total, sum) in rates.moment.iter_mut().zip(sums.moment) {
@@ -182,31 +172,30 @@ impl<L: Lanes, const HEAT: bool, const MOMENTS: bool> Sums<L, HEAT, MOMENTS> {
         }
     }
 
-    /// Adds neighbours; `image` is −1 where their temperature is to be turned round.
+    /// Adds neighbours.
     #[inline(always)]
     fn add_all<S: Shape>(
         &mut self,
         here: &Here<L>,
         neighbours: &[[u16; WIDTH]],
         local: &Local<L::Real>,
-        image: L,
     ) {
         for places in neighbours {
             let annex =
                 if HEAT || MOMENTS { local.gather_annex(places) } else { [L::constant(0.0); 4] };
-            self.add::<S>(here, local.gather(places), annex, image);
+            self.add::<S>(here, local.gather(places), annex);
         }
     }
 
     #[inline(always)]
-    fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8], annex: [L; 4], image: L) {
+    fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8], annex: [L; 4]) {
         let [x, y, z, vx, vy, vz, volume, density] = neighbour;
         let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
         let u = [here.velocity[0] - vx, here.velocity[1] - vy, here.velocity[2] - vz];
         let slope = volume * S::slope_over_q((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt());
         let jump = density - here.density;
         if HEAT {
-            self.temperature = self.temperature + slope * (here.temperature - image * annex[3]);
+            self.temperature = self.temperature + slope * (here.temperature - annex[3]);
         }
         if !MOMENTS {
             let along = u[0] * d[0] + u[1] * d[1] + u[2] * d[2];

@@ -11,8 +11,10 @@ use super::placement::place;
 use super::plan::{DropletPlan, Release};
 use super::spread::spread_diameter;
 use super::stepper::Stepper;
+use super::surface::{Surface, SurfaceResponse};
 use super::units::{compression_energy, density, pressure};
-use super::wall::WallExchange;
+use super::wall::{Domain, WallExchange};
+use super::wall_points::WallPoints;
 use crate::math::parallel::Team;
 
 /// Droplets above a wall: everything known before time starts. What changes is a flat vector, whose
@@ -134,27 +136,68 @@ impl DropletSph {
         wall_temperature: &[f64],
         duration: f64,
     ) -> Result<(), Failure> {
+        let surface = self.surface(state, wall_temperature, duration);
+        self.advance_above(state, &surface, duration).map(|_| ())
+    }
+
+    /// Advances by `duration` [s] above a surface that answers to the heat it gets; the rises of its cells by
+    /// that heat at the end [K m²]. A failure leaves the state as it was.
+    pub fn advance_above(
+        &self,
+        state: &mut Vec<f64>,
+        surface: &Surface,
+        duration: f64,
+    ) -> Result<Vec<f64>, Failure> {
         let mut team = self.team(particles_in(state, self.cells()).unwrap_or(0));
         let (mut ledger, mut cloud) =
             (ledger_of(state, self.cells()), cloud_of(state, self.cells(), &team));
         ledger.exchange = WallExchange::none(self.cells());
         ledger.exchange.duration = duration;
-        let reference = self.reference_temperature();
-        let wall: Vec<f64> = wall_temperature.iter().map(|t| t - reference).collect();
+        let surface = surface.above(self.reference_temperature());
+        let method = &self.method;
+        let cells = method.wall.as_ref();
+        let mut points =
+            cells.map(|cells| WallPoints::new(&method.points, cells, &surface, duration));
         let end = ledger.time + duration;
         while ledger.time < end {
             let next = self.plan.releases.get(ledger.released).map_or(end, |r| r.time.min(end));
             let rest = next - ledger.time;
             if rest > 0.0 {
-                Stepper::new(&self.method, &team, &mut cloud, &mut ledger, &wall).advance(rest)?;
+                let points = points.as_mut();
+                Stepper::new(method, &team, &mut cloud, &mut ledger, points).advance(rest)?;
             }
             ledger.time = next;
             if self.release(&mut ledger, &mut cloud) {
                 team = self.team(cloud.len());
             }
         }
+        let mut rises = Vec::new();
+        if let Some(points) = points {
+            (ledger.exchange, rises) = points.settle();
+            let (heat, impulse) = points.totals();
+            ledger.heat_to_wall += heat;
+            (0..3).for_each(|n| ledger.impulse_to_wall[n] += impulse[n]);
+        }
         flatten(state, &ledger, &cloud, &team);
-        Ok(())
+        Ok(rises)
+    }
+
+    /// The wall under temperatures [K] that are known at the beginning of a step. Where a solid lies below,
+    /// fluxes that go on as in the step before keep them.
+    fn surface(&self, state: &[f64], temperature: &[f64], duration: f64) -> Surface {
+        let effusivity = self.plan.wall.as_ref().and_then(|wall| wall.effusivity);
+        let Some(effusivity) =
+            effusivity.filter(|_| duration > 0.0 && self.method.conduction > 0.0)
+        else {
+            return Surface::held(temperature);
+        };
+        let step = self.method.stable_step(0.0, 0.0) * self.method.units.time();
+        let times = [step.min(duration), duration];
+        let response = SurfaceResponse::of_half_space(effusivity, times);
+        let cells = self.method.wall.as_ref();
+        let areas = cells.map_or(Vec::new(), |c| c.areas(Domain::whole(self.plan.dimension)));
+        let fluxes = self.exchange(state).heat_fluxes(&areas);
+        Surface::answering(temperature, response, &fluxes)
     }
 
     /// What the wall got during the last step; nothing before the first.
@@ -236,7 +279,7 @@ impl DropletSph {
 
     fn prime(&self, ledger: &mut Ledger, cloud: &mut Cloud) {
         let team = self.team(cloud.len());
-        Stepper::new(&self.method, &team, cloud, ledger, &vec![0.0; self.cells()]).prime();
+        Stepper::new(&self.method, &team, cloud, ledger, None).prime();
     }
 
     /// Threads for some particles; no more than there are parts for them.

@@ -5,14 +5,14 @@ use std::f64::consts::PI;
 
 use super::cloud::Part;
 use super::continuity::ContinuityRates;
-use super::deposit::Gift;
 use super::free_surface::Setting;
 use super::images::Images;
 use super::moment::{filled, renormalised};
 use super::plan::DropletPlan;
-use super::thin_layer::ThinLayer;
 use super::units::Units;
 use super::wall::WallCells;
+use super::wall_heat::WallHeat;
+use super::wall_points::PointLattice;
 use crate::kernel::Kernel;
 use crate::scene::Precision;
 
@@ -39,8 +39,13 @@ pub struct Method {
     pub spacing: f64,
     pub shifts: bool,
     pub wall: Option<WallCells>,
-    pub thin_layer: Option<ThinLayer>,
+    /// Points of the wall, and how they take heat; nothing without wall, and without heat.
+    pub points: PointLattice,
+    pub wall_heat: Option<WallHeat>,
 }
+
+/// Where the wall gets an impulse [m], [N s].
+pub type Push = ([f64; 2], [f64; 3]);
 
 /// Share of H/c₀ that a step may take.
 const COURANT: f64 = 0.2;
@@ -64,6 +69,7 @@ impl Method {
         let tension = fluid.surface_tension / (units.density * c * c * h);
         let gravity = plan.gravity.map(|g| g * h / (c * c));
         let images = Images::of(plan, h, gravity);
+        let points = PointLattice::of(plan);
         Self {
             units,
             dimension: plan.dimension,
@@ -83,7 +89,8 @@ impl Method {
             spacing: 1.0 / plan.support,
             shifts: plan.shifting,
             wall: plan.wall.as_ref().map(|wall| wall.cells.clone()),
-            thin_layer: ThinLayer::of(plan, &units),
+            wall_heat: WallHeat::of(plan, &units, points.area),
+            points,
         }
     }
 
@@ -108,8 +115,7 @@ impl Method {
             }
         }
         part.density[k] += dt * rate.density;
-        part.heating[k] = rate.temperature[0] + rate.temperature[1];
-        part.temperature[k] += dt * part.heating[k];
+        part.temperature[k] += dt * rate.temperature;
     }
 
     /// Where the wall is that a particle is above [m].
@@ -118,21 +124,9 @@ impl Method {
         [position[0], position[1]].map(|x| x * self.units.length)
     }
 
-    /// Temperature of the wall below a particle; the particle's own where it has no wall near.
-    pub fn wall_below(&self, wall_temperature: &[f64], position: [f64; 3], own: f64) -> f64 {
-        match &self.wall {
-            Some(cells) if position[2] < 1.0 => {
-                let [x, y] = self.place(position);
-                let share = cells.share(x, y);
-                share.cells.iter().map(|&(cell, weight)| weight * wall_temperature[cell]).sum()
-            }
-            _ => own,
-        }
-    }
-
     /// A particle that meets its image at a plane exchanges its place with it: exactly what two mirror
     /// images do that pass through each other.
-    pub fn rebound(&self, part: &mut Part, gifts: &mut Vec<Gift>) {
+    pub fn rebound(&self, part: &mut Part, pushes: &mut Vec<Push>) {
         let momentum = self.units.mass() * self.units.speed;
         for k in 0..part.mass.len() {
             let below = part.position[k][2] < 0.0;
@@ -144,8 +138,7 @@ impl Method {
             // Without a wall there is nothing that gets it.
             if below && signs[2] < 0.0 {
                 let impulse = -2.0 * momentum * part.mass[k] * part.velocity[k][2];
-                let at = self.place(part.position[k]);
-                gifts.push(Gift { at, heat: 0.0, impulse: [0.0, 0.0, impulse] });
+                pushes.push((self.place(part.position[k]), [0.0, 0.0, impulse]));
             }
         }
     }

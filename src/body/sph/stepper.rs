@@ -8,13 +8,12 @@
 
 use super::cloud::{Cloud, Ledger, Part};
 use super::continuity::Continuity;
-use super::deposit::{Gift, give};
 use super::failure::Failure;
 use super::free_surface::FreeSurface;
 use super::images::copies;
 use super::kick::{DENSITIES, Motion, Times, kick};
 use super::loops::{PART, PairSum, for_all, for_parts};
-use super::method::Method;
+use super::method::{Method, Push};
 use super::moment::least_eigenvalue;
 use super::momentum::Momentum;
 use super::neighbours::{Neighbours, Ways};
@@ -22,24 +21,24 @@ use super::order::space_order;
 use super::pulls::{Bounded, balanced};
 use super::shifting::{Crowding, displacement};
 use super::units::pressure;
+use super::wall_heat::Touching;
+use super::wall_points::WallPoints;
 use crate::math::parallel::Team;
 
 /// Everything of a run between two communication points.
-pub struct Stepper<'a> {
+pub struct Stepper<'a, 'p> {
     method: &'a Method,
     team: &'a Team,
     cloud: &'a mut Cloud,
     ledger: &'a mut Ledger,
     neighbours: Neighbours,
-    /// Temperature of each wall cell above the reference.
-    wall_temperature: &'a [f64],
+    /// Points of the wall; nothing where there is none.
+    points: Option<&'a mut WallPoints<'p>>,
     /// Whether heat is conducted: not where all temperatures are the same.
     heats: bool,
     /// What the loops over pairs read and give, in memory that is kept for the next ones.
     records: Vec<[f64; 8]>,
     annexes: Vec<[f64; 4]>,
-    /// Temperature of the wall below every particle.
-    walls: Vec<f64>,
     /// Density of every particle.
     densities: Vec<f64>,
     accelerations: Vec<[[f64; 3]; 2]>,
@@ -54,27 +53,29 @@ const GROWTH: f64 = 1.2;
 /// Way at the mean speed over H after which particles are moved from crowded places.
 const SHIFT_WAY: f64 = 0.05;
 
-impl<'a> Stepper<'a> {
+impl<'a, 'p> Stepper<'a, 'p> {
     pub fn new(
         method: &'a Method,
         team: &'a Team,
         cloud: &'a mut Cloud,
         ledger: &'a mut Ledger,
-        wall_temperature: &'a [f64],
+        points: Option<&'a mut WallPoints<'p>>,
     ) -> Self {
-        let temperatures = cloud.temperature.iter().chain(wall_temperature);
-        let heats = method.conduction > 0.0 && differ(temperatures.copied());
+        let surface = points.as_ref().map(|points| points.surface);
+        let changes = surface.is_some_and(|surface| surface.changes());
+        let walls = surface.into_iter().flat_map(|surface| &surface.base);
+        let differ = differ(cloud.temperature.iter().chain(walls).copied());
+        let heats = method.conduction > 0.0 && (differ || changes);
         Self {
             method,
             team,
             cloud,
             ledger,
             neighbours: Neighbours::default(),
-            wall_temperature,
+            points,
             heats,
             records: Vec::new(),
             annexes: Vec::new(),
-            walls: Vec::new(),
             densities: Vec::new(),
             accelerations: Vec::new(),
             free_surface: FreeSurface::default(),
@@ -198,15 +199,11 @@ impl<'a> Stepper<'a> {
         self.records.resize(count, [0.0; 8]);
         self.densities.resize(count, 0.0);
         self.annexes.resize(if annexed { count } else { 0 }, [0.0; 4]);
-        self.walls.resize(if self.heats { count } else { 0 }, 0.0);
         let mut annexes = self.annexes.chunks_mut(PART);
-        let mut walls = self.walls.chunks_mut(PART);
         let noted = self.records.chunks_mut(PART).zip(self.densities.chunks_mut(PART));
         let parts = self.cloud.parts(PART).into_iter().zip(noted);
-        let mut parts: Vec<_> =
-            parts.map(|(part, noted)| (part, noted, annexes.next(), walls.next())).collect();
-        let wall_temperature = self.wall_temperature;
-        self.team.for_each(&mut parts, |_, (part, (records, densities), annexes, walls)| {
+        let mut parts: Vec<_> = parts.map(|(part, noted)| (part, noted, annexes.next())).collect();
+        self.team.for_each(&mut parts, |_, (part, (records, densities), annexes)| {
             drift(part, 0.5 * dt);
             for (k, record) in records.iter_mut().enumerate() {
                 let ([x, y, z], [u, v, w]) = (part.position[k], part.velocity[k]);
@@ -217,10 +214,8 @@ impl<'a> Stepper<'a> {
             }
             for (k, annex) in annexes.iter_mut().flat_map(|list| list.iter_mut()).enumerate() {
                 let [x, y, z] = part.gradient[k];
-                *annex = [x, y, z, part.temperature[k] + 0.5 * dt * part.heating[k]];
-            }
-            for (k, wall) in walls.iter_mut().flat_map(|list| list.iter_mut()).enumerate() {
-                *wall = method.wall_below(wall_temperature, part.position[k], part.temperature[k]);
+                // Of first order in time, so that no temperature leaves the range of its neighbours.
+                *annex = [x, y, z, part.temperature[k]];
             }
         });
     }
@@ -250,20 +245,15 @@ impl<'a> Stepper<'a> {
         let dt: f64 = owed.iter().map(|times| times.dt).sum();
         let turn: f64 = owed.iter().filter_map(|times| times.tension).sum();
         let momentum = method.units.mass() * method.units.speed;
-        let gifts = self.team.map(pushed.len(), |k| {
+        let Some(points) = &mut self.points else { return };
+        let pushes = self.team.map(pushed.len(), |k| {
             let i = pushed[k];
             let [x, y, z] = cloud.acceleration[i][1];
             let change = [dt * x, dt * y, dt * z + turn * cloud.tension[i][3]];
             let impulse = change.map(|v| -momentum * cloud.mass[i] * v);
-            Gift { at: method.place(cloud.position[i]), heat: 0.0, impulse }
+            (method.place(cloud.position[i]), impulse)
         });
-        self.give(&gifts);
-    }
-
-    fn give(&mut self, gifts: &[Gift]) {
-        if let Some(cells) = &self.method.wall {
-            give(gifts, cells, self.ledger, self.method.mirrors, self.team);
-        }
+        pushes.into_iter().for_each(|(at, impulse)| points.push(at, impulse));
     }
 
     fn change_density_and_heat(&mut self, dt: f64) {
@@ -279,20 +269,15 @@ impl<'a> Stepper<'a> {
     /// particles to its end.
     fn change_density<const HEAT: bool, const MOMENTS: bool>(&mut self, dt: f64) {
         let method = self.method;
-        let exchange = self.ledger.exchange.duration;
-        let thin_layer = method.thin_layer.map(|layer| layer.between_exchanges(exchange));
-        let walls = &self.walls;
         let pass = Continuity::<HEAT, MOMENTS> {
             images: &method.images,
             records: &self.records,
             densities: &self.densities,
             annexes: &self.annexes,
-            wall_temperature: walls,
             normalisation: method.normalisation,
             diffusion: method.diffusion,
-            conduction: method.conduction,
+            conduction: method.conduction / conducting::<MOMENTS>(method, &self.cloud.moment),
         };
-        let heat = method.units.energy() / method.heat_unit;
         let parts = self.cloud.parts(PART);
         let mut parts: Vec<_> = parts.into_iter().map(|part| (part, Vec::new())).collect();
         for_parts(
@@ -301,26 +286,21 @@ impl<'a> Stepper<'a> {
             (method.kernel, method.precision),
             self.team,
             &mut parts,
-            |(part, gifts), rates| {
-                for (k, mut rate) in rates.iter().copied().enumerate() {
-                    if HEAT && let Some(layer) = &thin_layer {
-                        let (height, temperature) = (part.position[k][2], part.temperature[k]);
-                        let wall = walls[part.first + k];
-                        rate.temperature[1] += layer.heating(height, temperature, wall, dt);
-                    }
-                    method.change::<MOMENTS>(part, k, &rate, dt);
-                    if HEAT && rate.temperature[1] != 0.0 {
-                        let heat = -heat * part.mass[k] * dt * rate.temperature[1];
-                        let at = method.place(part.position[k]);
-                        gifts.push(Gift { at, heat, impulse: [0.0; 3] });
-                    }
+            |(part, pushes), rates| {
+                for (k, rate) in rates.iter().enumerate() {
+                    method.change::<MOMENTS>(part, k, rate, dt);
                 }
                 drift(part, 0.5 * dt);
-                method.rebound(part, gifts);
+                method.rebound(part, pushes);
             },
         );
-        let gifts: Vec<Gift> = parts.into_iter().flat_map(|(_, gifts)| gifts).collect();
-        self.give(&gifts);
+        let pushes: Vec<Push> = parts.into_iter().flat_map(|(_, pushes)| pushes).collect();
+        if let Some(points) = &mut self.points {
+            pushes.into_iter().for_each(|(at, impulse)| points.push(at, impulse));
+            if HEAT {
+                exchange_heat(method, self.cloud, points, dt, self.team);
+            }
+        }
     }
 
     /// Accelerations for the velocities after some times under those of the step before.
@@ -423,6 +403,52 @@ impl<'a> Stepper<'a> {
 fn drift(part: &mut Part, dt: f64) {
     for (x, v) in part.position.iter_mut().zip(&*part.velocity) {
         (0..3).for_each(|a| x[a] += dt * v[a]);
+    }
+}
+
+/// Part of a moment's trace that particles well inside the fluid have at least.
+const INSIDE: f64 = 0.85;
+
+/// What the plain sums conduct over what they should, as a mean of all particles well inside the fluid: 1 on a
+/// lattice, 0.95 once particles have settled. The sum of a linear temperature's fluxes is the moment matrix.
+fn conducting<const MOMENTS: bool>(method: &Method, moments: &[[f64; 6]]) -> f64 {
+    if !MOMENTS {
+        return 1.0;
+    }
+    let trace = |moment: &[f64; 6]| moment[..3].iter().sum::<f64>() / 3.0;
+    let flat = if method.dimension == 2 { 1.0 } else { 0.0 };
+    let of_axes = |trace: f64| (3.0 * trace - flat) / method.dimension as f64;
+    let inside = moments.iter().map(trace).map(of_axes).filter(|&part| part > INSIDE);
+    let (sum, count) = inside.fold((0.0, 0.0), |(sum, count), part| (sum + part, count + 1.0));
+    if count > 0.0 { sum / count } else { 1.0 }
+}
+
+/// Exchanges heat with the wall for a time.
+fn exchange_heat(
+    method: &Method,
+    cloud: &mut Cloud,
+    points: &mut WallPoints,
+    dt: f64,
+    team: &Team,
+) {
+    let Some(heat) = &method.wall_heat else { return };
+    let near = |part: &mut Part| {
+        let touching = |k: usize| {
+            let share = heat.share(part.position[k][2]);
+            (share > 0.0).then(|| Touching {
+                particle: part.first + k,
+                at: method.place(part.position[k]),
+                share,
+                mass: part.mass[k],
+                temperature: part.temperature[k],
+            })
+        };
+        (0..part.mass.len()).filter_map(touching).collect::<Vec<_>>()
+    };
+    let touching = team.map_each(&mut cloud.parts(PART), near).concat();
+    let changes = heat.exchange(&touching, points, dt, team);
+    for (touching, change) in touching.iter().zip(changes) {
+        cloud.temperature[touching.particle] += change;
     }
 }
 

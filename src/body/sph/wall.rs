@@ -1,6 +1,8 @@
 //! The wall below droplets, cut into cells that exchange heat and momentum with the fluid.
 
-/// How the wall is cut. Weights of one place sum to 1, so that what the fluid gives arrives whole.
+use std::f64::consts::PI;
+
+/// How the wall is cut.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WallCells {
     /// Concentric rings of equal width out to `radius` [m] about the origin.
@@ -12,15 +14,6 @@ pub enum WallCells {
     Nodes { x: Vec<f64>, y: Vec<f64> },
     /// Functions linear in the radius between its nodes r [m], ascending from 0.
     RadialNodes { r: Vec<f64> },
-}
-
-/// The cells that share what happens at one place.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct WallShare {
-    /// Index and weight; unused ones have weight 0.
-    pub cells: [(usize, f64); 4],
-    /// Whether the place lies beyond the outermost cells, to the nearest of which it then belongs.
-    pub outside: bool,
 }
 
 /// What the fluid gave to the cells of the wall during one step.
@@ -57,121 +50,142 @@ impl WallCells {
         matches!(self, WallCells::Rings { .. } | WallCells::RadialNodes { .. })
     }
 
-    /// Which cells share what happens at a place [m].
-    pub fn share(&self, x: f64, y: f64) -> WallShare {
+    /// Whether nothing lies beyond the outermost cells: those of a body end with it, while a wall of rings or
+    /// tiles goes on at the temperature of its outermost cells.
+    pub fn end_with_the_body(&self) -> bool {
+        matches!(self, WallCells::Nodes { .. } | WallCells::RadialNodes { .. })
+    }
+
+    /// Area of each cell in a part of the wall [m²], of functions their integral.
+    pub fn areas(&self, domain: Domain) -> Vec<f64> {
+        let length = |axis: usize, low: f64, high: f64| match domain.along[axis] {
+            Some([first, last]) => (high.min(last) - low.max(first)).max(0.0),
+            None => 1.0,
+        };
         match self {
             WallCells::Rings { count, radius } => {
-                let place = x.hypot(y) / radius * *count as f64;
-                let (cell, outside) = nearest(place, *count);
-                one(cell, outside)
+                let inner = PI * (radius / *count as f64).powi(2) / domain.images;
+                (0..*count).map(|ring| inner * (2 * ring + 1) as f64).collect()
             }
             WallCells::Tiles { count, size } => {
-                let place = |at: f64, a: usize| (at / size[a] + 0.5) * count[a] as f64;
-                let (i, beyond_x) = nearest(place(x, 0), count[0]);
-                let (j, beyond_y) = nearest(place(y, 1), count[1]);
-                one(i * count[1] + j, beyond_x || beyond_y)
+                let lengths = [0, 1].map(|axis| {
+                    let width = size[axis] / count[axis] as f64;
+                    let place = |n: usize| width * (n as f64 - 0.5 * count[axis] as f64);
+                    let tile = |n: usize| length(axis, place(n), place(n + 1));
+                    (0..count[axis]).map(tile).collect::<Vec<f64>>()
+                });
+                let [x, y] = &lengths;
+                x.iter().flat_map(|a| y.iter().map(move |b| a * b)).collect()
             }
-            WallCells::Nodes { x: along_x, y: along_y } => {
-                let (i, u, beyond_x) = between(along_x, x);
-                let (j, v, beyond_y) = between(along_y, y);
-                let [right, up] = [(along_x, i), (along_y, j)]
-                    .map(|(nodes, place)| usize::from(place + 1 < nodes.len()));
-                let at = |i: usize, j: usize| i + j * along_x.len();
-                let cells = [
-                    (at(i, j), (1.0 - u) * (1.0 - v)),
-                    (at(i + right, j), u * (1.0 - v)),
-                    (at(i, j + up), (1.0 - u) * v),
-                    (at(i + right, j + up), u * v),
-                ];
-                WallShare { cells, outside: beyond_x || beyond_y }
+            WallCells::Nodes { x, y } => {
+                let [x, y] = [(0, x), (1, y)].map(|(axis, nodes)| match domain.along[axis] {
+                    Some(ends) => hat_integrals(nodes, ends, |_| 1.0),
+                    None => vec![1.0],
+                });
+                y.iter().flat_map(|b| x.iter().map(move |a| a * b)).collect()
             }
             WallCells::RadialNodes { r } => {
-                let (node, above, outside) = between(r, x.hypot(y));
-                let next = (node + 1).min(r.len() - 1);
-                let cells = [(node, 1.0 - above), (next, above), (node, 0.0), (node, 0.0)];
-                WallShare { cells, outside }
+                hat_integrals(r, Domain::WHOLE, |r| 2.0 * PI * r / domain.images)
             }
+        }
+    }
+
+    /// The cells that an image of a cell comes to, and their parts of it, where mirrors turn x and y by signs.
+    pub fn image(&self, cell: usize, signs: [f64; 2]) -> Vec<(usize, f64)> {
+        if signs == [1.0; 2] {
+            return vec![(cell, 1.0)];
+        }
+        let middle = match self {
+            WallCells::Tiles { count, size } => {
+                let place = |n: usize, axis: usize| {
+                    (n as f64 + 0.5 - 0.5 * count[axis] as f64) * size[axis] / count[axis] as f64
+                };
+                [place(cell / count[1], 0), place(cell % count[1], 1)]
+            }
+            WallCells::Nodes { x, y } => [x[cell % x.len()], y[cell / x.len()]],
+            WallCells::Rings { .. } | WallCells::RadialNodes { .. } => return vec![(cell, 1.0)],
+        };
+        let at = [0, 1].map(|axis| [signs[axis] * middle[axis]; 2]);
+        let cover = self.cover(at);
+        match cover.cells.is_empty() {
+            // Of a body that does not reach as far on this side.
+            true => vec![(cover.nearest, 1.0)],
+            false => cover.cells,
         }
     }
 }
 
+/// A part of the wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Domain {
+    /// From where to where along x and y [m]; nothing along an axis that a plane model has not, where it is a
+    /// metre deep.
+    pub along: [Option<[f64; 2]>; 2],
+    /// Number of such parts in a circle about the origin.
+    pub images: f64,
+}
+
+impl Domain {
+    const WHOLE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+
+    /// All of the wall below a model of two or three dimensions.
+    pub fn whole(dimension: usize) -> Self {
+        Self { along: [Some(Self::WHOLE), (dimension == 3).then_some(Self::WHOLE)], images: 1.0 }
+    }
+}
+
 impl WallExchange {
+    /// Mean heat flux through cells of these areas [W/m²]; nothing before the first step.
+    pub fn heat_fluxes(&self, areas: &[f64]) -> Vec<f64> {
+        let rate = if self.duration > 0.0 { 1.0 / self.duration } else { 0.0 };
+        self.heat.iter().zip(areas).map(|(heat, area)| rate * heat / area).collect()
+    }
+
     pub fn none(cells: usize) -> Self {
         let heat = vec![0.0; cells];
         Self { heat, impulse: vec![[0.0; 3]; cells], ..Self::default() }
     }
 }
 
-/// The one cell that has everything.
-fn one(cell: usize, outside: bool) -> WallShare {
-    WallShare { cells: [(cell, 1.0), (cell, 0.0), (cell, 0.0), (cell, 0.0)], outside }
-}
-
-/// The cell at a place counted in cells, and whether the place lies outside.
-fn nearest(place: f64, count: usize) -> (usize, bool) {
-    let cell = (place.floor().max(0.0) as usize).min(count - 1);
-    (cell, place < 0.0 || place > count as f64)
-}
-
-/// The node below a coordinate, the share of the node above, and whether it lies outside.
-fn between(nodes: &[f64], at: f64) -> (usize, f64, bool) {
-    let last = nodes.len() - 1;
-    let outside = at < nodes[0] || at > nodes[last];
-    if last == 0 {
-        return (0, 0.0, false);
+/// Integrals between two ends of the functions that are linear between nodes, with a weight that is linear too.
+fn hat_integrals(nodes: &[f64], [first, last]: [f64; 2], weight: impl Fn(f64) -> f64) -> Vec<f64> {
+    let mut integrals = vec![0.0; nodes.len()];
+    for (n, ends) in nodes.windows(2).enumerate() {
+        let [a, b] = [ends[0].max(first), ends[1].min(last)];
+        if b <= a {
+            continue;
+        }
+        // Simpson's rule is exact for the product.
+        for (x, share) in [(a, 1.0), (0.5 * (a + b), 4.0), (b, 1.0)] {
+            let part = (b - a) / 6.0 * share * weight(x);
+            let above = (x - ends[0]) / (ends[1] - ends[0]);
+            integrals[n] += part * (1.0 - above);
+            integrals[n + 1] += part * above;
+        }
     }
-    let below = nodes.partition_point(|&node| node <= at).clamp(1, last) - 1;
-    let share = (at - nodes[below]) / (nodes[below + 1] - nodes[below]);
-    (below, share.clamp(0.0, 1.0), outside)
+    integrals
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn grids() -> [WallCells; 4] {
-        [
-            WallCells::Rings { count: 5, radius: 2.0 },
-            WallCells::Tiles { count: [4, 3], size: [4.0, 2.0] },
-            WallCells::Nodes { x: vec![-2.0, -0.5, 0.25, 2.0], y: vec![-1.0, 0.5, 1.0] },
-            WallCells::RadialNodes { r: vec![0.0, 0.25, 1.0, 2.0] },
-        ]
-    }
-
     #[test]
-    fn the_shares_of_a_place_sum_to_one() {
-        for cells in grids() {
-            for (x, y) in [(0.0, 0.0), (1.3, -0.7), (-2.0, 1.0), (9.0, 0.1), (-0.1, -8.0)] {
-                let share = cells.share(x, y);
-                let sum: f64 = share.cells.iter().map(|cell| cell.1).sum();
-                assert!((sum - 1.0).abs() < 1e-15, "{cells:?} {x} {y}");
-                assert!(share.cells.iter().all(|c| c.0 < cells.len() && c.1 >= 0.0));
-                let beyond = x.abs() > 2.0 || y.abs() > 2.0;
-                let corner = x == -2.0 && y == 1.0; // Inside the rectangles, outside the circles.
-                assert!(share.outside == beyond || corner, "{cells:?} {x} {y}");
-            }
+    fn areas_sum_to_the_whole() {
+        let whole = PI * 4.0;
+        for (cells, whole) in [
+            (WallCells::Rings { count: 5, radius: 2.0 }, whole),
+            (WallCells::Tiles { count: [4, 3], size: [4.0, 2.0] }, 8.0),
+            (WallCells::Nodes { x: vec![-2.0, -0.5, 2.0], y: vec![-1.0, 0.5, 1.0] }, 8.0),
+            (WallCells::RadialNodes { r: vec![0.0, 0.25, 1.0, 2.0] }, whole),
+        ] {
+            let areas = cells.areas(Domain::whole(3));
+            assert_eq!(areas.len(), cells.len());
+            let ends = [0.0, f64::INFINITY];
+            let quarter = Domain { along: [Some(ends); 2], images: 4.0 };
+            let part = cells.areas(quarter).iter().sum::<f64>();
+            assert!((part - 0.25 * whole).abs() < 1e-13, "{cells:?}");
+            assert!((areas.iter().sum::<f64>() - whole).abs() < 1e-13, "{cells:?}");
         }
-    }
-
-    #[test]
-    fn bilinear_shares_reproduce_a_plane() {
-        let [_, _, cells, _] = grids();
-        let WallCells::Nodes { x, .. } = &cells else { unreachable!() };
-        let y = [-1.0, 0.5, 1.0];
-        let plane = |x: f64, y: f64| 3.0 - 2.0 * x + 0.5 * y;
-        for place in [(-1.7, 0.9), (0.1, 0.2), (2.0, 1.0)] {
-            let share = cells.share(place.0, place.1);
-            let value: f64 =
-                share.cells.iter().map(|&(c, w)| w * plane(x[c % x.len()], y[c / x.len()])).sum();
-            assert!((value - plane(place.0, place.1)).abs() < 1e-14);
-        }
-    }
-
-    #[test]
-    fn cells_are_counted_as_their_variables_are() {
-        let [rings, tiles, ..] = grids();
-        assert_eq!(rings.share(0.0, 0.5).cells[0].0, 1);
-        assert_eq!(tiles.share(-1.5, 0.0).cells[0].0, 1);
-        assert_eq!(tiles.share(1.5, -0.9).cells[0].0, 9);
     }
 }

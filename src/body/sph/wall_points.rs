@@ -1,0 +1,372 @@
+//! Points of the wall at equal distances, through which fluid and wall exchange heat and momentum.
+//!
+//! Every point stands for the square about it. So each part of the wall has its true area, however the
+//! particles above it stand and however small the cells are that get what the squares got.
+
+use std::collections::HashMap;
+
+use super::images::copies;
+use super::plan::{DropletPlan, Extent};
+use super::surface::Surface;
+use super::wall::{Domain, WallCells, WallExchange};
+
+/// Points along an edge of a page, that is made when fluid first comes there.
+const PAGE: i32 = 16;
+
+/// Where points stand along an axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Row {
+    /// Distance of points [m]; none along an axis that a plane model has not.
+    pitch: Option<f64>,
+    /// Whether a mirror stands at 0.
+    mirrored: bool,
+    /// Number of points to the far end, and whether they begin anew there instead of being mirrored.
+    end: Option<(i32, bool)>,
+}
+
+/// How points stand on the wall of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PointLattice {
+    rows: [Row; 2],
+    mirrors: [bool; 2],
+    /// Area that a point stands for [m²]; metres of depth in a plane model.
+    pub area: f64,
+}
+
+/// A place of a particle among the points: up to nine of them, their weights and what turns a vector there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stencil {
+    points: [(u32, f64); 9],
+    signs: [[f64; 2]; 9],
+    count: usize,
+}
+
+/// A point and what it got during a step of the model, of which images at mirrors are left out.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Point {
+    /// Its place, counted from the origin.
+    place: [i32; 2],
+    /// Whether the following is known.
+    pub active: bool,
+    /// Columns below its square and their parts of it.
+    pub below: Vec<(u32, f64)>,
+    /// The part beyond the outermost cells of a wall that goes on there, and the column whose temperature it has.
+    pub beyond: Option<(u32, f64)>,
+    /// Mass of the fluid at the wall and its product with the temperature, each over their units.
+    pub mass: f64,
+    pub warmth: f64,
+    /// Mean temperature of the wall [K], and part of its difference to that of the fluid that the latter loses.
+    pub wall: f64,
+    pub relaxation: f64,
+    /// [N s]
+    pub impulse: [f64; 3],
+}
+
+/// What lies below a cell of the wall, as far as heat goes in a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Column {
+    cell: usize,
+    /// Of the cell, images at mirrors left out [m²].
+    pub area: f64,
+    /// Temperature [K] without the amplitudes, and what is added to it in the course of the step.
+    pub base: f64,
+    pub drift: f64,
+    /// Temperature at the end if the fluid gave nothing [K].
+    free: f64,
+    /// What it got so far [J].
+    pub heat: f64,
+}
+
+/// All points that fluid has come to, and columns below them, in the course of a step of the model.
+pub struct WallPoints<'a> {
+    lattice: &'a PointLattice,
+    cells: &'a WallCells,
+    pub surface: &'a Surface,
+    pages: HashMap<[i32; 2], usize>,
+    last: ([i32; 2], usize),
+    pub points: Vec<Point>,
+    pub columns: Vec<Column>,
+    /// Those of [`Surface`] for each column, as they are now.
+    pub amplitudes: Vec<f64>,
+    /// The column of each cell, and the area of the latter.
+    column_of: Vec<Option<u32>>,
+    areas: Vec<f64>,
+    /// Heat that went to the wall beyond the outermost cells [J].
+    pub heat_beyond: f64,
+    /// Time since the beginning of the step, and its length [s].
+    pub time: f64,
+    pub duration: f64,
+}
+
+impl PointLattice {
+    pub fn of(plan: &DropletPlan) -> Self {
+        let rows = [0, 1].map(|axis| {
+            let flat = axis == 1 && plan.dimension == 2;
+            let fitted = |length: f64| {
+                let count = (length / plan.spacing).round().max(1.0);
+                (length / count, count as i32)
+            };
+            let (pitch, mirrored, end) = match plan.extents[axis] {
+                Extent::Open => (plan.spacing, plan.mirrors[axis], None),
+                Extent::Periodic(length) => {
+                    let (pitch, count) = fitted(length);
+                    (pitch, false, Some((count, true)))
+                }
+                Extent::Closed(length) => {
+                    let (pitch, count) = fitted(length);
+                    (pitch, true, Some((count, false)))
+                }
+            };
+            Row { pitch: (!flat).then_some(pitch), mirrored, end }
+        });
+        let area = rows.iter().filter_map(|row| row.pitch).product();
+        Self { rows, mirrors: plan.mirrors, area }
+    }
+
+    /// Where the model has points, along x and y [m]; a plane model is a metre deep.
+    fn domain(&self) -> Domain {
+        let along = self.rows.map(|row| {
+            let Some(pitch) = row.pitch else { return None };
+            let begins = row.mirrored || row.end.is_some();
+            let first = if begins { 0.0 } else { f64::NEG_INFINITY };
+            Some([first, row.end.map_or(f64::INFINITY, |(count, _)| pitch * f64::from(count))])
+        });
+        Domain { along, images: copies(self.mirrors) }
+    }
+
+    /// The square that a point stands for [m]; a line in a plane model.
+    fn square(&self, place: [i32; 2]) -> [[f64; 2]; 2] {
+        [0, 1].map(|axis| match self.rows[axis].pitch {
+            Some(pitch) => [place[axis], place[axis] + 1].map(|n| pitch * f64::from(n)),
+            None => [0.0; 2],
+        })
+    }
+}
+
+impl Row {
+    /// Three points about a place [m], their weights by the quadratic B-spline, and −1 where the place is a
+    /// mirror image.
+    fn about(&self, at: f64) -> ([(i32, f64, f64); 3], usize) {
+        let Some(pitch) = self.pitch else { return ([(0, 1.0, 1.0); 3], 1) };
+        let place = at / pitch;
+        let middle = place.floor();
+        let off = place - middle - 0.5;
+        let weights = [0.5 * (0.5 - off).powi(2), 0.75 - off * off, 0.5 * (0.5 + off).powi(2)];
+        let point = |n: usize| {
+            let (index, sign) = self.within(middle as i32 + n as i32 - 1);
+            (index, weights[n], sign)
+        };
+        ([point(0), point(1), point(2)], 3)
+    }
+
+    /// Where a point is in the model, and −1 if that is its mirror image.
+    fn within(&self, index: i32) -> (i32, f64) {
+        match self.end {
+            Some((count, true)) => (index.rem_euclid(count), 1.0),
+            Some((count, false)) if index >= count => (2 * count - 1 - index, -1.0),
+            _ if self.mirrored && index < 0 => (-1 - index, -1.0),
+            _ => (index, 1.0),
+        }
+    }
+}
+
+impl Stencil {
+    pub fn weights(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.points[..self.count].iter().map(|&(point, weight)| (point as usize, weight))
+    }
+}
+
+impl<'a> WallPoints<'a> {
+    pub fn new(
+        lattice: &'a PointLattice,
+        cells: &'a WallCells,
+        surface: &'a Surface,
+        duration: f64,
+    ) -> Self {
+        Self {
+            lattice,
+            cells,
+            surface,
+            pages: HashMap::new(),
+            last: ([i32::MIN; 2], 0),
+            points: Vec::new(),
+            columns: Vec::new(),
+            amplitudes: Vec::new(),
+            column_of: vec![None; cells.len()],
+            areas: cells.areas(lattice.domain()),
+            heat_beyond: 0.0,
+            time: 0.0,
+            duration,
+        }
+    }
+
+    /// The points about a place [m].
+    pub fn stencil(&mut self, [x, y]: [f64; 2]) -> Stencil {
+        let (columns, nx) = self.lattice.rows[0].about(x);
+        let (rows, ny) = self.lattice.rows[1].about(y);
+        let mut stencil = Stencil { points: [(0, 0.0); 9], signs: [[1.0; 2]; 9], count: nx * ny };
+        for (n, &(j, b, sign_y)) in rows[..ny].iter().enumerate() {
+            for (m, &(i, a, sign_x)) in columns[..nx].iter().enumerate() {
+                stencil.points[n * nx + m] = (self.index([i, j]) as u32, a * b);
+                stencil.signs[n * nx + m] = [sign_x, sign_y];
+            }
+        }
+        stencil
+    }
+
+    /// Index of a point, on a page that is made if there is none yet.
+    fn index(&mut self, place: [i32; 2]) -> usize {
+        let page = place.map(|n| n.div_euclid(PAGE));
+        if self.last.0 != page {
+            let known = self.pages.get(&page).copied();
+            self.last = (page, known.unwrap_or_else(|| self.open(page)));
+        }
+        let [i, j] = place.map(|n| n.rem_euclid(PAGE) as usize);
+        self.last.1 + i + PAGE as usize * j
+    }
+
+    fn open(&mut self, page: [i32; 2]) -> usize {
+        let first = self.points.len();
+        let [x, y] = page.map(|n| n * PAGE);
+        let places = (0..PAGE).flat_map(|j| (0..PAGE).map(move |i| [x + i, y + j]));
+        self.points.extend(places.map(|place| Point { place, ..Point::default() }));
+        self.pages.insert(page, first);
+        first
+    }
+
+    /// Adds an impulse [N s] to the points about a place [m].
+    pub fn push(&mut self, at: [f64; 2], [x, y, z]: [f64; 3]) {
+        let stencil = self.stencil(at);
+        for (n, (point, weight)) in stencil.weights().enumerate() {
+            let [along_x, along_y] = stencil.signs[n];
+            let impulse = [along_x * x, along_y * y, z];
+            let sum = &mut self.points[point].impulse;
+            (0..3).for_each(|a| sum[a] += weight * impulse[a]);
+        }
+    }
+
+    /// Makes a point exchange heat with the columns below it.
+    pub fn activate(&mut self, point: usize) {
+        let cover = self.cells.cover(self.lattice.square(self.points[point].place));
+        let below = cover.cells.iter().map(|&(cell, part)| (self.column(cell), part));
+        let below: Vec<(u32, f64)> = below.collect();
+        // Where a body ends there is nothing to be as warm as its edge.
+        let goes_on = cover.outside > 0.0 && !self.cells.end_with_the_body();
+        let beyond = goes_on.then(|| (self.column(cover.nearest), cover.outside));
+        let point = &mut self.points[point];
+        (point.active, point.below, point.beyond) = (true, below, beyond);
+    }
+
+    /// The column of a cell, with the temperatures that it has now if nothing was given to it.
+    fn column(&mut self, cell: usize) -> u32 {
+        if let Some(column) = self.column_of[cell] {
+            return column;
+        }
+        let (surface, count) = (self.surface, self.surface.response.len());
+        let (base, drift) = (surface.base[cell], surface.drift[cell]);
+        let mut free = base + drift;
+        for (m, rate) in surface.response.rates.iter().enumerate() {
+            let amplitude = surface.amplitudes[cell * count + m];
+            self.amplitudes.push(amplitude * (-rate * self.time).exp());
+            free += amplitude * (-rate * self.duration).exp();
+        }
+        let column = self.columns.len() as u32;
+        self.columns.push(Column { cell, area: self.areas[cell], base, drift, free, heat: 0.0 });
+        self.column_of[cell] = Some(column);
+        column
+    }
+
+    /// Heat [J] and impulse [N s] that all points got, images at mirrors included.
+    pub fn totals(&self) -> (f64, [f64; 3]) {
+        let images = copies(self.lattice.mirrors);
+        let heat = self.columns.iter().map(|column| column.heat).sum::<f64>() + self.heat_beyond;
+        let impulse = [0, 1, 2].map(|n| match n < 2 && self.lattice.mirrors[n] {
+            // What the images give along a mirrored axis cancels.
+            true => 0.0,
+            false => images * self.points.iter().map(|point| point.impulse[n]).sum::<f64>(),
+        });
+        (images * heat, impulse)
+    }
+
+    /// What all cells got, images at mirrors included, and the rises of their surface by it [K m²].
+    pub fn settle(&self) -> (WallExchange, Vec<f64>) {
+        let mut exchange = WallExchange::none(self.cells.len());
+        exchange.duration = self.duration;
+        exchange.heat_outside = copies(self.lattice.mirrors) * self.heat_beyond;
+        let rises = self.settle_heat(&mut exchange);
+        // All images are equally far out, and push alike along their radius.
+        let radial = self.cells.are_radial();
+        let images = if radial { copies(self.lattice.mirrors) } else { 1.0 };
+        for point in self.points.iter().filter(|point| point.impulse != [0.0; 3]) {
+            for signs in self.images() {
+                let impulse = point.impulse.map(|p| images * p);
+                let given = Given { place: point.place, impulse }.turned(signs);
+                self.deposit(&given, &mut exchange);
+            }
+        }
+        (exchange, rises)
+    }
+
+    /// Which way mirrors turn x and y in what each of the images gives on its own.
+    fn images(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let sides = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
+        let apart = self.lattice.mirrors.map(|mirrored| mirrored && !self.cells.are_radial());
+        let [along_x, along_y] = apart.map(sides);
+        along_x.iter().flat_map(move |&x| along_y.iter().map(move |&y| [x, y]))
+    }
+
+    fn settle_heat(&self, exchange: &mut WallExchange) -> Vec<f64> {
+        let mut rises = vec![0.0; self.cells.len()];
+        let count = self.surface.response.len();
+        let together = if self.cells.are_radial() { copies(self.lattice.mirrors) } else { 1.0 };
+        for (n, column) in self.columns.iter().enumerate() {
+            let amplitudes = &self.amplitudes[n * count..][..count];
+            let end = column.base + column.drift + amplitudes.iter().sum::<f64>();
+            let (heat, rise) =
+                (together * column.heat, together * column.area * (end - column.free));
+            for signs in self.images() {
+                for (cell, part) in self.cells.image(column.cell, signs) {
+                    exchange.heat[cell] += part * heat;
+                    rises[cell] += part * rise;
+                }
+            }
+        }
+        rises
+    }
+
+    fn deposit(&self, given: &Given, exchange: &mut WallExchange) {
+        let square = self.lattice.square(given.place);
+        let cover = self.cells.cover(square);
+        let radial = self.cells.are_radial();
+        let middle = square.map(|[low, high]| 0.5 * (low + high));
+        let impulse = if radial { radially(middle, given.impulse) } else { given.impulse };
+        for &(cell, weight) in &cover.cells {
+            (0..3).for_each(|n| exchange.impulse[cell][n] += weight * impulse[n]);
+        }
+        let cancels = |n: usize| n < 2 && radial && self.lattice.mirrors[n];
+        for n in (0..3).filter(|&n| !cancels(n)) {
+            exchange.impulse_outside[n] += cover.outside * given.impulse[n];
+        }
+    }
+}
+
+/// What a point or an image of it gives.
+struct Given {
+    place: [i32; 2],
+    impulse: [f64; 3],
+}
+
+impl Given {
+    /// Where mirrors turn it.
+    fn turned(self, signs: [f64; 2]) -> Self {
+        let along = |n: usize| if signs[n] < 0.0 { -1 - self.place[n] } else { self.place[n] };
+        let [x, y, z] = self.impulse;
+        Self { place: [along(0), along(1)], impulse: [signs[0] * x, signs[1] * y, z] }
+    }
+}
+
+/// The impulse at a place along its radius from the origin, 0, and along z.
+fn radially([x, y]: [f64; 2], [u, v, w]: [f64; 3]) -> [f64; 3] {
+    let radius = x.hypot(y);
+    if radius > 0.0 { [(x * u + y * v) / radius, 0.0, w] } else { [0.0, 0.0, w] }
+}

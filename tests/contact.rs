@@ -1,0 +1,147 @@
+//! Drops of many fluids on plates of many materials: temperatures of contact, and none beyond those at first.
+
+#[allow(dead_code)]
+mod common;
+
+use common::{Trial, off};
+
+/// Density, specific heat, conductivity, surface tension, viscosity in SI units.
+const FLUIDS: [(&str, [f64; 5]); 8] = [
+    ("sodium", [930.0, 1300.0, 70.0, 0.19, 5e-4]),
+    ("tin", [6980.0, 250.0, 30.0, 0.54, 2e-3]),
+    ("mercury", [13534.0, 139.0, 8.5, 0.485, 1.5e-3]),
+    ("water", [1000.0, 4180.0, 0.6, 0.072, 1e-3]),
+    ("wax", [780.0, 2400.0, 0.2, 0.025, 5e-3]),
+    ("glycerol", [1260.0, 2400.0, 0.28, 0.063, 0.3]),
+    // Nothing that exists, for the ends of the range of effusivities.
+    ("insulator", [1000.0, 1000.0, 1e-3, 0.05, 1e-3]),
+    ("conductor", [9000.0, 400.0, 400.0, 1.0, 4e-3]),
+];
+
+/// Density, specific heat, conductivity.
+const SOLIDS: [(&str, [f64; 3]); 7] = [
+    ("copper", [8960.0, 385.0, 390.0]),
+    ("alumina", [3950.0, 900.0, 10.0]),
+    ("stainless steel", [8000.0, 500.0, 15.0]),
+    ("glass", [2500.0, 840.0, 1.1]),
+    ("polymer", [1200.0, 1500.0, 0.2]),
+    ("aerogel", [100.0, 1000.0, 0.02]),
+    ("lightest aerogel", [2.0, 1000.0, 0.02]),
+];
+
+const HOT: f64 = 600.0;
+const COLD: f64 = 300.0;
+const STOP: f64 = 5e-6;
+const STEPS: usize = 10;
+/// How far a plate may go beyond the range, over its width: conduction along its surface within a step, and
+/// particles that conduct otherwise than the modes that stand for them. Fluid never does.
+const BEYOND: f64 = 0.025;
+/// Ways of heat [m] short beside the width of the contact, so that it goes straight down.
+const NARROW: f64 = 5e-6;
+
+fn scene(fluid: [f64; 5], solid: [f64; 3], shape: &str, heat: &str) -> String {
+    let [density, specific_heat, conductivity, tension, viscosity] = fluid;
+    let [solid_density, capacity, k] = solid;
+    // A sixth of how far heat comes.
+    let depth = ((k / (solid_density * capacity) * STOP).sqrt() / 6.0).min(2e-5);
+    format!(
+        r#"
+name = "Contact"
+stop_time = {STOP:?}
+step = {:?}
+[body.drop]
+kind = "droplet"
+diameter = 1e-4
+impact_velocity = 2.0
+initial_temperature = {HOT:?}
+spacing = 8e-6
+fluid = {{ density = {density:?}, viscosity = {viscosity:?}, specific_heat = {specific_heat:?}, conductivity = {conductivity:?}, surface_tension = {tension:?} }}
+[body.plate]
+kind = "solid"
+shape = {{ {shape} }}
+heat = "{heat}"
+material = {{ model = "thermoelastic", density = {solid_density:?}, specific_heat = {capacity:?}, conductivity = {k:?}, young = 70e9, poisson = 0.25, expansion = 8e-6 }}
+initial_temperature = {COLD:?}
+mesh = {{ spacing = 8e-6, depth_spacing = {depth:?}, growth = 1.5, order = {} }}
+[[coupling]]
+from = "drop"
+to = "plate.top"
+radius = 7.5e-5
+traction = false
+[[probe]]
+name = "centre"
+in = "plate"
+at = [0.0, 0.0, 0.0]
+gives = ["temperature"]
+"#,
+        STOP / STEPS as f64,
+        if heat == "sph" { 1 } else { 2 },
+    )
+}
+
+const BOX: &str = "box = [4e-4, 4e-4, 2e-4]";
+const DISC: &str = "disc = { radius = 2e-4, thickness = 2e-4 }";
+
+/// Runs a pair and holds its temperatures and its heat; that of the centre at the end.
+fn run(name: &str, text: &str) -> f64 {
+    let mut trial = Trial::new(text);
+    let room = BEYOND * (HOT - COLD);
+    for _ in 0..STEPS {
+        trial.step(STOP / STEPS as f64);
+        let highest = trial.get("plate.max_temperature");
+        assert!(highest <= HOT + room, "{name}: the plate is at {highest} K");
+        let centre = trial.get("centre.temperature");
+        assert!(centre >= COLD - room, "{name}: the centre is at {centre} K");
+        let [low, high] = ["min", "max"].map(|end| trial.get(&format!("drop.{end}_temperature")));
+        assert!(low >= COLD && high <= HOT + 1e-9, "{name}: the drop is at {low} to {high} K");
+    }
+    let [given, taken] = ["drop.heat", "plate.heat_in"].map(|total| trial.get(total));
+    assert!(given > 0.0 && off(taken, given) < 1e-12, "{name}: {given} J, {taken} J");
+    assert!(off(-trial.get("drop.heat_stored"), given) < 1e-6, "{name}");
+    trial.get("centre.temperature")
+}
+
+#[test]
+fn every_pair_takes_its_temperature_of_contact() {
+    let effusivity = |[density, capacity, k]: [f64; 3]| (density * capacity * k).sqrt();
+    for (fluid_name, fluid) in FLUIDS {
+        for (solid_name, solid) in SOLIDS {
+            let name = format!("{fluid_name} on {solid_name}");
+            let centre = run(&name, &scene(fluid, solid, BOX, "fem"));
+            let [hot, cold] = [[fluid[0], fluid[1], fluid[2]], solid].map(effusivity);
+            let contact = (hot * HOT + cold * COLD) / (hot + cold);
+            let error = (centre - contact) / (HOT - COLD);
+            let reach = |[density, capacity, k]: [f64; 3]| (k / (density * capacity) * STOP).sqrt();
+            if reach([fluid[0], fluid[1], fluid[2]]).max(reach(solid)) < NARROW {
+                // The drop spreads, so its layer is thinner than that of fluid at rest.
+                assert!((-0.06..0.09).contains(&error), "{name}: {centre} K, not {contact} K");
+            } else {
+                // Heat that goes to all sides takes the centre with it.
+                assert!((-0.3..0.09).contains(&error), "{name}: {centre} K, not {contact} K");
+            }
+        }
+    }
+}
+
+#[test]
+fn discs_and_particles_take_the_heat_too() {
+    for (fluid_name, fluid) in [FLUIDS[0], FLUIDS[3]] {
+        for (solid_name, solid) in [SOLIDS[1], SOLIDS[4], SOLIDS[5]] {
+            let of = |shape, heat| {
+                run(
+                    &format!("{fluid_name} on {solid_name}, {heat}"),
+                    &scene(fluid, solid, shape, heat),
+                )
+            };
+            let reference = of(BOX, "fem");
+            for (shape, heat) in [(DISC, "fem"), (DISC, "sph")] {
+                let found = of(shape, heat);
+                let name = format!("{fluid_name} on {solid_name}, {heat}");
+                assert!(
+                    (found - reference).abs() < 0.06 * (HOT - COLD),
+                    "{name}: {found} {reference}"
+                );
+            }
+        }
+    }
+}
