@@ -12,3 +12,4 @@ pub mod separable;
 pub mod small_inverse;
 pub mod sparse_rows;
 pub mod stencil_matrix;
+mod supernodes;
