@@ -66,9 +66,7 @@ impl SparseCholesky {
         .map_err(|_| too_large.clone())?;
 
         let mut values = Vec::new();
-        values
-            .try_reserve_exact(symbolic.len_val())
-            .map_err(|_| too_large.clone())?;
+        values.try_reserve_exact(symbolic.len_val()).map_err(|_| too_large.clone())?;
         values.resize(symbolic.len_val(), 0.0);
         let is_definite = match symbolic.raw() {
             SymbolicCholeskyRaw::Supernodal(panels) => {

@@ -300,9 +300,8 @@ impl<'a> Tree<'a> {
             let right = panel.subrows(source.width + columns_first, n);
             let place = |k: usize| places[pattern[k]] as usize;
             let [i, j] = [place(rows_first) - rows.start, place(columns_first) - columns.start];
-            let is_contiguous = |first: usize, last: usize| {
-                place(last - 1) - place(first) == last - 1 - first
-            };
+            let is_contiguous =
+                |first: usize, last: usize| place(last - 1) - place(first) == last - 1 - first;
             if is_contiguous(rows_first, rows_last) && is_contiguous(columns_first, columns_last) {
                 subtract(tile.as_mut().submatrix_mut(i, j, m, n), left, right);
                 continue;
