@@ -41,7 +41,7 @@ fn product_avx2(out: &mut [f64], left: MatRef<'_, f64>, right: MatRef<'_, f64>) 
 }
 
 /// Tiles of `M` rows and `N` columns, whose sums stay in registers. The smaller matrix is laid out by
-/// tiles once, of the other one strip at a time.
+/// tiles once, of the other one strip at a time. No closures: these are compiled for every processor.
 #[inline(always)]
 fn by_tiles<const M: usize, const N: usize, const FUSED: bool>(
     out: &mut [f64],
@@ -53,13 +53,6 @@ fn by_tiles<const M: usize, const N: usize, const FUSED: bool>(
         return out.fill(0.0);
     }
     let right = right.transpose();
-    let mut tile = |i: usize, j: usize, panel: &[[f64; M]], strip: &[[f64; N]]| {
-        let sums = sums::<M, N, FUSED>(panel, strip);
-        let high = M.min(rows - i);
-        for (sums, column) in sums.iter().zip(j..columns) {
-            out[column * rows + i..][..high].copy_from_slice(&sums[..high]);
-        }
-    };
     let (panels, strips) = ((0..rows).step_by(M), (0..columns).step_by(N));
     if rows <= columns {
         let mut all = vec![[0.0; M]; depth * panels.len()];
@@ -70,7 +63,7 @@ fn by_tiles<const M: usize, const N: usize, const FUSED: bool>(
         for j in strips {
             lay_out(&mut strip, right, j);
             for (i, panel) in panels.clone().zip(all.chunks_exact(depth)) {
-                tile(i, j, panel, &strip);
+                store(out, rows, i, j, &sums::<M, N, FUSED>(panel, &strip));
             }
         }
     } else {
@@ -82,7 +75,7 @@ fn by_tiles<const M: usize, const N: usize, const FUSED: bool>(
         for i in panels {
             lay_out(&mut panel, left, i);
             for (j, strip) in strips.clone().zip(all.chunks_exact(depth)) {
-                tile(i, j, &panel, strip);
+                store(out, rows, i, j, &sums::<M, N, FUSED>(&panel, strip));
             }
         }
     }
@@ -117,6 +110,15 @@ fn sums<const M: usize, const N: usize, const FUSED: bool>(
         }
     }
     sums
+}
+
+/// Puts a tile at row i and column j of `out`, as far as it lies inside.
+#[inline(always)]
+fn store<const M: usize>(out: &mut [f64], rows: usize, i: usize, j: usize, tile: &[[f64; M]]) {
+    let high = M.min(rows - i);
+    for (sums, column) in tile.iter().zip(out.chunks_exact_mut(rows).skip(j)) {
+        column[i..i + high].copy_from_slice(&sums[..high]);
+    }
 }
 
 #[cfg(test)]
