@@ -1,6 +1,6 @@
 //! States that a master has saved: what belongs to one, and which of them live.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::ptr;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -36,8 +36,11 @@ pub struct Snapshot {
 /// Such a pointer is a number that is never given out again in this process, and nobody looks at
 /// what it points to. So one that was freed, came from another instance or was never given out is
 /// recognised.
+///
+/// An ordered map, as a hashed one asks the system for random numbers, and a host that cancels its thread
+/// would end it there.
 #[derive(Default)]
-pub struct SavedStates(HashMap<usize, Snapshot>);
+pub struct SavedStates(BTreeMap<usize, Snapshot>);
 
 /// Numbers given out, odd so that none is null or could be an address of an aligned value.
 static NEXT: AtomicUsize = AtomicUsize::new(1);

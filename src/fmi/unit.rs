@@ -290,8 +290,10 @@ impl Unit {
 
     /// The model of a scene with parameters.
     pub(super) fn model_of(&self, scene: &Scene) -> Answer<Arc<Model>> {
-        aside(|| scene::check(scene)).map_err(|error| Refusal::error(error.to_string()))?;
-        let model = Model::shared(scene, scene.solver.threads);
+        let model = aside(|| {
+            scene::check(scene)?;
+            Model::shared(scene, scene.solver.threads)
+        });
         model.map_err(|error| explain(&self.registry, error))
     }
 

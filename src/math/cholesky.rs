@@ -1,4 +1,5 @@
-//! Sparse Cholesky factorisation of a symmetric positive definite matrix, by faer.
+//! Sparse Cholesky factorisation of a symmetric positive definite matrix: its pattern
+//! by faer, its numbers by supernodes.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;

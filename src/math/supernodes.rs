@@ -153,9 +153,9 @@ impl<'a> Tree<'a> {
         }
         let mut updates: Vec<Vec<Update>> = (0..count).map(|_| Vec::new()).collect();
         let mut parent = vec![None; count];
-        for from in 0..count {
+        for (from, parent) in parent.iter_mut().enumerate() {
             let pattern = symbolic.supernode(from).pattern();
-            parent[from] = pattern.first().map(|&row| owner[row]);
+            *parent = pattern.first().map(|&row| owner[row]);
             let mut first = 0;
             for shared in pattern.chunk_by(|&a, &b| owner[a] == owner[b]) {
                 let shared = (first..first + shared.len(), owner[shared[0]]);

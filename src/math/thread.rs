@@ -10,8 +10,7 @@ use std::mem::transmute;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Address space for the stack of each of our threads [B]; of a host's thread a call takes less than
-/// 32 KiB.
+/// Address space for the stack of each of our threads [B].
 pub const STACK: usize = 2 << 20;
 
 /// How many threads of the process run work aside.

@@ -14,10 +14,13 @@
 #include <errno.h>
 #include <fenv.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -336,6 +339,58 @@ static void with_environment(void) {
   EXPECT(rounding_seen == rounding);
 }
 
+static pid_t host;
+static volatile int ticks, strayed;
+
+static void tick(int number) {
+  (void)number;
+  ticks++;
+  strayed += (pid_t)syscall(SYS_gettid) != host;
+}
+
+/* Its timer interrupts the host's thread often, and no other; nothing else of signals changes. */
+static void with_timer(void) {
+  const struct itimerval often = {{0, 200}, {0, 200}}, never = {{0, 0}, {0, 0}};
+  struct sigaction action = {.sa_handler = tick}, before[NSIG], after;
+  sigset_t blocked;
+  stack_t stack;
+  host = getpid();
+  EXPECT(sigaction(SIGALRM, &action, NULL) == 0);
+  for (int k = 1; k < NSIG; k++) {
+    sigaction(k, NULL, &before[k]);
+  }
+  EXPECT(setitimer(ITIMER_REAL, &often, NULL) == 0);
+  live(NULL);
+  EXPECT(setitimer(ITIMER_REAL, &never, NULL) == 0);
+  EXPECT(ticks > 0 && strayed == 0);
+  for (int k = 1; k < NSIG; k++) {
+    EXPECT(sigaction(k, NULL, &after) != 0 || after.sa_handler == before[k].sa_handler);
+  }
+  EXPECT(pthread_sigmask(SIG_BLOCK, NULL, &blocked) == 0 && sigisemptyset(&blocked));
+  EXPECT(sigaltstack(NULL, &stack) == 0 && (stack.ss_flags & SS_DISABLE));
+}
+
+static double cancelled_values[64];
+
+/* Is cancelled before its first call, and ends when it is done. */
+static void *live_cancelled(void *unused) {
+  EXPECT(pthread_cancel(pthread_self()) == 0);
+  void *unit = begin();
+  steps(unit, cancelled_values);
+  end(unit);
+  pthread_testcancel();
+  return unused;
+}
+
+static void cancelled(void) {
+  pthread_t thread;
+  void *result;
+  EXPECT(pthread_create(&thread, NULL, live_cancelled, NULL) == 0);
+  EXPECT(pthread_join(thread, &result) == 0 && result == PTHREAD_CANCELED);
+  print(cancelled_values);
+  live(NULL);
+}
+
 int main(int argc, char **argv) {
   EXPECT(argc > 8);
   const char *play = argv[1];
@@ -386,6 +441,10 @@ int main(int argc, char **argv) {
     __builtin_ia32_ldmxcsr(0x9fc0);
     with_environment();
 #endif
+  } else if (strcmp(play, "timer") == 0) {
+    with_timer();
+  } else if (strcmp(play, "cancelled") == 0) {
+    cancelled();
   } else {
     EXPECT(!"known");
   }
