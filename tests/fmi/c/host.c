@@ -370,27 +370,6 @@ static void with_timer(void) {
   EXPECT(sigaltstack(NULL, &stack) == 0 && (stack.ss_flags & SS_DISABLE));
 }
 
-static double cancelled_values[64];
-
-/* Is cancelled before its first call, and ends when it is done. */
-static void *live_cancelled(void *unused) {
-  EXPECT(pthread_cancel(pthread_self()) == 0);
-  void *unit = begin();
-  steps(unit, cancelled_values);
-  end(unit);
-  pthread_testcancel();
-  return unused;
-}
-
-static void cancelled(void) {
-  pthread_t thread;
-  void *result;
-  EXPECT(pthread_create(&thread, NULL, live_cancelled, NULL) == 0);
-  EXPECT(pthread_join(thread, &result) == 0 && result == PTHREAD_CANCELED);
-  print(cancelled_values);
-  live(NULL);
-}
-
 int main(int argc, char **argv) {
   EXPECT(argc > 8);
   const char *play = argv[1];
@@ -443,8 +422,6 @@ int main(int argc, char **argv) {
 #endif
   } else if (strcmp(play, "timer") == 0) {
     with_timer();
-  } else if (strcmp(play, "cancelled") == 0) {
-    cancelled();
   } else {
     EXPECT(!"known");
   }
