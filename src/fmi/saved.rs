@@ -36,9 +36,6 @@ pub struct Snapshot {
 /// Such a pointer is a number that is never given out again in this process, and nobody looks at
 /// what it points to. So one that was freed, came from another instance or was never given out is
 /// recognised.
-///
-/// An ordered map, as a hashed one asks the system for random numbers, and a host that cancels its thread
-/// would end it there.
 #[derive(Default)]
 pub struct SavedStates(BTreeMap<usize, Snapshot>);
 
