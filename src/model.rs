@@ -33,6 +33,7 @@ use crate::body::sph::{DropletSph, Failure};
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::chebyshev::products;
 use crate::math::cholesky::CholeskyError;
+use crate::math::thread::aside;
 use crate::scene::{Droplet, FaceName, Footprint, Grid, Load, Scene, SceneError, Solid};
 use crate::variables::{BodyTotal, Component, InputLayout, Output, Registry, Slot};
 
@@ -148,6 +149,10 @@ const PARTICLES_WORTH_THREADS: usize = 2_000;
 impl Model {
     /// Builds meshes, modes and factorisations; `threads` = 0 lets the program choose.
     pub fn build(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
+        aside(|| Self::build_here(scene, threads))
+    }
+
+    fn build_here(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
         let layout = InputLayout::of(scene);
         let mut bodies = Vec::new();
         let mut most_threads = 1;
@@ -188,7 +193,7 @@ impl Model {
     /// Time zero, inputs at their start values.
     pub fn initial_state(&self) -> State {
         let solids = self.bodies.iter().map(|body| vec![0.0; body.solid.state_len()]);
-        let droplets = self.droplets.iter().map(|body| body.droplet.initial_state());
+        let droplets = self.droplets.iter().map(|body| aside(|| body.droplet.initial_state()));
         State {
             time: 0.0,
             inputs: initial_inputs(&self.scene),

@@ -1,6 +1,6 @@
 //! Adjoint derivatives, in safe Rust.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -41,11 +41,11 @@ impl Unit {
     }
 
     /// Places of the inputs that some of these outputs follow at once.
-    fn followed(&self, outputs: &[Reference]) -> HashSet<usize> {
-        let all: HashMap<usize, Rc<[usize]>> =
+    fn followed(&self, outputs: &[Reference]) -> BTreeSet<usize> {
+        let all: BTreeMap<usize, Rc<[usize]>> =
             self.registry.all_dependencies(&self.packed).into_iter().collect();
-        let mut followed = HashSet::new();
-        let mut seen = HashSet::new();
+        let mut followed = BTreeSet::new();
+        let mut seen = BTreeSet::new();
         for output in outputs {
             // Outputs of one kind share one list.
             let list = &all[&(*output as usize)];

@@ -9,6 +9,7 @@ use super::legality::{Function, Phase};
 use super::panics;
 use super::types::{Answer, Handle, Refusal, Status};
 use super::unit::Unit;
+use crate::model::Model;
 
 /// What a `fmi2Component` or `fmi3Instance` points to.
 struct Instance {
@@ -91,7 +92,10 @@ pub unsafe fn take_back(handle: Handle, function: impl Function) {
     unsafe {
         ptr::write_volatile(&raw mut (*pointer).marker, 0);
         let boxed = Box::from_raw(pointer);
-        let _ = panics::caught(move || drop(boxed));
+        let _ = panics::caught(move || {
+            drop(boxed);
+            Model::forget_unused();
+        });
     }
 }
 

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::ffi::{CStr, CString};
 
+use super::float_environment;
 use super::types::{Callbacks, Status};
 
 /// Longest message in bytes; masters have been seen to format into fixed buffers of 1024.
@@ -127,7 +128,9 @@ pub fn to_logger(instance: &CStr, callbacks: &Callbacks) -> Sink {
         let format = as_format(message);
         // SAFETY: the callback came with fmi2Instantiate and has this signature; the strings live
         // through the call and the format takes no further arguments.
-        unsafe { logger(environment, instance, status, category, format.as_ptr()) };
+        float_environment::of_host(|| unsafe {
+            logger(environment, instance, status, category, format.as_ptr());
+        });
     })
 }
 

@@ -3,19 +3,19 @@
 //!
 //! A call comes in through one of the exported functions (`common`, `variables`, `step`, `states`,
 //! `derivatives`, `model_exchange`), passes the gate in [`instance`] (valid pointer, legal in this phase, panics
-//! caught) and is done by [`unit::Unit`], which is plain safe Rust. A refused call answers
+//! caught, floating-point environment of our own) and is done by [`unit::Unit`], which is plain safe Rust. A refused call answers
 //! `fmi2Error` with one line in the log and changes nothing, the phase included, so a master may
 //! correct its arguments and call again.
 
 mod adjoint;
 mod common;
 mod derivatives;
+mod float_environment;
 mod instance;
 mod legality;
 mod log;
 mod model_exchange;
 mod panics;
-mod pin;
 mod rates;
 mod refused;
 mod saved;

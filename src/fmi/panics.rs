@@ -1,27 +1,34 @@
 //! Keeps panics inside the library: caught, silent, and told as text.
 
 use std::any::Any;
-use std::cell::{Cell, RefCell};
+use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
-use std::sync::Once;
-use std::thread;
+use std::sync::{Mutex, Once, PoisonError};
 
-use crate::math::parallel::WORKER;
+use super::float_environment;
+use crate::math::thread::is_ours;
 
 thread_local! {
-    /// Whether this thread runs a call of the ABI.
+    /// Whether this thread runs a call of the ABI. Nothing is kept per thread that has to be destroyed:
+    /// the destructor would keep the library in memory as long as the host's thread lives.
     static INSIDE: Cell<bool> = const { Cell::new(false) };
-    /// What the hook saw on this thread: message and place.
-    static SEEN: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// Runs `work`; a panic becomes its message.
+/// What the hook saw last: message and place.
+static SEEN: Mutex<Option<String>> = Mutex::new(None);
+
+/// Runs `work` in the floating-point environment that it is written for; a panic becomes its message.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     install_hook();
     let outer = INSIDE.replace(true);
-    let result = panic::catch_unwind(AssertUnwindSafe(work));
+    let result = float_environment::standard(|| panic::catch_unwind(AssertUnwindSafe(work)));
     INSIDE.set(outer);
-    result.map_err(|payload| SEEN.take().unwrap_or_else(|| text_of(payload.as_ref())))
+    result.map_err(|payload| {
+        let text = text_of(payload.as_ref());
+        let seen = SEEN.lock().unwrap_or_else(PoisonError::into_inner).take();
+        // Another instance may have panicked meanwhile.
+        seen.filter(|seen| seen.contains(&text)).unwrap_or(text)
+    })
 }
 
 /// A host's terminal is not ours to write on. The hook belongs to this library's own copy of the
@@ -31,11 +38,13 @@ fn install_hook() {
     ONCE.call_once(|| {
         let previous = panic::take_hook();
         panic::set_hook(Box::new(move |info| {
-            if INSIDE.get() {
-                SEEN.set(Some(info.to_string().replace('\n', " ")));
-            } else if thread::current().name() != Some(WORKER) {
+            // A panic of one of our threads is passed on to the one that waits for it.
+            if INSIDE.get() || is_ours() {
+                let seen = info.to_string().replace('\n', " ");
+                *SEEN.lock().unwrap_or_else(PoisonError::into_inner) = Some(seen);
+            } else {
                 previous(info);
-            } // A panic in a worker thread is passed on to the thread that waits for it.
+            }
         }));
     });
 }
@@ -52,6 +61,7 @@ fn text_of(payload: &(dyn Any + Send)) -> String {
 mod tests {
     use super::*;
     use crate::math::parallel;
+    use crate::math::thread::aside;
 
     #[test]
     fn a_panic_becomes_its_message_and_place() {
@@ -63,6 +73,9 @@ mod tests {
     #[test]
     fn a_panic_of_a_worker_thread_becomes_its_message() {
         let give_up = |i: usize| assert!(i > 64, "worker {}", "gave up");
-        assert!(caught(|| parallel::map(2, 64, give_up)).unwrap_err().contains("worker gave up"));
+        let message = caught(|| parallel::map(2, 64, give_up)).unwrap_err();
+        assert!(message.contains("worker gave up"), "{message}");
+        let message = caught(|| aside(|| panic!("nothing left"))).unwrap_err();
+        assert!(message.contains("nothing left") && message.contains("panics.rs"), "{message}");
     }
 }

@@ -1,6 +1,6 @@
 //! States that a master has saved: what belongs to one, and which of them live.
 
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::ptr;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -37,7 +37,7 @@ pub struct Snapshot {
 /// what it points to. So one that was freed, came from another instance or was never given out is
 /// recognised.
 #[derive(Default)]
-pub struct SavedStates(HashMap<usize, Snapshot>);
+pub struct SavedStates(BTreeMap<usize, Snapshot>);
 
 /// Numbers given out, odd so that none is null or could be an address of an aligned value.
 static NEXT: AtomicUsize = AtomicUsize::new(1);

@@ -8,9 +8,9 @@ use std::sync::Arc;
 use super::guid;
 use super::legality::{Function, Phase};
 use super::log::Log;
-use super::pin;
 use super::saved::SavedStates;
 use super::types::{Answer, Refusal, Status};
+use crate::math::thread::aside;
 use crate::model::{Cache, Model, ModelError, State, Tangent, initial_inputs};
 use crate::output::{FieldSeries, OutputError};
 use crate::scene::{self, Scene};
@@ -96,6 +96,10 @@ fn start_state(packed: &Scene) -> State {
 /// Reads the scene in a unit's folder of resources and compares the GUID, in FMI 3.0 the
 /// instantiation token. Nothing heavy: parameters may still change.
 pub fn read(resources: &Path, guid: &str) -> Result<Packed, String> {
+    aside(|| read_here(resources, guid))
+}
+
+fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
     let path = resources.join("scene.toml");
     let file = path.display().to_string();
     let text = std::fs::read_to_string(&path)
@@ -286,13 +290,11 @@ impl Unit {
 
     /// The model of a scene with parameters.
     pub(super) fn model_of(&self, scene: &Scene) -> Answer<Arc<Model>> {
-        scene::check(scene).map_err(|error| Refusal::error(error.to_string()))?;
-        let model = Model::shared(scene, scene.solver.threads)
-            .map_err(|error| explain(&self.registry, error))?;
-        if model.threads() > 1 {
-            pin::keep_loaded();
-        }
-        Ok(model)
+        let model = aside(|| {
+            scene::check(scene)?;
+            Model::shared(scene, scene.solver.threads)
+        });
+        model.map_err(|error| explain(&self.registry, error))
     }
 
     /// Drops all that followed from other inputs.
@@ -319,7 +321,8 @@ impl Unit {
         let Some(run) = self.run.as_ref().filter(|_| !self.directory.is_empty()) else {
             return Status::Ok;
         };
-        match FieldSeries::create(Path::new(&self.directory), &run.model) {
+        let directory = Path::new(&self.directory);
+        match aside(|| FieldSeries::create(directory, &run.model)) {
             Ok(series) => {
                 self.series = Some(series);
                 self.write_fields()
@@ -332,7 +335,8 @@ impl Unit {
         let (Some(series), Some(run)) = (&mut self.series, &mut self.run) else {
             return Status::Ok;
         };
-        match series.write(&run.model, &self.state, &mut run.cache) {
+        let state = &self.state;
+        match aside(|| series.write(&run.model, state, &mut run.cache)) {
             Ok(()) => Status::Ok,
             Err(error) => self.warn_of_output(&error),
         }

@@ -1,13 +1,17 @@
-//! Sparse Cholesky factorisation of a symmetric positive definite matrix, by faer.
+//! Sparse Cholesky factorisation of a symmetric positive definite matrix: its pattern
+//! by faer, its numbers by supernodes.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::perm::PermRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
+
+use super::parallel::Team;
+use super::supernodes::{self, Columns};
 
 /// Lower triangle of a symmetric matrix by columns, rows ascending, diagonal first.
 #[derive(Debug, Clone, Default)]
@@ -41,7 +45,6 @@ impl SparseCholesky {
         threads: usize,
     ) -> Result<Self, CholeskyError> {
         let unknowns = order.len();
-        let parallel = if threads > 1 { Par::rayon(threads) } else { Par::Seq };
         let mut place = vec![0; unknowns];
         for (k, &i) in order.iter().enumerate() {
             place[i] = k;
@@ -54,34 +57,46 @@ impl SparseCholesky {
             None,
             &matrix.rows,
         );
-        let memory = |_| CholeskyError::OutOfMemory { unknowns };
+        let too_large = CholeskyError::OutOfMemory { unknowns };
         let symbolic = factorize_symbolic_cholesky(
             pattern,
             Side::Lower,
             SymmetricOrdering::Custom(permutation),
             CholeskySymbolicParams::default(),
         )
-        .map_err(memory)?;
+        .map_err(|_| too_large.clone())?;
 
         let mut values = Vec::new();
-        values
-            .try_reserve_exact(symbolic.len_val())
-            .map_err(|_| CholeskyError::OutOfMemory { unknowns })?;
+        values.try_reserve_exact(symbolic.len_val()).map_err(|_| too_large.clone())?;
         values.resize(symbolic.len_val(), 0.0);
-        let need = symbolic.factorize_numeric_llt_scratch::<f64>(parallel, Default::default());
-        let mut buffer =
-            MemBuffer::try_new(need).map_err(|_| CholeskyError::OutOfMemory { unknowns })?;
-        symbolic
-            .factorize_numeric_llt(
-                &mut values,
-                SparseColMatRef::new(pattern, &matrix.values),
-                Side::Lower,
-                Default::default(),
-                parallel,
-                MemStack::new(&mut buffer),
-                Default::default(),
-            )
-            .map_err(|_| CholeskyError::NotPositiveDefinite { unknowns })?;
+        let is_definite = match symbolic.raw() {
+            SymbolicCholeskyRaw::Supernodal(panels) => {
+                let columns = permuted(matrix, &symbolic);
+                supernodes::factor(panels, &columns, &mut values, &Team::new(threads)).is_ok()
+            }
+            // So sparse a factor has no panels worth speaking of.
+            SymbolicCholeskyRaw::Simplicial(_) => {
+                let matrix = SparseColMatRef::new(pattern, &matrix.values);
+                let need =
+                    symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+                let mut buffer = MemBuffer::try_new(need).map_err(|_| too_large)?;
+                let stack = MemStack::new(&mut buffer);
+                symbolic
+                    .factorize_numeric_llt(
+                        &mut values,
+                        matrix,
+                        Side::Lower,
+                        Default::default(),
+                        Par::Seq,
+                        stack,
+                        Default::default(),
+                    )
+                    .is_ok()
+            }
+        };
+        if !is_definite {
+            return Err(CholeskyError::NotPositiveDefinite { unknowns });
+        }
         Ok(Self { symbolic, values })
     }
 
@@ -106,6 +121,33 @@ impl SparseCholesky {
     pub fn entries(&self) -> usize {
         self.values.len()
     }
+}
+
+/// The lower triangle of `P A Pᵀ`.
+fn permuted(matrix: &LowerTriangle, symbolic: &SymbolicCholesky<usize>) -> Columns {
+    let unknowns = symbolic.nrows();
+    let place = symbolic.perm().map(|order| order.arrays().1);
+    let place = |i: usize| place.map_or(i, |place| place[i]);
+    let mut start = vec![0; unknowns + 1];
+    let for_each_entry = |visit: &mut dyn FnMut(usize, usize, f64)| {
+        for (j, ends) in matrix.column_start.windows(2).enumerate() {
+            for k in ends[0]..ends[1] {
+                let (row, column) = (place(matrix.rows[k]), place(j));
+                visit(row.max(column), row.min(column), matrix.values[k]);
+            }
+        }
+    };
+    for_each_entry(&mut |_, column, _| start[column + 1] += 1);
+    for column in 0..unknowns {
+        start[column + 1] += start[column];
+    }
+    let (mut rows, mut values) = (vec![0; matrix.rows.len()], vec![0.0; matrix.rows.len()]);
+    let mut next = start.clone();
+    for_each_entry(&mut |row, column, value| {
+        (rows[next[column]], values[next[column]]) = (row as u32, value);
+        next[column] += 1;
+    });
+    Columns { start, rows, values }
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Loops over threads: the only threads there are.
+//! Loops over threads.
 //!
 //! Every item is computed by itself and stored in its own place, so results do not depend on how
 //! many threads there are.
@@ -8,10 +8,8 @@ use std::mem::transmute;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
-use std::thread::{self, JoinHandle};
 
-/// Name of the threads of these loops.
-pub const WORKER: &str = "impinge worker";
+use super::thread::{self, Started};
 
 /// Pieces into which each thread's share of a loop is cut, for others to take when they are done.
 const PIECES: usize = 16;
@@ -26,7 +24,7 @@ const LOOKS: usize = 3000;
 /// A loop inside a loop of the same team is run by the thread that meets it.
 pub struct Team {
     shared: Arc<Shared>,
-    workers: Vec<JoinHandle<()>>,
+    workers: Vec<Started>,
     /// Held while the workers are in a loop.
     in_use: Mutex<()>,
 }
@@ -53,15 +51,17 @@ struct Post {
 }
 
 impl Team {
-    /// `threads` = 0 is taken for 1.
+    /// A team of so many threads; of fewer where the system does not start them all, which changes no
+    /// result. `threads` = 0 is taken for 1.
     pub fn new(threads: usize) -> Self {
         let shared = Arc::new(Shared::default());
         let mut team = Self { shared, workers: Vec::new(), in_use: Mutex::new(()) };
         for number in 1..threads {
             let shared = Arc::clone(&team.shared);
-            let worker = thread::Builder::new().name(WORKER.into());
-            let worker = worker.spawn(move || shared.serve(number));
-            team.workers.push(worker.expect("the system starts a thread"));
+            match thread::start(move || shared.serve(number)) {
+                Some(worker) => team.workers.push(worker),
+                None => break,
+            }
         }
         team
     }
@@ -157,7 +157,7 @@ impl Drop for Team {
         drop(post);
         self.shared.called.notify_all();
         for worker in self.workers.drain(..) {
-            worker.join().expect("panics of workers are caught");
+            worker.join();
         }
     }
 }
@@ -265,7 +265,7 @@ mod tests {
         let team = Team::new(3);
         for n in 0..2000 {
             if n % 500 == 0 {
-                thread::sleep(std::time::Duration::from_millis(2));
+                std::thread::sleep(std::time::Duration::from_millis(2));
             }
             assert_eq!(team.map(5, |i| i + n), [n, n + 1, n + 2, n + 3, n + 4]);
         }

@@ -2,8 +2,9 @@
 //!
 //! An array of shape `(nx, ny, nz)` is stored with the x index running fastest.
 
-use faer::linalg::matmul::matmul;
-use faer::{Accum, Mat, MatMut, MatRef, Par};
+use faer::{Mat, MatRef};
+
+use super::product::product;
 
 /// Whether a matrix acts as it is or transposed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -25,24 +26,19 @@ pub fn transform(values: &[f64], matrices: [&Mat<f64>; 3], side: Side) -> Vec<f6
 
     let mut along_x = vec![0.0; mx * ny * nz];
     let source = MatRef::from_column_major_slice(values, nx, ny * nz);
-    product(MatMut::from_column_major_slice_mut(&mut along_x, mx, ny * nz), a, source);
+    product(&mut along_x, a, source);
 
     let mut along_y = vec![0.0; mx * my * nz];
     for k in 0..nz {
         let source = MatRef::from_column_major_slice(&along_x[k * mx * ny..][..mx * ny], mx, ny);
         let target = &mut along_y[k * mx * my..][..mx * my];
-        product(MatMut::from_column_major_slice_mut(target, mx, my), source, b.transpose());
+        product(target, source, b.transpose());
     }
 
     let mut out = vec![0.0; mx * my * mz];
     let source = MatRef::from_column_major_slice(&along_y, mx * my, nz);
-    product(MatMut::from_column_major_slice_mut(&mut out, mx * my, mz), source, c.transpose());
+    product(&mut out, source, c.transpose());
     out
-}
-
-/// Sequential, so that the result does not depend on the number of threads.
-fn product(out: MatMut<'_, f64>, left: MatRef<'_, f64>, right: MatRef<'_, f64>) {
-    matmul(out, Accum::Replace, left, right, 1.0, Par::Seq);
 }
 
 /// `Σ values[i, j, k] a[i] b[j] c[k]`.

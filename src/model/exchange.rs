@@ -4,6 +4,7 @@ use super::contact::Contact;
 use super::droplets::{Below, DropletModel};
 use super::interpolation::InputPath;
 use super::{Model, ModelError, State};
+use crate::math::thread::aside;
 
 impl Model {
     /// Advances droplets by `dt` [s], and anew from `state` the solids that they are on.
@@ -14,6 +15,19 @@ impl Model {
     /// leaves the one enters the other, and the time error is of first order in the parts. Inputs
     /// that change act with their values in the middle of a part.
     pub(super) fn advance_droplets(
+        &self,
+        path: &InputPath,
+        state: &State,
+        bodies: &mut [Vec<f64>],
+        dt: f64,
+    ) -> Result<(), ModelError> {
+        if self.droplets.is_empty() {
+            return Ok(());
+        }
+        aside(|| self.advance_droplets_here(path, state, bodies, dt))
+    }
+
+    fn advance_droplets_here(
         &self,
         path: &InputPath,
         state: &State,

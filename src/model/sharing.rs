@@ -1,20 +1,65 @@
 //! Units of one process that have equal scenes share one immutable model.
 
-use std::sync::{Arc, Mutex, OnceLock, Weak};
+use std::process;
+use std::ptr;
+use std::sync::atomic::{AtomicPtr, Ordering};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use super::{Model, ModelError};
+use crate::math::thread::{aside, is_alone};
 use crate::scene::Scene;
 
 /// A scene and the model that lives for it, if any unit still holds it.
 type Entry = (Scene, Arc<Mutex<Weak<Model>>>);
 
-/// Holds no model alive and nothing that changes.
-static KNOWN: OnceLock<Mutex<Vec<Entry>>> = OnceLock::new();
+/// The models of one process. Holds none alive and nothing that changes.
+struct Known {
+    process: u32,
+    entries: Mutex<Vec<Entry>>,
+}
+
+/// That of this process, or of the one that it has been forked from, whose threads are gone and may have
+/// left locks behind.
+static KNOWN: AtomicPtr<Known> = AtomicPtr::new(ptr::null_mut());
+
+/// Those of this process. What a process inherits when it is forked is taken over, unless somebody was
+/// building then.
+fn entries() -> MutexGuard<'static, Vec<Entry>> {
+    let process = process::id();
+    loop {
+        let last = KNOWN.load(Ordering::Acquire);
+        // SAFETY: null, or leaked below.
+        let known = unsafe { last.as_ref() };
+        if let Some(known) = known.filter(|known| known.process == process) {
+            return known.entries.lock().unwrap_or_else(PoisonError::into_inner);
+        }
+        let inherited =
+            known.filter(|_| is_alone()).and_then(|known| known.entries.try_lock().ok());
+        let entries = Mutex::new(inherited.map_or_else(Vec::new, |entries| entries.clone()));
+        let own = Box::into_raw(Box::new(Known { process, entries }));
+        let (set, missed) = (Ordering::AcqRel, Ordering::Relaxed);
+        if KNOWN.compare_exchange(last, own, set, missed).is_err() {
+            // SAFETY: nobody else has got it.
+            drop(unsafe { Box::from_raw(own) });
+        }
+    }
+}
 
 impl Model {
     /// The model of `scene`, built unless another holder in this process already has it. Those who
     /// ask for the same one meanwhile wait; those who ask for another do not.
     pub fn shared(scene: &Scene, threads: usize) -> Result<Arc<Model>, ModelError> {
+        aside(|| Self::shared_here(scene, threads))
+    }
+
+    /// Forgets scenes whose models nobody holds any more.
+    pub fn forget_unused() {
+        let mut entries = entries();
+        remove_stale(&mut entries);
+        entries.shrink_to_fit();
+    }
+
+    fn shared_here(scene: &Scene, threads: usize) -> Result<Arc<Model>, ModelError> {
         let slot = slot_of(scene);
         let mut weak = slot.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         if let Some(model) = weak.upgrade() {
@@ -27,19 +72,22 @@ impl Model {
 }
 
 fn slot_of(scene: &Scene) -> Arc<Mutex<Weak<Model>>> {
-    let known = KNOWN.get_or_init(Mutex::default);
-    let mut entries = known.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
+    let mut entries = entries();
     if let Some((_, slot)) = entries.iter().find(|(other, _)| other == scene) {
         return slot.clone();
     }
-    // A slot that only this list holds has no builder and no waiter; without a model it is stale.
+    remove_stale(&mut entries);
+    let slot = Arc::new(Mutex::new(Weak::new()));
+    entries.push((scene.clone(), slot.clone()));
+    slot
+}
+
+/// A slot that only this list holds has no builder and no waiter; without a model it is stale.
+fn remove_stale(entries: &mut Vec<Entry>) {
     entries.retain(|(_, slot)| {
         let stale = || slot.try_lock().is_ok_and(|weak| weak.strong_count() == 0);
         Arc::strong_count(slot) > 1 || !stale()
     });
-    let slot = Arc::new(Mutex::new(Weak::new()));
-    entries.push((scene.clone(), slot.clone()));
-    slot
 }
 
 #[cfg(test)]

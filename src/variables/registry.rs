@@ -1,4 +1,4 @@
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use std::rc::Rc;
 
@@ -267,7 +267,7 @@ impl Registry {
     /// inputs share one list.
     pub fn all_dependencies(&self, scene: &Scene) -> Vec<(usize, Rc<[usize]>)> {
         let layout = InputLayout::of(scene);
-        let mut lists: HashMap<Reach, Rc<[usize]>> = HashMap::new();
+        let mut lists: BTreeMap<Reach, Rc<[usize]>> = BTreeMap::new();
         let outputs = self.variables.iter().enumerate().filter_map(|(i, variable)| {
             let Slot::Output(output) = &variable.slot else { return None };
             let reach = Reach::of(scene, output);
@@ -301,7 +301,7 @@ pub(super) fn flat(name: &str) -> String {
 }
 
 /// All that decides which inputs an output follows without delay.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Reach<'a> {
     body: &'a str,
     mechanical: bool,

@@ -6,6 +6,7 @@ mod endurance;
 mod exports;
 mod fuzz;
 mod header;
+mod hosts;
 mod instantiation;
 mod life_cycle;
 mod logging;

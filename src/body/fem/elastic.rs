@@ -13,6 +13,7 @@ use crate::math::cholesky::{CholeskyError, LowerTriangle, SparseCholesky};
 use crate::math::nested_dissection::nested_dissection;
 use crate::math::parallel;
 use crate::math::stencil_matrix::{Reach, StencilMatrix};
+use crate::math::thread::aside;
 
 /// Mechanical condition on an end of an axis; free where nothing is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -123,7 +124,7 @@ impl ElasticProblem {
 
     fn factor(&self, class: usize) -> Result<&Factor, CholeskyError> {
         let (parity, lock) = &self.classes[class];
-        lock.get_or_init(|| self.make_factor(*parity)).as_ref().map_err(Clone::clone)
+        lock.get_or_init(|| aside(|| self.make_factor(*parity))).as_ref().map_err(Clone::clone)
     }
 
     fn make_factor(&self, parity: Parity) -> Result<Factor, CholeskyError> {

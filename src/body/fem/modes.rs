@@ -118,8 +118,7 @@ fn eigenpairs(
 
 /// The lower triangle L of M = L Lᵀ.
 ///
-/// Like all of this file it works on the thread that calls: what faer does by default starts a pool
-/// of threads for the whole process, whatever number of them a scene allows.
+/// Like all of this file it works on the thread that calls, whatever number of them a scene allows.
 fn cholesky_factor(mut mass: Mat<f64>) -> Mat<f64> {
     let m = mass.nrows();
     let parameters: LltParams = Auto::<f64>::auto();

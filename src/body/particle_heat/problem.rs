@@ -9,6 +9,7 @@ use crate::math::chebyshev::Evolution;
 use crate::math::parallel;
 use crate::math::separable::dot;
 use crate::math::sparse_rows::SparseRows;
+use crate::math::thread::aside;
 
 /// What the particles are and what surrounds them; ends of the axes are set by the faces.
 #[derive(Debug, Clone, PartialEq)]
@@ -219,7 +220,8 @@ impl ParticleHeat {
 
     fn class(&self, index: usize) -> &Class {
         self.classes[index].get_or_init(|| {
-            Class::new(&self.setup, lattice(&self.setup, self.setup.classes[index]), self.threads)
+            let make = || lattice(&self.setup, self.setup.classes[index]);
+            aside(|| Class::new(&self.setup, make(), self.threads))
         })
     }
 

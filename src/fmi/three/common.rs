@@ -10,6 +10,7 @@ use super::types::{
     Preemption, Reference, Text,
 };
 use crate::fmi::common::{text, texts};
+use crate::fmi::float_environment;
 use crate::fmi::instance::{call, hand_out, take_back};
 use crate::fmi::legality::Phase;
 use crate::fmi::log::{Log, Sink};
@@ -25,7 +26,9 @@ fn to_log_message(callback: LogMessage, environment: Environment) -> Sink {
         let message = CString::new(message.replace('\0', " ")).unwrap_or_default();
         // SAFETY: the callback came with fmi3Instantiate… and has this signature; the strings live
         // through the call.
-        unsafe { callback(environment, status, category.as_ptr(), message.as_ptr()) };
+        float_environment::of_host(|| unsafe {
+            callback(environment, status, category.as_ptr(), message.as_ptr());
+        });
     })
 }
 

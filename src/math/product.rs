@@ -1,0 +1,166 @@
+//! Products of dense matrices, on the thread that calls and without memory that outlives the call.
+//!
+//! General libraries keep their scratch memory per thread. On a host's thread that would stay after the
+//! last instance of a unit is gone, and with it the library.
+
+use faer::MatRef;
+
+/// `out = left right`, by columns. Every entry is the sum of its terms in ascending order, whatever
+/// vectors the processor has; rounding differs only where it cannot multiply and add at once.
+pub fn product(out: &mut [f64], left: MatRef<'_, f64>, right: MatRef<'_, f64>) {
+    assert_eq!(left.ncols(), right.nrows(), "matrices disagree in shape");
+    assert_eq!(out.len(), left.nrows() * right.ncols(), "the product has another size");
+    #[cfg(target_arch = "x86_64")]
+    {
+        if is_x86_feature_detected!("avx512f") {
+            // SAFETY: the processor has what the function asks for.
+            return unsafe { product_avx512(out, left, right) };
+        }
+        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            // SAFETY: the processor has what the function asks for.
+            return unsafe { product_avx2(out, left, right) };
+        }
+    }
+    // Every processor of this kind multiplies and adds at once.
+    #[cfg(target_arch = "aarch64")]
+    by_tiles::<8, 6, true>(out, left, right);
+    #[cfg(not(target_arch = "aarch64"))]
+    by_tiles::<4, 4, false>(out, left, right);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f")]
+fn product_avx512(out: &mut [f64], left: MatRef<'_, f64>, right: MatRef<'_, f64>) {
+    by_tiles::<16, 6, true>(out, left, right);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2,fma")]
+fn product_avx2(out: &mut [f64], left: MatRef<'_, f64>, right: MatRef<'_, f64>) {
+    by_tiles::<8, 6, true>(out, left, right);
+}
+
+/// Tiles of `M` rows and `N` columns, whose sums stay in registers. The smaller matrix is laid out by
+/// tiles once, of the other one strip at a time. No closures: these are compiled for every processor.
+#[inline(always)]
+fn by_tiles<const M: usize, const N: usize, const FUSED: bool>(
+    out: &mut [f64],
+    left: MatRef<'_, f64>,
+    right: MatRef<'_, f64>,
+) {
+    let (rows, columns, depth) = (left.nrows(), right.ncols(), left.ncols());
+    if depth == 0 {
+        return out.fill(0.0);
+    }
+    let right = right.transpose();
+    let (panels, strips) = ((0..rows).step_by(M), (0..columns).step_by(N));
+    if rows <= columns {
+        let mut all = vec![[0.0; M]; depth * panels.len()];
+        let mut strip = vec![[0.0; N]; depth];
+        for (i, panel) in panels.clone().zip(all.chunks_exact_mut(depth)) {
+            lay_out(panel, left, i);
+        }
+        for j in strips {
+            lay_out(&mut strip, right, j);
+            for (i, panel) in panels.clone().zip(all.chunks_exact(depth)) {
+                store(out, rows, i, j, &sums::<M, N, FUSED>(panel, &strip));
+            }
+        }
+    } else {
+        let mut all = vec![[0.0; N]; depth * strips.len()];
+        let mut panel = vec![[0.0; M]; depth];
+        for (j, strip) in strips.clone().zip(all.chunks_exact_mut(depth)) {
+            lay_out(strip, right, j);
+        }
+        for i in panels {
+            lay_out(&mut panel, left, i);
+            for (j, strip) in strips.clone().zip(all.chunks_exact(depth)) {
+                store(out, rows, i, j, &sums::<M, N, FUSED>(&panel, strip));
+            }
+        }
+    }
+}
+
+/// `strip[k]` becomes the rows from `first` on of column k, with zeros beyond the last row.
+#[inline(always)]
+fn lay_out<const N: usize>(strip: &mut [[f64; N]], matrix: MatRef<'_, f64>, first: usize) {
+    assert!(first < matrix.nrows() && strip.len() <= matrix.ncols());
+    let count = N.min(matrix.nrows() - first);
+    for (k, entries) in strip.iter_mut().enumerate() {
+        for (i, entry) in entries.iter_mut().enumerate() {
+            // SAFETY: row and column are within the matrix by the assertion above.
+            *entry = if i < count { unsafe { *matrix.get_unchecked(first + i, k) } } else { 0.0 };
+        }
+    }
+}
+
+/// `Σ_k panel[k][i] strip[k][j]` for every column j and row i of a tile.
+#[inline(always)]
+fn sums<const M: usize, const N: usize, const FUSED: bool>(
+    panel: &[[f64; M]],
+    strip: &[[f64; N]],
+) -> [[f64; M]; N] {
+    let mut sums = [[0.0; M]; N];
+    for (left, right) in panel.iter().zip(strip) {
+        for j in 0..N {
+            for i in 0..M {
+                let (a, b) = (left[i], right[j]);
+                sums[j][i] = if FUSED { a.mul_add(b, sums[j][i]) } else { a * b + sums[j][i] };
+            }
+        }
+    }
+    sums
+}
+
+/// Puts a tile at row i and column j of `out`, as far as it lies inside.
+#[inline(always)]
+fn store<const M: usize>(out: &mut [f64], rows: usize, i: usize, j: usize, tile: &[[f64; M]]) {
+    let high = M.min(rows - i);
+    for (sums, column) in tile.iter().zip(out.chunks_exact_mut(rows).skip(j)) {
+        column[i..i + high].copy_from_slice(&sums[..high]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use faer::Mat;
+
+    #[test]
+    fn a_product_is_the_sum_it_says_at_any_size_and_layout() {
+        for (rows, depth, columns) in [(1, 1, 1), (17, 5, 3), (3, 40, 17), (33, 12, 64), (5, 0, 4)]
+        {
+            let left = Mat::from_fn(rows, depth, |i, k| (1.3 * i as f64 - 0.7 * k as f64).sin());
+            let right = Mat::from_fn(depth, columns, |k, j| (0.2 * (k * j) as f64 + 0.1).cos());
+            let (turned_left, turned_right) =
+                (left.transpose().to_owned(), right.transpose().to_owned());
+            let mut exact = Vec::new();
+            for j in 0..columns {
+                for i in 0..rows {
+                    exact.push((0..depth).map(|k| left[(i, k)] * right[(k, j)]).sum::<f64>());
+                }
+            }
+            for left in [left.as_ref(), turned_left.transpose()] {
+                for right in [right.as_ref(), turned_right.transpose()] {
+                    let mut out = vec![f64::NAN; rows * columns];
+                    product(&mut out, left, right);
+                    assert!(out.iter().zip(&exact).all(|(x, e)| (x - e).abs() < 1e-13));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn tiles_of_all_processors_sum_in_the_same_order() {
+        let left = Mat::from_fn(30, 41, |i, k| ((i * 41 + k) as f64).sin());
+        let right = Mat::from_fn(41, 23, |k, j| ((k * 23 + j) as f64).cos());
+        let run = |by_tiles: fn(&mut [f64], MatRef<f64>, MatRef<f64>)| {
+            let mut out = vec![0.0; 30 * 23];
+            by_tiles(&mut out, left.as_ref(), right.as_ref());
+            out
+        };
+        let wide = run(by_tiles::<16, 6, true>);
+        assert!(wide == run(by_tiles::<8, 6, true>));
+        assert!(run(by_tiles::<16, 6, false>) == run(by_tiles::<4, 4, false>));
+    }
+}

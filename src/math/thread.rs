@@ -1,0 +1,222 @@
+//! Threads of our own, with a stack that is known and nothing left behind.
+//!
+//! On Unix they are started by the system's own function: the standard library's way registers a
+//! destructor on the thread that starts another, and keeps a key of the process. On a host's thread
+//! both would outlive the last instance of a unit: the first keeps the library in memory, of the second
+//! a process has few. Signals of the host stay with the host's threads.
+
+use std::cell::Cell;
+use std::mem::transmute;
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+/// Address space for the stack of each of our threads [B].
+pub const STACK: usize = 2 << 20;
+
+/// How many threads of the process run work aside.
+static ASIDE: AtomicUsize = AtomicUsize::new(0);
+
+thread_local! {
+    static IS_OURS: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Whether the thread that calls is one of ours.
+pub fn is_ours() -> bool {
+    IS_OURS.get()
+}
+
+/// Runs `work` on a thread of ours and waits for it: on the one that calls if that is one already, or
+/// if the system has none to give. A panic goes on in the thread that calls.
+///
+/// For work that takes more stack than a host's thread may have, or that keeps something per thread.
+pub fn aside<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    if is_ours() {
+        return work();
+    }
+    let mut work = Some(work);
+    let mut result = None;
+    let run: Box<dyn FnOnce() + Send> = Box::new(|| {
+        let work = work.take().expect("runs once");
+        ASIDE.fetch_add(1, Ordering::Relaxed);
+        result = Some(catch_unwind(AssertUnwindSafe(work)));
+        ASIDE.fetch_sub(1, Ordering::Relaxed);
+    });
+    // SAFETY: what it borrows outlives the thread, which is waited for right here.
+    let started = system::start(unsafe { transmute::<Box<_>, Box<dyn FnOnce() + Send>>(run) });
+    match started {
+        Some(thread) => thread.join(),
+        None => return work.take().expect("has not run")(),
+    }
+    match result.expect("has run") {
+        Ok(result) => result,
+        Err(panic) => resume_unwind(panic),
+    }
+}
+
+/// Whether nothing runs aside but what calls this, which does. In a process that has been forked, what
+/// ran aside then is never done.
+pub fn is_alone() -> bool {
+    ASIDE.load(Ordering::Relaxed) <= 1
+}
+
+/// A running thread, to be joined.
+pub struct Started(system::Thread);
+
+impl Started {
+    /// Waits for the thread's end. Nothing of it is left then.
+    pub fn join(self) {
+        self.0.join();
+    }
+}
+
+/// Starts a thread of ours, if the system has one to give. Panics of `work` end with it.
+pub fn start(work: impl FnOnce() + Send + 'static) -> Option<Started> {
+    system::start(Box::new(work)).map(Started)
+}
+
+/// What a thread of ours does.
+fn serve(work: Box<dyn FnOnce() + Send>) {
+    IS_OURS.set(true);
+    // Whoever wants to know of a panic catches it before.
+    let _ = catch_unwind(AssertUnwindSafe(work));
+}
+
+#[cfg(unix)]
+mod system {
+    use std::ffi::c_void;
+    use std::mem::MaybeUninit;
+    use std::ptr;
+
+    use super::{STACK, serve};
+
+    type Work = Box<dyn FnOnce() + Send>;
+
+    pub struct Thread(libc::pthread_t);
+
+    /// A host that cancels a thread of its own while that waits for one of ours must not unwind it: the
+    /// work borrows from its stack.
+    #[cfg(target_os = "linux")]
+    fn uncancelled<R>(body: impl FnOnce() -> R) -> R {
+        unsafe extern "C" {
+            fn pthread_setcancelstate(state: i32, old: *mut i32) -> i32;
+        }
+        const DISABLE: i32 = 1;
+        let (mut before, mut disabled) = (0, 0);
+        // SAFETY: both states are places of our own.
+        unsafe { pthread_setcancelstate(DISABLE, &mut before) };
+        let result = body();
+        // SAFETY: as above.
+        unsafe { pthread_setcancelstate(before, &mut disabled) };
+        result
+    }
+
+    #[cfg(not(target_os = "linux"))]
+    fn uncancelled<R>(body: impl FnOnce() -> R) -> R {
+        body()
+    }
+
+    impl Thread {
+        pub fn join(self) {
+            // SAFETY: the thread has been started, and is joined once.
+            let failed = uncancelled(|| unsafe { libc::pthread_join(self.0, ptr::null_mut()) });
+            assert_eq!(failed, 0, "a thread of ours can be joined");
+        }
+    }
+
+    pub fn start(work: Work) -> Option<Thread> {
+        let work = Box::into_raw(Box::new(work));
+        with_faults_alone(|| {
+            let mut attributes = MaybeUninit::uninit();
+            let mut thread = MaybeUninit::uninit();
+            // SAFETY: attributes are made before they are used and destroyed once; `work` belongs to the
+            // thread from its start on, and to us where there is none.
+            unsafe {
+                let mut failed = libc::pthread_attr_init(attributes.as_mut_ptr());
+                if failed == 0 {
+                    failed = libc::pthread_attr_setstacksize(attributes.as_mut_ptr(), STACK);
+                    if failed == 0 {
+                        let (thread, attributes) = (thread.as_mut_ptr(), attributes.as_ptr());
+                        failed = libc::pthread_create(thread, attributes, run, work.cast());
+                    }
+                    libc::pthread_attr_destroy(attributes.as_mut_ptr());
+                }
+                if failed != 0 {
+                    drop(Box::from_raw(work));
+                    return None;
+                }
+                Some(Thread(thread.assume_init()))
+            }
+        })
+    }
+
+    /// Threads that are started in `body` take no signals but those of faults of their own.
+    fn with_faults_alone<R>(body: impl FnOnce() -> R) -> R {
+        let faults =
+            [libc::SIGSEGV, libc::SIGBUS, libc::SIGFPE, libc::SIGILL, libc::SIGTRAP, libc::SIGSYS];
+        let (mut blocked, mut before) = (MaybeUninit::uninit(), MaybeUninit::uninit());
+        // SAFETY: sets are filled before they are used, and the mask is put back as it was.
+        unsafe {
+            libc::sigfillset(blocked.as_mut_ptr());
+            for fault in faults {
+                libc::sigdelset(blocked.as_mut_ptr(), fault);
+            }
+            libc::pthread_sigmask(libc::SIG_BLOCK, blocked.as_ptr(), before.as_mut_ptr());
+            let result = body();
+            libc::pthread_sigmask(libc::SIG_SETMASK, before.as_ptr(), ptr::null_mut());
+            result
+        }
+    }
+
+    extern "C" fn run(work: *mut c_void) -> *mut c_void {
+        #[cfg(target_os = "linux")]
+        // SAFETY: a name of less than 16 bytes; debuggers show it.
+        unsafe {
+            libc::prctl(libc::PR_SET_NAME, c"impinge worker".as_ptr());
+        }
+        // SAFETY: comes from `start`, which has given it to this thread.
+        serve(*unsafe { Box::from_raw(work.cast::<Work>()) });
+        ptr::null_mut()
+    }
+}
+
+#[cfg(not(unix))]
+mod system {
+    use std::thread::{Builder, JoinHandle};
+
+    use super::{STACK, serve};
+
+    pub struct Thread(JoinHandle<()>);
+
+    impl Thread {
+        pub fn join(self) {
+            self.0.join().expect("panics end with the work");
+        }
+    }
+
+    pub fn start(work: Box<dyn FnOnce() + Send>) -> Option<Thread> {
+        let builder = Builder::new().name("impinge worker".into()).stack_size(STACK);
+        builder.spawn(|| serve(work)).ok().map(Thread)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_aside_runs_on_one_thread_of_ours_and_may_borrow() {
+        let mut sum = 0;
+        let inner = aside(|| {
+            sum += 1;
+            let here = std::thread::current().id();
+            (is_ours(), aside(|| std::thread::current().id()) == here)
+        });
+        assert_eq!((inner, sum, is_ours()), ((true, true), 1, false));
+    }
+
+    #[test]
+    fn a_panic_aside_goes_on_in_the_thread_that_waits() {
+        let panic = catch_unwind(|| aside(|| panic!("aside"))).unwrap_err();
+        assert_eq!(panic.downcast_ref::<&str>(), Some(&"aside"));
+    }
+}
