@@ -31,6 +31,7 @@ use crate::body::fem::{Geometry, Plan, Refinement, SolidFem, particle_cost};
 pub use crate::body::sph::ParticleFields;
 use crate::body::sph::{DropletSph, Failure};
 use crate::material::stress::{max_principal, von_mises};
+use crate::math::allowance::{Allowance, Halt, Interrupt};
 use crate::math::chebyshev::products;
 use crate::math::cholesky::CholeskyError;
 use crate::scene::{Droplet, FaceName, Footprint, Grid, Load, Scene, SceneError, Solid};
@@ -92,6 +93,9 @@ pub enum ModelError {
     /// A step of a droplet has no physical meaning.
     #[error("{name}: {failure}")]
     Droplet { name: String, failure: Failure },
+    /// A step was ended before it was done.
+    #[error("{body}: {halt}")]
+    Halted { body: String, halt: Halt },
     /// What a droplet gives has no derivative in time.
     #[error("what a droplet gives is known step by step: it has no derivative in time")]
     NoRate,
@@ -215,6 +219,18 @@ impl Model {
     /// Advances by `dt` [s]. Inputs follow their derivatives over the step and are held without; at
     /// its end the state has their values and derivatives there. A refusal changes nothing.
     pub fn step(&self, state: &mut State, cache: &mut Cache, dt: f64) -> Result<(), ModelError> {
+        self.step_unless(&Interrupt::default(), state, cache, dt)
+    }
+
+    /// The same, unless it is interrupted meanwhile, which changes nothing either.
+    pub fn step_unless(
+        &self,
+        interrupt: &Interrupt,
+        state: &mut State,
+        cache: &mut Cache,
+        dt: f64,
+    ) -> Result<(), ModelError> {
+        let allowance = Allowance::of_step(interrupt);
         self.check_inputs(&state.inputs)?;
         let path = InputPath::of(state);
         let mut bodies = state.bodies.clone();
@@ -222,12 +238,13 @@ impl Model {
             cache.meet(self, state);
             for (index, body) in self.bodies.iter().enumerate() {
                 let loads = std::slice::from_ref(cache.loads(index));
-                body.solid.advance(&mut bodies[index], loads, dt);
+                let advanced = body.solid.advance(&mut bodies[index], loads, dt, &allowance);
+                advanced.map_err(|halt| ModelError::Halted { body: body.name.clone(), halt })?;
             }
         } else {
-            self.advance_along(&path, &mut bodies, dt)?;
+            self.advance_along(&path, &mut bodies, dt, &allowance)?;
         }
-        self.advance_droplets(&path, state, &mut bodies, dt)?;
+        self.advance_droplets(&path, state, &mut bodies, dt, &allowance)?;
         for (body, unknowns) in self.bodies.iter().zip(&bodies) {
             if !unknowns.iter().all(|value| value.is_finite()) {
                 return Err(ModelError::Overflow { body: body.name.clone() });
