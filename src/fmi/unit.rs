@@ -11,8 +11,9 @@ use super::log::Log;
 use super::pin;
 use super::saved::SavedStates;
 use super::types::{Answer, Refusal, Status};
+use crate::machine::available_memory;
 use crate::math::allowance::{Halt, Interrupt};
-use crate::model::{Cache, Model, ModelError, State, Tangent, initial_inputs};
+use crate::model::{Cache, Model, ModelError, State, Tangent, check_memory, initial_inputs};
 use crate::output::{FieldSeries, OutputError};
 use crate::scene::{self, Scene};
 use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
@@ -297,6 +298,7 @@ impl Unit {
     /// The model of a scene with parameters.
     pub(super) fn model_of(&self, scene: &Scene) -> Answer<Arc<Model>> {
         scene::check(scene).map_err(|error| Refusal::error(error.to_string()))?;
+        check_memory(scene, available_memory()).map_err(|error| explain(&self.registry, error))?;
         let model = Model::shared(scene, scene.solver.threads)
             .map_err(|error| explain(&self.registry, error))?;
         if model.threads() > 1 {
@@ -349,7 +351,7 @@ impl Unit {
     }
 
     /// The computation is fine, so files that cannot be written are no error.
-    fn warn_of_output(&self, error: &OutputError) -> Status {
+    pub(super) fn warn_of_output(&self, error: &OutputError) -> Status {
         let message = format!("output.directory {:?}: {error}", self.directory);
         self.log.send(Status::Warning, &message);
         Status::Warning
