@@ -13,7 +13,7 @@ use super::saved::SavedStates;
 use super::types::{Answer, Refusal, Status};
 use crate::machine::available_memory;
 use crate::math::allowance::{Halt, Interrupt};
-use crate::model::{Cache, Model, ModelError, State, Tangent, check_memory, initial_inputs};
+use crate::model::{Cache, Model, ModelError, State, Tangent, initial_inputs};
 use crate::output::{FieldSeries, OutputError};
 use crate::scene::{self, Scene};
 use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
@@ -298,8 +298,7 @@ impl Unit {
     /// The model of a scene with parameters.
     pub(super) fn model_of(&self, scene: &Scene) -> Answer<Arc<Model>> {
         scene::check(scene).map_err(|error| Refusal::error(error.to_string()))?;
-        check_memory(scene, available_memory()).map_err(|error| explain(&self.registry, error))?;
-        let model = Model::shared(scene, scene.solver.threads)
+        let model = Model::shared(scene, scene.solver.threads, available_memory())
             .map_err(|error| explain(&self.registry, error))?;
         if model.threads() > 1 {
             pin::keep_loaded();
