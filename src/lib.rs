@@ -25,6 +25,8 @@ pub mod coupling;
 
 pub mod model;
 
+pub mod machine;
+
 pub mod output;
 
 pub mod fmi;

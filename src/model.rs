@@ -7,6 +7,7 @@ mod droplets;
 mod exchange;
 mod interpolation;
 mod loads;
+mod memory;
 mod reader;
 mod sharing;
 mod start_rates;
@@ -21,6 +22,7 @@ use droplets::DropletModel;
 pub use interpolation::HIGHEST_INPUT_DERIVATIVE;
 use interpolation::InputPath;
 use loads::BodyLoads;
+pub use memory::check_memory;
 pub use reader::Reader;
 pub use start_rates::start_rates;
 pub use tangent::Tangent;
@@ -31,6 +33,7 @@ use crate::body::fem::{Geometry, Plan, Refinement, SolidFem, particle_cost};
 pub use crate::body::sph::ParticleFields;
 use crate::body::sph::{DropletSph, Failure};
 use crate::material::stress::{max_principal, von_mises};
+use crate::math::allowance::{Allowance, Halt, Interrupt};
 use crate::math::chebyshev::products;
 use crate::math::cholesky::CholeskyError;
 use crate::math::thread::aside;
@@ -93,6 +96,17 @@ pub enum ModelError {
     /// A step of a droplet has no physical meaning.
     #[error("{name}: {failure}")]
     Droplet { name: String, failure: Failure },
+    /// A scene is too large for the machine.
+    #[error(
+        "this needs about {:.3e} MB of memory, most of it for `{body}` with its {size}; this process can \
+         have {:.3e} MB (allowed: a scene that fits, such as with {remedy})",
+        needed / 1e6,
+        available / 1e6
+    )]
+    Memory { needed: f64, available: f64, body: String, size: String, remedy: &'static str },
+    /// A step was ended before it was done.
+    #[error("{body}: {halt}")]
+    Halted { body: String, halt: Halt },
     /// What a droplet gives has no derivative in time.
     #[error("what a droplet gives is known step by step: it has no derivative in time")]
     NoRate,
@@ -220,6 +234,18 @@ impl Model {
     /// Advances by `dt` [s]. Inputs follow their derivatives over the step and are held without; at
     /// its end the state has their values and derivatives there. A refusal changes nothing.
     pub fn step(&self, state: &mut State, cache: &mut Cache, dt: f64) -> Result<(), ModelError> {
+        self.step_unless(&Interrupt::default(), state, cache, dt)
+    }
+
+    /// The same, unless it is interrupted meanwhile, which changes nothing either.
+    pub fn step_unless(
+        &self,
+        interrupt: &Interrupt,
+        state: &mut State,
+        cache: &mut Cache,
+        dt: f64,
+    ) -> Result<(), ModelError> {
+        let allowance = Allowance::of_step(interrupt);
         self.check_inputs(&state.inputs)?;
         let path = InputPath::of(state);
         let mut bodies = state.bodies.clone();
@@ -227,12 +253,13 @@ impl Model {
             cache.meet(self, state);
             for (index, body) in self.bodies.iter().enumerate() {
                 let loads = std::slice::from_ref(cache.loads(index));
-                body.solid.advance(&mut bodies[index], loads, dt);
+                let advanced = body.solid.advance(&mut bodies[index], loads, dt, &allowance);
+                advanced.map_err(|halt| ModelError::Halted { body: body.name.clone(), halt })?;
             }
         } else {
-            self.advance_along(&path, &mut bodies, dt)?;
+            self.advance_along(&path, &mut bodies, dt, &allowance)?;
         }
-        self.advance_droplets(&path, state, &mut bodies, dt)?;
+        self.advance_droplets(&path, state, &mut bodies, dt, &allowance)?;
         for (body, unknowns) in self.bodies.iter().zip(&bodies) {
             if !unknowns.iter().all(|value| value.is_finite()) {
                 return Err(ModelError::Overflow { body: body.name.clone() });
@@ -479,8 +506,11 @@ fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
         let euler_steps = (0.5 * cost.bound * scene.step).ceil().max(1.0);
         ParticleForecast { neighbours: cost.neighbours, sub_steps, products, euler_steps }
     });
-    let links = particles.map_or(0.0, |p| (p.neighbours * unknowns[0]) as f64);
-    let passes = particles.map_or(0.0, |p| (p.sub_steps * p.products) as f64);
+    let links = particles.map_or(0.0, |p| p.neighbours as f64 * unknowns[0] as f64);
+    let passes = particles.map_or(0.0, |p| p.sub_steps as f64 * p.products as f64);
+    // Of each axis a full matrix, and what it is found from.
+    let modes = plan.mesh.axes.iter().map(|axis| 3.0 * (axis.len() as f64).powi(2));
+    let modes: f64 = if particles.is_none() { modes.sum() } else { 0.0 };
     let rows = if particles.is_some() { unknowns[0] as f64 } else { 0.0 };
     BodyForecast {
         name: name.into(),
@@ -489,7 +519,7 @@ fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
         spacing,
         order: plan.mesh.order(),
         particles,
-        memory: 8.0 * (1.2 * entries + 60.0 * n + 20.0 * unknowns[0] as f64) + 12.0 * links,
+        memory: 8.0 * (1.2 * entries + 60.0 * n + 20.0 * unknowns[0] as f64 + modes) + 12.0 * links,
         build_time: operations / FACTOR_RATE + 2e-5 * n + rows / ROW_RATE,
         step_time: entries / SOLVE_RATE
             + 5e-7 * n

@@ -327,3 +327,44 @@ fn a_run_writes_the_particles_of_a_droplet() {
     let head = String::from_utf8_lossy(&last[..500]);
     assert!(head.contains("type=\"PolyData\"") && head.contains("NumberOfVerts"), "{head}");
 }
+
+#[test]
+fn the_files_of_an_earlier_run_are_replaced_only_if_asked() {
+    let place = Workplace::new();
+    place.run(&["--until", "3e-7", "--fields-every", "1"]).succeeds();
+    let before = fs::read(place.path("out/HotSpot/outputs.csv")).unwrap();
+    place.run(&[]).fails(1, &["out/HotSpot holds the files of an earlier run", "--overwrite"]);
+    assert_eq!(fs::read(place.path("out/HotSpot/outputs.csv")).unwrap(), before);
+    place.run(&["--until", "1e-7", "--fields-every", "1", "--overwrite"]).succeeds();
+    assert_eq!(place.field_times("out/HotSpot"), [0.0, 1e-7]);
+    let files = fs::read_dir(place.path("out/HotSpot")).unwrap();
+    assert_eq!(files.count(), 4, "two grids, their list and the table; none of the longer run");
+    // Fields alone are an earlier run too.
+    fs::remove_file(place.path("out/HotSpot/outputs.csv")).unwrap();
+    place.run(&["--fields-every", "0"]).fails(1, &["earlier run"]);
+}
+
+#[test]
+fn a_scene_beyond_the_memory_of_the_machine_is_refused_with_numbers() {
+    let place = Workplace::new();
+    let huge = SCENE.replace("spacing = 2e-5", "spacing = 1e-8");
+    fs::write(place.path("scene.toml"), huge).unwrap();
+    let words = ["MB of memory", "plate", "unknowns", "larger `mesh.spacing`"];
+    place.call(&["check", "scene.toml"]).fails(1, &words);
+    place.run(&[]).fails(1, &words);
+    assert!(!place.path("out").exists(), "a refused run writes nothing");
+}
+
+/// With the address space that the process may have all of its own limits are kept.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_limit_of_address_space_is_memory_that_is_not_there() {
+    let place = Workplace::new();
+    let large = SCENE.replace("spacing = 2e-5", "spacing = 2e-6");
+    fs::write(place.path("scene.toml"), large).unwrap();
+    let program = env!("CARGO_BIN_EXE_impinge");
+    let limited = format!("ulimit -v 1000000; exec {program} check scene.toml");
+    let output =
+        Command::new("sh").args(["-c", &limited]).current_dir(place.0.path()).output().unwrap();
+    Called(output).fails(1, &["MB of memory", "larger `mesh.spacing`"]);
+}

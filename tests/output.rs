@@ -77,3 +77,72 @@ fn a_folder_that_cannot_be_made_is_named_with_the_reason() {
     let error = FieldSeries::create(&taken.join("here"), &model()).err().unwrap().to_string();
     assert!(error.starts_with("cannot create the folder") && error.contains("taken"), "{error}");
 }
+
+/// Names of all files of a folder, in order.
+fn files(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn files_of_an_earlier_run_do_not_stay() {
+    let folder = TempDir::new().unwrap();
+    let model = model();
+    let foreign = ["block.txt", "block_000007.txt", "blocks_000003.vtr", "block_7.vtr"];
+    let ours = ["block_000005.vtr", "block_1000000.vtr", "block_000001.vtr.part12_3"];
+    for name in foreign.iter().chain(&ours).chain(&["block.pvd.part", "block_000009.vtp"]) {
+        fs::write(folder.path().join(name), "earlier").unwrap();
+    }
+    let mut series = FieldSeries::create(folder.path(), &model).unwrap();
+    let mut expected = [&foreign[..], &["block.pvd"]].concat();
+    expected.sort();
+    assert_eq!(files(folder.path()), expected);
+    for time in [0.0, 1.0, 2.0] {
+        series.write(&model, &at(&model, time), &mut Cache::default()).unwrap();
+    }
+    // A state of an earlier time takes the later ones away at once.
+    series.go_back(0.5).unwrap();
+    assert_eq!(listed(folder.path()), ["0.0"]);
+    let left: Vec<_> =
+        files(folder.path()).into_iter().filter(|name| name.starts_with("block_00000")).collect();
+    assert_eq!(left, ["block_000000.vtr", "block_000007.txt"]);
+}
+
+#[test]
+fn a_file_that_cannot_be_written_is_not_listed() {
+    let folder = TempDir::new().unwrap();
+    let model = model();
+    let mut series = FieldSeries::create(folder.path(), &model).unwrap();
+    series.write(&model, &at(&model, 0.0), &mut Cache::default()).unwrap();
+    let taken = folder.path().join("block_000001.vtr");
+    fs::create_dir(&taken).unwrap();
+    let error = series.write(&model, &at(&model, 1.0), &mut Cache::default()).unwrap_err();
+    assert!(error.to_string().contains("block_000001.vtr"), "{error}");
+    assert_eq!(listed(folder.path()), ["0.0"]);
+    assert_eq!(files(folder.path()), ["block.pvd", "block_000000.vtr", "block_000001.vtr"]);
+    // Once the way is free the series goes on with the number that was not used.
+    fs::remove_dir(&taken).unwrap();
+    series.write(&model, &at(&model, 2.0), &mut Cache::default()).unwrap();
+    assert_eq!(listed(folder.path()), ["0.0", "2.0"]);
+    assert!(taken.is_file());
+}
+
+#[test]
+fn a_disc_is_written_as_a_body_of_three_dimensions() {
+    let folder = TempDir::new().unwrap();
+    let text =
+        SCENE.replace("box = [4e-4, 4e-4, 1e-4]", "disc = { radius = 2e-4, thickness = 1e-4 }");
+    let model = Model::build(&scene::parse(&text, "disc.toml").unwrap(), 1).unwrap();
+    let mut series = FieldSeries::create(folder.path(), &model).unwrap();
+    series.write(&model, &at(&model, 0.0), &mut Cache::default()).unwrap();
+    assert_eq!(files(folder.path()), ["block.pvd", "block_000000.vts"]);
+    let bytes = fs::read(folder.path().join("block_000000.vts")).unwrap();
+    let text = String::from_utf8_lossy(&bytes);
+    let (head, _) = text.split_once("<AppendedData").unwrap();
+    for words in ["StructuredGrid", "temperature", "position"] {
+        assert!(head.contains(words), "{words}: {head}");
+    }
+}

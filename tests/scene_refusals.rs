@@ -219,6 +219,20 @@ fn all_problems_are_reported_at_once() {
     assert_eq!(lines, [Some(9), Some(20), Some(40)], "{error}");
 }
 
+/// As many as this once took minutes: their lines were counted from the beginning for each.
+#[test]
+fn very_many_problems_are_reported_each_with_its_line() {
+    const COUNT: usize = 20_000;
+    let probe = "\n[[probe]]\nname = \"centre\"\nin = \"nowhere\"\nat = [0, 0, 0]\ngives = []\n";
+    let text = format!("{PLATE}{}", probe.repeat(COUNT));
+    let first = PLATE.lines().count();
+    let error = parse(&text, "scene.toml").unwrap_err();
+    assert_eq!(error.problems.len(), 3 * COUNT);
+    let last = error.problems.last().unwrap();
+    assert_eq!(last.path, format!("probe[{COUNT}].gives"));
+    assert_eq!(last.line, Some(first + 6 * COUNT));
+}
+
 #[test]
 fn a_file_is_read() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/scenes");

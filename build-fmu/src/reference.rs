@@ -6,7 +6,8 @@
 
 use std::ops::Range;
 
-use impinge::model::{Cache, Model, ModelError, Timeline};
+use impinge::machine::available_memory;
+use impinge::model::{Cache, Model, ModelError, Timeline, check_memory};
 use impinge::scene::Scene;
 use impinge::variables::{
     ArrayRegistry, ArrayVariable, Causality, Content, Output, Registry, Slot, Variable,
@@ -33,6 +34,7 @@ pub fn entries(scene: &Scene, fmi: Version) -> Result<Entries, String> {
     let registry = Registry::of(scene);
     let [inputs, outputs] = [Causality::Input, Causality::Output]
         .map(|causality| columns(scene, &registry, causality, fmi));
+    check_memory(scene, available_memory()).map_err(|error| error.to_string())?;
     let model = Model::build(scene, scene.solver.threads)
         .map_err(|error| format!("no model for the reference results: {error}"))?;
     let results = results(&model, &registry, &outputs)

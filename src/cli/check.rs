@@ -2,7 +2,8 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use impinge::model::{ParticleForecast, Timeline, forecast};
+use impinge::machine::available_memory;
+use impinge::model::{ParticleForecast, Timeline, check_memory, forecast};
 use impinge::scene::{
     self, Coupling, Face, Field, Footprint, Load, Probe, Scene, Shape, Solid, Wall,
 };
@@ -24,6 +25,7 @@ impl Check {
     /// Reports on the scene.
     pub fn execute(&self) -> Result<String, CliError> {
         let scene = scene::read(&self.scene)?;
+        check_memory(&scene, available_memory()).map_err(CliError::Model)?;
         let sections = [
             ("Bodies", bodies(&scene)),
             ("Droplets", droplets(&scene)),

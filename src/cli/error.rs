@@ -1,4 +1,5 @@
 use std::io;
+use std::path::PathBuf;
 
 use impinge::model::ModelError;
 use impinge::output::OutputError;
@@ -23,6 +24,11 @@ pub enum CliError {
     Step { time: f64, reason: Box<CliError> },
     #[error(transparent)]
     Output(#[from] OutputError),
+    #[error(
+        "{} holds the files of an earlier run; allowed: another folder (--out), or --overwrite",
+        folder.display()
+    )]
+    Taken { folder: PathBuf },
     #[error("cannot print: {0}")]
     Print(io::Error),
 }

@@ -2,7 +2,8 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::Args;
-use impinge::model::{Cache, Model, State, Timeline};
+use impinge::machine::available_memory;
+use impinge::model::{Cache, Model, State, Timeline, check_memory};
 use impinge::output::{CsvTable, FieldSeries, OutputError};
 use impinge::scene::{self, Scene};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -32,6 +33,9 @@ pub struct Run {
     /// Folder for the files [default: out/NAME]
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
+    /// Replace the files of an earlier run in that folder
+    #[arg(long)]
+    overwrite: bool,
     /// Write fields every N steps, 0 for never [default: about 50 times]
     #[arg(long, value_name = "N")]
     fields_every: Option<usize>,
@@ -47,6 +51,7 @@ impl Run {
     pub fn execute(&self) -> Result<String, CliError> {
         let started = Instant::now();
         let (scene, inputs) = self.asked_scene()?;
+        check_memory(&scene, available_memory()).map_err(CliError::Model)?;
         let model = Model::build(&scene, scene.solver.threads)
             .map_err(|error| CliError::from_model(error, &scene))?;
         let mut run = Running {
@@ -76,11 +81,16 @@ impl Run {
     }
 
     /// Opens the files of the run.
-    fn record(&self, run: &Running) -> Result<Record, OutputError> {
+    fn record(&self, run: &Running) -> Result<Record, CliError> {
         let scene = run.model.scene();
         let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
+        let table = folder.join("outputs.csv");
+        let is_taken = table.exists() || FieldSeries::is_in(&folder, run.model);
+        if is_taken && !self.overwrite {
+            return Err(CliError::Taken { folder });
+        }
         let every = self.fields_every.unwrap_or(run.timeline.count.div_ceil(SNAPSHOTS));
-        let table = CsvTable::create(&folder.join("outputs.csv"), run.model)?;
+        let table = CsvTable::create(&table, run.model)?;
         let fields = match every {
             0 => None,
             _ => Some(FieldSeries::create(&folder, run.model)?),

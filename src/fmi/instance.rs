@@ -1,41 +1,78 @@
 //! The gate between the C ABI and [`Unit`]: every function that acts on an instance goes through
 //! [`call`].
 
+use std::collections::VecDeque;
 use std::ptr;
 use std::slice;
-use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use super::legality::{Function, Phase};
 use super::panics;
 use super::types::{Answer, Handle, Refusal, Status};
 use super::unit::Unit;
+use crate::math::allowance::Interrupt;
 use crate::model::Model;
 
-/// What a `fmi2Component` or `fmi3Instance` points to.
+/// What a `fmi2Component` or `fmi3Instance` points to. It is never freed but serves a later unit, so
+/// that a call that comes while its unit is taken back, or later, looks at memory that is still there.
+#[derive(Default)]
 struct Instance {
     /// Tells the version of the standard, and that the instance has not been taken back.
-    marker: u64,
+    marker: AtomicU64,
     /// Locked during a call. A call that comes meanwhile, from another thread or from within the
     /// logger, is refused instead of waiting: FMI allows one call at a time.
-    unit: Mutex<Unit>,
+    unit: Mutex<Option<Box<Unit>>>,
+    /// That of the unit, for another thread to end a step with, under which the unit is locked.
+    interrupt: Interrupt,
 }
 
+/// An instance that has been taken back.
+struct Spare(&'static Instance);
+
+// SAFETY: there is no unit in it, which is all that may not go to another thread.
+unsafe impl Send for Spare {}
+
+/// The one that was taken back first is in front.
+static SPARE: Mutex<VecDeque<Spare>> = Mutex::new(VecDeque::new());
+/// How many of them rest: a pointer that was freed leads to no unit before so many others were freed.
+const RESTING: usize = 64;
+
 /// Hands a unit over to the master, for calls of the functions `F`.
-pub fn hand_out<F: Function>(unit: Unit) -> Handle {
-    Box::into_raw(Box::new(Instance { marker: F::MARKER, unit: Mutex::new(unit) })).cast()
+pub fn hand_out<F: Function>(mut unit: Unit) -> Handle {
+    // Nobody waits for another thread here, which may be gone after a fork.
+    let spare = SPARE.try_lock().ok();
+    let spare = spare.and_then(|mut all| if all.len() > RESTING { all.pop_front() } else { None });
+    let instance = spare.map_or_else(|| &*Box::leak(Box::default()), |Spare(instance)| instance);
+    unit.interrupt = instance.interrupt.clone();
+    *instance.unit.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(unit));
+    instance.marker.store(F::MARKER, Ordering::Release);
+    ptr::from_ref(instance).cast_mut().cast()
 }
 
 /// The instance behind a pointer, if it is one of this version.
 ///
 /// # Safety
 /// A pointer that is not null and is aligned must be readable.
-unsafe fn instance<'a, F: Function>(handle: Handle) -> Option<&'a Instance> {
+unsafe fn instance<F: Function>(handle: Handle, _: F) -> Option<&'static Instance> {
     let pointer: *const Instance = handle.cast_const().cast();
     if pointer.is_null() || !pointer.is_aligned() {
         return None;
     }
     // SAFETY: readable by contract; only the marker is looked at before it is known to be valid.
-    unsafe { (ptr::read_volatile(&raw const (*pointer).marker) == F::MARKER).then(|| &*pointer) }
+    let marker = unsafe { AtomicU64::from_ptr((&raw const (*pointer).marker).cast_mut().cast()) };
+    // SAFETY: instances are never freed.
+    (marker.load(Ordering::Acquire) == F::MARKER).then(|| unsafe { &*pointer })
+}
+
+/// Ends the step under way behind `handle`, if there is one: what another thread may ask while a call
+/// runs. Touches nothing of the unit but a number that is there for this.
+///
+/// # Safety
+/// As for [`call`].
+pub unsafe fn interrupt(handle: Handle, function: impl Function) -> bool {
+    // SAFETY: by contract.
+    unsafe { instance(handle, function) }.is_some_and(|instance| instance.interrupt.interrupt())
 }
 
 /// Runs `body` on the unit behind `handle` if `function` is allowed now. Refusals and panics become
@@ -49,9 +86,10 @@ pub unsafe fn call<F: Function>(
     body: impl FnOnce(&mut Unit) -> Answer,
 ) -> Status {
     // SAFETY: by contract.
-    let Some(instance) = (unsafe { instance::<F>(handle) }) else { return Status::Error };
+    let Some(instance) = (unsafe { instance(handle, function) }) else { return Status::Error };
     let Ok(mut unit) = instance.unit.try_lock() else { return Status::Error };
-    run(&mut unit, function, body)
+    let Some(unit) = unit.as_deref_mut() else { return Status::Error };
+    run(unit, function, body)
 }
 
 fn run<F: Function>(
@@ -83,19 +121,22 @@ fn after_panic(unit: &mut Unit, panic: &str) -> Refusal {
 /// As for [`call`]; the pointer is invalid afterwards.
 pub unsafe fn take_back(handle: Handle, function: impl Function) {
     // SAFETY: by contract.
-    let status = unsafe { call(handle, function, |_| Ok(Status::Ok)) };
-    if status != Status::Ok {
+    let Some(instance) = (unsafe { instance(handle, function) }) else { return };
+    let Ok(mut place) = instance.unit.try_lock() else { return };
+    let Some(unit) = place.as_deref_mut() else { return };
+    if run(unit, function, |_| Ok(Status::Ok)) != Status::Ok {
         return;
     }
-    let pointer: *mut Instance = handle.cast();
-    // SAFETY: `call` has found a valid instance, and nobody else may use it during this call.
-    unsafe {
-        ptr::write_volatile(&raw mut (*pointer).marker, 0);
-        let boxed = Box::from_raw(pointer);
-        let _ = panics::caught(move || {
-            drop(boxed);
-            Model::forget_unused();
-        });
+    // From here on nobody finds the unit any more.
+    instance.marker.store(0, Ordering::Release);
+    let unit = place.take();
+    drop(place);
+    let _ = panics::caught(move || {
+        drop(unit);
+        Model::forget_unused();
+    });
+    if let Ok(mut spare) = SPARE.try_lock() {
+        spare.push_back(Spare(instance));
     }
 }
 

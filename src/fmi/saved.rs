@@ -106,7 +106,12 @@ impl Unit {
             return Ok(Status::Ok);
         }
         match &mut self.series {
-            Some(series) if same_files => series.go_back(self.state.time),
+            Some(series) if same_files => {
+                let gone_back = series.go_back(self.state.time);
+                if let Err(error) = gone_back {
+                    return Ok(self.warn_of_output(&error));
+                }
+            }
             _ => {
                 self.series = None;
                 return Ok(self.open_series());

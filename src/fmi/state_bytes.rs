@@ -14,7 +14,7 @@
 
 use sha2::{Digest, Sha256};
 
-use super::legality::Phase;
+use super::legality::{Fmi2, Function, Phase};
 use super::saved::Snapshot;
 use super::types::{Answer, Refusal};
 use super::unit::{Experiment, Unit};
@@ -53,7 +53,11 @@ impl Unit {
             Refusal::error(format!("the saved state contradicts itself: {message}"))
         };
         let mut snapshot = read.map_err(contradicts)?;
-        let early = matches!(snapshot.phase, Phase::Instantiated | Phase::InitializationMode);
+        // After a panic, too, there may be none.
+        let early = matches!(
+            snapshot.phase,
+            Phase::Instantiated | Phase::InitializationMode | Phase::Error
+        );
         if early && snapshot.state.bodies.is_empty() {
             // There need not be a model yet, nor parameters that make sense.
             let (inputs, count) = (&snapshot.state.inputs, self.state.inputs.len());
@@ -138,6 +142,18 @@ fn write_snapshot(out: &mut Writer, snapshot: &Snapshot, registry: &Registry) {
     out.lists(&state.bodies);
 }
 
+/// Refuses times that no run can have.
+fn check_times(Experiment { start, stop }: Experiment, time: f64) -> Result<(), String> {
+    let numbers = [start, time, stop.unwrap_or(start)];
+    if numbers.iter().any(|number| !number.is_finite()) {
+        return Err("a time that is not finite".to_owned());
+    }
+    if time < start || stop.is_some_and(|stop| stop <= start) {
+        return Err(format!("{time} s in an experiment from {start} to {stop:?} s"));
+    }
+    Ok(())
+}
+
 #[derive(Default)]
 struct Writer(Vec<u8>);
 
@@ -162,11 +178,16 @@ struct Reader<'a>(&'a [u8]);
 impl Reader<'_> {
     fn snapshot(mut self, packed: &Scene, registry: &Registry) -> Result<Snapshot, String> {
         let phase = self.count()?;
-        let phase = *Phase::ALL.get(phase).ok_or_else(|| format!("phase {phase}"))?;
+        // Only in these a state can be saved, so that no other can be come back to.
+        let known = Phase::ALL.get(phase).filter(|phase| Fmi2::GetFMUstate.allowed_in(**phase));
+        let phase = *known.ok_or_else(|| format!("phase {phase}, in which nothing is saved"))?;
         let threads = self.count()?;
         let length = self.count()?;
         let directory = String::from_utf8(self.take(length)?.to_vec())
             .map_err(|_| "a folder that is not UTF-8".to_owned())?;
+        if directory.contains('\0') {
+            return Err("a folder whose name has a null character".to_owned());
+        }
         let mut scene = packed.clone();
         scene.solver.threads = threads;
         let values = self.numbers()?;
@@ -175,13 +196,21 @@ impl Reader<'_> {
             return Err(format!("{} parameters, not {expected}", values.len()));
         }
         for (parameter, value) in parameters(registry).zip(values) {
+            if !value.is_finite() {
+                return Err(format!("a parameter that is not finite: {value}"));
+            }
             parameter.set(&mut scene, value);
         }
         let experiment =
             Experiment { start: self.number()?, stop: self.numbers()?.first().copied() };
         let time = self.number()?;
+        check_times(experiment, time)?;
         let inputs = self.numbers()?;
-        let has_set_derivatives = self.count()? != 0;
+        let has_set_derivatives = match self.count()? {
+            0 => false,
+            1 => true,
+            other => return Err(format!("{other}, where yes or no is asked")),
+        };
         let (derivatives, bodies) = (self.lists()?, self.lists()?);
         if !self.0.is_empty() {
             return Err(format!("{} bytes too many", self.0.len()));

@@ -10,6 +10,8 @@ use super::legality::{Function, Phase};
 use super::log::Log;
 use super::saved::SavedStates;
 use super::types::{Answer, Refusal, Status};
+use crate::machine::available_memory;
+use crate::math::allowance::{Halt, Interrupt};
 use crate::math::thread::aside;
 use crate::model::{Cache, Model, ModelError, State, Tangent, initial_inputs};
 use crate::output::{FieldSeries, OutputError};
@@ -47,6 +49,8 @@ pub struct Unit {
     pub(super) has_set_derivatives: bool,
     pub(super) run: Option<Run>,
     pub(super) series: Option<FieldSeries>,
+    /// Ends the step under way, from another thread.
+    pub(super) interrupt: Interrupt,
 }
 
 /// The times that fmi2SetupExperiment tells [s].
@@ -136,6 +140,7 @@ impl Unit {
             experiment: Experiment::default(),
             run: None,
             series: None,
+            interrupt: Interrupt::default(),
         }
     }
 
@@ -206,20 +211,26 @@ impl Unit {
     /// drifts from the master's. Inputs whose derivatives have been set follow them; afterwards they
     /// are what they have become.
     ///
-    /// A step that cannot be completed, though nothing was wrong when it began, is discarded.
+    /// A step that cannot be completed, though nothing was wrong when it began, is discarded; so is one
+    /// that another thread cancels.
     pub fn step(&mut self, point: f64, step: f64) -> Answer {
         self.check_step(point, step)?;
         let registry = Arc::clone(&self.registry);
         let has_set = self.has_set_derivatives;
+        let interrupt = self.interrupt.clone();
         let (run, state) = self.run()?;
         let past = if has_set { None } else { Some(std::mem::take(&mut state.derivatives)) };
-        if let Err(error) = run.model.step(state, &mut run.cache, step) {
+        let stepping = interrupt.begin();
+        let stepped = run.model.step_unless(&interrupt, state, &mut run.cache, step);
+        drop(stepping);
+        if let Err(error) = stepped {
+            let is_cancelled = matches!(error, ModelError::Halted { halt: Halt::Interrupted, .. });
             if let Some(past) = past {
                 state.derivatives = past;
             }
             let refusal = explain(&registry, error);
             if refusal.status == Status::Discard {
-                self.phase = Phase::StepFailed;
+                self.phase = if is_cancelled { Phase::StepCanceled } else { Phase::StepFailed };
             }
             return Err(refusal);
         }
@@ -292,7 +303,7 @@ impl Unit {
     pub(super) fn model_of(&self, scene: &Scene) -> Answer<Arc<Model>> {
         let model = aside(|| {
             scene::check(scene)?;
-            Model::shared(scene, scene.solver.threads)
+            Model::shared(scene, scene.solver.threads, available_memory())
         });
         model.map_err(|error| explain(&self.registry, error))
     }
@@ -343,7 +354,7 @@ impl Unit {
     }
 
     /// The computation is fine, so files that cannot be written are no error.
-    fn warn_of_output(&self, error: &OutputError) -> Status {
+    pub(super) fn warn_of_output(&self, error: &OutputError) -> Status {
         let message = format!("output.directory {:?}: {error}", self.directory);
         self.log.send(Status::Warning, &message);
         Status::Warning
@@ -356,7 +367,9 @@ pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
     let (status, index) = match error {
         ModelError::Input { index, .. } => (Status::Error, Some(index)),
         ModelError::Underway { index, .. } => (Status::Discard, Some(index)),
-        ModelError::Overflow { .. } | ModelError::Droplet { .. } => (Status::Discard, None),
+        ModelError::Overflow { .. } | ModelError::Droplet { .. } | ModelError::Halted { .. } => {
+            (Status::Discard, None)
+        }
         _ => (Status::Error, None),
     };
     let is_at_fault = |v: &&Variable| index.is_some_and(|index| v.slot == Slot::Input(index));

@@ -11,6 +11,7 @@
 //! Source: H. Tal-Ezer (1989), SIAM J. Numer. Anal. 26, 1–11, doi 10.1137/0726001 (Chebyshev methods
 //! for parabolic problems); the recurrences for the coefficients are derived below.
 
+use super::allowance::{Allowance, Halt};
 use super::separable::dot;
 
 /// Largest half width `τΛ/2` of one expansion. Longer steps are cut in equal parts: eigenvalues a
@@ -54,8 +55,12 @@ impl Expansion {
 /// How a step under constant loads is cut: `(equal parts, products with the matrix in each)`.
 pub fn products(bound: f64, dt: f64) -> (usize, usize) {
     let parts = parts(bound, dt);
-    (parts, Expansion::new(half_width(bound, dt / parts as f64), 1).0[0].len())
+    let width = half_width(bound, dt / parts).min(WIDEST);
+    (parts as usize, Expansion::new(width, 1).0[0].len())
 }
+
+/// What rounds over the unknowns of an evolution are called.
+const PRODUCTS: &str = "products of particles' conduction";
 
 /// A system `u' = A u + Σ b_k t^k/k!` whose matrix has its eigenvalues in `[−bound, 0]` [1/s].
 ///
@@ -70,15 +75,24 @@ pub struct Evolution<'a, F: Fn(usize, &[f64]) -> f64 + Sync> {
 
 impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
     /// Replaces `u` by its value a time `dt` later and returns `∫ ℓ·u dt` over the step; an empty ℓ
-    /// is zero.
-    pub fn advance(&self, u: &mut [f64], functional: &[f64], dt: f64) -> f64 {
+    /// is zero. What a halt leaves in `u` is of no use.
+    pub fn advance(
+        &self,
+        u: &mut [f64],
+        functional: &[f64],
+        dt: f64,
+        allowance: &Allowance,
+    ) -> Result<f64, Halt> {
         let parts = parts(self.bound, dt);
-        let dt = dt / parts as f64;
+        // There is no expansion of widths without end.
+        allowance.foresee(parts, PRODUCTS, u.len())?;
+        let dt = dt / parts;
         let Expansion(functions) =
             Expansion::new(half_width(self.bound, dt), self.sources.len() + 1);
+        allowance.foresee(parts * functions[0].len() as f64, PRODUCTS, u.len())?;
         let mut sources = self.sources.to_vec();
         let mut integral = 0.0;
-        for part in 0..parts {
+        for part in 0..parts as usize {
             if part > 0 {
                 go_on(&mut sources, dt);
             }
@@ -91,13 +105,14 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
             for (k, source) in std::iter::once(&first).chain(&sources[1..]).enumerate() {
                 if source.iter().any(|&v| v != 0.0) {
                     let weights = [&functions[k], &functions[k + 1]].map(Vec::as_slice);
-                    let sum = self.add_driven(u, source, functional, (weights, power));
+                    let sum =
+                        self.add_driven(u, source, functional, (weights, power), allowance)?;
                     integral += dt * sum;
                 }
                 power *= dt;
             }
         }
-        integral
+        Ok(integral)
     }
 
     /// Adds `τ^{k+1} φ_{k+1}(τA) v` to `u` and returns `τ^{k+1} ℓ·φ_{k+2}(τA) v`; `power` is
@@ -108,7 +123,8 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
         v: &[f64],
         l: &[f64],
         ([value, integral], power): ([&[f64]; 2], f64),
-    ) -> f64 {
+        allowance: &Allowance,
+    ) -> Result<f64, Halt> {
         let scale = if self.bound > 0.0 { 2.0 / self.bound } else { 0.0 };
         // X v = v + 2/Λ A v.
         let shifted = |row: usize, v: &[f64]| v[row] + scale * (self.apply)(row, v);
@@ -124,6 +140,7 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
             }
         }
         for (a, b) in terms {
+            allowance.spend(1.0, PRODUCTS, v.len())?;
             // T_{j+1} = 2 X T_j − T_{j−1}, in the place of the latter.
             super::parallel::for_each(self.threads, &mut before, |row, out| {
                 *out = 2.0 * shifted(row, &now) - *out;
@@ -132,7 +149,7 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
             add(u, power * a, &now);
             sum += power * b * dot(l, &now);
         }
-        sum
+        Ok(sum)
     }
 }
 
@@ -152,8 +169,8 @@ fn half_width(bound: f64, dt: f64) -> f64 {
     (0.5 * bound * dt).max(f64::MIN_POSITIVE.sqrt())
 }
 
-fn parts(bound: f64, dt: f64) -> usize {
-    (half_width(bound, dt) / WIDEST).ceil().max(1.0) as usize
+fn parts(bound: f64, dt: f64) -> f64 {
+    (half_width(bound, dt) / WIDEST).ceil().max(1.0)
 }
 
 fn add(u: &mut [f64], factor: f64, v: &[f64]) {
@@ -236,7 +253,8 @@ mod tests {
             let sources = [vec![0.0, 1.0]];
             let evolution = Evolution { apply, bound: 6.0, sources: &sources, threads: 1 };
             let mut u = [1.0, 0.0];
-            let integral = evolution.advance(&mut u, &[1.0, 0.0], dt);
+            let integral =
+                evolution.advance(&mut u, &[1.0, 0.0], dt, &Allowance::default()).unwrap();
             // d = u − v: d' = −4 d − 1; 3u + v grows by 1.
             let d0 = 1.25;
             let d = d0 * (-4.0 * dt).exp() - 0.25;
@@ -268,13 +286,26 @@ mod tests {
                 let mut functional = [0.0; 3];
                 functional[row] = 1.0;
                 let mut u = [0.25; 3];
-                let integral = evolution.advance(&mut u, &functional, dt);
+                let integral =
+                    evolution.advance(&mut u, &functional, dt, &Allowance::default()).unwrap();
                 for (shift, value) in [u[row], integral].into_iter().enumerate() {
                     let (wanted, undamped) = (solution(rate, shift), solution(0.0, shift));
                     let error = (value - wanted).abs();
                     assert!(error < 1e-13 * undamped, "{dt}, {rate}: {value}, not {wanted}");
                 }
             }
+        }
+    }
+
+    #[test]
+    fn a_step_that_would_not_end_is_refused() {
+        for bound in [1e40, f64::INFINITY] {
+            let apply = |row: usize, u: &[f64]| -bound * u[row];
+            let evolution = Evolution { apply, bound, sources: &[vec![1.0]], threads: 1 };
+            let halt = evolution.advance(&mut [1.0], &[], 1.0, &Allowance::default());
+            assert!(matches!(halt, Err(Halt::TooLong { .. })), "{halt:?}");
+            let (_, terms) = products(bound, 1.0);
+            assert!(terms < 2000, "{terms}");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Numerics without physics: quadrature, shape functions, separable transforms, sparse solvers,
-//! exponentials of matrices.
+//! exponentials of matrices, and bounds of how much they compute.
 
+pub mod allowance;
 pub mod chebyshev;
 pub mod cholesky;
 pub mod disc_rectangle;

@@ -4,6 +4,7 @@ use super::loads::add;
 use crate::body::fem::{Geometry, Plan, Refinement, SolidFem, SolidLoads, Temperatures};
 use crate::body::sph::{Surface, SurfaceResponse, WallCells, WallExchange};
 use crate::coupling::TopFace;
+use crate::math::allowance::{Allowance, Halt};
 use crate::scene::{Arrival, Coupling, Droplet};
 
 /// Least part of a squared element's length over which heat may diffuse along it between two exchanges.
@@ -72,7 +73,8 @@ impl Contact {
         unknowns: &[f64],
         loads: &SolidLoads,
         dt: f64,
-    ) -> Surface {
+        allowance: &Allowance,
+    ) -> Result<Surface, Halt> {
         let temperatures = solid.temperatures(unknowns, loads);
         let start = self.at_cells(&temperatures);
         let response = self.response.clone();
@@ -81,12 +83,12 @@ impl Contact {
         let rest = |(t, parts): (f64, &[f64])| t - parts.iter().sum::<f64>();
         let base = start.into_iter().zip(amplitudes.chunks_exact(count)).map(rest).collect();
         let mut later = unknowns.to_vec();
-        solid.advance(&mut later, std::slice::from_ref(loads), dt);
+        solid.advance(&mut later, std::slice::from_ref(loads), dt, allowance)?;
         let end = self.at_cells(&solid.temperatures(&later, loads));
         let mut surface = Surface { response, base, amplitudes, drift: vec![0.0; end.len()] };
         let free = surface.free(1.0, dt);
         surface.drift = end.iter().zip(free).map(|(end, free)| end - free).collect();
-        surface
+        Ok(surface)
     }
 
     /// Adds what the droplet gave during its last step, as rates, to what acts on the solid.

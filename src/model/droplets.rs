@@ -5,9 +5,10 @@ use std::ops::Range;
 use super::ModelError;
 use super::contact::Contact;
 use crate::body::sph::{
-    self, Domain, DropletPlan, DropletSph, DropletTotals, Extent, ParticleFields, Release, Surface,
-    WallCells, WallExchange,
+    self, Domain, DropletPlan, DropletSph, DropletTotals, Extent, Failure, ParticleFields, Release,
+    Surface, WallCells, WallExchange,
 };
+use crate::math::allowance::Allowance;
 use crate::scene::{Droplet, Footprint, Scene};
 use crate::variables::{DropletTotal, InputLayout, WallOutput};
 
@@ -111,11 +112,20 @@ impl DropletModel {
         state: &mut Vec<f64>,
         wall_temperature: &[f64],
         dt: f64,
+        allowance: &Allowance,
     ) -> Result<(), ModelError> {
-        let name = || self.name.clone();
-        self.droplet
-            .advance(state, wall_temperature, dt)
-            .map_err(|failure| ModelError::Droplet { name: name(), failure })
+        let advanced = self.droplet.advance_within(state, wall_temperature, dt, allowance);
+        advanced.map_err(|failure| self.error(failure))
+    }
+
+    /// Ends a step of `dt` [s] that is known to take the droplet too many time steps.
+    pub fn foresee(&self, state: &[f64], dt: f64, allowance: &Allowance) -> Result<(), ModelError> {
+        let particles = self.droplet.particles_in(state);
+        let (_, time_step) = DropletSph::forecast(self.droplet.plan());
+        // Fluid at rest takes longer steps than one that arrives.
+        let steps = if particles > 0 { 0.5 * dt / time_step } else { 0.0 };
+        let foreseen = allowance.foresee(steps, "time steps of a droplet", particles);
+        foreseen.map_err(|halt| ModelError::Halted { body: self.name.clone(), halt })
     }
 
     /// The same above the surface of a solid that answers to the droplet's heat; the rises of its cells [K m²].
@@ -124,11 +134,17 @@ impl DropletModel {
         state: &mut Vec<f64>,
         surface: &Surface,
         dt: f64,
+        allowance: &Allowance,
     ) -> Result<Vec<f64>, ModelError> {
-        let name = || self.name.clone();
-        self.droplet
-            .advance_above(state, surface, dt)
-            .map_err(|failure| ModelError::Droplet { name: name(), failure })
+        let advanced = self.droplet.advance_above(state, surface, dt, allowance);
+        advanced.map_err(|failure| self.error(failure))
+    }
+
+    fn error(&self, failure: Failure) -> ModelError {
+        match failure {
+            Failure::Halted(halt) => ModelError::Halted { body: self.name.clone(), halt },
+            failure => ModelError::Droplet { name: self.name.clone(), failure },
+        }
     }
 
     pub fn total(&self, state: &[f64], cache: &mut DropletCache, total: DropletTotal) -> f64 {

@@ -2,6 +2,7 @@
 
 use super::{Model, ModelError, State};
 use crate::body::fem::SolidLoads;
+use crate::math::allowance::Allowance;
 
 /// Highest time derivative of inputs that a step takes into account.
 pub const HIGHEST_INPUT_DERIVATIVE: usize = 2;
@@ -73,6 +74,7 @@ impl Model {
         path: &InputPath,
         bodies: &mut [Vec<f64>],
         dt: f64,
+        allowance: &Allowance,
     ) -> Result<(), ModelError> {
         for s in path.turns(dt).into_iter().chain([dt]) {
             self.check_underway(&path.at(0, s), s)?;
@@ -80,10 +82,15 @@ impl Model {
         let travel =
             |body: &super::BodyModel| body.loads.travel(&self.scene, &path.derivatives, dt);
         let travel = self.bodies.iter().map(travel).fold(0.0, f64::max);
-        let parts = (PARTS_OF_A_FOOTPRINT * travel).ceil().max(1.0) as usize;
-        let h = dt / parts as f64;
+        let parts = (PARTS_OF_A_FOOTPRINT * travel).ceil().max(1.0);
+        for body in &self.bodies {
+            let halted = |halt| ModelError::Halted { body: body.name.clone(), halt };
+            let size = body.solid.state_len();
+            allowance.foresee(parts, "samples of moving footprints", size).map_err(halted)?;
+        }
+        let h = dt / parts;
         let mut first = self.loads_at(&path.at(0, 0.0));
-        for part in 0..parts {
+        for part in 0..parts as usize {
             let at = |share: f64| (part as f64 + share) * h;
             let [middle, last] = [at(0.5), at(1.0)].map(|s| (path.at(0, s), s));
             self.check_underway(&middle.0, middle.1)?;
@@ -91,7 +98,8 @@ impl Model {
             let (middle, last) = (self.loads_at(&middle.0), self.loads_at(&last.0));
             for (index, body) in self.bodies.iter().enumerate() {
                 let loads = quadratic([&first[index], &middle[index], &last[index]], h);
-                body.solid.advance(&mut bodies[index], &loads, h);
+                let advanced = body.solid.advance(&mut bodies[index], &loads, h, allowance);
+                advanced.map_err(|halt| ModelError::Halted { body: body.name.clone(), halt })?;
             }
             first = last;
         }

@@ -5,7 +5,7 @@ use std::ptr;
 use std::sync::atomic::{AtomicPtr, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
-use super::{Model, ModelError};
+use super::{Model, ModelError, check_memory};
 use crate::math::thread::{aside, is_alone};
 use crate::scene::Scene;
 
@@ -47,9 +47,10 @@ fn entries() -> MutexGuard<'static, Vec<Entry>> {
 
 impl Model {
     /// The model of `scene`, built unless another holder in this process already has it. Those who
-    /// ask for the same one meanwhile wait; those who ask for another do not.
-    pub fn shared(scene: &Scene, threads: usize) -> Result<Arc<Model>, ModelError> {
-        aside(|| Self::shared_here(scene, threads))
+    /// ask for the same one meanwhile wait; those who ask for another do not. One that would take more
+    /// memory than is `available` [B] is not built.
+    pub fn shared(scene: &Scene, threads: usize, available: f64) -> Result<Arc<Model>, ModelError> {
+        aside(|| Self::shared_here(scene, threads, available))
     }
 
     /// Forgets scenes whose models nobody holds any more.
@@ -59,12 +60,17 @@ impl Model {
         entries.shrink_to_fit();
     }
 
-    fn shared_here(scene: &Scene, threads: usize) -> Result<Arc<Model>, ModelError> {
+    fn shared_here(
+        scene: &Scene,
+        threads: usize,
+        available: f64,
+    ) -> Result<Arc<Model>, ModelError> {
         let slot = slot_of(scene);
         let mut weak = slot.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
         if let Some(model) = weak.upgrade() {
             return Ok(model);
         }
+        check_memory(scene, available)?;
         let model = Arc::new(Model::build(scene, threads)?);
         *weak = Arc::downgrade(&model);
         Ok(model)
@@ -96,16 +102,17 @@ mod tests {
     use crate::scene::parse;
 
     const SCENE: &str = include_str!("../../tests/fmi/scene.toml");
+    const ENOUGH: f64 = 1e9;
 
     #[test]
     fn equal_scenes_have_one_model_as_long_as_somebody_holds_it() {
         let scene = parse(SCENE, "scene.toml").unwrap();
-        let first = Model::shared(&scene, 1).unwrap();
-        let second = Model::shared(&scene, 1).unwrap();
+        let first = Model::shared(&scene, 1, ENOUGH).unwrap();
+        let second = Model::shared(&scene, 1, ENOUGH).unwrap();
         assert!(Arc::ptr_eq(&first, &second), "the second holder built nothing");
         let mut warmer = scene.clone();
         warmer.name = "Other".into();
-        let other = Model::shared(&warmer, 1).unwrap();
+        let other = Model::shared(&warmer, 1, ENOUGH).unwrap();
         assert!(!Arc::ptr_eq(&first, &other));
         let weak = Arc::downgrade(&first);
         drop((first, second));
@@ -113,11 +120,21 @@ mod tests {
     }
 
     #[test]
+    fn only_a_model_that_is_to_be_built_asks_for_memory() {
+        let mut scene = parse(SCENE, "scene.toml").unwrap();
+        scene.name = "Large".into();
+        let refused = Model::shared(&scene, 1, 1e3).err().unwrap();
+        assert!(matches!(refused, ModelError::Memory { .. }), "{refused}");
+        let first = Model::shared(&scene, 1, ENOUGH).unwrap();
+        assert!(Arc::ptr_eq(&first, &Model::shared(&scene, 1, 1e3).unwrap()));
+    }
+
+    #[test]
     fn those_who_ask_at_once_get_the_same_model() {
         let mut scene = parse(SCENE, "scene.toml").unwrap();
         scene.name = "AtOnce".into();
         let models: Vec<Arc<Model>> = std::thread::scope(|scope| {
-            let ask = |_| scope.spawn(|| Model::shared(&scene, 1).unwrap());
+            let ask = |_| scope.spawn(|| Model::shared(&scene, 1, ENOUGH).unwrap());
             let asked: Vec<_> = (0..4).map(ask).collect();
             asked.into_iter().map(|thread| thread.join().unwrap()).collect()
         });

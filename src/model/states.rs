@@ -4,7 +4,8 @@ use super::{HIGHEST_INPUT_DERIVATIVE, Model, ModelError, State};
 
 impl Model {
     /// Refuses a state that this model cannot go on from: a wrong number of inputs or bodies,
-    /// unknowns of a length that a body does not take, or numbers that are not finite.
+    /// unknowns of a length that a body does not take, numbers that are not finite, or particles that no
+    /// run leads to.
     pub fn check_state(&self, state: &State) -> Result<(), ModelError> {
         let refuse = |message: String| Err(ModelError::State(message));
         let orders = state.derivatives.len();
@@ -23,6 +24,11 @@ impl Model {
                 ));
             }
         }
+        let numbers = state.inputs.iter().chain(state.derivatives.iter().flatten());
+        let mut numbers = numbers.chain(state.bodies.iter().flatten());
+        if !state.time.is_finite() || !numbers.all(|value| value.is_finite()) {
+            return refuse("a number that is not finite".into());
+        }
         let bodies = self.bodies.len() + self.droplets.len();
         if state.bodies.len() != bodies {
             let (found, wanted) = (state.bodies.len(), bodies);
@@ -39,16 +45,9 @@ impl Model {
             }
         }
         for (body, unknowns) in self.droplets.iter().zip(&state.bodies[self.bodies.len()..]) {
-            if !body.droplet.accepts(unknowns) {
-                let count = unknowns.len();
-                return refuse(format!("{count} unknowns that are not those of {}", body.name));
-            }
+            let checked = body.droplet.check_state(unknowns);
+            checked.or_else(|error| refuse(format!("{}: {error}", body.name)))?;
         }
-        let numbers = state.inputs.iter().chain(state.derivatives.iter().flatten());
-        let mut numbers = numbers.chain(state.bodies.iter().flatten());
-        match state.time.is_finite() && numbers.all(|value| value.is_finite()) {
-            true => Ok(()),
-            false => refuse("a number that is not finite".into()),
-        }
+        Ok(())
     }
 }

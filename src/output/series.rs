@@ -1,19 +1,24 @@
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::process;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 
 use super::{OutputError, vtk};
 use crate::model::{Cache, Model, State};
+use crate::scene::Shape;
 
 /// The fields of all bodies as ParaView time series: `BODY.pvd` lists one `BODY_NNNNNN.vtr` (the nodes
-/// of a solid) or `.vtp` (the particles of a droplet) a time.
+/// of a box), `.vts` (those of a disc, turned round its axis) or `.vtp` (the particles of a droplet) a
+/// time.
 ///
 /// Files appear whole or not at all, and the list is brought up to date after each time, so a run
-/// that is cut off leaves a readable series. A state whose time is not past the last one replaces what
-/// was written from that time on.
+/// that is cut off leaves a readable series; a time of which a file cannot be written is not listed. A
+/// state whose time is not past the last one replaces what was written from that time on. Files of the
+/// series that are listed no more are removed, those of an earlier run too.
 pub struct FieldSeries {
     directory: PathBuf,
     /// Names and kinds of their files.
@@ -23,23 +28,69 @@ pub struct FieldSeries {
 }
 
 impl FieldSeries {
-    /// Creates the folder where it is missing, and empty lists in it.
+    /// Creates the folder where it is missing, and empty lists in it; removes the files that a series of
+    /// these bodies left there.
     pub fn create(directory: &Path, model: &Model) -> Result<Self, OutputError> {
         fs::create_dir_all(directory).map_err(OutputError::at("create the folder", directory))?;
-        let solids = model.scene().solids().map(|(name, _)| (name.to_owned(), Kind::Grid));
+        let solids = model.scene().solids().map(|(name, solid)| {
+            let kind = match solid.shape {
+                Shape::Box(_) => Kind::Grid,
+                Shape::Disc(_) => Kind::Revolved,
+            };
+            (name.to_owned(), kind)
+        });
         let droplets = model.scene().droplets().map(|(name, _)| (name.to_owned(), Kind::Particles));
         let bodies = solids.chain(droplets).collect();
         let series = Self { directory: directory.to_owned(), bodies, times: Vec::new() };
         for body in &series.bodies {
             series.write_list(body)?;
         }
+        series.remove_unlisted();
         Ok(series)
     }
 
-    /// Forgets the times after `time` [s]: a state of that time was restored. Their files are replaced
-    /// as the run goes on.
-    pub fn go_back(&mut self, time: f64) {
+    /// Whether a folder holds a series of a model's bodies already.
+    pub fn is_in(directory: &Path, model: &Model) -> bool {
+        let scene = model.scene();
+        let names = scene.solids().map(|body| body.0).chain(scene.droplets().map(|body| body.0));
+        names.into_iter().any(|name| directory.join(format!("{name}.pvd")).exists())
+    }
+
+    /// Forgets the times after `time` [s]: a state of that time was restored.
+    pub fn go_back(&mut self, time: f64) -> Result<(), OutputError> {
         self.times.retain(|&written| written <= time);
+        self.bodies.iter().try_for_each(|body| self.write_list(body))?;
+        self.remove_unlisted();
+        Ok(())
+    }
+
+    /// Removes files of the series that are not listed, whole or not. What cannot be removed is in nobody's
+    /// way.
+    fn remove_unlisted(&self) {
+        let Ok(entries) = fs::read_dir(&self.directory) else { return };
+        let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
+        for name in names.filter(|name| self.is_unlisted(name)) {
+            let _ = fs::remove_file(self.directory.join(name));
+        }
+    }
+
+    /// Whether a name is that of an unfinished file of the series, or of one beyond its times.
+    fn is_unlisted(&self, name: &str) -> bool {
+        let (whole, is_unfinished) = match name.split_once(".part") {
+            Some((whole, _)) => (whole, true),
+            None => (name, false),
+        };
+        self.bodies.iter().any(|(body, _)| {
+            let Some(rest) = whole.strip_prefix(body.as_str()) else { return false };
+            if rest == ".pvd" {
+                return is_unfinished;
+            }
+            let number = rest.strip_prefix('_').and_then(|rest| rest.split_once('.'));
+            let Some((digits, ending)) = number else { return false };
+            let is_ours = digits.len() >= DIGITS && ["vtr", "vts", "vtp"].contains(&ending);
+            let place: Option<usize> = digits.parse().ok().filter(|_| is_ours);
+            place.is_some_and(|place| is_unfinished || place >= self.times.len())
+        })
     }
 
     /// Adds the fields of one state.
@@ -49,24 +100,45 @@ impl FieldSeries {
         state: &State,
         cache: &mut Cache,
     ) -> Result<(), OutputError> {
-        self.times.retain(|&time| time < state.time);
-        let place = self.times.len();
-        self.times.push(state.time);
-        for body in &self.bodies {
-            let path = self.directory.join(file_name(body, place));
-            match body.1 {
-                Kind::Grid => {
-                    let fields = model.nodal_fields(state, cache, &body.0)?;
-                    replace(&path, |out| vtk::write_grid(out, state.time, &fields))?;
-                }
-                Kind::Particles => {
-                    let fields = model.particle_fields(state, &body.0);
-                    replace(&path, |out| vtk::write_particles(out, state.time, &fields))?;
-                }
-            }
-            self.write_list(body)?;
+        if self.times.last().is_some_and(|&last| last >= state.time) {
+            self.times.retain(|&time| time < state.time);
+            // What is replaced is not listed while that goes on.
+            self.bodies.iter().try_for_each(|body| self.write_list(body))?;
+            self.remove_unlisted();
         }
-        Ok(())
+        let written =
+            self.bodies.iter().try_for_each(|body| self.write_body(body, model, state, cache));
+        if let Err(error) = written {
+            self.remove_unlisted();
+            return Err(error);
+        }
+        self.times.push(state.time);
+        self.bodies.iter().try_for_each(|body| self.write_list(body))
+    }
+
+    /// Writes a body's fields at the next time.
+    fn write_body(
+        &self,
+        body: &(String, Kind),
+        model: &Model,
+        state: &State,
+        cache: &mut Cache,
+    ) -> Result<(), OutputError> {
+        let path = self.directory.join(file_name(body, self.times.len()));
+        match body.1 {
+            Kind::Grid => {
+                let fields = model.nodal_fields(state, cache, &body.0)?;
+                replace(&path, |out| vtk::write_grid(out, state.time, &fields))
+            }
+            Kind::Revolved => {
+                let fields = model.nodal_fields(state, cache, &body.0)?;
+                replace(&path, |out| vtk::write_revolved(out, state.time, &fields))
+            }
+            Kind::Particles => {
+                let fields = model.particle_fields(state, &body.0);
+                replace(&path, |out| vtk::write_particles(out, state.time, &fields))
+            }
+        }
     }
 
     fn write_list(&self, body: &(String, Kind)) -> Result<(), OutputError> {
@@ -79,16 +151,21 @@ impl FieldSeries {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Grid,
+    Revolved,
     Particles,
 }
+
+/// Fewest digits of a file's number.
+const DIGITS: usize = 6;
 
 /// Name of the file of a body at its `place`-th time.
 fn file_name((body, kind): &(String, Kind), place: usize) -> String {
     let ending = match kind {
         Kind::Grid => "vtr",
+        Kind::Revolved => "vts",
         Kind::Particles => "vtp",
     };
-    format!("{body}_{place:06}.{ending}")
+    format!("{body}_{place:0DIGITS$}.{ending}")
 }
 
 /// Writes a ParaView collection of a body's files at `times` [s].
@@ -116,13 +193,16 @@ fn write_collection(out: impl Write, body: &(String, Kind), times: &[f64]) -> io
     Ok(())
 }
 
-/// Writes a file beside `path` and puts it in its place once it is complete.
+/// Writes a file beside `path` and puts it in its place once it is complete; nothing is left beside it.
 fn replace(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), OutputError> {
+    // Of its own, should another series be written to the same folder.
+    static COUNT: AtomicUsize = AtomicUsize::new(0);
+    let count = COUNT.fetch_add(1, Ordering::Relaxed);
     let mut unfinished = path.as_os_str().to_owned();
-    unfinished.push(".part");
+    unfinished.push(format!(".part{}_{count}", process::id()));
     let fill = || {
         let mut out = BufWriter::new(File::create(&unfinished)?);
         write(&mut out)?;
@@ -130,5 +210,8 @@ fn replace(
         drop(out);
         fs::rename(&unfinished, path)
     };
-    fill().map_err(OutputError::at("write", path))
+    fill().map_err(|reason| {
+        let _ = fs::remove_file(&unfinished);
+        OutputError::at("write", path)(reason)
+    })
 }

@@ -86,6 +86,8 @@ fn is_bare(key: &str) -> bool {
 pub struct Source<'a> {
     file: String,
     text: &'a str,
+    /// Where the lines end.
+    ends: Vec<usize>,
     root: Spanned<DeValue<'a>>,
 }
 
@@ -94,7 +96,9 @@ impl<'a> Source<'a> {
     pub fn parse(text: &'a str, file: &str) -> Result<Self, SceneError> {
         let (table, errors) = DeTable::parse_recoverable(text);
         let root = Spanned::new(table.span(), DeValue::Table(table.into_inner()));
-        let source = Self { file: file.to_owned(), text, root };
+        let bytes = text.bytes().enumerate();
+        let ends = bytes.filter(|&(_, byte)| byte == b'\n').map(|(at, _)| at).collect();
+        let source = Self { file: file.to_owned(), text, ends, root };
         let mut problems: Vec<_> = errors.iter().map(|error| source.not_toml(error)).collect();
         problems.dedup_by_key(|problem| problem.line);
         SceneError::unless_empty(problems)?;
@@ -151,7 +155,7 @@ impl<'a> Source<'a> {
     }
 
     fn line_of_offset(&self, offset: usize) -> usize {
-        1 + self.text.bytes().take(offset).filter(|&byte| byte == b'\n').count()
+        1 + self.ends.partition_point(|&end| end < offset)
     }
 
     fn not_toml(&self, error: &toml::de::Error) -> Problem {

@@ -3,7 +3,7 @@
 use crate::master::{DISCARD, OK, Unit};
 
 /// Two drops, the second released after 0.4 µs, above a wall of tiles whose temperatures are inputs.
-const WALL: &str = r#"
+pub const WALL: &str = r#"
 name = "Drops"
 stop_time = 2e-6
 step = 1e-7
@@ -23,7 +23,7 @@ start = { temperature = 300.0 }
 "#;
 
 /// A drop on a plate that a spot heats.
-const PLATE: &str = r#"
+pub const PLATE: &str = r#"
 name = "DropOnPlate"
 stop_time = 2e-6
 step = 1e-7
@@ -60,7 +60,7 @@ gives = ["temperature", "stress"]
 
 const STEP: f64 = 1e-7;
 
-fn started(scene: &str) -> Unit {
+pub fn started(scene: &str) -> Unit {
     let unit = Unit::of_scene(scene);
     assert_eq!(unit.setup(0.0, None), OK);
     assert_eq!(unit.enter(), OK);

@@ -148,3 +148,28 @@ fn experiments_that_make_no_sense_are_refused() {
     }
     assert_eq!(unit.setup(0.0, Some(1e-6)), OK);
 }
+
+#[test]
+fn a_model_beyond_the_memory_of_the_machine_is_refused_with_numbers() {
+    let unit = Unit::of_scene(&crate::master::SCENE.replace("spacing = 5e-5", "spacing = 1e-8"));
+    assert_eq!(unit.setup(0.0, None), OK);
+    assert_eq!(unit.enter(), OK);
+    unit.messages.take();
+    assert_eq!(unit.exit(), ERROR);
+    unit.expect_message(ERROR, &["MB of memory", "`plate`", "larger `mesh.spacing`"]);
+    assert_eq!(unit.reset(), OK);
+}
+
+#[test]
+fn parameters_beyond_what_anything_real_has_are_refused_when_a_model_is_asked_for() {
+    for (name, value) in [("drop.viscosity", 1e30), ("drop.conductivity", 1e45)] {
+        let unit = Unit::of_scene(crate::droplets::WALL);
+        assert_eq!(unit.setup(0.0, None), OK);
+        assert_eq!(unit.enter(), OK);
+        assert_eq!(unit.set(name, value), OK);
+        unit.messages.take();
+        assert_eq!(unit.exit(), ERROR);
+        let constant = name.trim_start_matches("drop.");
+        unit.expect_message(ERROR, &[constant, "beyond all bounds", "allowed:"]);
+    }
+}

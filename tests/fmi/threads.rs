@@ -2,7 +2,7 @@
 
 use std::thread;
 
-use crate::master::{OK, Unit};
+use crate::master::{ERROR, Handle, OK, Unit, call, free};
 
 fn run(flux: f64) -> (Vec<u64>, i32, String) {
     let unit = Unit::initializing();
@@ -68,4 +68,30 @@ fn an_instance_may_move_between_threads() {
     });
     let unit = back.join().unwrap().0;
     assert_eq!(unit.step(1e-8, 1e-8), OK);
+}
+
+/// A call that comes while an instance is taken back, or later, is refused: its memory stays.
+#[test]
+fn instances_are_taken_back_while_other_threads_call() {
+    struct Shared(Handle);
+    // SAFETY: instances refuse calls that overlap.
+    unsafe impl Send for Shared {}
+    for _ in 0..50 {
+        let unit = Unit::instantiated();
+        let shared = Shared(unit.handle);
+        let caller = thread::spawn(move || {
+            let shared = shared;
+            let calls = ["fmi2EnterInitializationMode", "fmi2Reset"].into_iter().cycle();
+            let status = |name: &str| call!(name, shared.0 => Handle);
+            calls.take(300).map(status).collect::<Vec<_>>()
+        });
+        thread::yield_now();
+        let handle = unit.handle;
+        drop(unit);
+        let statuses = caller.join().unwrap();
+        assert!(statuses.iter().all(|status| [OK, ERROR].contains(status)));
+        // Refused if it came during a call.
+        free(handle);
+        assert_eq!(call!("fmi2Reset", handle => Handle), ERROR);
+    }
 }

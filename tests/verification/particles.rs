@@ -9,6 +9,7 @@ use impinge::body::particle_heat::{
 };
 use impinge::closed_form::{Conductor, DiscFlux, HeatedSlab, SuddenSurface, UniformFlux};
 use impinge::kernel::Kernel;
+use impinge::math::allowance::Allowance;
 
 use crate::common::Trial;
 use crate::study::{
@@ -168,7 +169,8 @@ fn rod(particles: usize, operator: Operator) -> (Vec<f64>, Vec<f64>) {
     let heat = ParticleHeat::new(setup, 1);
     let mut state = vec![0.0; heat.state_len()];
     let faces = [vec![1.0, 0.0]];
-    heat.advance(&mut state, &[Sources { surface: &[[vec![], vec![]]], faces: &faces }], 0.03);
+    let sources = Sources { surface: &[[vec![], vec![]]], faces: &faces };
+    heat.advance(&mut state, &[sources], 0.03, &Allowance::default()).unwrap();
     (nodes, heat.temperatures(&state, &faces).swap_remove(0))
 }
 

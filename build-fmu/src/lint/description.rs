@@ -1,5 +1,7 @@
 //! modelDescription.xml as plain data. What is malformed is left out here; the rule `schema` reports it.
 
+use std::collections::HashMap;
+
 use roxmltree::Node;
 
 use super::combination;
@@ -12,6 +14,8 @@ pub struct Description<'a> {
     pub interfaces: Vec<Interface<'a>>,
     pub units: Vec<Unit<'a>>,
     pub types: Vec<SimpleType<'a>>,
+    /// Places of the first types of their names.
+    types_by_name: HashMap<&'a str, usize>,
     pub variables: Vec<Variable<'a>>,
     pub outputs: Vec<Unknown<'a>>,
     pub derivatives: Vec<Unknown<'a>>,
@@ -70,12 +74,17 @@ impl<'a> Description<'a> {
             let nodes = structure.into_iter().flat_map(|node| list(node, of, "Unknown"));
             nodes.map(unknown).collect()
         };
+        let types: Vec<SimpleType> =
+            list(root, "TypeDefinitions", "SimpleType").map(simple_type).collect();
+        let names = types.iter().enumerate().rev();
+        let types_by_name = names.map(|(place, declared)| (declared.name, place)).collect();
         Self {
             root,
             guid: root.attribute("guid").unwrap_or_default(),
             interfaces: elements(root).filter_map(interface).collect(),
             units: list(root, "UnitDefinitions", "Unit").map(unit).collect(),
-            types: list(root, "TypeDefinitions", "SimpleType").map(simple_type).collect(),
+            types,
+            types_by_name,
             variables: list(root, "ModelVariables", "ScalarVariable").map(variable).collect(),
             outputs: unknowns("Outputs"),
             derivatives: unknowns("Derivatives"),
@@ -90,7 +99,7 @@ impl<'a> Description<'a> {
 
     pub fn declared_type(&self, variable: &Variable) -> Option<&SimpleType<'a>> {
         let name = variable.attribute("declaredType")?;
-        self.types.iter().find(|declared| declared.name == name)
+        self.types_by_name.get(name).map(|&place| &self.types[place])
     }
 
     /// An attribute of a variable, or of its declared type if it has none of its own.

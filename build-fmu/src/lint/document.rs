@@ -5,18 +5,31 @@ use roxmltree::{Attribute, Node};
 use super::DESCRIPTION;
 use super::finding::{Fault, Place};
 
-pub struct Document<'a>(roxmltree::Document<'a>);
+pub struct Document<'a> {
+    parsed: roxmltree::Document<'a>,
+    /// Where the lines end.
+    ends: Vec<usize>,
+}
+
+/// Elements and texts in a description at most, which take about a gigabyte.
+const MOST_NODES: u32 = 10_000_000;
 
 impl<'a> Document<'a> {
     pub fn parse(text: &'a str) -> Result<Self, Fault> {
-        roxmltree::Document::parse(text).map(Self).map_err(|error| {
-            let place = Place { line: Some(error.pos().row), ..Place::file(DESCRIPTION) };
-            Fault::new(place, error.to_string())
-        })
+        let bytes = text.bytes().enumerate();
+        let ends: Vec<usize> = bytes.filter(|&(_, byte)| byte == b'\n').map(|(at, _)| at).collect();
+        let fault = |line, wrong: String| {
+            Fault::new(Place { line: Some(line), ..Place::file(DESCRIPTION) }, wrong)
+        };
+        super::extent::check(text).map_err(|(at, wrong)| fault(line(&ends, at), wrong))?;
+        let options = roxmltree::ParsingOptions { nodes_limit: MOST_NODES, ..Default::default() };
+        let parsed = roxmltree::Document::parse_with_options(text, options);
+        let parsed = parsed.map_err(|error| fault(error.pos().row, error.to_string()))?;
+        Ok(Self { parsed, ends })
     }
 
     pub fn root(&self) -> Node<'_, 'a> {
-        self.0.root_element()
+        self.parsed.root_element()
     }
 
     /// The place of an element.
@@ -33,10 +46,15 @@ impl<'a> Document<'a> {
     fn at(&self, offset: usize, node: Node) -> Place {
         Place {
             file: DESCRIPTION.into(),
-            line: Some(self.0.text_pos_at(offset).row),
+            line: Some(line(&self.ends, offset)),
             element: title(node),
         }
     }
+}
+
+/// The line of a place, counted from one.
+fn line(ends: &[usize], at: usize) -> u32 {
+    u32::try_from(1 + ends.partition_point(|&end| end < at)).unwrap_or(u32::MAX)
 }
 
 /// An element in words that find it: its name, and what tells it from its neighbours. The type of a

@@ -83,11 +83,16 @@ impl Fault {
 pub struct Report<'a> {
     rule: &'static Rule,
     found: &'a mut Vec<Finding>,
+    /// Errors and warnings of this rule.
+    counts: [usize; 2],
 }
+
+/// Errors, and warnings, of a rule that are listed.
+const MOST: usize = 1000;
 
 impl<'a> Report<'a> {
     pub fn of(rule: &'static Rule, found: &'a mut Vec<Finding>) -> Self {
-        Self { rule, found }
+        Self { rule, found, counts: [0; 2] }
     }
 
     pub fn error(&mut self, place: Place, wrong: impl Into<String>, allowed: impl Into<String>) {
@@ -104,6 +109,13 @@ impl<'a> Report<'a> {
     }
 
     fn add(&mut self, severity: Severity, place: Place, wrong: String, allowed: String) {
+        let count = &mut self.counts[usize::from(severity == Severity::Warning)];
+        *count += 1;
+        let wrong = match *count {
+            0..=MOST => wrong,
+            count if count == MOST + 1 => "and more like this, which are not listed".to_owned(),
+            _ => return,
+        };
         self.found.push(Finding { severity, place, wrong, allowed, rule: self.rule });
     }
 }

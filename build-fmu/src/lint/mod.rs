@@ -7,6 +7,7 @@
 mod combination;
 mod description;
 mod document;
+mod extent;
 mod finding;
 mod library;
 mod package;
@@ -30,6 +31,9 @@ pub use probe::instantiate;
 /// The file that describes a unit.
 const DESCRIPTION: &str = "modelDescription.xml";
 
+/// Bytes of a file that is looked at, at most.
+const LARGEST_FILE: u64 = 1 << 32;
+
 /// A unit that could be read, for rules to look at.
 pub struct Subject<'a> {
     pub package: &'a Package,
@@ -48,7 +52,12 @@ pub struct Verdict {
 /// Looks at the unit in `path`; `may_run` allows to load its library.
 pub fn lint(path: &Path, may_run: bool) -> Result<Verdict, String> {
     let file = path.display();
-    let bytes = std::fs::read(path).map_err(|error| format!("cannot read {file}: {error}"))?;
+    let cannot = |error: std::io::Error| format!("cannot read {file}: {error}");
+    let size = std::fs::metadata(path).map_err(cannot)?.len();
+    if size > LARGEST_FILE {
+        return Err(format!("{file} has {size} bytes; allowed: at most {LARGEST_FILE}"));
+    }
+    let bytes = std::fs::read(path).map_err(cannot)?;
     let findings = findings(bytes, may_run);
     let count = |severity| findings.iter().filter(|f| f.severity == severity).count();
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));

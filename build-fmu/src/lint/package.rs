@@ -1,13 +1,18 @@
 //! The zip file of a unit.
 
 use std::cell::RefCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 use std::io::{Cursor, Read};
 use std::path::Path;
 
 use zip::ZipArchive;
 
 use super::finding::{Fault, Place};
+
+/// Entries of a unit, bytes of one of them, and of all that are unpacked for its library, at most.
+const MOST_ENTRIES: usize = 200_000;
+const LARGEST_ENTRY: u64 = 1 << 29;
+const MOST_UNPACKED: u64 = 1 << 31;
 
 type Archive = ZipArchive<Cursor<Vec<u8>>>;
 
@@ -20,6 +25,7 @@ pub struct Entry {
 pub struct Package {
     /// Every entry; a path may come twice.
     pub entries: Vec<Entry>,
+    known: HashSet<String>,
     archive: RefCell<Archive>,
 }
 
@@ -32,8 +38,14 @@ impl Package {
         let start = usize::try_from(archive.central_directory_start()).unwrap_or(usize::MAX);
         let archive_bytes = archive.into_inner().into_inner();
         let entries = directory(&archive_bytes, start);
+        if entries.len() > MOST_ENTRIES {
+            let wrong = format!("{} entries; at most {MOST_ENTRIES} are looked at", entries.len());
+            return Err(Fault::new(Place::unit(), wrong));
+        }
+        let paths = entries.iter().filter_map(|entry| String::from_utf8(entry.path.clone()).ok());
+        let known = paths.collect();
         let archive = ZipArchive::new(Cursor::new(archive_bytes)).map_err(fault)?;
-        Ok(Self { entries, archive: RefCell::new(archive) })
+        Ok(Self { entries, known, archive: RefCell::new(archive) })
     }
 
     /// The paths that are UTF-8.
@@ -42,7 +54,7 @@ impl Package {
     }
 
     pub fn has(&self, path: &str) -> bool {
-        self.paths().any(|other| other == path)
+        self.known.contains(path)
     }
 
     /// The names that stand in a folder, `folder` ending in a slash: files, and folders with a slash.
@@ -61,9 +73,14 @@ impl Package {
             return Err(Fault::new(Place::file(path), "missing from the unit"));
         }
         let mut archive = self.archive.borrow_mut();
-        let mut file = archive.by_name(path).map_err(|error| fault(error.to_string()))?;
+        let file = archive.by_name(path).map_err(|error| fault(error.to_string()))?;
         let mut bytes = Vec::new();
+        // What the directory says of its size need not be true.
+        let mut file = file.take(LARGEST_ENTRY + 1);
         file.read_to_end(&mut bytes).map_err(|error| fault(error.to_string()))?;
+        if bytes.len() as u64 > LARGEST_ENTRY {
+            return Err(fault(format!("more than {LARGEST_ENTRY} bytes when unpacked")));
+        }
         Ok(bytes)
     }
 
@@ -76,6 +93,7 @@ impl Package {
     pub fn unpack(&self, prefix: &str, folder: &Path) -> Result<(), String> {
         let below: BTreeSet<&str> =
             self.paths().filter(|path| path.starts_with(prefix) && !path.ends_with('/')).collect();
+        let mut written = 0;
         for path in below {
             if path.contains('\\') || path.split('/').any(|part| part == "..") {
                 continue;
@@ -83,12 +101,14 @@ impl Package {
             let target = folder.join(path);
             let write = || {
                 std::fs::create_dir_all(target.parent().unwrap_or(folder))?;
-                std::fs::write(
-                    &target,
-                    self.bytes(path).map_err(|fault| std::io::Error::other(fault.wrong))?,
-                )
+                let bytes = self.bytes(path).map_err(|fault| std::io::Error::other(fault.wrong))?;
+                std::fs::write(&target, &bytes).map(|()| bytes.len() as u64)
             };
-            write().map_err(|error: std::io::Error| format!("cannot unpack {path}: {error}"))?;
+            let unpacked = write();
+            written += unpacked.map_err(|error| format!("cannot unpack {path}: {error}"))?;
+            if written > MOST_UNPACKED {
+                return Err(format!("more than {MOST_UNPACKED} bytes below {prefix}"));
+            }
         }
         Ok(())
     }

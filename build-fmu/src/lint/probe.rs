@@ -4,9 +4,11 @@
 //! exit status, and the log of the library comes by standard error.
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
-use std::fs::File;
+use std::io::Read;
 use std::path::Path;
-use std::process::{Command, ExitCode, ExitStatus, Stdio};
+use std::process::{ChildStderr, Command, ExitCode, ExitStatus, Stdio};
+use std::sync::mpsc::{Receiver, channel};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -29,6 +31,12 @@ const MADE: u8 = 0;
 const REFUSED: u8 = 90;
 const UNLOADABLE: u8 = 91;
 
+/// Beginning of the names of folders that libraries are unpacked in; the number of a process follows.
+const FOLDER: &str = "impinge-lint-";
+
+/// Bytes of a library's log that are kept.
+const LONGEST_LOG: usize = 1 << 16;
+
 /// Longest time that a library may take.
 const PATIENCE: Duration = Duration::from_secs(60);
 
@@ -44,13 +52,14 @@ fn try_asking(
     co_simulation: bool,
 ) -> Result<Outcome, String> {
     let said = |error: std::io::Error| error.to_string();
-    let folder = tempfile::tempdir().map_err(said)?;
+    remove_left_behind();
+    let own = format!("{FOLDER}{}-", std::process::id());
+    let folder = tempfile::Builder::new().prefix(&own).tempdir().map_err(said)?;
     let (beside, _) = library.rsplit_once('/').unwrap_or_default();
     package.unpack(&format!("{beside}/"), folder.path())?;
     package.unpack("resources/", folder.path())?;
     let resources = folder.path().join("resources");
     std::fs::create_dir_all(&resources).map_err(said)?;
-    let log = folder.path().join("log");
     let mut child = Command::new(std::env::current_exe().map_err(said)?)
         .arg("--instantiate")
         .arg(folder.path().join(library))
@@ -58,9 +67,10 @@ fn try_asking(
         .current_dir(folder.path())
         .stdin(Stdio::null())
         .stdout(Stdio::null())
-        .stderr(File::create(&log).map_err(said)?)
+        .stderr(Stdio::piped())
         .spawn()
         .map_err(said)?;
+    let log = Log::of(child.stderr.take());
     let begin = Instant::now();
     let status = loop {
         match child.try_wait().map_err(said)? {
@@ -73,8 +83,61 @@ fn try_asking(
             None => thread::sleep(Duration::from_millis(5)),
         }
     };
-    let log = std::fs::read(&log).map_err(said)?;
-    Ok(outcome(status, String::from_utf8_lossy(&log).trim().to_owned()))
+    Ok(outcome(status, log.text()))
+}
+
+/// What a child says: its beginning is kept, the rest read and forgotten.
+struct Log {
+    kept: Arc<Mutex<Vec<u8>>>,
+    is_over: Receiver<()>,
+}
+
+impl Log {
+    fn of(stream: Option<ChildStderr>) -> Self {
+        let kept = Arc::new(Mutex::new(Vec::new()));
+        let (sender, is_over) = channel::<()>();
+        let place = Arc::clone(&kept);
+        thread::spawn(move || {
+            let _sender = sender;
+            let mut piece = [0; 4096];
+            let mut stream = stream.into_iter();
+            let Some(mut stream) = stream.next() else { return };
+            while let Ok(count @ 1..) = stream.read(&mut piece) {
+                let mut kept = place.lock().unwrap_or_else(PoisonError::into_inner);
+                let room = LONGEST_LOG.saturating_sub(kept.len());
+                kept.extend_from_slice(&piece[..count.min(room)]);
+            }
+        });
+        Self { kept, is_over }
+    }
+
+    /// All that came; what processes say that the child has started is not waited for.
+    fn text(&self) -> String {
+        let _ = self.is_over.recv_timeout(Duration::from_secs(1));
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut text = String::from_utf8_lossy(&kept).trim().to_owned();
+        if kept.len() == LONGEST_LOG {
+            text.push_str(" … (cut off)");
+        }
+        text
+    }
+}
+
+/// Removes folders of earlier calls of this program that were ended before they could.
+fn remove_left_behind() {
+    let Ok(entries) = std::fs::read_dir(std::env::temp_dir()) else { return };
+    for entry in entries.flatten() {
+        let name = entry.file_name().into_string().unwrap_or_default();
+        let number = name.strip_prefix(FOLDER).and_then(|rest| rest.split_once('-'));
+        let Some((process, _)) = number else { continue };
+        let is_number = !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit());
+        // Only Linux says of others whether they still run.
+        let has_ended =
+            Path::new("/proc/self").exists() && !Path::new("/proc").join(process).exists();
+        if is_number && has_ended {
+            let _ = std::fs::remove_dir_all(entry.path());
+        }
+    }
 }
 
 fn outcome(status: ExitStatus, log: String) -> Outcome {
@@ -112,6 +175,8 @@ struct Callbacks {
 unsafe extern "C" {
     fn calloc(count: usize, size: usize) -> *mut c_void;
     fn free(memory: *mut c_void);
+    #[cfg(unix)]
+    fn alarm(seconds: u32) -> u32;
 }
 
 unsafe extern "C" fn logger(
@@ -130,6 +195,12 @@ unsafe extern "C" fn logger(
 
 /// What the child does: LIBRARY GUID RESOURCES KIND.
 pub fn instantiate(arguments: &[String]) -> ExitCode {
+    // Should nobody be left to end this process.
+    // SAFETY: sets a timer of this process.
+    #[cfg(unix)]
+    unsafe {
+        alarm(2 * PATIENCE.as_secs() as u32)
+    };
     match try_instantiating(arguments) {
         Ok(true) => ExitCode::from(MADE),
         Ok(false) => ExitCode::from(REFUSED),
@@ -186,5 +257,32 @@ fn try_instantiating(arguments: &[String]) -> Result<bool, String> {
         // Threads of the library may still run; unloading it under them would end the process.
         std::mem::forget(library);
         Ok(!made.is_null())
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    fn said(script: &str) -> String {
+        let shell = Command::new("sh").args(["-c", script]).stderr(Stdio::piped()).spawn();
+        let mut shell = shell.unwrap();
+        let log = Log::of(shell.stderr.take());
+        shell.wait().unwrap();
+        log.text()
+    }
+
+    #[test]
+    fn of_a_log_without_end_the_beginning_is_kept() {
+        assert_eq!(said("echo ' no such unit ' >&2"), "no such unit");
+        let long = said("head -c 5000000 /dev/zero | tr '\\0' x >&2");
+        assert!(long.ends_with("… (cut off)") && long.len() < LONGEST_LOG + 100);
+    }
+
+    #[test]
+    fn a_process_that_the_child_has_started_is_not_waited_for() {
+        let begin = Instant::now();
+        assert_eq!(said("echo started >&2; sleep 30 &"), "started");
+        assert!(begin.elapsed() < Duration::from_secs(20));
     }
 }

@@ -6,6 +6,7 @@ use super::plan::Plan;
 use crate::body::particle_heat::{
     Condition, Cost, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
 };
+use crate::math::allowance::{Allowance, Halt};
 use crate::scene::{SphOperator, SphSettings};
 
 /// The temperature of a solid and how it advances.
@@ -38,13 +39,25 @@ impl Conduction {
     }
 
     /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one
-    /// entry of `loads` for their values at the beginning and one for each derivative.
-    pub fn advance(&self, state: &mut [f64], loads: &[HeatLoads], dt: f64) {
+    /// entry of `loads` for their values at the beginning and one for each derivative. What a halt leaves in
+    /// `state` is of no use.
+    pub fn advance(
+        &self,
+        state: &mut [f64],
+        loads: &[HeatLoads],
+        dt: f64,
+        allowance: &Allowance,
+    ) -> Result<(), Halt> {
         match self {
-            Self::Modes(problem) => problem.advance(state, loads, dt),
+            Self::Modes(problem) => {
+                // Their number is the same for any length of a step.
+                allowance.spend(1.0, "steps", state.len())?;
+                problem.advance(state, loads, dt);
+                Ok(())
+            }
             Self::Particles(problem) => {
                 let sources: Vec<Sources> = loads.iter().map(sources).collect();
-                problem.advance(state, &sources, dt);
+                problem.advance(state, &sources, dt, allowance)
             }
         }
     }

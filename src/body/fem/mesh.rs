@@ -40,7 +40,7 @@ impl Mesh {
     }
 
     pub fn nodes(&self) -> usize {
-        self.node_counts().iter().product()
+        self.node_counts().into_iter().fold(1, usize::saturating_mul)
     }
 
     pub fn element_counts(&self) -> [usize; 3] {

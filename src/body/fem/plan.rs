@@ -84,7 +84,7 @@ impl Plan {
     pub fn unknowns(&self) -> [usize; 2] {
         let nodes = self.mesh.nodes();
         let degrees = if self.mesh.geometry == Geometry::Box { 3 } else { 2 };
-        [nodes, if self.mechanics { degrees * nodes } else { 0 }]
+        [nodes, if self.mechanics { nodes.saturating_mul(degrees) } else { 0 }]
     }
 }
 

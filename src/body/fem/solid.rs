@@ -14,6 +14,7 @@ use super::plan::Plan;
 use super::recovery::{Beyond, recovery_matrix};
 use crate::material::Thermoelastic;
 use crate::material::stress::{from_cylindrical, max_principal, von_mises};
+use crate::math::allowance::{Allowance, Halt};
 use crate::math::cholesky::CholeskyError;
 use crate::math::separable::{Side, transform};
 
@@ -133,10 +134,17 @@ impl SolidFem {
     }
 
     /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one
-    /// entry of `loads` for their values at the beginning and one for each derivative.
-    pub fn advance(&self, state: &mut [f64], loads: &[SolidLoads], dt: f64) {
+    /// entry of `loads` for their values at the beginning and one for each derivative. What a halt leaves in
+    /// `state` is of no use.
+    pub fn advance(
+        &self,
+        state: &mut [f64],
+        loads: &[SolidLoads],
+        dt: f64,
+        allowance: &Allowance,
+    ) -> Result<(), Halt> {
         let heat: Vec<HeatLoads> = loads.iter().map(SolidLoads::thermal).collect();
-        self.heat.advance(state, &heat, dt);
+        self.heat.advance(state, &heat, dt, allowance)
     }
 
     /// Heat stored since time zero [J].

@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use super::edges::{Edges, Inlet, face_particles};
 use super::lattice::{End, LatticeAxis};
 use super::rows::{Lattice, Settings};
+use crate::math::allowance::{Allowance, Halt};
 use crate::math::chebyshev::Evolution;
 use crate::math::parallel;
 use crate::math::separable::dot;
@@ -134,15 +135,22 @@ impl ParticleHeat {
     }
 
     /// Advances `state` by `dt` [s] under sources that are polynomials in time, without error in
-    /// time: one entry of `sources` for their values at the beginning and one for each derivative.
-    pub fn advance(&self, state: &mut [f64], sources: &[Sources], dt: f64) {
+    /// time: one entry of `sources` for their values at the beginning and one for each derivative. What a
+    /// halt leaves in `state` is of no use.
+    pub fn advance(
+        &self,
+        state: &mut [f64],
+        sources: &[Sources],
+        dt: f64,
+        allowance: &Allowance,
+    ) -> Result<(), Halt> {
         let count = self.particles();
         let (contents, totals) = state.split_at_mut(self.classes.len() * count);
         for (index, content) in contents.chunks_exact_mut(count).enumerate() {
             let last = sources.iter().rposition(|part| part.acts_on(index));
             if last.is_some() || content.iter().any(|&v| v != 0.0) {
                 let sources = &sources[..=last.unwrap_or(0)];
-                let passed = self.advance_class(index, content, sources, dt);
+                let passed = self.advance_class(index, content, (sources, dt), allowance)?;
                 if index == 0 {
                     // Parts that are odd carry no heat in sum.
                     totals[0] += self.setup.copies * passed.brought_in;
@@ -150,6 +158,7 @@ impl ParticleHeat {
                 }
             }
         }
+        Ok(())
     }
 
     /// Time derivative of a state, laid out like the state itself; `sources` act now and `rates` are
@@ -229,9 +238,9 @@ impl ParticleHeat {
         &self,
         index: usize,
         content: &mut [f64],
-        sources: &[Sources],
-        dt: f64,
-    ) -> Totals {
+        (sources, dt): (&[Sources], f64),
+        allowance: &Allowance,
+    ) -> Result<Totals, Halt> {
         let class = self.class(index);
         let before = self.held_heat(class, content);
         self.hold(index, content, &sources[0].faces[index]);
@@ -253,9 +262,9 @@ impl ParticleHeat {
             threads: self.threads,
         };
         let leak = if index == 0 { class.leak.as_slice() } else { &[] };
-        let leaked = evolution.advance(content, leak, dt);
+        let leaked = evolution.advance(content, leak, dt, allowance)?;
         passed.lost += leaked - (self.held_heat(class, content) - before);
-        passed
+        Ok(passed)
     }
 
     /// Rate of the temperatures that `source` causes [K/s], and what it brings in and loses at once

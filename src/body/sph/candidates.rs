@@ -9,6 +9,15 @@ use super::order::{BLOCK, Bounds};
 pub struct Spots {
     pub origin: [f64; 3],
     pub along: [[f32; BLOCK]; 3],
+    /// How many there are; what follows them fills whole vectors.
+    pub count: usize,
+}
+
+/// Coordinates of points along x, y, z: of so many points, followed by what fills whole vectors.
+#[derive(Debug, Clone, Copy)]
+pub struct Points<'a> {
+    pub along: [&'a [f32]; 3],
+    pub count: usize,
 }
 
 /// Particles that come near to a box, and their coordinates about its centre. Its memory serves for
@@ -76,7 +85,7 @@ impl Near {
 }
 
 impl Spots {
-    /// Of the particles of a block; those that it lacks stand far away.
+    /// Of the particles of a block.
     pub fn of(points: &[[f64; 3]]) -> Self {
         let origin = points[0];
         let mut along = [[f32::MAX; BLOCK]; 3];
@@ -85,17 +94,21 @@ impl Spots {
                 along[a][k] = (point[a] - origin[a]) as f32;
             }
         }
-        Self { origin, along }
+        Self { origin, along, count: points.len() }
+    }
+
+    fn points(&self) -> Points<'_> {
+        Points { along: self.along.each_ref().map(|along| &along[..]), count: self.count }
     }
 }
 
 impl Candidates {
     /// Takes what is near of particles that stand at `signs · spot + shift` about the centre of the
-    /// box. There are as many spots as fill whole vectors.
-    pub fn take(&mut self, spots: [&[f32]; 3], signs: [f32; 3], shift: [f32; 3], near: Near) {
+    /// box.
+    pub fn take(&mut self, spots: Points, signs: [f32; 3], shift: [f32; 3], near: Near) {
         self.from = self.count;
         // Room for all, and for the last vector to be written whole.
-        let room = self.count + spots[0].len() + WIDTH;
+        let room = self.count + spots.along[0].len() + WIDTH;
         if self.numbers.len() < room {
             self.numbers.resize(room, 0);
             self.along.iter_mut().for_each(|along| along.resize(room, 0.0));
@@ -109,19 +122,18 @@ impl Candidates {
     pub fn take_images(&mut self, spots: &Spots, image: &Image, centre: [f64; 3], near: Near) {
         let origin = image.place(spots.origin);
         let shift = [0, 1, 2].map(|a| (origin[a] - centre[a]) as f32);
-        let along = spots.along.each_ref().map(|along| &along[..]);
-        self.take(along, image.signs.map(|sign| sign as f32), shift, near);
+        self.take(spots.points(), image.signs.map(|sign| sign as f32), shift, near);
     }
 
     /// Lists the numbers of those that come near to another box, about whose centre they stand displaced
     /// by `shift`.
     pub fn narrow(&mut self, shift: [f32; 3], near: Near, numbers: &mut Numbers) {
-        let (_, along) = self.all();
-        let room = along[0].len() + WIDTH;
+        let (_, points) = self.all();
+        let room = points.along[0].len() + WIDTH;
         if numbers.list.len() < room {
             numbers.list.resize(room, 0);
         }
-        numbers.count = select(along, shift, near, &mut numbers.list);
+        numbers.count = select(points, shift, near, &mut numbers.list);
     }
 
     /// Forgets what was taken before.
@@ -134,9 +146,9 @@ impl Candidates {
         &self.numbers[self.from..self.count]
     }
 
-    /// Numbers and coordinates of all, each followed by at least a vector of others: points far away,
-    /// which make whole vectors.
-    pub fn all(&mut self) -> (&[u32], [&[f32]; 3]) {
+    /// Numbers and coordinates of all, each followed by at least a vector of others, which make whole
+    /// vectors.
+    pub fn all(&mut self) -> (&[u32], Points<'_>) {
         let (count, full) = (self.count, self.count.next_multiple_of(WIDTH) + WIDTH);
         if self.numbers.len() < full {
             self.numbers.resize(full, 0);
@@ -146,12 +158,12 @@ impl Candidates {
             along[count..full].fill(f32::MAX);
             &along[..full]
         });
-        (&self.numbers[..full], along)
+        (&self.numbers[..full], Points { along, count })
     }
 }
 
 fn compress(
-    spots: [&[f32]; 3],
+    spots: Points,
     signs: [f32; 3],
     shift: [f32; 3],
     near: Near,
@@ -168,16 +180,16 @@ fn compress(
 
 /// One after the other without a branch: written always, kept if near.
 fn compress_each(
-    spots: [&[f32]; 3],
+    spots: Points,
     signs: [f32; 3],
     shift: [f32; 3],
     near: Near,
     numbers: &mut [u32],
     along: &mut [&mut [f32]; 3],
 ) -> usize {
-    let [along_x, along_y, along_z] = spots.map(<[f32]>::iter);
+    let [along_x, along_y, along_z] = spots.along.map(<[f32]>::iter);
     let mut found = 0;
-    for (k, ((&x, &y), &z)) in along_x.zip(along_y).zip(along_z).enumerate() {
+    for (k, ((&x, &y), &z)) in along_x.zip(along_y).zip(along_z).enumerate().take(spots.count) {
         let spot = [x, y, z];
         let at = [0, 1, 2].map(|a| signs[a] * spot[a] + shift[a]);
         numbers[found] = k as u32;
@@ -191,7 +203,7 @@ fn compress_each(
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
 fn compress_avx512(
-    spots: [&[f32]; 3],
+    spots: Points,
     signs: [f32; 3],
     shift: [f32; 3],
     near: Near,
@@ -202,15 +214,15 @@ fn compress_avx512(
     let ahead = _mm512_set1_epi32(WIDTH as i32);
     let mut number = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     let mut found = 0;
-    for k in (0..spots[0].len()).step_by(WIDTH) {
+    for k in (0..spots.count).step_by(WIDTH) {
         let mut at = [_mm512_setzero_ps(); 3];
         for a in 0..3 {
             // SAFETY: the slice is as long as a vector.
-            let spot = unsafe { _mm512_loadu_ps(spots[a][k..k + WIDTH].as_ptr()) };
+            let spot = unsafe { _mm512_loadu_ps(spots.along[a][k..k + WIDTH].as_ptr()) };
             let turned = _mm512_mul_ps(_mm512_set1_ps(signs[a]), spot);
             at[a] = _mm512_add_ps(turned, _mm512_set1_ps(shift[a]));
         }
-        let kept = near.has_of_sixteen(at);
+        let kept = near.has_of_sixteen(at) & inside(spots.count - k);
         if kept != 0 {
             let end = found + WIDTH;
             let place = numbers[found..end].as_mut_ptr();
@@ -227,21 +239,28 @@ fn compress_avx512(
     found
 }
 
-/// Writes the numbers of points that are near, of whole vectors of them, into a list that is longer by
-/// a vector; how many they are.
-fn select(along: [&[f32]; 3], shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
+/// Which of the next sixteen lanes hold one of `rest` points.
+#[cfg(target_arch = "x86_64")]
+pub fn inside(rest: usize) -> u16 {
+    if rest < WIDTH { (1 << rest) - 1 } else { u16::MAX }
+}
+
+/// Writes the numbers of points that are near into a list that is longer by a vector than these; how
+/// many they are.
+fn select(points: Points, shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx512f") {
         // SAFETY: the processor has what the function asks for.
-        return unsafe { select_avx512(along, shift, near, numbers) };
+        return unsafe { select_avx512(points, shift, near, numbers) };
     }
-    select_each(along, shift, near, numbers)
+    select_each(points, shift, near, numbers)
 }
 
 /// One after the other without a branch: written always, kept if near.
-fn select_each([x, y, z]: [&[f32]; 3], shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
+fn select_each(points: Points, shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
+    let [x, y, z] = points.along;
     let mut found = 0;
-    for (k, ((&x, &y), &z)) in x.iter().zip(y).zip(z).enumerate() {
+    for (k, ((&x, &y), &z)) in x.iter().zip(y).zip(z).enumerate().take(points.count) {
         numbers[found] = k as u32;
         found += usize::from(near.has([x + shift[0], y + shift[1], z + shift[2]]));
     }
@@ -251,22 +270,23 @@ fn select_each([x, y, z]: [&[f32]; 3], shift: [f32; 3], near: Near, numbers: &mu
 /// Sixteen at once, with the same roundings.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
-fn select_avx512(along: [&[f32]; 3], shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
+fn select_avx512(points: Points, shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
     use std::arch::x86_64::*;
+    let Points { along, count } = points;
     let length = along[0].len();
     let is_whole = length.is_multiple_of(WIDTH) && along.iter().all(|along| along.len() == length);
-    assert!(is_whole && numbers.len() >= length + WIDTH);
+    assert!(is_whole && count <= length && numbers.len() >= length + WIDTH);
     let ahead = _mm512_set1_epi32(WIDTH as i32);
     let mut number = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     let mut found = 0;
-    for k in (0..length).step_by(WIDTH) {
+    for k in (0..count).step_by(WIDTH) {
         let mut at = [_mm512_setzero_ps(); 3];
         for a in 0..3 {
             // SAFETY: the slices hold whole vectors.
             let spot = unsafe { _mm512_loadu_ps(along[a].as_ptr().add(k)) };
             at[a] = _mm512_add_ps(spot, _mm512_set1_ps(shift[a]));
         }
-        let kept = near.has_of_sixteen(at);
+        let kept = near.has_of_sixteen(at) & inside(count - k);
         // SAFETY: no more were found than there are points so far, and there is a vector more.
         unsafe {
             let place = numbers.as_mut_ptr().add(found);
@@ -295,9 +315,8 @@ mod tests {
                 let spots = Spots::of(&points);
                 let shift = [0, 1, 2].map(|a| (signs[a] * spots.origin[a] - centre[a]) as f32);
                 let (signs, near) = (signs.map(|s| s as f32), Near::to(&bounds, reach));
-                let along = spots.along.each_ref().map(|along| &along[..]);
                 let mut taken = Candidates::default();
-                taken.take(along, signs, shift, near);
+                taken.take(spots.points(), signs, shift, near);
                 let gap = |x: f64, a: usize| (bounds.low[a] - x).max(x - bounds.high[a]).max(0.0);
                 let is_near = |p: &[f64; 3]| {
                     let at = image(p);
@@ -309,17 +328,18 @@ mod tests {
                 for (n, &i) in expected.iter().enumerate() {
                     let at = image(&points[i as usize]);
                     for a in 0..3 {
-                        let apart = f64::from(taken.all().1[a][n]) - (at[a] - centre[a]);
+                        let apart = f64::from(taken.all().1.along[a][n]) - (at[a] - centre[a]);
                         assert!(apart.abs() < 1e-6);
                     }
                 }
                 let (mut numbers, mut places) = (vec![0; 200], [(); 3].map(|_| vec![0.0; 200]));
                 let mut slices = places.each_mut().map(|places| &mut places[..]);
-                let found = compress_each(along, signs, shift, near, &mut numbers, &mut slices);
+                let spots = spots.points();
+                let found = compress_each(spots, signs, shift, near, &mut numbers, &mut slices);
                 assert_eq!(taken.last_numbers(), &numbers[..found]);
-                let (_, along) = taken.all();
+                let (_, Points { along, count }) = taken.all();
                 assert!((0..3).all(|a| along[a][..found] == places[a][..found]));
-                assert!(along[0].len() % WIDTH == 0 && along[0][found..].iter().all(|&x| x > 1e30));
+                assert!(along[0].len() % WIDTH == 0 && count == found);
             }
         }
     }
@@ -330,9 +350,8 @@ mod tests {
         let points: Vec<_> =
             (0..BLOCK).map(|i| [number(i), number(7 * i + 3), number(13 * i + 5)]).collect();
         let (spots, mut all) = (Spots::of(&points), Candidates::default());
-        let along = spots.along.each_ref().map(|along| &along[..]);
         let whole = Near { half: [5.0; 3], reach_squared: 1.0 };
-        all.take(along, [1.0; 3], [0.0; 3], whole);
+        all.take(spots.points(), [1.0; 3], [0.0; 3], whole);
         let near = Near { half: [0.1, 0.2, 0.0], reach_squared: 0.09 };
         let shift = [0.3, -0.2, 0.1];
         let mut numbers = Numbers::default();
@@ -349,5 +368,29 @@ mod tests {
         let mut plain = vec![0; 2 * BLOCK];
         let found = select_each(all.all().1, shift, near, &mut plain);
         assert_eq!(numbers.list(), &plain[..found]);
+    }
+
+    /// What fills the vectors behind the points stands at the largest number, which a shift by as much
+    /// brings near.
+    #[test]
+    fn what_fills_vectors_is_never_near() {
+        for count in [1, 15, 17, BLOCK - 1] {
+            let spots = Spots::of(&vec![[0.0; 3]; count]);
+            let near = Near { half: [1.0; 3], reach_squared: f32::INFINITY };
+            let mut all = Candidates::default();
+            all.take(spots.points(), [1.0; 3], [-f32::MAX; 3], near);
+            assert!(all.last_numbers().iter().all(|&k| (k as usize) < count));
+            let mut slices = [(); 3].map(|_| vec![0.0; 2 * BLOCK]);
+            let (mut numbers, shift) = (vec![0; 2 * BLOCK], [-f32::MAX; 3]);
+            let mut along = slices.each_mut().map(|places| &mut places[..]);
+            let found =
+                compress_each(spots.points(), [1.0; 3], shift, near, &mut numbers, &mut along);
+            assert_eq!(all.last_numbers(), &numbers[..found]);
+            let mut narrowed = Numbers::default();
+            all.narrow([-f32::MAX; 3], near, &mut narrowed);
+            assert!(narrowed.list().iter().all(|&k| (k as usize) < all.count));
+            let found = select_each(all.all().1, shift, near, &mut numbers);
+            assert_eq!(narrowed.list(), &numbers[..found]);
+        }
     }
 }

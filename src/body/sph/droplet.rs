@@ -1,8 +1,10 @@
 //! The droplet as a body.
 
 use std::f64::consts::PI;
+use std::sync::OnceLock;
 
-use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in, state_len};
+use super::acceptance::{self, Released};
+use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in};
 use super::failure::Failure;
 use super::images::copies;
 use super::loops::PART;
@@ -15,6 +17,7 @@ use super::surface::{Surface, SurfaceResponse};
 use super::units::{compression_energy, density, pressure};
 use super::wall::{Domain, WallExchange};
 use super::wall_points::WallPoints;
+use crate::math::allowance::Allowance;
 use crate::math::parallel::Team;
 
 /// Droplets above a wall: everything known before time starts. What changes is a flat vector, whose
@@ -23,6 +26,8 @@ pub struct DropletSph {
     plan: DropletPlan,
     method: Method,
     threads: usize,
+    /// What there is after each release, found when a state from elsewhere is looked at.
+    released: OnceLock<Vec<Released>>,
 }
 
 /// Sums over the fluid, images at mirrors included (a plane model: per metre of depth).
@@ -85,7 +90,7 @@ impl DropletSph {
     /// If the plan's planes and periods do not go together, see [`Extent`](super::Extent).
     pub fn new(plan: DropletPlan, threads: usize) -> Self {
         let method = Method::of(&plan);
-        Self { plan, method, threads }
+        Self { plan, method, threads, released: OnceLock::new() }
     }
 
     pub fn plan(&self) -> &DropletPlan {
@@ -96,7 +101,8 @@ impl DropletSph {
     pub fn initial_state(&self) -> Vec<f64> {
         let ledger = Ledger { exchange: WallExchange::none(self.cells()), ..Ledger::default() };
         let (mut ledger, mut cloud) = (ledger, Cloud::default());
-        self.release(&mut ledger, &mut cloud);
+        // What stands too close to be listed is listed, and refused, again by the first step.
+        let _ = self.release(&mut ledger, &mut cloud);
         flat(&ledger, &cloud)
     }
 
@@ -117,15 +123,38 @@ impl DropletSph {
             exchange: WallExchange::none(self.cells()),
             ..Ledger::default()
         };
-        self.prime(&mut ledger, &mut cloud);
+        // As above.
+        let _ = self.prime(&mut ledger, &mut cloud);
         flat(&ledger, &cloud)
     }
 
-    /// Whether a vector may be a state of this model.
-    pub fn accepts(&self, state: &[f64]) -> bool {
-        particles_in(state, self.cells()).is_some()
-            && state[..state_len(self.cells(), 0)].iter().all(|number| number.is_finite())
-            && ledger_of(state, self.cells()).released <= self.plan.releases.len()
+    /// Number of particles of a state.
+    pub fn particles_in(&self, state: &[f64]) -> usize {
+        particles_in(state, self.cells()).unwrap_or(0)
+    }
+
+    /// Refuses a vector that no run of these droplets leads to, with what is wrong with it.
+    pub fn check_state(&self, state: &[f64]) -> Result<(), String> {
+        let released = |drops: usize| self.released()[drops];
+        acceptance::check(state, (&self.plan, &self.method, self.cells()), released)
+    }
+
+    /// What there is after none, one, … of the releases.
+    fn released(&self) -> &[Released] {
+        self.released.get_or_init(|| {
+            let (mut ledger, mut cloud) = (Ledger::default(), Cloud::default());
+            let mut all = vec![Released::default()];
+            for release in &self.plan.releases {
+                self.add(release, &mut ledger, &mut cloud);
+                let before = all[all.len() - 1];
+                all.push(Released {
+                    particles: before.particles + cloud.len(),
+                    mass: before.mass + cloud.mass.iter().sum::<f64>(),
+                });
+                cloud = Cloud::default();
+            }
+            all
+        })
     }
 
     /// Advances by `duration` [s] with as many time steps as stability asks, under a temperature of
@@ -136,8 +165,19 @@ impl DropletSph {
         wall_temperature: &[f64],
         duration: f64,
     ) -> Result<(), Failure> {
+        self.advance_within(state, wall_temperature, duration, &Allowance::default())
+    }
+
+    /// The same, as part of a step that may not compute without end.
+    pub fn advance_within(
+        &self,
+        state: &mut Vec<f64>,
+        wall_temperature: &[f64],
+        duration: f64,
+        allowance: &Allowance,
+    ) -> Result<(), Failure> {
         let surface = self.surface(state, wall_temperature, duration);
-        self.advance_above(state, &surface, duration).map(|_| ())
+        self.advance_above(state, &surface, duration, allowance).map(|_| ())
     }
 
     /// Advances by `duration` [s] above a surface that answers to the heat it gets; the rises of its cells by
@@ -147,8 +187,9 @@ impl DropletSph {
         state: &mut Vec<f64>,
         surface: &Surface,
         duration: f64,
+        allowance: &Allowance,
     ) -> Result<Vec<f64>, Failure> {
-        let mut team = self.team(particles_in(state, self.cells()).unwrap_or(0));
+        let mut team = self.team(self.particles_in(state));
         let (mut ledger, mut cloud) =
             (ledger_of(state, self.cells()), cloud_of(state, self.cells(), &team));
         ledger.exchange = WallExchange::none(self.cells());
@@ -164,10 +205,11 @@ impl DropletSph {
             let rest = next - ledger.time;
             if rest > 0.0 {
                 let points = points.as_mut();
-                Stepper::new(method, &team, &mut cloud, &mut ledger, points).advance(rest)?;
+                Stepper::new(method, &team, &mut cloud, &mut ledger, points)
+                    .advance(rest, allowance)?;
             }
             ledger.time = next;
-            if self.release(&mut ledger, &mut cloud) {
+            if self.release(&mut ledger, &mut cloud)? {
                 team = self.team(cloud.len());
             }
         }
@@ -263,7 +305,7 @@ impl DropletSph {
     }
 
     /// Adds all droplets whose time has come; whether there are any.
-    fn release(&self, ledger: &mut Ledger, cloud: &mut Cloud) -> bool {
+    fn release(&self, ledger: &mut Ledger, cloud: &mut Cloud) -> Result<bool, Failure> {
         let before = cloud.len();
         while let Some(release) =
             self.plan.releases.get(ledger.released).filter(|release| release.time <= ledger.time)
@@ -272,14 +314,14 @@ impl DropletSph {
             ledger.released += 1;
         }
         if cloud.len() > before {
-            self.prime(ledger, cloud);
+            self.prime(ledger, cloud)?;
         }
-        cloud.len() > before
+        Ok(cloud.len() > before)
     }
 
-    fn prime(&self, ledger: &mut Ledger, cloud: &mut Cloud) {
+    fn prime(&self, ledger: &mut Ledger, cloud: &mut Cloud) -> Result<(), Failure> {
         let team = self.team(cloud.len());
-        Stepper::new(&self.method, &team, cloud, ledger, None).prime();
+        Stepper::new(&self.method, &team, cloud, ledger, None).prime()
     }
 
     /// Threads for some particles; no more than there are parts for them.

@@ -1,5 +1,8 @@
 //! Why a droplet could not be advanced.
 
+use super::kick::FARTHEST;
+use crate::math::allowance::Halt;
+
 /// A step that would have no physical meaning; the state is as it was before.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
@@ -9,4 +12,14 @@ pub enum Failure {
     Density { ratio: f64, at: [f64; 3], time: f64 },
     #[error("a particle's {quantity} is not finite at t = {time:.6e} s")]
     NotFinite { quantity: &'static str, time: f64 },
+    #[error(
+        "65535 particles and more come near to 128 others round x = {:.3e}, y = {:.3e}, z = {:.3e} m, t = {time:.6e} s: the fluid has fallen to pieces", .at[0], .at[1], .at[2]
+    )]
+    Crowded { at: [f64; 3], time: f64 },
+    #[error(
+        "a particle has flown {FARTHEST:.0e} support radii away at t = {time:.6e} s, beyond which places are lost in rounding"
+    )]
+    Astray { time: f64 },
+    #[error("{0}")]
+    Halted(#[from] Halt),
 }

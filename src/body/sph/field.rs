@@ -58,8 +58,8 @@ impl Nearby {
     pub fn narrow(&mut self, others: &mut Nearby, bounds: &Bounds, reach: f64) {
         self.clear(bounds);
         let shift = [0, 1, 2].map(|a| (others.centre[a] - self.centre[a]) as f32);
-        let (_, along) = others.candidates.all();
-        self.candidates.take(along, [1.0; 3], shift, Near::to(bounds, reach));
+        let (_, points) = others.candidates.all();
+        self.candidates.take(points, [1.0; 3], shift, Near::to(bounds, reach));
     }
 
     /// Numbers of those that come near to a box.

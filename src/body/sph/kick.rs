@@ -6,6 +6,10 @@ use super::order::{BLOCK, Bounds};
 /// Densities over that at rest which no weakly compressible flow has.
 pub const DENSITIES: [f64; 2] = [0.3, 3.0];
 
+/// Coordinates over H that no particle reaches: from there on a 10⁹th of H would be lost in rounding, and
+/// bins of grids in counting.
+pub const FARTHEST: f64 = 1e6;
+
 /// How some particles move.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
@@ -17,7 +21,8 @@ pub struct Motion {
     most_accelerated: f64,
     /// Σ m.
     pub mass: f64,
-    /// Whether all numbers are finite, and densities those of a weakly compressible flow.
+    /// Whether all numbers are finite, places not too far away, and densities those of a weakly
+    /// compressible flow.
     pub sound: bool,
     /// Particles that the wall pushes, in their order.
     pub pushed: Vec<usize>,
@@ -110,7 +115,8 @@ pub fn kick(part: &mut Part, times: Times, gravity: [f64; 3]) -> Motion {
         motion.most_accelerated = motion.most_accelerated.max(acceleration);
         motion.mass += part.mass[i];
         let [x, y, z] = part.position[i];
-        let finite = (x + y + z + speed + part.temperature[i]).is_finite();
+        let finite = (x + y + z + speed + part.temperature[i]).is_finite()
+            && x.abs().max(y.abs()).max(z.abs()) < FARTHEST;
         let density = 1.0 + part.density[i];
         motion.sound &= finite && (DENSITIES[0]..DENSITIES[1]).contains(&density);
         if by_wall != [0.0; 3] || pull[3] != 0.0 {

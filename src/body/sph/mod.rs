@@ -4,6 +4,7 @@
 //! x and z and counts everything per metre of depth along y. Further planes and periods may end a
 //! model; all of them act by images of the particles.
 
+mod acceptance;
 mod blue_noise;
 mod candidates;
 mod cloud;

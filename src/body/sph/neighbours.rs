@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::candidates::{Candidates, Near, Spots};
+use super::candidates::{Candidates, Near, Points, Spots, inside};
 use super::images::{Images, Source};
 use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, GROUP};
@@ -30,8 +30,8 @@ pub struct Block {
     pub centre: [f64; 3],
     /// The particles' neighbours, themselves included, first without and then with an image at the
     /// wall. Place 0 of local copies is nowhere, so the k-th source has place k + 1.
-    pub sources: Vec<Source>,
-    /// Places of neighbours, in runs whose lengths are multiples of [`WIDTH`].
+    sources: Vec<Source>,
+    /// Places of neighbours, in runs whose lengths are multiples of [`WIDTH`]: 0, or those of sources.
     places: Vec<u16>,
     /// For each particle the ends of its runs: neighbours, and images at the wall.
     ends: Vec<[u32; 2]>,
@@ -42,6 +42,8 @@ pub struct Block {
     /// How far anything may still move against anything before what is not among the surroundings
     /// could be a neighbour.
     clearance: f64,
+    /// Whether more surrounds the block than its lists can hold: then they hold nothing.
+    is_crowded: bool,
 }
 
 /// Memory of a search.
@@ -103,7 +105,12 @@ impl Block {
             surroundings: Vec::new(),
             slack: f64::NAN,
             clearance: f64::NAN,
+            is_crowded: false,
         }
+    }
+
+    pub fn sources(&self) -> &[Source] {
+        &self.sources
     }
 
     /// Places of the neighbours of the k-th particle of the block: fluid, and images at the wall.
@@ -122,7 +129,7 @@ impl Block {
         self.places.clear();
         self.places.reserve(own.len() * 160);
         self.ends.clear();
-        places.resize(near_block[0].len() + WIDTH, 0);
+        places.resize(near_block.along[0].len() + WIDTH, 0);
         for group in own.chunks(GROUP) {
             let bounds = Bounds::of(group.iter().copied());
             let middle = bounds.centre();
@@ -132,7 +139,7 @@ impl Block {
             near_group.take(near_block, [1.0; 3], shift, Near::to(&bounds, reach));
             let wall = near_group.last_numbers().partition_point(|&n| (n as usize) < wall);
             let count = near_group.last_numbers().len();
-            let (numbers, along) = near_group.all();
+            let (numbers, Points { along, .. }) = near_group.all();
             for point in group {
                 let away = |a: usize| (point[a] - middle[a]) as f32;
                 let at = [away(0), away(1), away(2)];
@@ -147,6 +154,18 @@ impl Block {
                 self.ends.push(ends);
             }
         }
+        // Loops over pairs rely on it without another look.
+        let last = self.places.iter().fold(0, |last, &place| last.max(place));
+        assert!(usize::from(last) <= self.sources.len(), "a place beyond all sources");
+    }
+
+    /// Takes no neighbours at all, of which there would be too many.
+    fn give_up(&mut self) {
+        self.sources.clear();
+        self.places.clear();
+        self.ends.clear();
+        self.ends.resize(self.count, [0; 2]);
+        self.is_crowded = true;
     }
 }
 
@@ -166,6 +185,11 @@ impl Neighbours {
     /// Volume that surrounded the blocks when lists were last made, each counted for itself.
     pub fn surrounded(&self) -> f64 {
         self.tree.surrounded(1.0)
+    }
+
+    /// Where a block stands that so many particles surround that its lists cannot hold them.
+    pub fn crowded(&self) -> Option<[f64; 3]> {
+        self.blocks.iter().find(|block| block.is_crowded).map(|block| block.centre)
     }
 
     /// Makes the lists hold all neighbours of particles where they are and on their ways.
@@ -274,8 +298,11 @@ impl Search<'_> {
                 wall = block.sources.len();
             }
         }
-        assert!(block.sources.len() < usize::from(u16::MAX), "too many particles in one place");
-        block.find_places(own, wall, reach, desk);
+        block.is_crowded = false;
+        match block.sources.len() < usize::from(u16::MAX) {
+            true => block.find_places(own, wall, reach, desk),
+            false => block.give_up(),
+        }
     }
 }
 
@@ -363,8 +390,6 @@ fn select_avx512(
     let (reach, one) = (_mm512_set1_ps(square), _mm512_set1_epi32(1));
     let mut found = 0;
     for k in range.clone().step_by(WIDTH) {
-        let rest = (range.end - k).min(WIDTH);
-        let inside = (u32::MAX >> (32 - rest)) as u16;
         // SAFETY: there are sixteen numbers from k on, and places from `found` on.
         unsafe {
             let dx = _mm512_sub_ps(_mm512_loadu_ps(x.add(k)), ax);
@@ -372,7 +397,7 @@ fn select_avx512(
             let dz = _mm512_sub_ps(_mm512_loadu_ps(z.add(k)), az);
             let xy = _mm512_add_ps(_mm512_mul_ps(dx, dx), _mm512_mul_ps(dy, dy));
             let distance = _mm512_add_ps(xy, _mm512_mul_ps(dz, dz));
-            let near = inside & _mm512_cmp_ps_mask::<_CMP_LT_OQ>(distance, reach);
+            let near = inside(range.end - k) & _mm512_cmp_ps_mask::<_CMP_LT_OQ>(distance, reach);
             let number = _mm512_loadu_epi32(numbers.as_ptr().add(k).cast());
             let place = _mm512_maskz_compress_epi32(near, _mm512_add_epi32(number, one));
             let end = places.as_mut_ptr().add(found);

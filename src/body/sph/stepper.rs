@@ -11,7 +11,7 @@ use super::continuity::Continuity;
 use super::failure::Failure;
 use super::free_surface::FreeSurface;
 use super::images::copies;
-use super::kick::{DENSITIES, Motion, Times, kick};
+use super::kick::{DENSITIES, FARTHEST, Motion, Times, kick};
 use super::loops::{PART, PairSum, for_all, for_parts};
 use super::method::{Method, Push};
 use super::moment::least_eigenvalue;
@@ -23,6 +23,7 @@ use super::shifting::{Crowding, displacement};
 use super::units::pressure;
 use super::wall_heat::Touching;
 use super::wall_points::WallPoints;
+use crate::math::allowance::Allowance;
 use crate::math::parallel::Team;
 
 /// Everything of a run between two communication points.
@@ -48,6 +49,8 @@ pub struct Stepper<'a, 'p> {
     owed: Vec<Times>,
 }
 
+/// What the rounds over the particles of a droplet are called.
+const STEPS: &str = "time steps of a droplet";
 /// Growth of what surrounds the blocks at which the particles are sorted anew.
 const GROWTH: f64 = 1.2;
 /// Way at the mean speed over H after which particles are moved from crowded places.
@@ -99,16 +102,21 @@ impl<'a, 'p> Stepper<'a, 'p> {
     }
 
     /// Lists neighbours for ways that the particles are about to go.
-    fn list(&mut self, ways: &Ways) {
+    fn list(&mut self, ways: &Ways) -> Result<(), Failure> {
         self.neighbours.prepare(&self.cloud.position, ways, &self.method.images, self.team);
+        if let Some(at) = self.neighbours.crowded() {
+            let at = at.map(|x| x * self.method.units.length);
+            return Err(Failure::Crowded { at, time: self.ledger.time });
+        }
         if let Some(setting) = &self.method.surface {
             self.free_surface.prepare(setting, self.cloud, ways, self.team);
         }
+        Ok(())
     }
 
     /// Advances by `duration` [s]. Lists of neighbours are made anew, so that what comes out follows from
     /// the state alone; the order of the particles is part of that, and stays while it is good.
-    pub fn advance(&mut self, duration: f64) -> Result<(), Failure> {
+    pub fn advance(&mut self, duration: f64, allowance: &Allowance) -> Result<(), Failure> {
         let method = self.method;
         self.neighbours = Neighbours::of(&self.cloud.position, self.team);
         if self.is_untidy() {
@@ -123,9 +131,10 @@ impl<'a, 'p> Stepper<'a, 'p> {
             }
             // Equal steps to the end, so that none is tiny.
             let steps = (rest / stable).ceil();
+            allowance.foresee(steps, STEPS, self.cloud.len())?;
             let dt = rest / steps;
             let turn = method.turn(dt).min(steps);
-            motion = self.round(dt, turn, steps)?;
+            motion = self.round(dt, turn, steps, allowance)?;
             rest = if turn == steps { 0.0 } else { rest - turn * dt };
         }
         self.pay(&motion.pushed);
@@ -133,20 +142,28 @@ impl<'a, 'p> Stepper<'a, 'p> {
     }
 
     /// Order and accelerations of particles that stand where they are, for a start.
-    pub fn prime(&mut self) {
+    pub fn prime(&mut self) -> Result<(), Failure> {
         self.sort();
-        self.list(&Ways::none(self.cloud.len()));
+        self.list(&Ways::none(self.cloud.len()))?;
         self.accelerate(Times::NONE);
         self.tense();
+        Ok(())
     }
 
     /// Steps, the first of some that are left, between which surface tension does not act: impulses of half
     /// their time at both ends.
-    fn round(&mut self, dt: f64, turn: f64, steps: f64) -> Result<Motion, Failure> {
+    fn round(
+        &mut self,
+        dt: f64,
+        turn: f64,
+        steps: f64,
+        allowance: &Allowance,
+    ) -> Result<Motion, Failure> {
         let impulse = 0.5 * turn * dt;
         let mut left = turn;
         let mut motion = None;
         while left > 0.0 {
+            allowance.spend(1.0, STEPS, self.cloud.len())?;
             let begins = (left == turn).then_some(impulse);
             let ends = (left == 1.0).then_some(impulse);
             motion = Some(self.step(dt, steps - (turn - left), [begins, ends])?);
@@ -167,14 +184,14 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let speed = motion.root_mean_square_speed(self.cloud.len(), self.method.mirrors);
         self.ledger.way += dt * speed;
         if self.ledger.way > SHIFT_WAY {
-            self.shift();
+            self.shift()?;
         }
         let mut ways = Ways { of_blocks: motion.velocities, steps };
         if self.is_untidy() {
             self.sort();
             ways = Ways::along(&self.cloud.velocity, steps, self.team);
         }
-        self.list(&ways.times(dt));
+        self.list(&ways.times(dt))?;
         self.depart(dt);
         self.change_density_and_heat(dt);
         let times = Times { dt: 0.5 * dt, tension: ends };
@@ -347,14 +364,14 @@ impl<'a, 'p> Stepper<'a, 'p> {
     }
 
     /// Moves particles from crowded places to empty ones.
-    fn shift(&mut self) {
+    fn shift(&mut self) -> Result<(), Failure> {
         let way = std::mem::take(&mut self.ledger.way);
         if !self.method.shifts {
-            return;
+            return Ok(());
         }
         let (method, team) = (self.method, self.team);
         // At the beginning and after sorting there are no lists yet.
-        self.list(&Ways::none(self.cloud.len()));
+        self.list(&Ways::none(self.cloud.len()))?;
         let cloud = &*self.cloud;
         let fullness = team.map(cloud.len(), |i| least_eigenvalue(&cloud.moment[i]));
         let mut records = std::mem::take(&mut self.records);
@@ -369,11 +386,12 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let sums = self.over_pairs(&pass, Vec::new());
         let shifts = team.map(sums.len(), |i| displacement(&sums[i], fullness[i], way));
         self.records = records;
-        self.list(&Ways::along(&shifts, f64::INFINITY, team));
+        self.list(&Ways::along(&shifts, f64::INFINITY, team))?;
         team.for_each(&mut self.cloud.position, |i, x| {
             (0..3).for_each(|a| x[a] += shifts[i][a]);
             method.images.put_back(x);
         });
+        Ok(())
     }
 
     fn check(&self) -> Result<(), Failure> {
@@ -383,6 +401,9 @@ impl<'a, 'p> Stepper<'a, 'p> {
             let at = self.cloud.position[i].map(|x| x * self.method.units.length);
             if !at.iter().chain(&self.cloud.velocity[i]).all(|x| x.is_finite()) {
                 return Err(self.not_finite("velocity"));
+            }
+            if self.cloud.position[i].iter().any(|x| x.abs() >= FARTHEST) {
+                return Err(Failure::Astray { time });
             }
             if !self.cloud.temperature[i].is_finite() {
                 return Err(self.not_finite("temperature"));

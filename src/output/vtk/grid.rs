@@ -1,23 +1,22 @@
-//! The nodes of a solid: one rectilinear grid (`.vtr`).
+//! The nodes of a box: one rectilinear grid (`.vtr`).
 
 use std::io::{self, Write};
 
 use quick_xml::Writer;
 
 use super::{AXES, Array, Values, write_file, write_header};
-use crate::material::stress::von_mises;
+use crate::material::stress::{max_principal, von_mises};
 use crate::model::NodalFields;
 
 const STRESSES: [&str; 6] = ["xx", "yy", "zz", "xy", "yz", "xz"];
-/// The same places in a meridian section, where y points around the axis.
-const AXISYMMETRIC_STRESSES: [&str; 6] = ["rr", "tt", "zz", "rt", "tz", "rz"];
 
 /// Writes the fields of one body at `time` [s].
 pub fn write_grid(out: impl Write, time: f64, fields: &NodalFields) -> io::Result<()> {
-    let von_mises: Vec<f64> = fields.stress.iter().copied().map(von_mises).collect();
+    let [von_mises, max_principal] = invariants(&fields.stress);
     let time = [time];
     let time = Array::scalar("TimeValue", "s", &time);
-    let points = point_arrays(fields, &von_mises);
+    let NodalFields { temperature, displacement, stress, .. } = fields;
+    let points = point_arrays(temperature, displacement, stress, [&von_mises, &max_principal]);
     let axes: Vec<Array> =
         AXES.iter().zip(&fields.axes).map(|(name, axis)| Array::scalar(name, "m", axis)).collect();
     let structure =
@@ -26,15 +25,24 @@ pub fn write_grid(out: impl Write, time: f64, fields: &NodalFields) -> io::Resul
     write_file(out, "RectilinearGrid", structure, &arrays)
 }
 
+/// Von Mises and largest principal stresses.
+pub fn invariants(stress: &[[f64; 6]]) -> [Vec<f64>; 2] {
+    [von_mises, max_principal].map(|invariant| stress.iter().copied().map(invariant).collect())
+}
+
 /// The arrays at the nodes; mechanical ones where mechanics is modelled.
-fn point_arrays<'a>(fields: &'a NodalFields, von_mises: &'a [f64]) -> Vec<Array<'a>> {
-    let is_section = fields.axes[1].len() == 1;
-    let stresses = if is_section { &AXISYMMETRIC_STRESSES } else { &STRESSES };
+pub fn point_arrays<'a>(
+    temperature: &'a [f64],
+    displacement: &'a [[f64; 3]],
+    stress: &'a [[f64; 6]],
+    [von_mises, max_principal]: [&'a [f64]; 2],
+) -> Vec<Array<'a>> {
     let all = [
-        ("temperature", "K", &[""][..], &fields.temperature[..]),
-        ("displacement", "m", &AXES, fields.displacement.as_flattened()),
-        ("stress", "Pa", stresses, fields.stress.as_flattened()),
+        ("temperature", "K", &[""][..], temperature),
+        ("displacement", "m", &AXES, displacement.as_flattened()),
+        ("stress", "Pa", &STRESSES, stress.as_flattened()),
         ("von_mises", "Pa", &[""], von_mises),
+        ("max_principal", "Pa", &[""], max_principal),
     ];
     all.into_iter()
         .filter(|(.., values)| !values.is_empty())
@@ -117,15 +125,10 @@ mod tests {
         assert_eq!(read.arrays["displacement"].1, fields.displacement.as_flattened());
         assert_eq!(read.arrays["stress"].1, fields.stress.as_flattened());
         assert_eq!(read.arrays["stress"].0["ComponentName5"], "xz");
+        let largest = fields.stress.iter().map(|&stress| max_principal(stress));
+        assert_eq!(read.arrays["max_principal"].1, largest.collect::<Vec<_>>());
         assert_eq!(read.arrays["von_mises"].1.len(), fields.temperature.len());
         assert!(bytes.ends_with(b"</AppendedData>\n</VTKFile>"));
-    }
-
-    #[test]
-    fn a_meridian_section_names_its_stresses_by_cylinder_coordinates() {
-        let read = read(&written(&fields([vec![0.0, 1.0], vec![0.0], vec![-0.1, 0.0]])));
-        assert_eq!(read.elements["RectilinearGrid"]["WholeExtent"], "0 1 0 0 0 1");
-        assert_eq!(read.arrays["stress"].0["ComponentName1"], "tt");
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Shape, material, faces, symmetry and mesh of each solid.
 
-use super::{Checker, LARGEST, fits, is_sound, number};
+use super::{Checker, LARGEST, MOST_ELEMENTS, fits, is_sound, number};
 use crate::material::Material;
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
@@ -31,12 +31,12 @@ fn shape(checker: &mut Checker, path: &Path, shape: &Shape) {
     match shape {
         Shape::Box(extents) => {
             for (i, &extent) in extents.iter().enumerate() {
-                checker.positive(&path.at("box").index(i), extent, "the extent of a body");
+                checker.length(&path.at("box").index(i), extent, "the extent of a body");
             }
         }
         Shape::Disc(disc) => {
-            checker.positive(&path.at("disc.radius"), disc.radius, "the radius of a body");
-            checker.positive(&path.at("disc.thickness"), disc.thickness, "the thickness of a body");
+            checker.length(&path.at("disc.radius"), disc.radius, "the radius of a body");
+            checker.length(&path.at("disc.thickness"), disc.thickness, "the thickness of a body");
         }
     }
 }
@@ -203,10 +203,21 @@ fn spacing(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {
             let what = "the body's thickness, which it is for too unless `depth_spacing` is given";
             at_most(checker, &path, spacing, thickness, what);
         }
+        not_too_fine(checker, &path, spacing, x.max(y));
     }
     if let Some(spacing) = mesh.depth_spacing {
-        at_most(checker, &path.at("depth_spacing"), spacing, thickness, "the body's thickness");
+        let path = path.at("depth_spacing");
+        at_most(checker, &path, spacing, thickness, "the body's thickness");
+        not_too_fine(checker, &path, spacing, thickness);
     }
+}
+
+/// Refuses distances of nodes of which a body would hold more than can be counted, wherever it is fine.
+fn not_too_fine(checker: &mut Checker, path: &Path, spacing: f64, extent: f64) {
+    let least = extent / MOST_ELEMENTS;
+    let message = "the body holds more of these distances than a mesh has elements";
+    let fine = spacing <= 0.0 || spacing >= least;
+    checker.require(fine, path, message, format!("{} >= {}", path.last_key(), number(least)));
 }
 
 fn at_most(checker: &mut Checker, path: &Path, spacing: f64, limit: f64, what: &str) -> bool {

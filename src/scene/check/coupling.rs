@@ -1,6 +1,6 @@
 //! Whether couplings join a droplet with the top of a solid that can take what it gives.
 
-use super::{Checker, fits, number};
+use super::{Checker, LENGTHS, TIMES, fits, number};
 use crate::scene::droplet::{Coupling, Droplet};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
@@ -9,12 +9,12 @@ use crate::scene::types::{FaceName, Shape, Solid};
 pub fn check(checker: &mut Checker) {
     for (i, coupling) in checker.scene.coupling.iter().enumerate() {
         let path = Path::default().key("coupling").index(i);
-        for (key, length, what) in [
-            ("interval", coupling.interval, "the time between exchanges"),
-            ("radius", coupling.radius, "the radius of the fine mesh"),
+        for (key, value, range, what) in [
+            ("interval", coupling.interval, TIMES, "the time between exchanges"),
+            ("radius", coupling.radius, LENGTHS, "the radius of the fine mesh"),
         ] {
-            if let Some(length) = length {
-                checker.positive(&path.at(key), length, what);
+            if let Some(value) = value {
+                checker.positive_within(&path.at(key), value, range, what);
             }
         }
         let droplet = checker.droplet(&path.at("from"), &coupling.from);

@@ -14,6 +14,35 @@ const MOST_PARTICLES: f64 = 2e7;
 /// Least speed of sound over the fastest flow: below, the fluid would be compressed by 4 % and more.
 const LEAST_SOUND_OVER_FLOW: f64 = 5.0;
 
+/// Bounds of what a drop and its fluid have, wide about all that drops are made of: from liquid helium to
+/// molten glass, from fog to a pond, at rest and in a shock tube. Numbers beyond them make time steps
+/// that never end.
+mod bounds {
+    /// [m]
+    pub const DIAMETER: [f64; 2] = [1e-9, 1e2];
+    pub const SPACING: [f64; 2] = [1e-10, 1e1];
+    pub const HEIGHT: [f64; 2] = [0.0, 1e3];
+    /// [m/s]
+    pub const VELOCITY: [f64; 2] = [0.0, 1e5];
+    pub const SOUND_SPEED: [f64; 2] = [1e-6, 1e6];
+    /// [m/s²]
+    pub const GRAVITY: [f64; 2] = [0.0, 1e7];
+    /// [kg/m³]
+    pub const DENSITY: [f64; 2] = [1e-3, 1e6];
+    /// [Pa s]
+    pub const VISCOSITY: [f64; 2] = [1e-9, 1e6];
+    /// [J/(kg K)]
+    pub const SPECIFIC_HEAT: [f64; 2] = [1e-1, 1e7];
+    /// [W/(m K)]
+    pub const CONDUCTIVITY: [f64; 2] = [0.0, 1e6];
+    /// [N/m]
+    pub const SURFACE_TENSION: [f64; 2] = [0.0, 1e3];
+    /// [s]
+    pub const ARRIVAL: [f64; 2] = [0.0, 1e12];
+    /// [m]
+    pub const PLACE: [f64; 2] = [-1e3, 1e3];
+}
+
 pub fn check(checker: &mut Checker) {
     for (name, droplet) in checker.scene.droplets() {
         let path = Path::default().key("body").key(name);
@@ -31,37 +60,54 @@ pub fn check(checker: &mut Checker) {
 }
 
 fn sizes(checker: &mut Checker, path: &Path, droplet: &Droplet) {
-    checker.positive(&path.at("diameter"), droplet.diameter, "the diameter of a drop");
-    checker.positive(&path.at("spacing"), droplet.spacing, "the distance of particles");
-    checker.temperature(&path.at("initial_temperature"), droplet.initial_temperature);
-    for (key, value, what) in [
-        ("impact_velocity", droplet.impact_velocity, "the speed towards the wall"),
-        ("height", droplet.gap(), "the gap between drop and wall"),
-        ("gravity", droplet.gravity, "gravity, which acts towards the wall,"),
+    for (key, value, range, what) in [
+        ("diameter", droplet.diameter, bounds::DIAMETER, "the diameter of a drop"),
+        ("spacing", droplet.spacing, bounds::SPACING, "the distance of particles"),
     ] {
-        not_negative(checker, &path.at(key), value, what);
+        checker.positive_within(&path.at(key), value, range, what);
+    }
+    checker.temperature(&path.at("initial_temperature"), droplet.initial_temperature);
+    for (key, value, range, what) in [
+        (
+            "impact_velocity",
+            droplet.impact_velocity,
+            bounds::VELOCITY,
+            "the speed towards the wall",
+        ),
+        ("height", droplet.gap(), bounds::HEIGHT, "the gap between drop and wall"),
+        ("gravity", droplet.gravity, bounds::GRAVITY, "gravity, which acts towards the wall,"),
+    ] {
+        not_negative(checker, &path.at(key), value, range, what);
     }
 }
 
-fn not_negative(checker: &mut Checker, path: &Path, value: f64, what: &str) {
-    checker.require(value >= 0.0, path, format!("{what} is not negative"), ">= 0");
+fn not_negative(checker: &mut Checker, path: &Path, value: f64, range: [f64; 2], what: &str) {
+    let message = format!("{what} is not negative");
+    if checker.require(value >= 0.0, path, message, ">= 0") {
+        checker.within(path, value, range, what);
+    }
 }
 
 fn fluid(checker: &mut Checker, path: &Path, fluid: &Fluid) {
-    checker.positive(&path.at("density"), fluid.density, "the density");
-    checker.positive(&path.at("viscosity"), fluid.viscosity, "the viscosity");
-    checker.positive(&path.at("specific_heat"), fluid.specific_heat, "the specific heat capacity");
-    for (key, value, what) in [
-        ("conductivity", fluid.conductivity, "the thermal conductivity"),
-        ("surface_tension", fluid.surface_tension, "the surface tension"),
+    for (key, value, range, what) in [
+        ("density", fluid.density, bounds::DENSITY, "the density"),
+        ("viscosity", fluid.viscosity, bounds::VISCOSITY, "the viscosity"),
+        ("specific_heat", fluid.specific_heat, bounds::SPECIFIC_HEAT, "the specific heat capacity"),
     ] {
-        not_negative(checker, &path.at(key), value, what);
+        checker.positive_within(&path.at(key), value, range, what);
+    }
+    for (key, value, range, what) in [
+        ("conductivity", fluid.conductivity, bounds::CONDUCTIVITY, "the thermal conductivity"),
+        ("surface_tension", fluid.surface_tension, bounds::SURFACE_TENSION, "the surface tension"),
+    ] {
+        not_negative(checker, &path.at(key), value, range, what);
     }
     let fine = (0.0..=PI).contains(&fluid.contact_angle);
     let message = "the angle of contact is out of bounds";
     checker.require(fine, &path.at("contact_angle"), message, "0 to 3.14159 (rad)");
     if let Some(speed) = fluid.sound_speed {
-        checker.positive(&path.at("sound_speed"), speed, "the speed of sound");
+        let path = path.at("sound_speed");
+        checker.positive_within(&path, speed, bounds::SOUND_SPEED, "the speed of sound");
     }
 }
 
@@ -129,7 +175,11 @@ fn arrivals(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
     checker.require(!list.is_empty(), path, "there is no arrival", "at least one arrival");
     for (i, arrival) in list.iter().enumerate() {
         let path = path.index(i);
-        not_negative(checker, &path.at("time"), arrival.time, "the time of an arrival");
+        let what = "the time of an arrival";
+        not_negative(checker, &path.at("time"), arrival.time, bounds::ARRIVAL, what);
+        for (key, place) in [("x", arrival.x), ("y", arrival.y)] {
+            checker.within(&path.at(key), place, bounds::PLACE, "the place of an arrival");
+        }
         if droplet.dimension == 2 {
             let message = "a plane model lies in y = 0";
             checker.require(arrival.y == 0.0, &path.at("y"), message, "0");

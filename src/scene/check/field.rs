@@ -26,8 +26,8 @@ fn counts(checker: &mut Checker, path: &Path, grid: [usize; 2]) -> bool {
 
 fn size(checker: &mut Checker, path: &Path, size: Option<[f64; 2]>) -> bool {
     let Some(size) = size else { return true };
-    let first = checker.positive(&path.index(0), size[0], "the extent of a grid");
-    checker.positive(&path.index(1), size[1], "the extent of a grid") && first
+    let first = checker.length(&path.index(0), size[0], "the extent of a grid");
+    checker.length(&path.index(1), size[1], "the extent of a grid") && first
 }
 
 /// The face or section and the body it belongs to.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::Checker;
+use super::{Checker, TIMES, number};
 use crate::scene::Naming;
 use crate::scene::locate::Path;
 
@@ -10,6 +10,8 @@ use crate::scene::locate::Path;
 const RESERVED: [&str; 2] = ["solver", "output"];
 /// More threads than any machine of today runs well.
 const MOST_THREADS: usize = 1024;
+/// More communication steps than any run takes.
+const MOST_STEPS: f64 = 1e9;
 
 pub fn check(checker: &mut Checker) {
     description(checker);
@@ -27,11 +29,15 @@ fn description(checker: &mut Checker) {
 fn times(checker: &mut Checker) {
     let root = Path::default();
     let (stop_time, step) = (checker.scene.stop_time, checker.scene.step);
-    let stop_is_fine = checker.positive(&root.key("stop_time"), stop_time, "the stop time");
-    let step_is_fine = checker.positive(&root.key("step"), step, "the step");
+    let stop_is_fine =
+        checker.positive_within(&root.key("stop_time"), stop_time, TIMES, "the stop time");
+    let step_is_fine = checker.positive_within(&root.key("step"), step, TIMES, "the step");
     if stop_is_fine && step_is_fine {
+        let message = format!("the run takes {} steps", number((stop_time / step).ceil()));
+        let allowed = format!(">= {}, for at most {MOST_STEPS:e}", number(stop_time / MOST_STEPS));
+        checker.require(stop_time / step <= MOST_STEPS, &root.key("step"), message, allowed);
         let message = "the step is longer than the whole run";
-        let allowed = format!("<= stop_time = {}", super::number(stop_time));
+        let allowed = format!("<= stop_time = {}", number(stop_time));
         checker.require(step <= stop_time, &root.key("step"), message, allowed);
     }
 }
@@ -75,10 +81,9 @@ fn names(checker: &mut Checker) {
 /// and `_`.
 fn apart(checker: &mut Checker, owners: &BTreeMap<&str, Path>) {
     for (&name, path) in owners {
-        let begins =
-            |other: &&str| name.strip_prefix(*other).is_some_and(|rest| rest.starts_with('_'));
-        let mut others = owners.keys().copied().chain(RESERVED);
-        if let Some(other) = others.find(begins) {
+        let mut others = name.match_indices('_').map(|(at, _)| &name[..at]);
+        let is_taken = |other: &&str| owners.contains_key(other) || RESERVED.contains(other);
+        if let Some(other) = others.find(is_taken) {
             let message = format!("with flat names it may be taken for a part of `{other}`");
             checker.refuse(path, message, format!("a name that does not begin with `{other}_`"));
         }

@@ -1,6 +1,6 @@
 //! Whether loads act on faces that take them, and lie on them wherever they go.
 
-use super::{Checker, fits, number, start};
+use super::{Checker, MOST_ELEMENTS, fits, number, start};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::types::{Carries, FaceName, Footprint, Load, Shape, Solid};
@@ -22,6 +22,7 @@ pub fn check(checker: &mut Checker) {
         }
         if lengths_are_fine {
             reach(checker, &path, load, &solid.shape);
+            fineness(checker, &path, load, solid);
         }
     }
 }
@@ -34,7 +35,7 @@ fn loaded_faces(_: &Shape) -> Vec<FaceName> {
 pub fn footprint(checker: &mut Checker, path: &Path, footprint: &Footprint) {
     let path = path.key(footprint.name());
     if let Some(radius) = footprint.radius() {
-        checker.positive(&path.at("radius"), radius, "the radius of a footprint");
+        checker.length(&path.at("radius"), radius, "the radius of a footprint");
     }
     match *footprint {
         Footprint::Disc { .. } | Footprint::Gaussian { .. } => {}
@@ -44,7 +45,7 @@ pub fn footprint(checker: &mut Checker, path: &Path, footprint: &Footprint) {
         Footprint::Tiles { count, size } => {
             for i in 0..2 {
                 checker.count(&path.at("count").index(i), count[i]);
-                checker.positive(&path.at("size").index(i), size[i], "the extent of a footprint");
+                checker.length(&path.at("size").index(i), size[i], "the extent of a footprint");
             }
         }
     }
@@ -95,6 +96,25 @@ fn axisymmetry(checker: &mut Checker, path: &Path, load: &Load) {
         let message = "a disc is modelled axisymmetric: its loads stay centred";
         checker.require(!given, &path.at(key), message, "no `x` and `y` on a disc");
     }
+}
+
+/// Without a spacing of its own the mesh is as fine as the smallest footprint: refuses those of which the
+/// face would hold more than can be counted.
+fn fineness(checker: &mut Checker, path: &Path, load: &Load, solid: &Solid) {
+    let [x, y] = lateral_extents(&solid.shape);
+    let least = x.max(y) / (0.1 * MOST_ELEMENTS);
+    let (key, smallest) = match (load.footprint, load.range.radius) {
+        (Footprint::Rings { count, radius }, None) => ("footprint", radius / count as f64),
+        (Footprint::Tiles { count, size }, _) => {
+            ("footprint", (0..2).map(|a| size[a] / count[a] as f64).fold(f64::INFINITY, f64::min))
+        }
+        (_, Some([lowest, _])) => ("range.radius", lowest),
+        (_, None) => ("footprint", load.footprint.radius().unwrap_or(f64::INFINITY)),
+    };
+    let fine = solid.mesh.spacing.is_some() || smallest >= least;
+    let message = format!("a part of this footprint is only {} m wide", number(smallest));
+    let allowed = format!(">= {}, or `mesh.spacing` in the body", number(least));
+    checker.require(fine, &path.at(key), message, allowed);
 }
 
 /// An axis along which a footprint must stay on its face.

@@ -9,6 +9,7 @@ mod load;
 mod probe;
 mod start;
 mod support;
+mod values;
 mod wall;
 
 use super::droplet::Droplet;
@@ -25,6 +26,14 @@ const MOST_CELLS: usize = 1000;
 const SMALLEST: f64 = 1e-60;
 const LARGEST: f64 = 1e60;
 
+/// Bounds of what every body has: lengths [m], times [s], temperatures [K].
+const LENGTHS: [f64; 2] = [1e-12, 1e6];
+const TIMES: [f64; 2] = [1e-30, 1e12];
+const HOTTEST: f64 = 1e9;
+
+/// Elements along an axis of a mesh at most, were it as fine throughout as in its finest place.
+const MOST_ELEMENTS: f64 = 1e6;
+
 /// Relative slack of comparisons of lengths, for places that were computed.
 const SLACK: f64 = 1e-9;
 
@@ -38,6 +47,7 @@ pub fn check(scene: &Scene, source: &Source) -> Result<(), SceneError> {
     probe::check(&mut checker);
     field::check(&mut checker);
     wall::check(&mut checker);
+    values::check(&mut checker);
     coupling::check(&mut checker);
     support::check(&mut checker);
     SceneError::unless_empty(checker.problems)
@@ -78,16 +88,32 @@ impl<'a> Checker<'a> {
     /// Refuses constants that are not above zero, or so small or large that computing with them
     /// leaves the range of numbers.
     fn constant(&mut self, path: &Path, value: f64, what: &str) {
-        if self.positive(path, value, what) {
-            let fine = (SMALLEST..=LARGEST).contains(&value);
-            let allowed = format!("{SMALLEST:e} to {LARGEST:e}");
-            self.require(fine, path, format!("{what} is beyond all bounds"), allowed);
-        }
+        self.positive_within(path, value, [SMALLEST, LARGEST], what);
     }
 
-    /// Refuses kelvins at and below absolute zero.
+    /// Refuses numbers that are not above zero, or beyond what anything real has; whether it is fine.
+    fn positive_within(&mut self, path: &Path, value: f64, bounds: [f64; 2], what: &str) -> bool {
+        self.positive(path, value, what) && self.within(path, value, bounds, what)
+    }
+
+    /// Refuses numbers beyond what anything real has.
+    fn within(&mut self, path: &Path, value: f64, [low, high]: [f64; 2], what: &str) -> bool {
+        let fine = (low..=high).contains(&value);
+        let allowed = format!("{} to {}", number(low), number(high));
+        self.require(fine, path, format!("{what} is beyond all bounds"), allowed)
+    }
+
+    /// Refuses lengths that are not above zero, or beyond what anything real has.
+    fn length(&mut self, path: &Path, value: f64, what: &str) -> bool {
+        self.positive_within(path, value, LENGTHS, what)
+    }
+
+    /// Refuses kelvins at and below absolute zero, and hotter ones than anything is.
     fn temperature(&mut self, path: &Path, value: f64) {
-        self.require(value > 0.0, path, "a temperature is above absolute zero", "> 0 (kelvin)");
+        let allowed = "> 0 (kelvin)";
+        if self.require(value > 0.0, path, "a temperature is above absolute zero", allowed) {
+            self.within(path, value, [0.0, HOTTEST], "a temperature");
+        }
     }
 
     /// Refuses counts of nothing and of absurdly many.

@@ -89,10 +89,10 @@ fn radius(checker: &mut Checker, path: &Path, load: &Load) {
     } else {
         let positive = "the radius of a footprint";
         if let Some(radius) = load.start.radius {
-            checker.positive(&path.at("start.radius"), radius, positive);
+            checker.length(&path.at("start.radius"), radius, positive);
         }
         if let Some([lowest, _]) = load.range.radius {
-            checker.positive(&path.at("range.radius").index(0), lowest, positive);
+            checker.length(&path.at("range.radius").index(0), lowest, positive);
         }
     }
 }

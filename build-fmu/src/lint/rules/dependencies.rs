@@ -47,10 +47,14 @@ fn check_indices(
 ) {
     let Some(indices) = &unknown.dependencies else { return };
     let place = || subject.document.place_of(unknown.node, "dependencies");
+    let count = subject.description.variables.len();
+    if indices.len() > count {
+        let wrong = format!("{} dependencies of {count} variables", indices.len());
+        return report.error(place(), wrong, RULE.says);
+    }
     for &index in indices {
         match subject.description.variable(index) {
             None => {
-                let count = subject.description.variables.len();
                 let wrong = format!("dependency {index}: there is no such variable");
                 report.error(place(), wrong, format!("1 to {count}"));
             }

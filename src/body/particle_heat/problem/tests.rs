@@ -50,7 +50,9 @@ fn run(setup: Setup, values: &[f64], steps: &[f64]) -> (ParticleHeat, Vec<f64>) 
     let problem = ParticleHeat::new(setup, 1);
     let mut state = vec![0.0; problem.state_len()];
     let sources = Sources { surface: &[[Vec::new(), Vec::new()]], faces: &[values.to_vec()] };
-    steps.iter().for_each(|&dt| problem.advance(&mut state, &[sources], dt));
+    steps.iter().for_each(|&dt| {
+        problem.advance(&mut state, &[sources], dt, &Allowance::default()).unwrap()
+    });
     (problem, state)
 }
 
@@ -166,7 +168,14 @@ fn odd_parts_see_an_odd_lattice() {
     let mut state = vec![0.0; problem.state_len()];
     let nothing = [[Vec::new(), Vec::new()], [Vec::new(), Vec::new()]];
     let faces = [vec![0.0], vec![1.0]];
-    problem.advance(&mut state, &[Sources { surface: &nothing, faces: &faces }], 1e3);
+    problem
+        .advance(
+            &mut state,
+            &[Sources { surface: &nothing, faces: &faces }],
+            1e3,
+            &Allowance::default(),
+        )
+        .unwrap();
     let parts = problem.temperatures(&state, &faces);
     assert!(parts[0].is_empty());
     for (i, value) in parts[1].iter().enumerate() {
@@ -244,7 +253,7 @@ fn nothing_grows_on_lattices_of_any_grading() {
                 (0..problem.state_len()).map(|i| (1.7 * (i * i) as f64).sin()).collect();
             let values = [vec![0.0; faces.len()]];
             let sources = Sources { surface: &[[Vec::new(), Vec::new()]], faces: &values };
-            problem.advance(&mut state, &[sources], 10.0);
+            problem.advance(&mut state, &[sources], 10.0, &Allowance::default()).unwrap();
             let values = &state[..state.len() - 2];
             let [least, most] = values
                 .iter()
@@ -273,7 +282,14 @@ fn a_convective_face_cools_at_second_order_on_graded_lattices() {
         let mode = |i: usize| (b * nodes[i / 4] / 1e-3).cos();
         let mut state: Vec<f64> = (0..4 * nodes.len()).map(mode).chain([0.0; 2]).collect();
         let (stored, still) = (problem.stored(&state), [[Vec::new(), Vec::new()]]);
-        problem.advance(&mut state, &[Sources { surface: &still, faces: &[vec![0.0]] }], time);
+        problem
+            .advance(
+                &mut state,
+                &[Sources { surface: &still, faces: &[vec![0.0]] }],
+                time,
+                &Allowance::default(),
+            )
+            .unwrap();
         let lost = problem.totals(&state).lost / (stored * (1.0 - decay)) - 1.0;
         let worst = (0..4 * nodes.len()).map(|i| (state[i] - decay * mode(i)).abs());
         [worst.fold(0.0, f64::max), lost.abs()]

@@ -1,0 +1,89 @@
+//! Whether a vector that comes from elsewhere is a state that these droplets could have come to.
+
+use super::cloud::{Cloud, cloud_of, ledger_of, particles_in, state_len};
+use super::images::{Ends, Source};
+use super::kick::{DENSITIES, FARTHEST};
+use super::method::Method;
+use super::plan::DropletPlan;
+use crate::math::parallel::Team;
+
+/// Particles of the drops that a state has released, and their mass over ρ₀H^d.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Released {
+    pub particles: usize,
+    pub mass: f64,
+}
+
+/// Relative rounding of a sum of masses.
+const ROUNDING: f64 = 1e-9;
+
+/// Refuses what the loops over particles could not go on from, or no run leads to. `released` says what
+/// there is after so many releases.
+pub fn check(
+    state: &[f64],
+    (plan, method, cells): (&DropletPlan, &Method, usize),
+    released: impl Fn(usize) -> Released,
+) -> Result<(), String> {
+    let Some(count) = particles_in(state, cells) else {
+        return Err(format!("{} unknowns, which are no number of particles", state.len()));
+    };
+    if let Some(number) = state.iter().find(|number| !number.is_finite()) {
+        return Err(format!("a number that is not finite: {number}"));
+    }
+    let drops = check_head(&state[..state_len(cells, 0)], plan, cells)?;
+    let expected = released(drops);
+    if count != expected.particles || count > Source::MOST {
+        let expected = expected.particles;
+        return Err(format!("{count} particles, where {drops} drops have {expected}"));
+    }
+    let cloud = cloud_of(state, cells, &Team::new(1));
+    check_masses(&cloud, expected)?;
+    let near_plane = method.images.ends().map(|ends| {
+        let Ends::Planes { near, .. } = ends else { return false };
+        near
+    });
+    for (i, (x, density)) in cloud.position.iter().zip(&cloud.density).enumerate() {
+        for a in 0..3 {
+            if x[a].abs() >= FARTHEST || (near_plane[a] && x[a] < 0.0) {
+                return Err(format!("particle {i} at {:?}, where none gets to", x));
+            }
+        }
+        let ratio = 1.0 + density;
+        if !(DENSITIES[0]..DENSITIES[1]).contains(&ratio) {
+            return Err(format!("particle {i} has {ratio} of the density at rest"));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses a ledger that contradicts itself or the plan; how many drops have been released.
+fn check_head(head: &[f64], plan: &DropletPlan, cells: usize) -> Result<usize, String> {
+    let [time, drops] = [head[0], head[1]];
+    let ledger = ledger_of(head, cells);
+    let due = plan.releases.iter().take_while(|release| release.time <= time).count();
+    if drops != due as f64 {
+        return Err(format!("{drops} drops released, where {due} are due at {time} s"));
+    }
+    let numbers = [
+        ("a time", time),
+        ("time steps", ledger.steps),
+        ("a last step", ledger.exchange.duration),
+        ("a way", ledger.way),
+        ("a volume", ledger.surrounded),
+    ];
+    match numbers.into_iter().find(|&(_, number)| number < 0.0) {
+        Some((what, number)) => Err(format!("{what} of {number}, which is below zero")),
+        None => Ok(due),
+    }
+}
+
+fn check_masses(cloud: &Cloud, expected: Released) -> Result<(), String> {
+    if let Some((i, mass)) = cloud.mass.iter().enumerate().find(|(_, mass)| **mass <= 0.0) {
+        return Err(format!("particle {i} with a mass of {mass}"));
+    }
+    let mass: f64 = cloud.mass.iter().sum();
+    if (mass - expected.mass).abs() > ROUNDING * expected.mass {
+        return Err(format!("{mass} of mass, where {} were released", expected.mass));
+    }
+    Ok(())
+}

@@ -1,0 +1,99 @@
+//! What the machine has left: the one thing that a run depends on and no scene says.
+
+use std::fs;
+use std::path::Path;
+
+/// Memory that this process may still take [B], as far as the system tells; without end where it does
+/// not.
+///
+/// It is the least of what is free or can be freed (`/proc/meminfo`), what the control groups of the
+/// process leave (version 2, or 1 of memory), and what its limit of address space leaves.
+pub fn available_memory() -> f64 {
+    let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
+    let free = kilobytes(&read("/proc/meminfo"), "MemAvailable:");
+    let used = kilobytes(&read("/proc/self/status"), "VmSize:");
+    let most = address_space(&read("/proc/self/limits"));
+    let space = most.zip(used).map(|(most, used)| (most - used).max(0.0));
+    let groups = groups(&read("/proc/self/cgroup")).into_iter().filter_map(|path| left_in(&path));
+    [free, space].into_iter().flatten().chain(groups).fold(f64::INFINITY, f64::min)
+}
+
+/// The number behind a key of lines `Key: number kB` [B].
+fn kilobytes(text: &str, key: &str) -> Option<f64> {
+    let line = text.lines().find_map(|line| line.strip_prefix(key))?;
+    let number: f64 = line.split_whitespace().next()?.parse().ok()?;
+    Some(1024.0 * number)
+}
+
+/// The soft limit of address space [B] in `/proc/self/limits`; nothing if there is none.
+fn address_space(limits: &str) -> Option<f64> {
+    let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
+    line.split_whitespace().next()?.parse().ok()
+}
+
+/// Folders of the control groups that `/proc/self/cgroup` names, and of those around them.
+fn groups(text: &str) -> Vec<String> {
+    let mut all = Vec::new();
+    for line in text.lines() {
+        let mut parts = line.splitn(3, ':').skip(1);
+        let (Some(controllers), Some(path)) = (parts.next(), parts.next()) else { continue };
+        let root = match controllers {
+            "" => "/sys/fs/cgroup",
+            list if list.split(',').any(|name| name == "memory") => "/sys/fs/cgroup/memory",
+            _ => continue,
+        };
+        let around = Path::new(path).ancestors().map(|path| format!("{root}{}", path.display()));
+        all.extend(around);
+    }
+    all
+}
+
+/// What a control group leaves of its memory [B]; nothing if it has no limit.
+fn left_in(folder: &str) -> Option<f64> {
+    let read = |name: &str| fs::read_to_string(format!("{}/{name}", folder.trim_end_matches('/')));
+    let number = |name: &str| read(name).ok()?.trim().parse::<f64>().ok();
+    let most = number("memory.max").or_else(|| number("memory.limit_in_bytes"))?;
+    let used = number("memory.current").or_else(|| number("memory.usage_in_bytes"))?;
+    // Files that were read are dropped when memory is wanted.
+    let cached = read("memory.stat").ok().and_then(|text| {
+        let line = text.lines().find_map(|line| line.strip_prefix("inactive_file "))?;
+        line.trim().parse::<f64>().ok()
+    });
+    Some((most - used + cached.unwrap_or(0.0)).max(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_system_says_is_read() {
+        let text = "MemTotal:   16 kB\nMemAvailable:   12345 kB\n";
+        assert_eq!(kilobytes(text, "MemAvailable:"), Some(12345.0 * 1024.0));
+        assert_eq!(kilobytes("", "MemAvailable:"), None);
+        let limits = "Limit  Soft Limit  Hard Limit  Units\n\
+                      Max address space         1048576              unlimited            bytes\n";
+        assert_eq!(address_space(limits), Some(1_048_576.0));
+        let none = limits.replace("1048576", "unlimited");
+        assert_eq!(address_space(&none), None);
+    }
+
+    #[test]
+    fn control_groups_lie_in_each_other() {
+        let both = "5:cpu,memory:/a\n3:cpuset:/x\n0::/b/c\n";
+        let expected = [
+            "/sys/fs/cgroup/memory/a",
+            "/sys/fs/cgroup/memory/",
+            "/sys/fs/cgroup/b/c",
+            "/sys/fs/cgroup/b",
+            "/sys/fs/cgroup/",
+        ];
+        assert_eq!(groups(both), expected);
+        assert_eq!(left_in("/nowhere"), None);
+    }
+
+    #[test]
+    fn there_is_memory_left() {
+        assert!(available_memory() > 1e6);
+    }
+}

@@ -1,0 +1,140 @@
+//! How much a step may compute, and whether it is still wanted.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
+
+/// Updates of unknowns that one communication step may take: hours to a day on one thread.
+pub const MOST_UPDATES: f64 = 1e11;
+/// What a round of updates costs besides these, in updates: rounds over few unknowns end, too.
+const ROUND: f64 = 1e4;
+
+/// Lets another thread end a step that is under way. A single number that any thread may look at and
+/// change.
+#[derive(Debug, Clone, Default)]
+pub struct Interrupt(Arc<AtomicU8>);
+
+const IDLE: u8 = 0;
+const UNDER_WAY: u8 = 1;
+const INTERRUPTED: u8 = 2;
+
+impl Interrupt {
+    /// Asks the step under way to end; whether there is one.
+    pub fn interrupt(&self) -> bool {
+        let (success, failure) = (Ordering::Relaxed, Ordering::Relaxed);
+        let before = self.0.compare_exchange(UNDER_WAY, INTERRUPTED, success, failure);
+        matches!(before, Ok(_) | Err(INTERRUPTED))
+    }
+
+    /// Says that a step is under way for as long as the value lives.
+    pub fn begin(&self) -> UnderWay<'_> {
+        self.0.store(UNDER_WAY, Ordering::Relaxed);
+        UnderWay(self)
+    }
+}
+
+/// A step under way; it is over when this is dropped.
+pub struct UnderWay<'a>(&'a Interrupt);
+
+impl Drop for UnderWay<'_> {
+    fn drop(&mut self) {
+        self.0.0.store(IDLE, Ordering::Relaxed);
+    }
+}
+
+/// What one step may still compute.
+#[derive(Debug)]
+pub struct Allowance {
+    interrupt: Interrupt,
+    /// Updates, as the bits of a number; one thread counts at a time.
+    left: AtomicU64,
+}
+
+/// Why a step does not go on; what it was to change is as it was before.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum Halt {
+    #[error("the step was cancelled")]
+    Interrupted,
+    #[error(
+        "{rounds:.1e} {what} over {size} unknowns are more than a communication step may take \
+         (allowed: {MOST_UPDATES:.0e} updates of unknowns and {:.0e} rounds in all): take shorter \
+         communication steps, or look for an extreme value",
+        MOST_UPDATES / ROUND
+    )]
+    TooLong { rounds: f64, what: &'static str, size: usize },
+}
+
+impl Allowance {
+    /// Of one communication step.
+    pub fn of_step(interrupt: &Interrupt) -> Self {
+        Self { interrupt: interrupt.clone(), left: AtomicU64::new(MOST_UPDATES.to_bits()) }
+    }
+
+    fn left(&self) -> f64 {
+        f64::from_bits(self.left.load(Ordering::Relaxed))
+    }
+
+    /// Ends the step if it is known to need more rounds of updates of so many unknowns than are left.
+    pub fn foresee(&self, rounds: f64, what: &'static str, size: usize) -> Result<(), Halt> {
+        // Numbers that are none are too many, too.
+        match cost(rounds, size) <= self.left() {
+            true => Ok(()),
+            false => Err(Halt::TooLong { rounds, what, size }),
+        }
+    }
+
+    /// Takes rounds of updates from what is left; to be called between rounds, as this is where a step
+    /// is interrupted.
+    pub fn spend(&self, rounds: f64, what: &'static str, size: usize) -> Result<(), Halt> {
+        if self.interrupt.0.load(Ordering::Relaxed) == INTERRUPTED {
+            return Err(Halt::Interrupted);
+        }
+        self.foresee(rounds, what, size)?;
+        self.left.store((self.left() - cost(rounds, size)).to_bits(), Ordering::Relaxed);
+        Ok(())
+    }
+}
+
+impl Default for Allowance {
+    /// Of a step that nobody interrupts.
+    fn default() -> Self {
+        Self::of_step(&Interrupt::default())
+    }
+}
+
+fn cost(rounds: f64, size: usize) -> f64 {
+    rounds * (size as f64 + ROUND)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_left_becomes_less_and_ends_a_step() {
+        let allowance = Allowance::default();
+        for _ in 0..10 {
+            allowance.spend(9e5, "rounds", 0).unwrap();
+        }
+        allowance.foresee(9.9e5, "rounds", 0).unwrap();
+        for (rounds, size) in [(1.1e6, 0), (1.0, 20_000_000_000), (f64::NAN, 1)] {
+            let halt = allowance.foresee(rounds, "rounds", size);
+            assert!(matches!(halt, Err(Halt::TooLong { .. })), "{rounds} {size}: {halt:?}");
+        }
+        assert!(allowance.foresee(f64::INFINITY, "rounds", 1).is_err());
+    }
+
+    #[test]
+    fn only_a_step_under_way_is_interrupted() {
+        let interrupt = Interrupt::default();
+        let allowance = Allowance::of_step(&interrupt);
+        assert!(!interrupt.interrupt());
+        assert_eq!(allowance.spend(1.0, "rounds", 1), Ok(()));
+        let step = interrupt.begin();
+        assert_eq!(allowance.spend(1.0, "rounds", 1), Ok(()));
+        assert!(interrupt.interrupt() && interrupt.interrupt());
+        assert_eq!(allowance.spend(1.0, "rounds", 1), Err(Halt::Interrupted));
+        drop(step);
+        assert!(!interrupt.interrupt());
+        assert_eq!(allowance.spend(1.0, "rounds", 1), Ok(()));
+    }
+}

@@ -1,0 +1,163 @@
+//! The nodes of a disc, whose meridian section is turned once round the axis: a structured grid (`.vts`).
+//!
+//! Viewers know no meridian section: they would show the half plane alone. So the section is repeated at
+//! equal angles, vectors and tensors turned with it into components along x, y, z. Values at the angle 0 are
+//! those of the section to the bit.
+
+use std::f64::consts::TAU;
+use std::io::{self, Write};
+
+use quick_xml::Writer;
+
+use super::grid::{invariants, point_arrays};
+use super::{AXES, Array, Values, write_file, write_header};
+use crate::model::NodalFields;
+
+/// Steps round the axis: with 24 the outline is within 1 % of a circle.
+const SECTORS: usize = 24;
+
+/// Writes the fields of a disc at `time` [s].
+pub fn write_revolved(out: impl Write, time: f64, fields: &NodalFields) -> io::Result<()> {
+    let whole = revolved(fields);
+    let [von_mises, max_principal] = invariants(&whole.stress);
+    let time = [time];
+    let time = Array::scalar("TimeValue", "s", &time);
+    let points = point_arrays(
+        &whole.temperature,
+        &whole.displacement,
+        &whole.stress,
+        [&von_mises, &max_principal],
+    );
+    let place = Array {
+        name: "position",
+        unit: "m",
+        components: &AXES,
+        values: Values::Real(whole.position.as_flattened()),
+    };
+    let extent = format!("0 {} 0 {SECTORS} 0 {}", whole.counts[0] - 1, whole.counts[1] - 1);
+    let structure = |xml: &mut Writer<_>| write_structure(xml, &extent, &time, &points, &place);
+    let arrays: Vec<&Array> = std::iter::once(&time).chain(&points).chain([&place]).collect();
+    write_file(out, "StructuredGrid", structure, &arrays)
+}
+
+/// Nodes of all sections.
+struct Revolved {
+    /// Along the radius and z.
+    counts: [usize; 2],
+    position: Vec<[f64; 3]>,
+    temperature: Vec<f64>,
+    displacement: Vec<[f64; 3]>,
+    stress: Vec<[f64; 6]>,
+}
+
+/// The section at all angles; the index along the radius runs fastest, then that of the angle, then z.
+fn revolved(fields: &NodalFields) -> Revolved {
+    let [radii, _, heights] = &fields.axes;
+    let counts = [radii.len(), heights.len()];
+    let angle = |sector: usize| {
+        // Back at the beginning to the bit.
+        let angle = TAU * (sector % SECTORS) as f64 / SECTORS as f64;
+        (angle.cos(), angle.sin())
+    };
+    let mut all = Revolved {
+        counts,
+        position: Vec::new(),
+        temperature: Vec::new(),
+        displacement: Vec::new(),
+        stress: Vec::new(),
+    };
+    for (k, &z) in heights.iter().enumerate() {
+        for (cos, sin) in (0..=SECTORS).map(angle) {
+            for (i, &r) in radii.iter().enumerate() {
+                let node = k * counts[0] + i;
+                all.position.push([r * cos, r * sin, z]);
+                all.temperature.push(fields.temperature[node]);
+                if let Some(&[u, v, w]) = fields.displacement.get(node) {
+                    all.displacement.push([cos * u - sin * v, sin * u + cos * v, w]);
+                }
+                all.stress.extend(fields.stress.get(node).map(|stress| turned(*stress, cos, sin)));
+            }
+        }
+    }
+    all
+}
+
+/// Components along x, y, z of a stress rr, tt, zz, rt, tz, rz at an angle to the x axis: σ' = R σ Rᵀ.
+fn turned([rr, tt, zz, rt, tz, rz]: [f64; 6], cos: f64, sin: f64) -> [f64; 6] {
+    [
+        cos * cos * rr + sin * sin * tt - 2.0 * sin * cos * rt,
+        sin * sin * rr + cos * cos * tt + 2.0 * sin * cos * rt,
+        zz,
+        sin * cos * (rr - tt) + (cos * cos - sin * sin) * rt,
+        sin * rz + cos * tz,
+        cos * rz - sin * tz,
+    ]
+}
+
+fn write_structure<W: Write>(
+    xml: &mut Writer<W>,
+    extent: &str,
+    time: &Array,
+    points: &[Array],
+    place: &Array,
+) -> io::Result<()> {
+    let mut offset = 0;
+    let grid = xml.create_element("StructuredGrid").with_attribute(("WholeExtent", extent));
+    grid.write_inner_content(|xml| {
+        xml.create_element("FieldData")
+            .write_inner_content(|xml| write_header(xml, time, Some("1"), &mut offset))?;
+        let piece = xml.create_element("Piece").with_attribute(("Extent", extent));
+        piece.write_inner_content(|xml| {
+            let data = xml.create_element("PointData").with_attribute(("Scalars", "temperature"));
+            data.write_inner_content(|xml| {
+                points.iter().try_for_each(|array| write_header(xml, array, None, &mut offset))
+            })?;
+            xml.create_element("Points")
+                .write_inner_content(|xml| write_header(xml, place, None, &mut offset))?;
+            Ok(())
+        })?;
+        Ok(())
+    })?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::vtk::reader::read;
+
+    #[test]
+    fn a_disc_is_written_all_round() {
+        let fields = NodalFields {
+            axes: [vec![0.0, 1.0, 2.0], vec![0.0], vec![-0.5, 0.0]],
+            temperature: (0..6).map(|i| 300.0 + f64::from(i)).collect(),
+            displacement: (0..6).map(|i| [f64::from(i), 0.0, -1.0]).collect(),
+            stress: vec![[5.0, 3.0, 1.0, 0.0, 0.0, 2.0]; 6],
+        };
+        let mut bytes = Vec::new();
+        write_revolved(&mut bytes, 2.5e-6, &fields).unwrap();
+        let read = read(&bytes);
+        assert_eq!(read.elements["VTKFile"]["type"], "StructuredGrid");
+        assert_eq!(read.elements["Piece"]["Extent"], format!("0 2 0 {SECTORS} 0 1"));
+        let vector = |name: &str, node: usize| read.arrays[name].1[3 * node..][..3].to_vec();
+        let stress = |node: usize| read.arrays["stress"].1[6 * node..][..6].to_vec();
+        let close = |a: Vec<f64>, b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-14);
+        // The section itself, a quarter of the way round, and the same place again.
+        let quarter = 3 * (SECTORS / 4) + 2;
+        let last = 3 * SECTORS + 2;
+        for (node, place, moved, pulled) in [
+            (2, [2.0, 0.0, -0.5], [2.0, 0.0, -1.0], [5.0, 3.0, 1.0, 0.0, 0.0, 2.0]),
+            (quarter, [0.0, 2.0, -0.5], [0.0, 2.0, -1.0], [3.0, 5.0, 1.0, 0.0, 2.0, 0.0]),
+            (last, [2.0, 0.0, -0.5], [2.0, 0.0, -1.0], [5.0, 3.0, 1.0, 0.0, 0.0, 2.0]),
+        ] {
+            assert_eq!(read.arrays["temperature"].1[node], 302.0);
+            assert!(close(vector("position", node), &place), "{node}");
+            assert!(close(vector("displacement", node), &moved), "{node}");
+            assert!(close(stress(node), &pulled), "{node}: {:?}", stress(node));
+        }
+        assert_eq!(read.arrays["stress"].0["ComponentName5"], "xz");
+        // Invariants are the same all round: σ₁ of [5 2; 2 1] and 3.
+        let largest = &read.arrays["max_principal"].1;
+        assert!(largest.iter().all(|s| (s - (3.0 + 8f64.sqrt())).abs() < 1e-12), "{largest:?}");
+    }
+}
