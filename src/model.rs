@@ -33,7 +33,7 @@ use crate::body::sph::{DropletSph, Failure};
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::chebyshev::products;
 use crate::math::cholesky::CholeskyError;
-use crate::scene::{Droplet, FaceName, Footprint, Grid, Load, Scene, SceneError, Solid};
+use crate::scene::{Carries, Droplet, FaceName, Footprint, Grid, Load, Scene, SceneError, Solid};
 use crate::variables::{BodyTotal, Component, InputLayout, Output, Registry, Slot};
 
 /// Everything known before time starts: meshes, modes, factorisations, places of outputs.
@@ -514,7 +514,8 @@ fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     {
         refinements.extend(contact::refinements(coupling, droplet, scene.stop_time));
     }
-    Plan::new(solid, scene.asks_mechanics(name), &refinements, scene.stop_time)
+    let shortest = scene.step.min(scene.stop_time);
+    Plan::new(solid, scene.asks_mechanics(name), &refinements, shortest)
 }
 
 /// Where a load may act, wherever its inputs may move it.
@@ -542,7 +543,8 @@ fn refinement(load: &Load) -> Refinement {
         [low - half[a], high + half[a]]
     };
     let top = load.body_and_face().1 == FaceName::Top;
-    Refinement { x: stretch(0), y: stretch(1), top, feature }
+    let heats = load.carries.contains(&Carries::HeatFlux);
+    Refinement { x: stretch(0), y: stretch(1), top, feature, heats }
 }
 
 /// Number of threads to use; 0 are wanted for as many as are worth it.

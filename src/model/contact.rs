@@ -150,7 +150,8 @@ pub fn refinements(coupling: &Coupling, droplet: &Droplet, stop_time: f64) -> Ve
         let radius = coupling.radius.unwrap_or(expected);
         let stretch = |centre: f64| [centre - radius, centre + radius];
         let feature = 0.5 * droplet.diameter;
-        Refinement { x: stretch(arrival.x), y: stretch(arrival.y), top: true, feature }
+        let [x, y] = [arrival.x, arrival.y].map(stretch);
+        Refinement { x, y, top: true, feature, heats: true }
     };
     droplet.arrivals.iter().map(at).collect()
 }

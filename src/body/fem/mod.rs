@@ -5,6 +5,7 @@ mod axisymmetric;
 mod conduction;
 mod dilatation;
 mod elastic;
+mod fineness;
 mod grading;
 mod heat;
 mod hexahedron;
