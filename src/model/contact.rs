@@ -138,7 +138,7 @@ fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan, time_step: f64)
 }
 
 fn effusivity(plan: &Plan) -> f64 {
-    (plan.law.conductivity * plan.law.heat_capacity()).sqrt()
+    plan.constants.effusivity()
 }
 
 /// Where a droplet spreads: as far as it is expected to, but no faster than it arrives.

@@ -2,7 +2,7 @@
 
 use super::grading::{Fine, graded_ends};
 use super::plan::Refinement;
-use crate::material::Thermoelastic;
+use crate::material::Constants;
 use crate::scene::{Face, FaceName, HeatMethod, Mesh as MeshKeys, Shape, Solid};
 
 /// Nodes across a feature of a load, where the scene names no spacing.
@@ -37,7 +37,7 @@ impl<'a> Fineness<'a> {
     /// Chooses what the scene leaves open; `shortest` is the shortest time of interest [s].
     pub fn choose(
         solid: &'a Solid,
-        law: &Thermoelastic,
+        constants: &Constants,
         refinements: &'a [Refinement],
         shortest: f64,
         notes: &mut Vec<String>,
@@ -48,7 +48,7 @@ impl<'a> Fineness<'a> {
         let width = lateral_extents(&solid.shape).into_iter().fold(f64::INFINITY, f64::min);
         let feature = refinements.iter().map(|r| r.feature).fold(width, f64::min);
         let lateral = given.spacing.unwrap_or(feature / NODES_PER_FEATURE);
-        let reach = (law.diffusivity() * shortest).sqrt();
+        let reach = (constants.diffusivity() * shortest).sqrt();
         let finest = FINEST * solid.shape.thickness();
         let layer = lateral.min(reach / NODES_PER_DIFFUSION_LENGTH).max(finest);
         let chosen = Self { solid, refinements, lateral, layer, order };

@@ -19,5 +19,5 @@ pub use axis::{Axis, Weight};
 pub use conduction::particle_cost;
 pub use heat::HeatTotals;
 pub use mesh::{Geometry, Mesh, MeshFace, Parity};
-pub use plan::{Plan, Refinement};
+pub use plan::{Mechanics, Plan, Refinement};
 pub use solid::{Deformation, NodalFields, SolidFem, SolidLoads, Temperatures};

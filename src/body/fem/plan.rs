@@ -5,14 +5,16 @@ use super::elastic::Support;
 use super::fineness::Fineness;
 use super::heat::ThermalFace;
 use super::mesh::{Geometry, Mesh, MeshFace};
-use crate::material::{Material, Thermoelastic};
+use crate::material::{Constants, Material, Thermoelastic};
 use crate::scene::{Face, FaceName, Shape, Solid, SphOperator, SphSettings, Symmetry};
 
 /// Everything that a solid's model is built from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     pub mesh: Mesh,
-    pub law: Thermoelastic,
+    pub constants: Constants,
+    /// The law of deformation; none where mechanics is not modelled.
+    pub law: Option<Thermoelastic>,
     pub initial_temperature: f64,
     /// How particles conduct the heat; `None` where finite elements do.
     pub sph: Option<SphSettings>,
@@ -21,7 +23,8 @@ pub struct Plan {
     /// For each thermal face, the face of the body that lies there and the one whose image does.
     pub face_sources: Vec<(FaceName, Option<FaceName>)>,
     pub supports: Vec<(MeshFace, Support)>,
-    pub mechanics: bool,
+    /// Whether deformations are read in any case, so that building prepares for them.
+    pub prepared: bool,
     /// What was chosen or left out, and why: a sentence each.
     pub notes: Vec<String>,
 }
@@ -38,22 +41,50 @@ pub struct Refinement {
     pub heats: bool,
 }
 
+/// How much of a solid's mechanics a scene needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mechanics {
+    /// No stress or displacement can be read.
+    Absent,
+    /// They can be read but need not be, as of a plate under a droplet: stiffness is factored at the
+    /// first reading.
+    Offered,
+    /// A probe or field gives them: stiffness is factored when the model is built.
+    Wanted,
+}
+
+impl Mechanics {
+    fn note(self) -> Option<&'static str> {
+        match self {
+            Self::Absent => Some(
+                "mechanics is left out: nothing asks for stress or displacement, no load carries \
+                 traction, or the material names no elastic constants",
+            ),
+            Self::Offered => Some(
+                "no probe or field gives stress or displacement: stiffness is factored when the \
+                 body's highest stress is first read",
+            ),
+            Self::Wanted => None,
+        }
+    }
+}
+
 impl Plan {
     /// Plans a solid under loads on `refinements`; `shortest` is the shortest time after which results
     /// are wanted [s].
-    pub fn new(solid: &Solid, mechanics: bool, refinements: &[Refinement], shortest: f64) -> Self {
-        let Material::Thermoelastic(law) = solid.material.clone();
+    pub fn new(
+        solid: &Solid,
+        mechanics: Mechanics,
+        refinements: &[Refinement],
+        shortest: f64,
+    ) -> Self {
+        let Material::Thermoelastic(constants) = solid.material;
+        let law = constants.law().filter(|_| mechanics != Mechanics::Absent);
         let mut notes = Vec::new();
         let mirrored = mirrored(solid, &mut notes);
-        let fineness = Fineness::choose(solid, &law, refinements, shortest, &mut notes);
+        let fineness = Fineness::choose(solid, &constants, refinements, shortest, &mut notes);
         let mesh = build_mesh(&solid.shape, mirrored, &fineness);
-        if !mechanics {
-            notes.push(
-                "mechanics is left out: nothing asks for stress or displacement, no load carries \
-                 traction"
-                    .into(),
-            );
-        }
+        notes.extend(mechanics.note().map(str::to_owned));
         if let Some(settings) = solid.sph() {
             notes.push(particle_note(&settings, &mesh));
         }
@@ -62,13 +93,14 @@ impl Plan {
         let initial_temperature = solid.initial_temperature;
         Self {
             mesh,
+            constants,
             law,
             initial_temperature,
             sph: solid.sph(),
             thermal_faces,
             face_sources,
             supports,
-            mechanics,
+            prepared: mechanics == Mechanics::Wanted,
             notes,
         }
     }
@@ -77,7 +109,7 @@ impl Plan {
     pub fn unknowns(&self) -> [usize; 2] {
         let nodes = self.mesh.nodes();
         let degrees = if self.mesh.geometry == Geometry::Box { 3 } else { 2 };
-        [nodes, if self.mechanics { degrees * nodes } else { 0 }]
+        [nodes, if self.law.is_some() { degrees * nodes } else { 0 }]
     }
 }
 
