@@ -8,6 +8,7 @@ mod exchange;
 mod interpolation;
 mod loads;
 mod reader;
+mod reality;
 mod sharing;
 mod start_rates;
 mod states;
@@ -22,12 +23,13 @@ pub use interpolation::HIGHEST_INPUT_DERIVATIVE;
 use interpolation::InputPath;
 use loads::BodyLoads;
 pub use reader::Reader;
+use reality::finite;
 pub use start_rates::start_rates;
 pub use tangent::Tangent;
 pub use timeline::Timeline;
 
 pub use crate::body::fem::NodalFields;
-use crate::body::fem::{Geometry, Plan, Refinement, SolidFem, particle_cost};
+use crate::body::fem::{Geometry, Mechanics, Plan, Refinement, SolidFem, particle_cost};
 pub use crate::body::sph::ParticleFields;
 use crate::body::sph::{DropletSph, Failure};
 use crate::material::stress::{max_principal, von_mises};
@@ -82,6 +84,17 @@ pub enum ModelError {
     /// The results of a step are too large for numbers.
     #[error("the solution of {body} grows beyond what numbers can hold")]
     Overflow { body: String },
+    /// A step would cool a body below absolute zero.
+    #[error(
+        "{body} would cool to {temperature:.6} K, below absolute zero: a negative heat flux takes more \
+         heat from it than it holds"
+    )]
+    BelowAbsoluteZero { body: String, temperature: f64 },
+    /// An output is too large for numbers.
+    #[error(
+        "the value is {0}, beyond what numbers can hold: an input or constant is far too large"
+    )]
+    NotFinite(f64),
     /// A state does not fit the model.
     #[error("{0}")]
     State(String),
@@ -233,6 +246,7 @@ impl Model {
                 return Err(ModelError::Overflow { body: body.name.clone() });
             }
         }
+        self.check_temperatures((&path, &state.inputs), &bodies, dt)?;
         state.bodies = bodies;
         state.time += dt;
         if path.is_held() {
@@ -265,8 +279,17 @@ impl Model {
         Ok(Reader { model: self, state, cache })
     }
 
-    /// The value of an output where the cache has met the state.
+    /// The value of an output where the cache has met the state; an error where it is no finite number.
     fn value(&self, state: &State, cache: &mut Cache, output: &Output) -> Result<f64, ModelError> {
+        finite(self.computed(state, cache, output)?)
+    }
+
+    fn computed(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+        output: &Output,
+    ) -> Result<f64, ModelError> {
         match output {
             Output::Droplet { body, total } => {
                 let index = self.droplet_place(body);
@@ -317,7 +340,9 @@ impl Model {
         let index = self.place(body);
         cache.solve(self, &state.bodies, index)?;
         let solid = &self.bodies[index].solid;
-        Ok(solid.fields(cache.temperatures(index), cache.deformation(index)))
+        let fields = solid.fields(cache.temperatures(index), cache.deformation(index));
+        fields.values().try_for_each(|value| finite(value).map(drop))?;
+        Ok(fields)
     }
 
     /// Whether a solid is a meridian section.
@@ -515,7 +540,12 @@ fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
         refinements.extend(contact::refinements(coupling, droplet, scene.stop_time));
     }
     let shortest = scene.step.min(scene.stop_time);
-    Plan::new(solid, scene.asks_mechanics(name), &refinements, shortest)
+    let mechanics = match (scene.asks_mechanics(name), scene.gives_mechanics(name)) {
+        (false, _) => Mechanics::Absent,
+        (true, false) => Mechanics::Offered,
+        (true, true) => Mechanics::Wanted,
+    };
+    Plan::new(solid, mechanics, &refinements, shortest)
 }
 
 /// Where a load may act, wherever its inputs may move it.
