@@ -23,7 +23,8 @@ pub struct Check {
 impl Check {
     /// Reports on the scene.
     pub fn execute(&self) -> Result<String, CliError> {
-        let scene = scene::read(&self.scene)?;
+        let (scene, warnings) = scene::read_with_warnings(&self.scene)?;
+        super::warn(&warnings);
         let sections = [
             ("Bodies", bodies(&scene)),
             ("Droplets", droplets(&scene)),
