@@ -152,7 +152,7 @@ fn check_and_run_warn_of_what_is_hardly_meant() {
     fs::write(place.path("scene.toml"), celsius).unwrap();
     for arguments in [["check", "scene.toml"], ["run", "scene.toml"]] {
         let said = place.call(&arguments).succeeds().stderr();
-        let wanted = "warning: scene.toml:10: body.plate.initial_temperature = 20.0: a temperature is \
+        let wanted = "warning: scene.toml:11: body.plate.initial_temperature = 20.0: a temperature is \
                       plausible from 60 to 6000 K; did you mean 293.15 (20 °C)?";
         assert!(said.contains(wanted), "{arguments:?}: {said}");
     }

