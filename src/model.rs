@@ -9,6 +9,7 @@ mod interpolation;
 mod loads;
 mod memory;
 mod reader;
+mod reality;
 mod sharing;
 mod start_rates;
 mod states;
@@ -24,12 +25,13 @@ use interpolation::InputPath;
 use loads::BodyLoads;
 pub use memory::check_memory;
 pub use reader::Reader;
+use reality::finite;
 pub use start_rates::start_rates;
 pub use tangent::Tangent;
 pub use timeline::Timeline;
 
 pub use crate::body::fem::NodalFields;
-use crate::body::fem::{Geometry, Plan, Refinement, SolidFem, particle_cost};
+use crate::body::fem::{Geometry, Mechanics, Plan, Refinement, SolidFem, particle_cost};
 pub use crate::body::sph::ParticleFields;
 use crate::body::sph::{DropletSph, Failure};
 use crate::material::stress::{max_principal, von_mises};
@@ -37,7 +39,7 @@ use crate::math::allowance::{Allowance, Halt, Interrupt};
 use crate::math::chebyshev::products;
 use crate::math::cholesky::CholeskyError;
 use crate::math::thread::aside;
-use crate::scene::{Droplet, FaceName, Footprint, Grid, Load, Scene, SceneError, Solid};
+use crate::scene::{Carries, Droplet, FaceName, Footprint, Grid, Load, Scene, SceneError, Solid};
 use crate::variables::{BodyTotal, Component, InputLayout, Output, Registry, Slot};
 
 /// Everything known before time starts: meshes, modes, factorisations, places of outputs.
@@ -86,6 +88,17 @@ pub enum ModelError {
     /// The results of a step are too large for numbers.
     #[error("the solution of {body} grows beyond what numbers can hold")]
     Overflow { body: String },
+    /// A step would cool a body below absolute zero.
+    #[error(
+        "{body} would cool to {temperature:.6} K, below absolute zero: a negative heat flux takes more \
+         heat from it than it holds"
+    )]
+    BelowAbsoluteZero { body: String, temperature: f64 },
+    /// An output is too large for numbers.
+    #[error(
+        "the value is {0}, beyond what numbers can hold: an input or constant is far too large"
+    )]
+    NotFinite(f64),
     /// A state does not fit the model.
     #[error("{0}")]
     State(String),
@@ -265,6 +278,7 @@ impl Model {
                 return Err(ModelError::Overflow { body: body.name.clone() });
             }
         }
+        self.check_temperatures((&path, &state.inputs), &bodies, dt)?;
         state.bodies = bodies;
         state.time += dt;
         if path.is_held() {
@@ -297,8 +311,17 @@ impl Model {
         Ok(Reader { model: self, state, cache })
     }
 
-    /// The value of an output where the cache has met the state.
+    /// The value of an output where the cache has met the state; an error where it is no finite number.
     fn value(&self, state: &State, cache: &mut Cache, output: &Output) -> Result<f64, ModelError> {
+        finite(self.computed(state, cache, output)?)
+    }
+
+    fn computed(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+        output: &Output,
+    ) -> Result<f64, ModelError> {
         match output {
             Output::Droplet { body, total } => {
                 let index = self.droplet_place(body);
@@ -349,7 +372,9 @@ impl Model {
         let index = self.place(body);
         cache.solve(self, &state.bodies, index)?;
         let solid = &self.bodies[index].solid;
-        Ok(solid.fields(cache.temperatures(index), cache.deformation(index)))
+        let fields = solid.fields(cache.temperatures(index), cache.deformation(index));
+        fields.values().try_for_each(|value| finite(value).map(drop))?;
+        Ok(fields)
     }
 
     /// Whether a solid is a meridian section.
@@ -551,7 +576,13 @@ fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     {
         refinements.extend(contact::refinements(coupling, droplet, scene.stop_time));
     }
-    Plan::new(solid, scene.asks_mechanics(name), &refinements, scene.stop_time)
+    let shortest = scene.step.min(scene.stop_time);
+    let mechanics = match (scene.asks_mechanics(name), scene.gives_mechanics(name)) {
+        (false, _) => Mechanics::Absent,
+        (true, false) => Mechanics::Offered,
+        (true, true) => Mechanics::Wanted,
+    };
+    Plan::new(solid, mechanics, &refinements, shortest)
 }
 
 /// Where a load may act, wherever its inputs may move it.
@@ -579,7 +610,8 @@ fn refinement(load: &Load) -> Refinement {
         [low - half[a], high + half[a]]
     };
     let top = load.body_and_face().1 == FaceName::Top;
-    Refinement { x: stretch(0), y: stretch(1), top, feature }
+    let heats = load.carries.contains(&Carries::HeatFlux);
+    Refinement { x: stretch(0), y: stretch(1), top, feature, heats }
 }
 
 /// Number of threads to use; 0 are wanted for as many as are worth it.

@@ -144,6 +144,30 @@ fn check_says_what_will_be_modelled() {
 }
 
 #[test]
+fn check_and_run_warn_of_what_is_hardly_meant() {
+    let place = Workplace::new();
+    let clean = place.call(&["check", "scene.toml"]).succeeds().stderr();
+    assert!(!clean.contains("warning"), "{clean}");
+    let celsius = SCENE.replacen("293.15", "20.0", 1);
+    fs::write(place.path("scene.toml"), celsius).unwrap();
+    for arguments in [["check", "scene.toml"], ["run", "scene.toml"]] {
+        let said = place.call(&arguments).succeeds().stderr();
+        let wanted = "warning: scene.toml:11: body.plate.initial_temperature = 20.0: a temperature is \
+                      plausible from 60 to 6000 K; did you mean 293.15 (20 °C)?";
+        assert!(said.contains(wanted), "{arguments:?}: {said}");
+    }
+    let said = place.run(&["--set", "plate.initial_temperature=25"]).succeeds().stderr();
+    assert!(said.contains("did you mean 298.15 (25 °C)?"), "{said}");
+}
+
+#[test]
+fn a_run_to_below_absolute_zero_fails_with_time_and_reason() {
+    let place = Workplace::new();
+    let words = ["in the step from t = 0 s", "plate would cool to -", "below absolute zero"];
+    place.run(&["--set", "spot.heat_flux=-1e12"]).fails(1, &words);
+}
+
+#[test]
 fn check_says_what_particles_will_do() {
     let place = Workplace::new();
     let scene = SCENE.replace("mesh = { spacing", "heat = \"sph\"\nmesh = { spacing");

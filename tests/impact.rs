@@ -87,6 +87,48 @@ fn all_heat_that_leaves_the_drop_enters_the_plate() {
     }
 }
 
+/// A film that runs over the edge of its plate gives there what does not enter the plate, and says so.
+#[test]
+fn what_lies_beyond_the_edge_is_counted_apart() {
+    let dt = 1e-7;
+    for shape in ["box = [1.2e-4, 1.2e-4, 1e-4]", "disc = { radius = 6e-5, thickness = 1e-4 }"] {
+        let text = drop("") + &plate(shape, "auto", 10.0, "interval = 1e-7");
+        let mut trial = Trial::new(&text);
+        let [mut heat, mut impulse] = [0.0; 2];
+        for _ in 0..80 {
+            trial.step(dt);
+            heat += dt * trial.get("drop.heat_flow_outside");
+            impulse += dt * trial.get("drop.force_outside");
+        }
+        let [given, taken] = ["drop.heat", "plate.heat_in"].map(|name| trial.get(name));
+        assert!(heat > 0.02 * given, "{shape}: {heat} J of {given} J");
+        assert!(off(taken + heat, given) < 1e-10, "{shape}: {taken} + {heat} of {given} J");
+        assert!(impulse > 0.0, "{shape}");
+        let said = trial.model.overflows(&trial.state);
+        assert!(said.len() == 1 && said[0].starts_with("drop: fluid lies beyond"), "{said:?}");
+    }
+    let wide = drop("") + &plate(BOX, "auto", 10.0, "");
+    let mut trial = Trial::new(&wide);
+    steps(&mut trial, 20, dt);
+    assert_eq!(trial.get("drop.heat_flow_outside"), 0.0);
+    assert_eq!(trial.model.overflows(&trial.state), [""; 0]);
+}
+
+#[test]
+fn a_plate_whose_temperature_alone_is_read_factors_nothing() {
+    let elastic = ", young = 300e9, poisson = 0.21, expansion = 8.1e-6";
+    let full = drop("") + &plate(BOX, "auto", 10.0, "");
+    let bare = full.replace(elastic, "").replace("bottom = { clamped = true }", "");
+    let mut temperatures = Vec::new();
+    for text in [full, bare] {
+        let mut trial = Trial::new(&text);
+        steps(&mut trial, 10, 1e-7);
+        temperatures.push(trial.get("plate.max_temperature"));
+        assert_eq!(trial.model.factor_entries(), 0);
+    }
+    assert_eq!(temperatures[0], temperatures[1]);
+}
+
 /// A plate that is held at its bottom passes the force on to what holds it.
 #[test]
 fn the_force_of_the_drop_goes_through_the_plate() {

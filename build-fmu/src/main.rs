@@ -88,7 +88,11 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     let file = path.display().to_string();
     let text = fs::read_to_string(path)
         .map_err(|error| format!("cannot read the scene {file}: {error}"))?;
-    let scene = scene::parse(&text, &file).map_err(|error| error.to_string())?;
+    let (scene, warnings) =
+        scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
+    for warning in warnings {
+        eprintln!("build-fmu: warning: {warning}");
+    }
     if let Some(path) = &arguments.xml {
         return write(path, arguments.fmi.model_description(&scene, &text).as_bytes());
     }

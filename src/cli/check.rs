@@ -24,7 +24,8 @@ pub struct Check {
 impl Check {
     /// Reports on the scene.
     pub fn execute(&self) -> Result<String, CliError> {
-        let scene = scene::read(&self.scene)?;
+        let (scene, warnings) = scene::read_with_warnings(&self.scene)?;
+        super::warn(&warnings);
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
         let sections = [
             ("Bodies", bodies(&scene)),

@@ -72,11 +72,13 @@ impl Run {
 
     /// The scene with everything that the command line changes in it, and the inputs it sets.
     fn asked_scene(&self) -> Result<(Scene, Vec<InputValue>), CliError> {
-        let mut scene = scene::read(&self.scene)?;
+        let (mut scene, warnings) = scene::read_with_warnings(&self.scene)?;
+        let read = scene.clone();
         scene.stop_time = self.until.unwrap_or(scene.stop_time);
         scene.step = self.step.unwrap_or(scene.step);
         let inputs = set::apply(&mut scene, &self.set)?;
         scene::check(&scene)?;
+        super::warn(&if scene == read { warnings } else { scene::warnings(&scene) });
         Ok((scene, inputs))
     }
 
@@ -174,7 +176,9 @@ impl Running<'_> {
             summary::balances(self.model, &self.state, &mut self.cache).map_err(named)?;
         let extremes =
             summary::extremes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
-        for warning in balances.iter().filter_map(summary::Balance::warning) {
+        let overflows = self.model.overflows(&self.state);
+        let balances_off = balances.iter().filter_map(summary::Balance::warning);
+        for warning in balances_off.chain(overflows) {
             eprintln!("warning: {warning}");
         }
         Ok(format!("{}\n{extremes}", summary::balance_table(&balances)))

@@ -9,6 +9,7 @@
 //! | [`contact`] | two half spaces brought together |
 //! | [`spreading_film`] | film of fluid that spreads over a wall |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
+//! | [`convective_slab`] | slab that meets a fluid, its back insulated |
 //! | [`constrained_layer`] | step heating of a laterally constrained surface |
 //! | [`free_plate`] | free plate, temperature through the thickness |
 //! | [`heated_disc`] | thin free disc and long free cylinder, temperature along the radius |
@@ -24,6 +25,7 @@ pub mod cantilever;
 pub mod circular_plate;
 pub mod constrained_layer;
 pub mod contact;
+pub mod convective_slab;
 pub mod disc_pressure;
 pub mod free_plate;
 pub mod gaussian_flux;
@@ -44,6 +46,7 @@ mod checks;
 pub use cantilever::Cantilever;
 pub use circular_plate::CircularPlate;
 pub use contact::Contact;
+pub use convective_slab::ConvectiveSlab;
 pub use disc_pressure::DiscPressure;
 pub use free_plate::FreePlate;
 pub use gaussian_flux::GaussianFlux;

@@ -47,7 +47,9 @@ impl Category {
 
     pub fn description(self) -> &'static str {
         match self {
-            Category::Warning => "Done, but something beside the computation failed",
+            Category::Warning => {
+                "What is hardly meant in the scene, and what failed beside the computation"
+            }
             Category::Discard => "A question that this unit has no answer to",
             Category::Error => "Why a call was refused",
             Category::Fatal => "Why the instance can no longer be used",

@@ -1,6 +1,7 @@
 //! What an instance is and does, in safe Rust: its life from instantiation to the last step.
 
 use std::cell::OnceCell;
+use std::collections::BTreeSet;
 use std::ffi::CString;
 use std::path::Path;
 use std::sync::Arc;
@@ -15,7 +16,7 @@ use crate::math::allowance::{Halt, Interrupt};
 use crate::math::thread::aside;
 use crate::model::{Cache, Model, ModelError, State, Tangent, initial_inputs};
 use crate::output::{FieldSeries, OutputError};
-use crate::scene::{self, Scene};
+use crate::scene::{self, Scene, Warning};
 use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
 
 /// A time is taken for another one if they differ by less than this part of the step …
@@ -48,6 +49,10 @@ pub struct Unit {
     /// they are what that step ended with, and the next one holds its inputs.
     pub(super) has_set_derivatives: bool,
     pub(super) run: Option<Run>,
+    /// What is hardly meant in the scene as packed.
+    warnings: Vec<Warning>,
+    /// What the master has been warned of.
+    said: BTreeSet<String>,
     pub(super) series: Option<FieldSeries>,
     /// Ends the step under way, from another thread.
     pub(super) interrupt: Interrupt,
@@ -79,15 +84,16 @@ impl Run {
 /// What a unit's resources hold, and what follows from it.
 pub struct Packed {
     scene: Scene,
+    warnings: Vec<Warning>,
     registry: Registry,
     guid: String,
 }
 
 impl Packed {
-    fn of(scene: Scene, text: &str) -> Self {
+    fn of((scene, warnings): (Scene, Vec<Warning>), text: &str) -> Self {
         let registry = Registry::of(&scene);
         let guid = guid::guid(text, &registry);
-        Self { scene, registry, guid }
+        Self { scene, warnings, registry, guid }
     }
 }
 
@@ -108,7 +114,7 @@ fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
     let file = path.display().to_string();
     let text = std::fs::read_to_string(&path)
         .map_err(|error| format!("cannot read the unit's scene {file}: {error}"))?;
-    let scene = scene::parse(&text, &file).map_err(|error| error.to_string())?;
+    let scene = scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
     let packed = Packed::of(scene, &text);
     if guid != packed.guid {
         let own = &packed.guid;
@@ -123,7 +129,7 @@ fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
 
 impl Unit {
     pub fn new(packed: Packed, log: Log) -> Self {
-        let Packed { scene, registry, guid } = packed;
+        let Packed { scene, warnings, registry, guid } = packed;
         Self {
             log,
             phase: Phase::Instantiated,
@@ -139,6 +145,8 @@ impl Unit {
             directory: String::new(),
             experiment: Experiment::default(),
             run: None,
+            warnings,
+            said: BTreeSet::new(),
             series: None,
             interrupt: Interrupt::default(),
         }
@@ -237,6 +245,8 @@ impl Unit {
         run.tangent = None;
         run.checked &= !has_set;
         state.time = point + step;
+        let overflows = run.model.overflows(state);
+        self.warn_once(overflows);
         self.has_set_derivatives = false;
         Ok(self.write_fields())
     }
@@ -292,11 +302,32 @@ impl Unit {
 
     fn build(&mut self) -> Answer<Run> {
         let model = self.model_of(&self.scene)?;
+        self.warn_of_scene();
         for note in model.notes() {
             self.log.send(Status::Ok, &note);
         }
         self.state.bodies = model.initial_state().bodies;
         Ok(Run::new(model))
+    }
+
+    /// Says once what is hardly meant in the scene with its parameters, now that they are fixed.
+    fn warn_of_scene(&mut self) {
+        let changed = self.scene != self.packed;
+        let warnings = if changed { scene::warnings(&self.scene) } else { self.warnings.clone() };
+        for warning in warnings {
+            if self.said.insert(warning.subject()) {
+                self.log.send(Status::Warning, &warning.to_string());
+            }
+        }
+    }
+
+    fn warn_once(&mut self, messages: Vec<String>) {
+        for message in messages {
+            if !self.said.contains(&message) {
+                self.log.send(Status::Warning, &message);
+                self.said.insert(message);
+            }
+        }
     }
 
     /// The model of a scene with parameters.
@@ -367,9 +398,10 @@ pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
     let (status, index) = match error {
         ModelError::Input { index, .. } => (Status::Error, Some(index)),
         ModelError::Underway { index, .. } => (Status::Discard, Some(index)),
-        ModelError::Overflow { .. } | ModelError::Droplet { .. } | ModelError::Halted { .. } => {
-            (Status::Discard, None)
-        }
+        ModelError::Overflow { .. }
+        | ModelError::BelowAbsoluteZero { .. }
+        | ModelError::Droplet { .. }
+        | ModelError::Halted { .. } => (Status::Discard, None),
         _ => (Status::Error, None),
     };
     let is_at_fault = |v: &&Variable| index.is_some_and(|index| v.slot == Slot::Input(index));
@@ -385,7 +417,8 @@ impl Unit {
     /// A unit of the scene that the tests of the C ABI use, without logger.
     pub fn for_tests() -> Self {
         let text = include_str!("../../tests/fmi/scene.toml");
-        let scene = scene::parse(text, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
+        let scene = scene::parse_with_warnings(text, "scene.toml");
+        let scene = scene.unwrap_or_else(|error| panic!("{error}"));
         Self::new(Packed::of(scene, text), Log::new(Box::new(|_, _, _| {}), true))
     }
 }

@@ -1,9 +1,11 @@
 //! Constitutive laws, one a file. The enum is also the parser of a scene's `material` table.
 
+mod constants;
 pub mod stress;
 pub mod stress_rate;
 mod thermoelastic;
 
+pub use constants::Constants;
 pub use thermoelastic::Thermoelastic;
 
 use serde::{Deserialize, Serialize};
@@ -13,5 +15,5 @@ use serde::{Deserialize, Serialize};
 #[serde(tag = "model", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Material {
     /// Isotropic Fourier conduction and linear thermo-elasticity.
-    Thermoelastic(Thermoelastic),
+    Thermoelastic(Constants),
 }

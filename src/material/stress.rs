@@ -1,23 +1,38 @@
 //! Measures of a stress state, given as xx, yy, zz, xy, yz, xz [Pa].
 
 /// Von Mises stress `√(3 J₂)` [Pa] (R. von Mises 1913).
-pub fn von_mises([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> f64 {
+pub fn von_mises(stress: [f64; 6]) -> f64 {
+    let scale = scale(stress);
+    let [xx, yy, zz, xy, yz, xz] = stress.map(|s| s / scale);
     let normal = (xx - yy).powi(2) + (yy - zz).powi(2) + (zz - xx).powi(2);
-    (0.5 * normal + 3.0 * (xy * xy + yz * yz + xz * xz)).sqrt()
+    scale * (0.5 * normal + 3.0 * (xy * xy + yz * yz + xz * xz)).sqrt()
 }
 
 /// Largest principal stress [Pa], tension positive: the trigonometric solution of the
 /// characteristic cubic (O. K. Smith 1961, doi 10.1145/355578.366316).
-pub fn max_principal([xx, yy, zz, xy, yz, xz]: [f64; 6]) -> f64 {
+pub fn max_principal(stress: [f64; 6]) -> f64 {
+    let scale = scale(stress);
+    let [xx, yy, zz, xy, yz, xz] = stress.map(|s| s / scale);
     let mean = (xx + yy + zz) / 3.0;
     let (a, b, c) = (xx - mean, yy - mean, zz - mean);
     let spread = ((a * a + b * b + c * c + 2.0 * (xy * xy + yz * yz + xz * xz)) / 6.0).sqrt();
     if spread == 0.0 {
-        return mean;
+        return scale * mean;
     }
     let determinant = a * (b * c - yz * yz) - xy * (xy * c - yz * xz) + xz * (xy * yz - b * xz);
     let ratio = (determinant / (2.0 * spread.powi(3))).clamp(-1.0, 1.0);
-    mean + 2.0 * spread * (ratio.acos() / 3.0).cos()
+    scale * (mean + 2.0 * spread * (ratio.acos() / 3.0).cos())
+}
+
+/// The power of two below the largest component, so that squares and cubes of scaled components neither
+/// overflow nor vanish and scaling rounds nothing; NaN where a component is no finite number.
+fn scale(stress: [f64; 6]) -> f64 {
+    const EXPONENT: u64 = 0x7ff0_0000_0000_0000;
+    if !stress.iter().all(|s| s.is_finite()) {
+        return f64::NAN;
+    }
+    let largest = stress.iter().fold(f64::MIN_POSITIVE, |largest, s| largest.max(s.abs()));
+    f64::from_bits(largest.to_bits() & EXPONENT)
 }
 
 /// Turns a stress in cylindrical components rr, tt, zz, rz at the angle of `(x, y)` into Cartesian
@@ -47,6 +62,21 @@ mod tests {
         let m = nalgebra::Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
         let largest = m.symmetric_eigenvalues().max();
         assert!((max_principal(s) - largest).abs() < 1e-13);
+    }
+
+    #[test]
+    fn measures_of_huge_and_tiny_stresses_are_right_and_those_of_no_numbers_are_none() {
+        let s = [3.0, -1.0, 2.0, 0.7, -0.4, 1.1];
+        for power in [-900, -300, 353, 600, 1000] {
+            let factor = 2f64.powi(power);
+            let scaled = s.map(|s| s * factor);
+            assert_eq!(von_mises(scaled), factor * von_mises(s));
+            assert_eq!(max_principal(scaled), factor * max_principal(s));
+        }
+        for bad in [f64::NAN, f64::INFINITY] {
+            let stress = [1.0, bad, 0.0, 0.0, 0.0, 0.0];
+            assert!(von_mises(stress).is_nan() && max_principal(stress).is_nan());
+        }
     }
 
     #[test]

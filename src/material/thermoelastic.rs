@@ -1,19 +1,10 @@
-use serde::{Deserialize, Serialize};
-
-/// Isotropic Fourier conduction with linear, small-strain thermo-elasticity.
+/// Isotropic, linear, small-strain thermo-elasticity.
 ///
-/// `σ = λ tr(ε) 1 + 2 G ε − (3 λ + 2 G) α ΔT 1` and `q = −k ∇T`.
+/// `σ = λ tr(ε) 1 + 2 G ε − (3 λ + 2 G) α ΔT 1`.
 ///
 /// Source: B. A. Boley and J. H. Weiner, *Theory of Thermal Stresses*, Wiley 1960, §1.12.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Thermoelastic {
-    /// Mass density ρ [kg/m³].
-    pub density: f64,
-    /// Specific heat capacity c [J/(kg K)].
-    pub specific_heat: f64,
-    /// Thermal conductivity k [W/(m K)].
-    pub conductivity: f64,
     /// Young's modulus E [Pa].
     pub young: f64,
     /// Poisson's ratio ν [1].
@@ -42,16 +33,6 @@ impl Thermoelastic {
     /// normal: `α (1 + ν) / (1 − ν)` [1/K].
     pub fn layer_strain(&self) -> f64 {
         self.expansion * (1.0 + self.poisson) / (1.0 - self.poisson)
-    }
-
-    /// Volumetric heat capacity `ρ c` [J/(m³ K)].
-    pub fn heat_capacity(&self) -> f64 {
-        self.density * self.specific_heat
-    }
-
-    /// Thermal diffusivity `a = k / (ρ c)` [m²/s].
-    pub fn diffusivity(&self) -> f64 {
-        self.conductivity / self.heat_capacity()
     }
 }
 

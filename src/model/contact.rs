@@ -168,11 +168,11 @@ impl Contact {
 fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan, time_step: f64) -> f64 {
     let flow = droplet.spacing / droplet.fastest_flow();
     let fluid = &droplet.fluid;
-    let solid = (plan.law.conductivity * plan.law.heat_capacity()).sqrt();
+    let solid = plan.constants.effusivity();
     let of_fluid = (fluid.conductivity * fluid.density * fluid.specific_heat).sqrt();
     let share = (solid / (solid + of_fluid)).max(LEAST_ALONG);
-    let along =
-        share * shortest_element(plan).powi(2) * plan.law.heat_capacity() / plan.law.conductivity;
+    let along = share * shortest_element(plan).powi(2) * plan.constants.heat_capacity()
+        / plan.constants.conductivity;
     coupling.interval.unwrap_or_else(|| flow.min(along).max(time_step))
 }
 
@@ -196,7 +196,8 @@ pub fn refinements(coupling: &Coupling, droplet: &Droplet, stop_time: f64) -> Ve
         let radius = coupling.radius.unwrap_or(expected);
         let stretch = |centre: f64| [centre - radius, centre + radius];
         let feature = 0.5 * droplet.diameter;
-        Refinement { x: stretch(arrival.x), y: stretch(arrival.y), top: true, feature }
+        let [x, y] = [arrival.x, arrival.y].map(stretch);
+        Refinement { x, y, top: true, feature, heats: true }
     };
     droplet.arrivals.iter().map(at).collect()
 }

@@ -159,6 +159,14 @@ impl DropletModel {
                 let sum = exchange.heat.iter().sum::<f64>() + exchange.heat_outside;
                 return a_time(sum, exchange);
             }
+            DropletTotal::HeatFlowOutside => {
+                let exchange = self.exchange(state, cache);
+                return a_time(exchange.heat_outside, exchange);
+            }
+            DropletTotal::ForceOutside => {
+                let exchange = self.exchange(state, cache);
+                return a_time(-exchange.impulse_outside[2], exchange);
+            }
             _ => {}
         }
         let totals = cache.totals.get_or_insert_with(|| self.totals(state));
@@ -182,7 +190,10 @@ impl DropletModel {
             DropletTotal::SpreadDiameter => totals.spread_diameter,
             DropletTotal::Heat => totals.heat_to_wall,
             DropletTotal::Impulse(axis) => totals.impulse_to_wall[axis],
-            DropletTotal::HeatFlow | DropletTotal::Force => unreachable!("returned above"),
+            DropletTotal::HeatFlow
+            | DropletTotal::Force
+            | DropletTotal::HeatFlowOutside
+            | DropletTotal::ForceOutside => unreachable!("returned above"),
         }
     }
 
@@ -238,6 +249,12 @@ impl DropletModel {
             }
         }
         fields
+    }
+
+    /// Whether fluid touched what lies beyond the edge of the solid in the last exchange.
+    pub fn overflows(&self, state: &[f64]) -> bool {
+        let WallExchange { heat_outside, impulse_outside, .. } = self.droplet.exchange(state);
+        matches!(self.below, Below::Solid(_)) && (heat_outside != 0.0 || impulse_outside[2] != 0.0)
     }
 
     fn exchange<'c>(&self, state: &[f64], cache: &'c mut DropletCache) -> &'c WallExchange {

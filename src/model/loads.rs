@@ -71,6 +71,20 @@ impl BodyLoads {
         Ok(())
     }
 
+    /// Whether any heat flux points out of the body.
+    pub fn draws_heat(&self, inputs: &[f64]) -> bool {
+        let mut fluxes = self.loads.iter().filter_map(|(_, places)| places.heat_flux.clone());
+        let faces = self.faces.iter().flat_map(|(_, face, image)| [Some(face), image.as_ref()]);
+        fluxes.any(|range| inputs[range].iter().any(|&flux| flux < 0.0))
+            || faces.flatten().any(|f| f.kind == FaceInputKind::Flux && inputs[f.index] < 0.0)
+    }
+
+    /// The values of the thermal faces alone: all that temperatures follow at once.
+    pub fn of_faces(&self, inputs: &[f64], mesh: &Mesh) -> SolidLoads {
+        let faces = self.face_values(inputs, self.initial_temperature, mesh);
+        SolidLoads { faces, ..SolidLoads::default() }
+    }
+
     /// What acts on the body under these inputs.
     pub fn assemble(&self, scene: &Scene, inputs: &[f64], mesh: &Mesh) -> SolidLoads {
         let faces = self.face_values(inputs, self.initial_temperature, mesh);

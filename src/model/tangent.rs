@@ -4,6 +4,7 @@
 //! through the functions that give the outputs themselves; only von Mises and principal stresses and
 //! the extremes of a body take the chain rule. Nothing is differenced.
 
+use super::reality::finite;
 use super::{Cache, Model, ModelError, State};
 use crate::material::stress_rate::{max_principal_rate, von_mises_rate};
 use crate::variables::{BodyTotal, Component, Output};
@@ -46,6 +47,16 @@ impl Model {
     /// stress vanishes or principal stresses meet, and for extremes of a body, which follow the node
     /// that has the extreme, of several the fastest.
     pub fn output_rate(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+        tangent: &mut Tangent,
+        output: &Output,
+    ) -> Result<f64, ModelError> {
+        finite(self.computed_rate(state, cache, tangent, output)?)
+    }
+
+    fn computed_rate(
         &self,
         state: &State,
         cache: &mut Cache,

@@ -19,8 +19,9 @@ pub struct Problem {
     pub allowed: String,
 }
 
-impl fmt::Display for Problem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl Problem {
+    /// `FILE:LINE: KEY = VALUE:`, as far as these are known.
+    pub(super) fn write_place(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:", self.file)?;
         if let Some(line) = self.line {
             write!(f, "{line}:")?;
@@ -31,6 +32,13 @@ impl fmt::Display for Problem {
             (false, true) => write!(f, " {}:", self.path)?,
             (false, false) => write!(f, " {} = {}:", self.path, self.value)?,
         }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Problem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.write_place(f)?;
         write!(f, " {}; allowed: {}", self.message, self.allowed)
     }
 }

@@ -2,6 +2,7 @@
 
 use super::droplet::{Coupling, Droplet};
 use super::types::*;
+use crate::material::Material;
 
 /// Where a field lies in its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -52,17 +53,28 @@ impl Scene {
         self.coupling.iter().find(|coupling| coupling.solid() == Some(solid))
     }
 
-    /// Whether anything needs the displacements or stresses of a body, so that its mechanics must
-    /// be modelled.
+    /// Whether the mechanics of a body is modelled: it must be, or a droplet pushes on a body whose
+    /// elastic constants are known.
     pub fn asks_mechanics(&self, body: &str) -> bool {
-        let mechanical = |gives: &[Gives]| gives.iter().any(Gives::is_mechanical);
-        self.probe.iter().any(|probe| probe.body == body && mechanical(&probe.gives))
-            || self.field.iter().any(|field| field.body() == Some(body) && mechanical(&field.gives))
+        let is_elastic = || self.solid(body).is_some_and(Solid::is_elastic);
+        self.needs_mechanics(body)
+            || self.coupling_to(body).is_some_and(|coupling| coupling.traction) && is_elastic()
+    }
+
+    /// Whether the mechanics of a body must be modelled: it is given out, or a load carries traction.
+    pub fn needs_mechanics(&self, body: &str) -> bool {
+        self.gives_mechanics(body)
             || self.load.iter().any(|load| {
                 split_place(&load.on).is_some_and(|(on, _)| on == body)
                     && load.carries.iter().any(Carries::is_mechanical)
             })
-            || self.coupling_to(body).is_some_and(|coupling| coupling.traction)
+    }
+
+    /// Whether a probe or field gives stresses or displacements of a body.
+    pub fn gives_mechanics(&self, body: &str) -> bool {
+        let mechanical = |gives: &[Gives]| gives.iter().any(Gives::is_mechanical);
+        self.probe.iter().any(|probe| probe.body == body && mechanical(&probe.gives))
+            || self.field.iter().any(|field| field.body() == Some(body) && mechanical(&field.gives))
     }
 }
 
@@ -77,6 +89,12 @@ impl Shape {
 }
 
 impl Solid {
+    /// Whether the material names all constants of elasticity.
+    pub fn is_elastic(&self) -> bool {
+        let Material::Thermoelastic(constants) = &self.material;
+        constants.law().is_some()
+    }
+
     /// How particles conduct heat; `None` where finite elements do.
     pub fn sph(&self) -> Option<SphSettings> {
         (self.heat == HeatMethod::Sph).then(|| self.sph.unwrap_or_default())

@@ -1,6 +1,7 @@
 //! The scene: plain, checked data that says what to model. Nothing here knows how.
 //!
-//! Text → `locate` (TOML with places) → `decode` (types) → `check` (sense) → [`Scene`].
+//! Text → `locate` (TOML with places) → `decode` (types) → `check` (sense) → [`Scene`]; `plausibility` warns
+//! of what makes sense but is hardly meant.
 
 mod check;
 mod decode;
@@ -9,6 +10,7 @@ mod error;
 mod grid;
 mod locate;
 mod lookup;
+mod plausibility;
 mod types;
 
 use std::fs;
@@ -20,6 +22,7 @@ pub use droplet::{
 pub use error::{Problem, SceneError};
 pub use grid::Grid;
 pub use lookup::Place;
+pub use plausibility::Warning;
 pub use types::*;
 
 use locate::Source;
@@ -27,15 +30,25 @@ use locate::Source;
 /// Reads and checks the scene in a file.
 pub fn read(path: &Path) -> Result<Scene, SceneError> {
     let file = path.display().to_string();
-    let text = fs::read_to_string(path).map_err(|error| Problem {
-        file: file.clone(),
+    parse(&text_of(path, &file)?, &file)
+}
+
+/// The same, with what is hardly meant in it.
+pub fn read_with_warnings(path: &Path) -> Result<(Scene, Vec<Warning>), SceneError> {
+    let file = path.display().to_string();
+    parse_with_warnings(&text_of(path, &file)?, &file)
+}
+
+fn text_of(path: &Path, file: &str) -> Result<String, SceneError> {
+    let read = fs::read_to_string(path).map_err(|error| Problem {
+        file: file.to_owned(),
         line: None,
         path: String::new(),
         value: String::new(),
         message: format!("cannot be read: {error}"),
         allowed: "a readable text file in UTF-8".to_owned(),
-    })?;
-    parse(&text, &file)
+    });
+    Ok(read?)
 }
 
 /// Reads and checks a scene's text; `file` is the name that messages show.
@@ -46,9 +59,27 @@ pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
     Ok(scene)
 }
 
+/// Reads and checks a scene's text, and finds what is hardly meant in it.
+pub fn parse_with_warnings(text: &str, file: &str) -> Result<(Scene, Vec<Warning>), SceneError> {
+    let scene = parse(text, file)?;
+    let warnings = plausibility::warnings(&scene, &Source::parse(text, file)?);
+    Ok((scene, warnings))
+}
+
+/// What is hardly meant in a scene whose constants were changed after it was read; no lines are named.
+pub fn warnings(scene: &Scene) -> Vec<Warning> {
+    let Ok(text) = toml::to_string(scene) else { return Vec::new() };
+    let Ok(source) = Source::parse(&text, CHANGED) else { return Vec::new() };
+    let found = plausibility::warnings(scene, &source);
+    found.into_iter().map(Warning::without_line).collect()
+}
+
+/// What stands for the file of a scene that was changed.
+const CHANGED: &str = "the scene with its parameters as set";
+
 /// Checks a scene whose constants were changed after it was read; problems name no line.
 pub fn check(scene: &Scene) -> Result<(), SceneError> {
-    let file = "the scene with its parameters as set";
+    let file = CHANGED;
     let text = toml::to_string(scene).map_err(|error| Problem {
         file: file.to_owned(),
         line: None,

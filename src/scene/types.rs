@@ -181,18 +181,28 @@ pub enum Symmetry {
     Axisymmetric,
 }
 
-/// The mesh; whatever is left out is chosen from loads, material and stop time.
+/// The mesh; whatever is left out is chosen from loads, material and the shorter of step and stop time.
+///
+/// It is fine where something acts: along x and y at loads and at sides that heat passes, along z
+/// below tops and bottoms that are loaded or that heat passes, by whatever kind of condition.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
-    /// Distance of nodes along the surface at the loads [m].
+    /// Distance of nodes along x and y at loads and at heated sides [m], everywhere where there are
+    /// neither.
     pub spacing: Option<f64>,
-    /// Distance of nodes along z at the loaded faces [m]; `spacing` if only that is given.
+    /// Distance of nodes along z at loaded or heated faces [m], everywhere where there are none;
+    /// `spacing` if only that is given.
     pub depth_spacing: Option<f64>,
-    /// Ratio of the sizes of neighbouring elements away from the loads.
+    /// Ratio of the sizes of neighbouring elements away from there.
     pub growth: Option<f64>,
     /// Order of the shape functions: 1 (linear) or 2 (quadratic).
     pub order: Option<usize>,
+}
+
+impl Mesh {
+    /// Fewest elements from the centre to a side, where elements may grow.
+    pub const LATERAL_ELEMENTS: f64 = 12.0;
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]

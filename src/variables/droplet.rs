@@ -41,6 +41,8 @@ pub enum DropletTotal {
     HeatFlow,
     Impulse(usize),
     Force,
+    HeatFlowOutside,
+    ForceOutside,
 }
 
 /// What a wall gets; numbers are those of cells, from zero.
@@ -157,6 +159,9 @@ impl DropletTotal {
         DropletTotal::Impulse(2),
         DropletTotal::Force,
     ];
+    /// Of a droplet on a solid, which may run over its edge.
+    const ON_A_SOLID: [DropletTotal; 2] =
+        [DropletTotal::HeatFlowOutside, DropletTotal::ForceOutside];
 
     fn key(self) -> String {
         let key = match self {
@@ -181,6 +186,8 @@ impl DropletTotal {
             DropletTotal::HeatFlow => "heat_flow",
             DropletTotal::Impulse(axis) => return format!("impulse_{}", AXES[axis]),
             DropletTotal::Force => "force",
+            DropletTotal::HeatFlowOutside => "heat_flow_outside",
+            DropletTotal::ForceOutside => "force_outside",
         };
         key.to_owned()
     }
@@ -214,6 +221,14 @@ impl DropletTotal {
                 return format!("impulse along {} given to the wall since time zero", AXES[axis]);
             }
             DropletTotal::Force => "force into the wall, mean over the last exchange",
+            DropletTotal::HeatFlowOutside => {
+                "heat flow beyond the edge of the solid, which does not enter it, mean over the last \
+                 exchange"
+            }
+            DropletTotal::ForceOutside => {
+                "force beyond the edge of the solid, which does not act on it, mean over the last \
+                 exchange"
+            }
         };
         text.to_owned()
     }
@@ -234,8 +249,8 @@ impl DropletTotal {
             DropletTotal::MinDensity | DropletTotal::MaxDensity => Quantity::Density,
             DropletTotal::MinTemperature | DropletTotal::MaxTemperature => Quantity::Temperature,
             DropletTotal::Particles | DropletTotal::Steps => Quantity::Ratio,
-            DropletTotal::HeatFlow => Quantity::HeatFlow,
-            DropletTotal::Force => Quantity::Force,
+            DropletTotal::HeatFlow | DropletTotal::HeatFlowOutside => Quantity::HeatFlow,
+            DropletTotal::Force | DropletTotal::ForceOutside => Quantity::Force,
         }
     }
 }
@@ -289,7 +304,11 @@ pub(super) fn outputs(scene: &Scene, list: &mut Vec<Variable>) {
     for (body, droplet) in scene.droplets() {
         let stands = scene.wall_under(body).or(scene.coupling_from(body)).is_some();
         let above: &[DropletTotal] = if stands { &DropletTotal::ABOVE_A_WALL } else { &[] };
-        for &total in DropletTotal::FREE.iter().chain(above) {
+        let on_solid: &[DropletTotal] = match scene.coupling_from(body) {
+            Some(_) => &DropletTotal::ON_A_SOLID,
+            None => &[],
+        };
+        for &total in DropletTotal::FREE.iter().chain(above).chain(on_solid) {
             let depth = if droplet.dimension == 2 { ", a metre deep" } else { "" };
             let output = Output::Droplet { body: body.to_owned(), total };
             let description = format!("{} ({body}{depth})", total.description());

@@ -44,6 +44,16 @@ impl MaterialConstant {
         }
     }
 
+    /// Whether a material names the constant.
+    pub fn is_given(self, Material::Thermoelastic(constants): &Material) -> bool {
+        match self {
+            MaterialConstant::Young => constants.young.is_some(),
+            MaterialConstant::Poisson => constants.poisson.is_some(),
+            MaterialConstant::Expansion => constants.expansion.is_some(),
+            _ => true,
+        }
+    }
+
     pub fn description(self) -> &'static str {
         match self {
             MaterialConstant::Density => "mass density",
@@ -118,9 +128,9 @@ impl Parameter {
                     MaterialConstant::Density => &mut law.density,
                     MaterialConstant::SpecificHeat => &mut law.specific_heat,
                     MaterialConstant::Conductivity => &mut law.conductivity,
-                    MaterialConstant::Young => &mut law.young,
-                    MaterialConstant::Poisson => &mut law.poisson,
-                    MaterialConstant::Expansion => &mut law.expansion,
+                    MaterialConstant::Young => given(&mut law.young),
+                    MaterialConstant::Poisson => given(&mut law.poisson),
+                    MaterialConstant::Expansion => given(&mut law.expansion),
                 }
             }
             (Parameter::Droplet { constant, .. }, Body::Droplet(droplet)) => {
@@ -129,4 +139,9 @@ impl Parameter {
             _ => panic!("a parameter is registered from a body of its kind"),
         }
     }
+}
+
+/// A constant that may be left out; parameters are registered where it is not.
+fn given(constant: &mut Option<f64>) -> &mut f64 {
+    constant.as_mut().expect("registered from a constant that is given")
 }

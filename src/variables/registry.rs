@@ -370,7 +370,8 @@ fn parameters(scene: &Scene, list: &mut Vec<Variable>) {
         list.push(Variable { name, description, slot, quantity: Some(quantity), start, min, max });
     };
     for (body, solid) in scene.solids() {
-        for constant in MaterialConstant::ALL {
+        let given = |constant: &MaterialConstant| constant.is_given(&solid.material);
+        for constant in MaterialConstant::ALL.into_iter().filter(given) {
             add(
                 format!("{body}.{}", constant.key()),
                 format!("{} of {body}", constant.description()),

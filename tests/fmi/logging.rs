@@ -225,3 +225,60 @@ fn nothing_is_written_to_the_hosts_terminal() {
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(output.status.success() && text.contains("1 passed"), "{text}");
 }
+
+/// Messages of warnings that have come since the last look.
+fn warnings(unit: &Unit) -> Vec<String> {
+    let messages = unit.messages.take().into_iter();
+    let warnings = messages.filter(|m| m.category == "logStatusWarning" && m.status == WARNING);
+    warnings.map(|message| message.text).collect()
+}
+
+#[test]
+fn what_is_hardly_meant_is_told_once() {
+    let soft = SCENE.replace("young = 300e9", "young = 300.0").replace("5e-5", "1e-5");
+    let unit = Unit::of_scene(&soft);
+    assert_eq!((unit.setup(0.0, None), unit.enter(), unit.exit()), (OK, OK, OK));
+    let found = warnings(&unit);
+    assert_eq!(found.len(), 1, "{found:?}");
+    for words in ["scene.toml:10:", "body.plate.material.young = 300.0", "3e11 (300 GPa)"] {
+        assert!(found[0].contains(words), "{words} is not in {found:?}");
+    }
+    assert_eq!(unit.step(0.0, 1e-8), OK);
+    assert_eq!((unit.reset(), unit.setup(0.0, None)), (OK, OK));
+    // The parameters of the second run are cured, but for another one.
+    assert_eq!((unit.set("plate.young", 3e11), unit.set("plate.density", 3.95)), (OK, OK));
+    assert_eq!((unit.enter(), unit.exit()), (OK, OK));
+    let found = warnings(&unit);
+    assert!(found.len() == 1 && found[0].contains("density"), "{found:?}");
+}
+
+#[test]
+fn a_step_to_below_absolute_zero_is_discarded_with_the_reason() {
+    let unit = Unit::running();
+    let saved = unit.save();
+    let before = unit.serialize(saved);
+    assert_eq!(unit.set("spot.heat_flux", -1e13), OK);
+    let held = unit.serialize(unit.save());
+    assert_eq!(unit.step(0.0, 1e-8), DISCARD);
+    unit.expect_message(DISCARD, &["plate would cool to -", "below absolute zero"]);
+    assert_ne!(before, held);
+    assert_eq!(unit.restore(saved), OK);
+    assert_eq!(unit.serialize(unit.save()), before);
+    assert_eq!(unit.step(0.0, 1e-8), OK);
+}
+
+#[test]
+fn outputs_beyond_numbers_are_errors() {
+    let unit = Unit::running();
+    assert_eq!(unit.set("spot.pressure", 1.7e308), OK);
+    let mut value = [7.0];
+    let reference = unit.reference("plate.max_von_mises");
+    assert_eq!(unit.get_all(&[reference], &mut value), ERROR);
+    unit.expect_message(
+        ERROR,
+        &["no value of plate.max_von_mises", "beyond what numbers can hold"],
+    );
+    assert_eq!(value, [7.0]);
+    assert_eq!(unit.set("spot.pressure", 1e6), OK);
+    assert!(unit.get("plate.max_von_mises") > 0.0);
+}

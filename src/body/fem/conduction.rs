@@ -23,8 +23,8 @@ impl Conduction {
             Some(setup) => Self::Particles(Box::new(ParticleHeat::new(setup, threads))),
             None => Self::Modes(Box::new(HeatProblem::new(
                 &plan.mesh,
-                plan.law.heat_capacity(),
-                plan.law.conductivity,
+                plan.constants.heat_capacity(),
+                plan.constants.conductivity,
                 plan.thermal_faces.clone(),
             ))),
         }
@@ -136,8 +136,8 @@ fn particle_setup(plan: &Plan) -> Option<Setup> {
     Some(Setup {
         axes: [0, 1, 2].map(|a| lattice_axis(&plan.mesh, a)),
         settings: Settings { operator, kernel, support },
-        capacity: plan.law.heat_capacity(),
-        conductivity: plan.law.conductivity,
+        capacity: plan.constants.heat_capacity(),
+        conductivity: plan.constants.conductivity,
         faces: faces.collect(),
         classes: plan.mesh.parities().into_iter().map(|parity| parity.odd).collect(),
         copies: plan.mesh.copies(),

@@ -32,8 +32,8 @@ pub struct ElasticProblem {
     law: Thermoelastic,
     threads: usize,
     supports: Vec<(MeshFace, Support)>,
-    /// Nodal force per nodal degree.
-    thermal: StencilMatrix,
+    /// Nodal force per nodal degree, made when first needed.
+    thermal: OnceLock<StencilMatrix>,
     classes: Vec<(Parity, OnceLock<Result<Factor, CholeskyError>>)>,
 }
 
@@ -55,9 +55,19 @@ impl ElasticProblem {
         supports: Vec<(MeshFace, Support)>,
         threads: usize,
     ) -> Self {
-        let thermal = assemble(mesh, law, [degrees(mesh.geometry), 1], Part::Thermal, threads);
+        let thermal = OnceLock::new();
         let classes = mesh.parities().into_iter().map(|p| (p, OnceLock::new())).collect();
         Self { mesh: mesh.clone(), law: law.clone(), threads, supports, thermal, classes }
+    }
+
+    pub fn law(&self) -> &Thermoelastic {
+        &self.law
+    }
+
+    fn thermal(&self) -> &StencilMatrix {
+        let make =
+            || assemble(&self.mesh, &self.law, [self.degrees(), 1], Part::Thermal, self.threads);
+        self.thermal.get_or_init(make)
     }
 
     /// Displacements a node: 3 in a box, 2 (r, z) in axisymmetry.
@@ -67,6 +77,7 @@ impl ElasticProblem {
 
     /// Factors the even class, so that the first step is no slower than the others.
     pub fn prepare(&self) -> Result<(), CholeskyError> {
+        self.thermal();
         self.factor(0).map(|_| ())
     }
 
@@ -89,7 +100,7 @@ impl ElasticProblem {
         let degrees = self.degrees();
         let mut load = vec![0.0; self.mesh.nodes() * degrees];
         if !temperature.is_empty() {
-            self.thermal.multiply(temperature, &mut load);
+            self.thermal().multiply(temperature, &mut load);
         }
         let plane = self.mesh.axes[0].len() * self.mesh.axes[1].len();
         for (lists, first) in forces.iter().zip([0, self.mesh.nodes() - plane]) {

@@ -1,22 +1,24 @@
 //! Ends of elements along an axis: fine where asked, growing geometrically elsewhere.
 
-/// A stretch of an axis that wants elements no larger than `size` [m].
+/// A stretch of an axis that wants elements no larger than `size` [m], and beyond it neighbours that
+/// differ by no more than about the factor `growth`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fine {
     pub from: f64,
     pub to: f64,
     pub size: f64,
+    pub growth: f64,
 }
 
 /// Ends of elements on `[start, end]`.
 ///
 /// The wanted size at x is `min over stretches of size + (growth − 1) · distance`, which makes
-/// neighbours differ by about the factor `growth`, and never more than `coarsest`. Ends stand at
+/// neighbours differ by about that factor, and never more than `coarsest`. Ends stand at
 /// equal steps of `∫ dx / size(x)`, so that all sizes shrink by one common factor to fit.
-pub fn graded_ends(start: f64, end: f64, fine: &[Fine], growth: f64, coarsest: f64) -> Vec<f64> {
+pub fn graded_ends(start: f64, end: f64, fine: &[Fine], coarsest: f64) -> Vec<f64> {
     let size = |x: f64| {
         fine.iter()
-            .map(|f| f.size + (growth - 1.0) * (f.from - x).max(x - f.to).max(0.0))
+            .map(|f| f.size + (f.growth - 1.0) * (f.from - x).max(x - f.to).max(0.0))
             .fold(coarsest, f64::min)
     };
     // Kinks of the size function bound the pieces of the quadrature.
@@ -65,8 +67,8 @@ mod tests {
 
     #[test]
     fn sizes_are_fine_inside_and_grow_by_the_ratio_outside() {
-        let fine = [Fine { from: 0.0, to: 0.1, size: 0.01 }];
-        let ends = graded_ends(0.0, 2.0, &fine, 1.3, f64::INFINITY);
+        let fine = [Fine { from: 0.0, to: 0.1, size: 0.01, growth: 1.3 }];
+        let ends = graded_ends(0.0, 2.0, &fine, f64::INFINITY);
         let sizes: Vec<f64> = ends.windows(2).map(|e| e[1] - e[0]).collect();
         assert!(sizes[..8].iter().all(|&s| s <= 0.0100001 && s > 0.008), "{sizes:?}");
         assert!(sizes.windows(2).all(|s| s[1] / s[0] < 1.36), "{sizes:?}");
@@ -75,15 +77,15 @@ mod tests {
 
     #[test]
     fn no_fine_stretch_gives_equal_elements() {
-        let ends = graded_ends(-1.0, 1.0, &[], 1.2, 0.5);
+        let ends = graded_ends(-1.0, 1.0, &[], 0.5);
         assert_eq!(ends.len(), 5);
         assert!((ends[2]).abs() < 1e-12);
     }
 
     #[test]
     fn symmetric_stretches_give_symmetric_ends() {
-        let fine = [Fine { from: -0.2, to: 0.2, size: 0.05 }];
-        let ends = graded_ends(-1.0, 1.0, &fine, 1.2, f64::INFINITY);
+        let fine = [Fine { from: -0.2, to: 0.2, size: 0.05, growth: 1.2 }];
+        let ends = graded_ends(-1.0, 1.0, &fine, f64::INFINITY);
         for (a, b) in ends.iter().zip(ends.iter().rev()) {
             assert!((a + b).abs() < 1e-3 * 0.05, "{ends:?}");
         }

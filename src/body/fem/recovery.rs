@@ -7,9 +7,14 @@
 //! (cf. O. C. Zienkiewicz and J. Z. Zhu 1992, doi 10.1002/nme.1620330702).
 //!
 //! Where heat has come only little way, temperature and the strain along z vary much from one
-//! sampling point to the next and nearly cancel in σ_zz. So the strain that a heated layer would have
-//! by itself is taken off before and put back, with the temperature of the place, afterwards. A plane of symmetry is no
-//! end: the sampling points go on behind it as images, so half a body recovers what the whole does.
+//! sampling point to the next and nearly cancel in σ_zz. So not the strains xx, …, xz are recovered but
+//! xx, yy, xy and the stresses zz, yz, xz, which all vary slowly through the depth; the temperature of the
+//! place then gives the rest. On a top or bottom these stresses are the traction there, known from the
+//! loads unless a support holds it, and the polynomials meet it.
+//!
+//! A plane of symmetry is no end: the sampling points go on behind it as images, so half a body recovers
+//! what the whole does. On the axis of a disc the strains rr and tt are one: their mean is recovered as an even
+//! function of the radius, half their difference as one that vanishes on the axis.
 
 use faer::Mat;
 
@@ -45,28 +50,68 @@ pub enum Beyond {
     Even,
     /// The mirror image, with the values' negatives.
     Odd,
+    /// The mirror image, with the same values, and zero at the end itself.
+    Vanishing,
 }
 
-/// From sampling points to nodes along one axis, as a dense matrix.
-pub fn recovery_matrix(axis: &Axis, beyond: Beyond) -> Mat<f64> {
-    let own: Vec<f64> = sampling_places(axis).into_iter().map(|(_, x)| x).collect();
-    let image = |(i, x): (usize, &f64)| (2.0 * axis.start() - x, i, beyond);
-    let images = own.iter().enumerate().rev().map(image).filter(|_| beyond != Beyond::Nothing);
-    // Place, the sampling point it stands for, and how.
-    let sources: Vec<(f64, usize, Beyond)> =
-        images.chain(own.iter().enumerate().map(|(i, &x)| (x, i, Beyond::Even))).collect();
-    let places: Vec<f64> = sources.iter().map(|source| source.0).collect();
-    let mut matrix = Mat::zeros(axis.len(), own.len());
-    for (node, &x) in axis.nodes.iter().enumerate() {
-        let inside = x > places[0] && x < places[places.len() - 1];
-        let wanted = if inside { INSIDE } else { AT_END }.min(places.len());
-        let first = nearest(&places, x, wanted);
-        let weights = interpolation_weights(&places[first..first + wanted], x);
-        for (w, &(_, i, how)) in weights.into_iter().zip(&sources[first..]) {
-            matrix[(node, i)] += if how == Beyond::Odd { -w } else { w };
+/// From values at the sampling points of an axis, and at ends where they are known, to its nodes.
+#[derive(Debug, Clone)]
+pub struct Recovery {
+    pub samples: Mat<f64>,
+    /// Weights of the known values at the low and the high end, a list with an entry a node; empty where
+    /// none is known.
+    pub ends: [Vec<f64>; 2],
+}
+
+/// What stands at a place that a polynomial goes through.
+#[derive(Clone, Copy)]
+enum Source {
+    Sample(usize, f64),
+    End(usize),
+    Zero,
+}
+
+impl Recovery {
+    /// Of an axis on which values are known at the low and high end where `known` says so.
+    pub fn new(axis: &Axis, beyond: Beyond, known: [bool; 2]) -> Self {
+        let own: Vec<f64> = sampling_places(axis).into_iter().map(|(_, x)| x).collect();
+        let sources = sources(axis, &own, beyond, known);
+        let places: Vec<f64> = sources.iter().map(|source| source.0).collect();
+        let mut samples = Mat::zeros(axis.len(), own.len());
+        let mut ends = known.map(|known| vec![0.0; if known { axis.len() } else { 0 }]);
+        for (node, &x) in axis.nodes.iter().enumerate() {
+            let inside = x > places[0] && x < places[places.len() - 1];
+            let wanted = if inside { INSIDE } else { AT_END }.min(places.len());
+            let first = nearest(&places, x, wanted);
+            let weights = interpolation_weights(&places[first..first + wanted], x);
+            for (w, &(_, source)) in weights.into_iter().zip(&sources[first..]) {
+                match source {
+                    Source::Sample(i, sign) => samples[(node, i)] += sign * w,
+                    Source::End(end) => ends[end][node] += w,
+                    Source::Zero => {}
+                }
+            }
         }
+        Self { samples, ends }
     }
-    matrix
+}
+
+/// Places in ascending order, and what stands there.
+fn sources(axis: &Axis, own: &[f64], beyond: Beyond, known: [bool; 2]) -> Vec<(f64, Source)> {
+    let sign = if beyond == Beyond::Odd { -1.0 } else { 1.0 };
+    let image = |(i, x): (usize, &f64)| (2.0 * axis.start() - x, Source::Sample(i, sign));
+    let images = own.iter().enumerate().rev().map(image).filter(|_| beyond != Beyond::Nothing);
+    let mut all: Vec<(f64, Source)> = images.collect();
+    if known[0] {
+        all.push((axis.start(), Source::End(0)));
+    } else if beyond == Beyond::Vanishing {
+        all.push((axis.start(), Source::Zero));
+    }
+    all.extend(own.iter().enumerate().map(|(i, &x)| (x, Source::Sample(i, 1.0))));
+    if known[1] {
+        all.push((axis.end(), Source::End(1)));
+    }
+    all
 }
 
 /// First of the `count` consecutive points that surround `x` best.
@@ -85,7 +130,7 @@ mod tests {
         for order in [1, 2] {
             let axis =
                 Axis::from_element_ends(&[0.0, 1.0, 1.8, 3.0, 3.5, 5.0], order, Weight::Uniform);
-            let matrix = recovery_matrix(&axis, Beyond::Nothing);
+            let matrix = Recovery::new(&axis, Beyond::Nothing, [false; 2]).samples;
             let f = |x: f64| 1.0 - 2.0 * x + 0.3 * x * x;
             for (node, &x) in axis.nodes.iter().enumerate() {
                 let value: f64 = sampling_places(&axis)
@@ -101,9 +146,39 @@ mod tests {
     #[test]
     fn a_single_linear_element_has_one_value() {
         let axis = Axis::from_element_ends(&[0.0, 1.0], 1, Weight::Uniform);
-        let matrix = recovery_matrix(&axis, Beyond::Nothing);
+        let matrix = Recovery::new(&axis, Beyond::Nothing, [false; 2]).samples;
         assert_eq!((matrix[(0, 0)], matrix[(1, 0)]), (1.0, 1.0));
     }
+
+    #[test]
+    fn known_values_at_ends_are_met_and_quadratics_still_recovered() {
+        let f = |x: f64| 1.0 - 2.0 * x + 0.3 * x * x;
+        for order in [1, 2] {
+            let axis = Axis::from_element_ends(&[0.0, 1.0, 1.8, 3.0, 3.5], order, Weight::Uniform);
+            let recovery = Recovery::new(&axis, Beyond::Nothing, [true; 2]);
+            for (node, &x) in axis.nodes.iter().enumerate() {
+                let places = sampling_places(&axis).into_iter().enumerate();
+                let own: f64 = places.map(|(i, (_, p))| recovery.samples[(node, i)] * f(p)).sum();
+                let ends = [0.0, 3.5].into_iter().zip(&recovery.ends);
+                let value = own + ends.map(|(p, weights)| weights[node] * f(p)).sum::<f64>();
+                assert!((value - f(x)).abs() < 1e-12, "order {order} at {x}: {value}");
+            }
+            let last = axis.len() - 1;
+            assert_eq!((recovery.ends[0][0], recovery.ends[1][last]), (1.0, 1.0));
+        }
+    }
+
+    #[test]
+    fn what_vanishes_on_an_axis_does_so() {
+        let axis = Axis::from_element_ends(&[0.0, 1.0, 1.8, 3.0], 2, Weight::Radial);
+        let matrix = Recovery::new(&axis, Beyond::Vanishing, [false; 2]).samples;
+        for (node, &x) in axis.nodes.iter().enumerate() {
+            let places = sampling_places(&axis).into_iter().enumerate();
+            let value: f64 = places.map(|(i, (_, p))| matrix[(node, i)] * p * p).sum();
+            assert!((value - x * x).abs() < 1e-12, "at {x}: {value}");
+        }
+    }
+
     #[test]
     fn half_an_axis_recovers_what_the_whole_does() {
         let half = [0.0, 1.0, 1.8, 3.0, 3.5, 5.0];
@@ -112,11 +187,11 @@ mod tests {
         for order in [1, 2] {
             let axis = Axis::from_element_ends(&half, order, Weight::Uniform);
             let whole = Axis::from_element_ends(&both, order, Weight::Uniform);
-            let full = recovery_matrix(&whole, Beyond::Nothing);
+            let full = Recovery::new(&whole, Beyond::Nothing, [false; 2]).samples;
             for (beyond, f) in
                 [(Beyond::Even, f64::cos as fn(f64) -> f64), (Beyond::Odd, f64::sin as _)]
             {
-                let matrix = recovery_matrix(&axis, beyond);
+                let matrix = Recovery::new(&axis, beyond, [false; 2]).samples;
                 let sum = |axis: &Axis, matrix: &Mat<f64>, node: usize| -> f64 {
                     let places = sampling_places(axis).into_iter().enumerate();
                     places.map(|(i, (_, x))| matrix[(node, i)] * f(x)).sum()

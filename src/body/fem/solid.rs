@@ -1,5 +1,6 @@
 //! A solid: heat and elasticity on one mesh, and what can be read from their solution.
 
+mod recovered;
 mod tangent;
 
 use faer::Mat;
@@ -11,24 +12,23 @@ use super::heat::{HeatLoads, HeatTotals, end_conditions};
 use super::mesh::{Geometry, Mesh, Parity};
 use super::modes::AxisModes;
 use super::plan::Plan;
-use super::recovery::{Beyond, recovery_matrix};
-use crate::material::Thermoelastic;
-use crate::material::stress::{from_cylindrical, max_principal, von_mises};
+use crate::material::Constants;
+use crate::material::stress::{max_principal, von_mises};
 use crate::math::allowance::{Allowance, Halt};
 use crate::math::cholesky::CholeskyError;
 use crate::math::separable::{Side, transform};
+use recovered::{FaceStresses, Recoveries};
 
 /// Everything known of a solid before time starts.
 pub struct SolidFem {
     mesh: Mesh,
-    law: Thermoelastic,
+    thermal: Constants,
     initial_temperature: f64,
     heat: Conduction,
     /// Modes of heat along z.
     depth: AxisModes,
     elastic: Option<ElasticProblem>,
-    /// From strain sampling points to nodes along each axis, of even and of odd components.
-    recovery: [[Mat<f64>; 2]; 3],
+    recoveries: Recoveries,
     parities: Vec<Parity>,
 }
 
@@ -47,11 +47,13 @@ pub struct SolidLoads {
 /// Nodal temperature above the initial one [K], class by class; empty where a class is zero.
 pub type Temperatures = Vec<Vec<f64>>;
 
-/// Displacements [m] and strains, class by class; empty where a class is zero.
+/// Displacements [m] and what stress is recovered from, class by class; empty where a class is zero.
 #[derive(Debug, Clone, Default)]
 pub struct Deformation {
     pub displacement: Vec<Vec<f64>>,
-    pub strains: Vec<Strains>,
+    /// The recovered quantities at the sampling points.
+    strains: Vec<Strains>,
+    tractions: Vec<FaceStresses>,
 }
 
 /// Values at all nodes of the whole body, images included: a rectilinear grid.
@@ -67,6 +69,14 @@ pub struct NodalFields {
     /// xx, yy, zz, xy, yz, xz [Pa] (axisymmetry: rr, tt, zz, 0, 0, rz); empty where mechanics is not
     /// modelled.
     pub stress: Vec<[f64; 6]>,
+}
+
+impl NodalFields {
+    /// All values of temperature, displacement and stress.
+    pub fn values(&self) -> impl Iterator<Item = f64> {
+        let displacements = self.displacement.iter().flatten();
+        self.temperature.iter().chain(displacements).chain(self.stress.iter().flatten()).copied()
+    }
 }
 
 /// Weights of consecutive values along one axis.
@@ -96,28 +106,23 @@ impl SolidFem {
     /// Builds matrices and factorisations of a plan on at most `threads` threads.
     pub fn new(plan: &Plan, threads: usize) -> Result<Self, CholeskyError> {
         let mesh = plan.mesh.clone();
-        let law = plan.law.clone();
         let heat = Conduction::new(plan, threads);
         let depth = AxisModes::of(
             &mesh.axes[2],
-            end_conditions(&plan.thermal_faces, 2, plan.law.conductivity),
+            end_conditions(&plan.thermal_faces, 2, plan.constants.conductivity),
         );
         let elastic = plan
-            .mechanics
-            .then(|| ElasticProblem::new(&mesh, &law, plan.supports.clone(), threads));
-        if let Some(elastic) = &elastic {
+            .law
+            .as_ref()
+            .map(|law| ElasticProblem::new(&mesh, law, plan.supports.clone(), threads));
+        if let Some(elastic) = elastic.as_ref().filter(|_| plan.prepared) {
             elastic.prepare()?;
         }
-        let recovery = [0, 1, 2].map(|a| {
-            let beyond = match continues(&mesh, a) {
-                true => [Beyond::Even, Beyond::Odd],
-                false => [Beyond::Nothing; 2],
-            };
-            beyond.map(|beyond| recovery_matrix(&mesh.axes[a], beyond))
-        });
+        let recoveries = Recoveries::of(plan);
         let parities = mesh.parities();
         let initial_temperature = plan.initial_temperature;
-        Ok(Self { mesh, law, initial_temperature, heat, depth, elastic, recovery, parities })
+        let thermal = plan.constants;
+        Ok(Self { mesh, thermal, initial_temperature, heat, depth, elastic, recoveries, parities })
     }
 
     pub fn mesh(&self) -> &Mesh {
@@ -186,9 +191,9 @@ impl SolidFem {
     /// How the top answers to an impulse of heat per area, uniform along it: rates λ [1/s] and gains g
     /// [K m²/J] of `Σ g e^{−λt}`.
     pub fn top_modes(&self) -> [Vec<f64>; 2] {
-        let capacity = self.law.heat_capacity();
+        let capacity = self.thermal.heat_capacity();
         let top = self.depth.at_node(self.depth.shapes.nrows() - 1);
-        let rate = |decay: &f64| self.law.conductivity / capacity * decay;
+        let rate = |decay: &f64| self.thermal.conductivity / capacity * decay;
         let rates = self.depth.decay.iter().map(rate).collect();
         [rates, top.iter().map(|value| value * value / capacity).collect()]
     }
@@ -198,9 +203,10 @@ impl SolidFem {
     pub fn top_amplitudes(&self, temperatures: &Temperatures) -> Vec<Vec<f64>> {
         let depth = &self.depth;
         let top = depth.at_node(depth.shapes.nrows() - 1);
-        let projection = depth.shapes.transpose() * &depth.mass;
-        let scaled = |m: usize, k: usize| top[m] * projection[(m, k)];
-        let projection = Mat::from_fn(depth.count(), depth.shapes.nrows(), scaled);
+        let (count, nodes) = (depth.count(), depth.shapes.nrows());
+        let part = |m: usize, i: usize, k: usize| depth.shapes[(i, m)] * depth.mass[(i, k)];
+        let projected = |m: usize, k: usize| (0..nodes).map(|i| part(m, i, k)).sum::<f64>();
+        let projection = Mat::from_fn(count, nodes, |m, k| top[m] * projected(m, k));
         let [nx, ny, _] = self.mesh.node_counts();
         let [x, y] = [nx, ny].map(|n| Mat::<f64>::identity(n, n));
         let of_class = |part: &Vec<f64>| match part.is_empty() {
@@ -226,8 +232,9 @@ impl SolidFem {
             let displacement = elastic.displacement(class, temperature, &loads.force[class])?;
             let strains = match displacement.is_empty() {
                 true => Vec::new(),
-                false => elastic.strains(&displacement, temperature),
+                false => self.quantities_of(elastic, elastic.strains(&displacement, temperature)),
             };
+            result.tractions.push(self.face_stresses(&loads.force[class]));
             result.displacement.push(displacement);
             result.strains.push(strains);
         }
@@ -270,36 +277,6 @@ impl SolidFem {
         total
     }
 
-    /// Recovered stress at a point: xx, yy, zz, xy, yz, xz [Pa].
-    pub fn stress_at(
-        &self,
-        temperatures: &Temperatures,
-        deformation: &Deformation,
-        point: [f64; 3],
-    ) -> [f64; 6] {
-        let (place, image) = self.mesh.locate(point);
-        let weights = self.sample_weights(place);
-        let counts = self.recovery.each_ref().map(|[even, _]| even.ncols());
-        let slots = strain_slots(self.mesh.geometry);
-        let mut strain = [0.0; 6];
-        for (&parity, field) in self.parities.iter().zip(&deformation.strains) {
-            for (component, &slot) in slots.iter().enumerate() {
-                let odd = odd_along(parity, slot);
-                let weights = [0, 1, 2].map(|a| &weights[a][odd[a]]);
-                let value = weighted(field, weights, counts, (component, slots.len()));
-                strain[slot] += parity.tensor_sign(image, slot) * value;
-            }
-        }
-        let stress = self.stress_of(strain, self.rise_from(temperatures, point));
-        match self.mesh.geometry {
-            Geometry::Box => stress,
-            Geometry::Axisymmetric => {
-                let [rr, tt, zz, _, _, rz] = stress;
-                from_cylindrical([rr, tt, zz, rz], point[0], point[1])
-            }
-        }
-    }
-
     /// Highest nodal temperature [K].
     pub fn max_temperature(&self, temperatures: &Temperatures) -> f64 {
         let mut highest = f64::NEG_INFINITY;
@@ -310,14 +287,30 @@ impl SolidFem {
         self.initial_temperature + highest
     }
 
+    /// Lowest nodal temperature [K].
+    pub fn min_temperature(&self, temperatures: &Temperatures) -> f64 {
+        let mut lowest = f64::INFINITY;
+        for image in self.images(temperatures) {
+            let rise = self.rise_of_image(temperatures, image);
+            lowest = rise.into_iter().fold(lowest, f64::min);
+        }
+        self.initial_temperature + lowest
+    }
+
     /// Highest von Mises and largest principal stress over all nodes [Pa].
     pub fn max_stress(&self, temperatures: &Temperatures, deformation: &Deformation) -> [f64; 2] {
         let mut highest = [f64::NEG_INFINITY; 2];
         let nodal = self.nodal_strains(deformation);
         for image in self.images(&deformation.displacement) {
             for stress in self.stress_of_image(temperatures, &nodal, image) {
-                highest[0] = highest[0].max(von_mises(stress));
-                highest[1] = highest[1].max(max_principal(stress));
+                // Not `max`, which would pass over a stress that is no number.
+                for (highest, value) in
+                    highest.iter_mut().zip([von_mises(stress), max_principal(stress)])
+                {
+                    if !(*highest >= value || highest.is_nan()) {
+                        *highest = value;
+                    }
+                }
             }
         }
         highest
@@ -416,77 +409,10 @@ impl SolidFem {
         rise
     }
 
-    /// Recovered strains at the nodes: class, component, node.
-    fn nodal_strains(&self, deformation: &Deformation) -> Vec<Vec<Vec<f64>>> {
-        let slots = strain_slots(self.mesh.geometry);
-        let recover = |(&parity, strains): (&Parity, &Strains)| {
-            if strains.is_empty() {
-                return Vec::new();
-            }
-            slots
-                .iter()
-                .enumerate()
-                .map(|(c, &slot)| {
-                    let odd = odd_along(parity, slot);
-                    let matrices = [0, 1, 2].map(|a| &self.recovery[a][odd[a]]);
-                    let component: Vec<f64> =
-                        strains.iter().skip(c).step_by(slots.len()).copied().collect();
-                    transform(&component, matrices, Side::Direct)
-                })
-                .collect()
-        };
-        self.parities.iter().zip(&deformation.strains).map(recover).collect()
-    }
-
-    fn stress_of_image(
-        &self,
-        temperatures: &Temperatures,
-        nodal_strains: &[Vec<Vec<f64>>],
-        image: [bool; 2],
-    ) -> Vec<[f64; 6]> {
-        let rise = self.rise_of_image(temperatures, image);
-        let mut strain = vec![[0.0; 6]; rise.len()];
-        let slots = strain_slots(self.mesh.geometry);
-        for (parity, components) in self.parities.iter().zip(nodal_strains) {
-            for (component, &slot) in components.iter().zip(slots) {
-                let sign = parity.tensor_sign(image, slot);
-                for (e, value) in strain.iter_mut().zip(component) {
-                    e[slot] += sign * value;
-                }
-            }
-        }
-        strain.into_iter().zip(rise).map(|(e, rise)| self.stress_of(e, rise)).collect()
-    }
-
-    /// Stress of a recovered strain, from which the strain of a heated layer was left out.
-    fn stress_of(&self, mut strain: [f64; 6], rise: f64) -> [f64; 6] {
-        strain[2] += self.law.layer_strain() * rise;
-        self.law.stress(strain, rise)
-    }
-
     fn node_weights(&self, place: [f64; 3]) -> [Weights; 3] {
         [0, 1, 2].map(|a| {
             let shape = self.mesh.axes[a].shape_at(place[a]);
             Weights { first: shape.first, values: shape.values[..shape.count].to_vec() }
-        })
-    }
-
-    /// Weights of the strain sampling points along each axis, of even and of odd components:
-    /// recovery to the nodes around, then shape functions.
-    fn sample_weights(&self, place: [f64; 3]) -> [[Weights; 2]; 3] {
-        [0, 1, 2].map(|a| {
-            let shape = self.mesh.axes[a].shape_at(place[a]);
-            self.recovery[a].each_ref().map(|matrix| {
-                let mut all = vec![0.0; matrix.ncols()];
-                for (i, value) in shape.values[..shape.count].iter().enumerate() {
-                    for (j, weight) in all.iter_mut().enumerate() {
-                        *weight += value * matrix[(shape.first + i, j)];
-                    }
-                }
-                let first = all.iter().position(|&w| w != 0.0).unwrap_or(0);
-                let last = all.iter().rposition(|&w| w != 0.0).unwrap_or(0);
-                Weights { first, values: all[first..=last].to_vec() }
-            })
         })
     }
 }
@@ -512,26 +438,4 @@ fn weighted(
         }
     }
     sum
-}
-
-/// Where each stored strain stands among xx, yy, zz, xy, yz, xz.
-fn strain_slots(geometry: Geometry) -> &'static [usize] {
-    match geometry {
-        Geometry::Box => &[0, 1, 2, 3, 4, 5],
-        Geometry::Axisymmetric => &[0, 1, 2, 5],
-    }
-}
-
-/// Whether the body goes on, as a mirror image, below the low end of an axis of the mesh.
-fn continues(mesh: &Mesh, axis: usize) -> bool {
-    match mesh.geometry {
-        Geometry::Box => axis < 2 && mesh.mirrored[axis],
-        Geometry::Axisymmetric => axis == 0,
-    }
-}
-
-/// Whether a tensor component of a class is odd (1) or even (0) along each axis.
-fn odd_along(parity: Parity, slot: usize) -> [usize; 3] {
-    let odd = |image| usize::from(parity.tensor_sign(image, slot) < 0.0);
-    [odd([true, false]), odd([false, true]), 0]
 }

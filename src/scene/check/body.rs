@@ -13,6 +13,7 @@ pub fn check(checker: &mut Checker) {
         let path = Path::default().key("body").key(name);
         shape(checker, &path.at("shape"), &solid.shape);
         material(checker, &path.at("material"), &solid.material);
+        elasticity(checker, (&path.at("material"), name), &solid.material);
         checker.temperature(&path.at("initial_temperature"), solid.initial_temperature);
         for (&name, face) in &solid.faces {
             let path = path.at("faces").key(name.as_str());
@@ -45,11 +46,38 @@ fn material(checker: &mut Checker, path: &Path, Material::Thermoelastic(law): &M
     checker.constant(&path.at("density"), law.density, "the density");
     checker.constant(&path.at("specific_heat"), law.specific_heat, "the specific heat capacity");
     checker.constant(&path.at("conductivity"), law.conductivity, "the thermal conductivity");
-    checker.constant(&path.at("young"), law.young, "Young's modulus");
-    let fine = law.expansion.abs() <= LARGEST;
-    let message = "the coefficient of expansion is beyond all bounds";
-    checker.require(fine, &path.at("expansion"), message, format!("-{LARGEST:e} to {LARGEST:e}"));
-    poisson(checker, &path.at("poisson"), law.poisson);
+    if let Some(young) = law.young {
+        checker.constant(&path.at("young"), young, "Young's modulus");
+    }
+    if let Some(expansion) = law.expansion {
+        let fine = expansion.abs() <= LARGEST;
+        let message = "the coefficient of expansion is beyond all bounds";
+        let allowed = format!("-{LARGEST:e} to {LARGEST:e}");
+        checker.require(fine, &path.at("expansion"), message, allowed);
+    }
+    if let Some(ratio) = law.poisson {
+        poisson(checker, &path.at("poisson"), ratio);
+    }
+}
+
+/// Refuses materials without the constants of a body whose mechanics is needed.
+fn elasticity(
+    checker: &mut Checker,
+    (path, name): (&Path, &str),
+    Material::Thermoelastic(constants): &Material,
+) {
+    if !checker.scene.needs_mechanics(name) {
+        return;
+    }
+    for (key, given, allowed) in [
+        ("young", constants.young, "a positive number (Pa)"),
+        ("poisson", constants.poisson, "-1 < poisson < 0.5"),
+        ("expansion", constants.expansion, "a number (1/K)"),
+    ] {
+        let message =
+            format!("the key `{key}` is missing: stress, displacement or traction is asked for");
+        checker.require(given.is_some(), &path.at(key), message, allowed);
+    }
 }
 
 /// Refuses ratios at which resistance to shear or to compression is lost, or lost in rounding.

@@ -215,7 +215,7 @@ fn is_in_depth(z: f64, thickness: f64) -> bool {
 }
 
 /// A number with six digits, as people write it.
-fn number(value: f64) -> String {
+pub fn number(value: f64) -> String {
     let rounded = format!("{value:.5e}").parse().unwrap_or(value);
     let magnitude = f64::abs(rounded);
     if magnitude == 0.0 || (1e-3..1e6).contains(&magnitude) {

@@ -15,7 +15,7 @@ use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
 use super::locate::{Path, Source};
 use super::types::{Scene, Solid};
-use crate::material::Thermoelastic;
+use crate::material::Constants;
 use failure::{Failure, Misfit, expectation};
 use value::{Node, View};
 
@@ -50,7 +50,7 @@ impl Decoder<'_> {
         let Some(DeValue::Table(bodies)) = self.source.value(&path) else { return };
         for name in bodies.keys() {
             let body = path.key(name.get_ref());
-            self.read_if::<Thermoelastic>(&body.key("material"), "model", "thermoelastic");
+            self.read_if::<Constants>(&body.key("material"), "model", "thermoelastic");
             self.read_if::<Solid>(&body, "kind", "solid");
             self.read_if::<Droplet>(&body, "kind", "droplet");
         }

@@ -79,7 +79,7 @@ fn parameters_have_adjoint_derivatives_in_initialization_mode() {
 #[test]
 fn an_adjoint_derivative_lists_the_derivatives_by_each_element() {
     let unit = loaded();
-    let (stress, pressure) = (unit.reference("centre.stress_zz"), unit.reference("patch.pressure"));
+    let (stress, pressure) = (unit.reference("centre.stress_xx"), unit.reference("patch.pressure"));
     let row = unit.adjoint(&[stress], &[pressure], &[1.0]);
     for (element, found) in row.iter().enumerate() {
         let mut seed = [0.0; 6];

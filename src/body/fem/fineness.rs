@@ -1,0 +1,216 @@
+//! How fine the mesh of a solid is, and where: below the faces that heat passes, and under loads.
+
+use super::grading::{Fine, graded_ends};
+use super::plan::Refinement;
+use crate::material::Constants;
+use crate::scene::{Face, FaceName, HeatMethod, Mesh as MeshKeys, Shape, Solid};
+
+/// Nodes across a feature of a load, where the scene names no spacing.
+const NODES_PER_FEATURE: f64 = 10.0;
+/// Nodes across the depth that heat reaches in the shortest time of interest, where the scene names
+/// no spacing.
+const NODES_PER_DIFFUSION_LENGTH: f64 = 5.0;
+/// Growth of elements away from loads, and across the layers that heat passes one after another: a
+/// layer as deep as √(at) varies over its own depth alone, so the latter is free to be larger. Growth by
+/// 1.4 keeps surface temperatures and heat within 1e-4 at all times.
+const DEFAULT_GROWTH: f64 = 1.2;
+const LAYER_GROWTH: f64 = 1.4;
+const DEFAULT_ORDER: usize = 2;
+/// Fewest elements through the thickness.
+const THICKNESS_ELEMENTS: f64 = 6.0;
+/// Finest chosen distance of nodes over the thickness: coordinates still tell nodes apart.
+const FINEST: f64 = 1e-6;
+
+/// Distances of nodes and growth of elements.
+pub struct Fineness<'a> {
+    solid: &'a Solid,
+    refinements: &'a [Refinement],
+    /// Along the surface, at loads [m].
+    lateral: f64,
+    /// Along the normal of faces that heat passes, where the scene names no spacing [m].
+    layer: f64,
+    pub order: usize,
+}
+
+impl<'a> Fineness<'a> {
+    /// Chooses what the scene leaves open; `shortest` is the shortest time of interest [s].
+    pub fn choose(
+        solid: &'a Solid,
+        constants: &Constants,
+        refinements: &'a [Refinement],
+        shortest: f64,
+        notes: &mut Vec<String>,
+    ) -> Self {
+        let given = &solid.mesh;
+        let default = if solid.heat == HeatMethod::Sph { 1 } else { DEFAULT_ORDER };
+        let order = given.order.unwrap_or(default);
+        let width = lateral_extents(&solid.shape).into_iter().fold(f64::INFINITY, f64::min);
+        let feature = refinements.iter().map(|r| r.feature).fold(width, f64::min);
+        let lateral = given.spacing.unwrap_or(feature / NODES_PER_FEATURE);
+        let reach = (constants.diffusivity() * shortest).sqrt();
+        let finest = FINEST * solid.shape.thickness();
+        let layer = lateral.min(reach / NODES_PER_DIFFUSION_LENGTH).max(finest);
+        let chosen = Self { solid, refinements, lateral, layer, order };
+        notes.extend(chosen.notes(reach, shortest));
+        chosen
+    }
+
+    /// What was chosen, and why.
+    fn notes(&self, reach: f64, shortest: f64) -> Vec<String> {
+        let Self { lateral, layer, .. } = self;
+        let mut notes = Vec::new();
+        if self.keys().spacing.is_none() && !self.refinements.is_empty() {
+            notes.push(format!(
+                "mesh spacing chosen: {lateral:.3e} m along the surface (a tenth of the finest load)"
+            ));
+        }
+        if self.chooses_layers() {
+            let why = if layer == lateral {
+                "no more than along the surface".to_owned()
+            } else if *layer > 1.01 * reach / NODES_PER_DIFFUSION_LENGTH {
+                "a millionth of the thickness, the finest that is chosen".to_owned()
+            } else {
+                format!("a fifth of the {reach:.3e} m that heat goes in {shortest:.3e} s")
+            };
+            notes.push(format!(
+                "mesh spacing chosen: {layer:.3e} m below the faces that heat passes ({why})"
+            ));
+        }
+        notes
+    }
+
+    /// Whether the scene leaves a distance of nodes below some heated face open.
+    fn chooses_layers(&self) -> bool {
+        let keys = self.keys();
+        let faces = self.solid.shape.faces().iter();
+        let mut heated = faces.filter(|&&face| self.is_heated(face));
+        keys.spacing.is_none()
+            && heated.any(|face| face.normal().unwrap_or(0) < 2 || keys.depth_spacing.is_none())
+    }
+
+    /// Ends of the elements along x (0) or y (1) on `[start, end]`; a mesh that begins at a plane of
+    /// symmetry begins at 0.
+    pub fn lateral_ends(&self, axis: usize, [start, end]: [f64; 2]) -> Vec<f64> {
+        let size = self.order as f64 * self.lateral;
+        let mut fine: Vec<Fine> = self.loads(axis, start);
+        for face in self.sides(axis, start < 0.0) {
+            if self.is_heated(face) {
+                let at = if is_high(face) { end } else { start };
+                fine.push(self.layer_at(at, self.keys().spacing));
+            }
+        }
+        if self.keys().spacing.is_some() && !self.has_lateral_places() {
+            fine.push(self.stretch([start, end], size));
+        }
+        graded_ends(start, end, &fine, self.coarsest(end / MeshKeys::LATERAL_ELEMENTS, size))
+    }
+
+    /// Ends of the elements along z.
+    pub fn depth_ends(&self) -> Vec<f64> {
+        let thickness = self.solid.shape.thickness();
+        let keys = self.keys();
+        let named = keys.depth_spacing.or(keys.spacing);
+        let size = self.order as f64 * named.unwrap_or(self.lateral);
+        let mut fine = Vec::new();
+        for (top, face, z) in [(true, FaceName::Top, 0.0), (false, FaceName::Bottom, -thickness)] {
+            if self.refinements.iter().any(|r| r.top == top) {
+                fine.push(self.stretch([z - size, z + size], size));
+            }
+            if self.is_heated(face) {
+                fine.push(self.layer_at(z, named));
+            }
+        }
+        if fine.is_empty() && keys.depth_spacing.is_some() {
+            fine.push(self.stretch([-thickness, 0.0], size));
+        }
+        let least = fine.iter().map(|f| f.size).fold(f64::INFINITY, f64::min);
+        let usual = (thickness / THICKNESS_ELEMENTS).max(least.min(size));
+        graded_ends(-thickness, 0.0, &fine, self.coarsest(usual, least.min(size)))
+    }
+
+    /// Stretches of an axis that loads may act on, with a margin.
+    fn loads(&self, axis: usize, start: f64) -> Vec<Fine> {
+        let margin = 2.0 * self.lateral;
+        let stretch = |r: &Refinement| {
+            let [from, to] = fold([r.x, r.y][axis], start);
+            self.stretch([from - margin, to + margin], self.order as f64 * self.lateral)
+        };
+        self.refinements.iter().map(stretch).collect()
+    }
+
+    /// Whether loads or heated sides say where along the surface the mesh is fine; if not, what the
+    /// scene asks for holds everywhere.
+    fn has_lateral_places(&self) -> bool {
+        let mut faces = self.solid.shape.faces().iter();
+        let is_side = |face: &FaceName| !matches!(face, FaceName::Top | FaceName::Bottom);
+        !self.refinements.is_empty() || faces.any(|face| is_side(face) && self.is_heated(*face))
+    }
+
+    /// Whether heat passes a face, by a condition or a load.
+    fn is_heated(&self, face: FaceName) -> bool {
+        let Face { temperature, flux, convection, .. } = self.solid.face(face);
+        let loaded = |r: &Refinement| {
+            r.heats && face == if r.top { FaceName::Top } else { FaceName::Bottom }
+        };
+        temperature.is_some()
+            || flux.is_some()
+            || convection.is_some()
+            || self.refinements.iter().any(loaded)
+    }
+
+    /// The faces at the ends of an axis that are meshed; the low one is where `whole`.
+    fn sides(&self, axis: usize, whole: bool) -> Vec<FaceName> {
+        let all = match (&self.solid.shape, axis) {
+            (Shape::Disc(_), _) => return vec![FaceName::Sides],
+            (Shape::Box(_), 0) => [FaceName::Right, FaceName::Left],
+            (Shape::Box(_), _) => [FaceName::Back, FaceName::Front],
+        };
+        all[..if whole { 2 } else { 1 }].to_vec()
+    }
+
+    fn keys(&self) -> &MeshKeys {
+        &self.solid.mesh
+    }
+
+    /// The first element below a heated face at a coordinate: of the distance that the scene `named`,
+    /// or of the chosen one.
+    fn layer_at(&self, at: f64, named: Option<f64>) -> Fine {
+        let size = self.order as f64 * named.unwrap_or(self.layer);
+        let fine = self.stretch([at - size, at + size], size);
+        // Particles want distances that change little.
+        let layered = named.is_none() && self.solid.heat == HeatMethod::Fem;
+        let growth = self.keys().growth.unwrap_or(LAYER_GROWTH);
+        if layered { Fine { growth, ..fine } } else { fine }
+    }
+
+    fn stretch(&self, [from, to]: [f64; 2], size: f64) -> Fine {
+        Fine { from, to, size, growth: self.keys().growth.unwrap_or(DEFAULT_GROWTH) }
+    }
+
+    /// Largest element where `usual` would do: without growth all are of one `size`.
+    fn coarsest(&self, usual: f64, size: f64) -> f64 {
+        if self.keys().growth == Some(1.0) { size } else { usual }
+    }
+}
+
+/// Whether a side lies at the high end of its axis.
+fn is_high(face: FaceName) -> bool {
+    !matches!(face, FaceName::Left | FaceName::Front)
+}
+
+pub fn lateral_extents(shape: &Shape) -> Vec<f64> {
+    match shape {
+        Shape::Box([x, y, _]) => vec![*x, *y],
+        Shape::Disc(disc) => vec![disc.radius],
+    }
+}
+
+/// A stretch brought to the meshed half, where the mesh begins at the symmetry plane.
+fn fold([from, to]: [f64; 2], start: f64) -> [f64; 2] {
+    if start != 0.0 {
+        return [from, to];
+    }
+    let far = from.abs().max(to.abs());
+    let near = if from < 0.0 && to > 0.0 { 0.0 } else { from.abs().min(to.abs()) };
+    [near, far]
+}

@@ -1,0 +1,51 @@
+//! What no run may come to: temperatures that cannot be, values that are no numbers, fluid that is lost over
+//! an edge without a word.
+
+use super::droplets::DropletModel;
+use super::interpolation::InputPath;
+use super::{Model, ModelError, State};
+
+impl Model {
+    /// Refuses temperatures of solids that are not above absolute zero. By the maximum principle only a
+    /// flux out of a body takes it there, so nothing is computed where none acts.
+    pub(super) fn check_temperatures(
+        &self,
+        (path, start): (&InputPath, &Vec<f64>),
+        bodies: &[Vec<f64>],
+        dt: f64,
+    ) -> Result<(), ModelError> {
+        let changed = (!path.is_held()).then(|| path.at(0, dt));
+        let end = changed.as_ref().unwrap_or(start);
+        for (body, unknowns) in self.bodies.iter().zip(bodies) {
+            if !body.loads.draws_heat(start) && !body.loads.draws_heat(end) {
+                continue;
+            }
+            let loads = body.loads.of_faces(end, body.solid.mesh());
+            let temperatures = body.solid.temperatures(unknowns, &loads);
+            let temperature = body.solid.min_temperature(&temperatures);
+            if temperature <= 0.0 {
+                return Err(ModelError::BelowAbsoluteZero { body: body.name.clone(), temperature });
+            }
+        }
+        Ok(())
+    }
+
+    /// A sentence for each droplet that runs over the edge of the solid below it.
+    pub fn overflows(&self, state: &State) -> Vec<String> {
+        let droplets = self.droplets.iter().zip(&state.bodies[self.bodies.len()..]);
+        let over = droplets.filter(|(droplet, unknowns)| droplet.overflows(unknowns));
+        let sentence = |(droplet, _): (&DropletModel, _)| {
+            format!(
+                "{}: fluid lies beyond the edge of the solid; its heat and force do not enter the solid \
+                 but are counted apart, as heat_flow_outside and force_outside",
+                droplet.name
+            )
+        };
+        over.map(sentence).collect()
+    }
+}
+
+/// Refuses what is no finite number.
+pub(super) fn finite(value: f64) -> Result<f64, ModelError> {
+    if value.is_finite() { Ok(value) } else { Err(ModelError::NotFinite(value)) }
+}

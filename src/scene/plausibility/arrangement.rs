@@ -1,0 +1,113 @@
+//! Parts of a scene that do not go together: a droplet that nothing catches, what is wider than the plate,
+//! loads that the mesh does not see.
+
+use super::Reviewer;
+use crate::scene::check::number;
+use crate::scene::droplet::{Coupling, Droplet};
+use crate::scene::grid::lateral_extents;
+use crate::scene::locate::Path;
+use crate::scene::types::{Footprint, Load, Mesh, Solid};
+
+/// Fewest distances of nodes over the radius of a spot or half the size of tiles.
+const NODES_PER_RADIUS: f64 = 2.0;
+
+pub fn review(reviewer: &mut Reviewer) {
+    let (scene, root) = (reviewer.scene, Path::default());
+    for (name, _) in scene.droplets() {
+        caught(reviewer, &root.key("body").key(name), name);
+    }
+    for (i, coupling) in scene.coupling.iter().enumerate() {
+        let droplet = scene.droplet(&coupling.from);
+        if let Some(droplet) = droplet {
+            width(reviewer, &root.key("coupling").index(i), coupling, droplet);
+        }
+    }
+    for (i, load) in scene.load.iter().enumerate() {
+        seen(reviewer, &root.key("load").index(i), load);
+    }
+}
+
+/// Warns of a droplet above a solid that it does not meet.
+fn caught(reviewer: &mut Reviewer, path: &Path, name: &str) {
+    let scene = reviewer.scene;
+    if scene.wall_under(name).is_some() || scene.coupling_from(name).is_some() {
+        return;
+    }
+    let mut solids = scene.solids().map(|(solid, _)| solid);
+    if let Some(solid) = solids.find(|solid| scene.coupling_to(solid).is_none()) {
+        let message = format!(
+            "the droplet falls through `{solid}`: nothing joins them; did you mean `[[coupling]]` with \
+             from = \"{name}\", to = \"{solid}.top\"?"
+        );
+        reviewer.warn(path, message);
+    }
+}
+
+/// Warns of fine meshes and of drops that are wider than the plate.
+fn width(reviewer: &mut Reviewer, path: &Path, coupling: &Coupling, droplet: &Droplet) {
+    let Some((solid, shape)) =
+        coupling.solid().and_then(|name| Some((name, reviewer.scene.solid(name)?.shape)))
+    else {
+        return;
+    };
+    let half = lateral_extents(&shape).map(|extent| 0.5 * extent);
+    let room = half[0].min(half[1]);
+    if coupling.radius.is_some_and(|radius| radius > room) {
+        let message = format!(
+            "the fine mesh is wider than `{solid}`, whose edge is {} m from the centre",
+            number(room)
+        );
+        reviewer.warn(&path.key("radius"), message);
+    }
+    let reach = 0.5 * droplet.spread_diameter();
+    let beyond = droplet.arrivals.iter().any(|arrival| {
+        let [x, y] = [arrival.x, arrival.y].map(f64::abs);
+        x + reach > half[0] || y + reach > half[1]
+    });
+    if beyond {
+        let message = format!(
+            "the drop is expected to spread over {} m, beyond the edge of `{solid}`: heat and force of \
+             what lies beyond do not enter the solid but are counted apart",
+            number(2.0 * reach)
+        );
+        reviewer.warn(&path.key("from"), message);
+    }
+}
+
+/// Largest distance of nodes along the surface that comes of a `spacing` [m].
+fn distance(spacing: f64, solid: &Solid) -> f64 {
+    if solid.mesh.growth == Some(1.0) {
+        return spacing;
+    }
+    let [x, y] = lateral_extents(&solid.shape);
+    let default = if solid.sph().is_some() { 1 } else { 2 };
+    let order = solid.mesh.order.unwrap_or(default) as f64;
+    spacing.min(0.5 * x.max(y) / (Mesh::LATERAL_ELEMENTS * order))
+}
+
+/// Warns of loads that are smaller than the distances of nodes that the scene asks for.
+fn seen(reviewer: &mut Reviewer, path: &Path, load: &Load) {
+    let Some(solid) = reviewer.scene.solid(load.body_and_face().0) else { return };
+    let Some(spacing) = solid.mesh.spacing.map(|spacing| distance(spacing, solid)) else { return };
+    let (key, size) = match load.footprint {
+        Footprint::Tiles { size, .. } => {
+            ("footprint.tiles.size".to_owned(), 0.5 * size[0].min(size[1]))
+        }
+        Footprint::Disc { radius }
+        | Footprint::Gaussian { radius }
+        | Footprint::Rings { radius, .. } => match (load.range.radius, load.start.radius) {
+            (Some([lowest, _]), _) => ("range.radius".to_owned(), lowest),
+            (None, Some(start)) => ("start.radius".to_owned(), start),
+            _ => (format!("footprint.{}.radius", load.footprint.name()), radius),
+        },
+    };
+    if size < NODES_PER_RADIUS * spacing {
+        let message = format!(
+            "the mesh does not see a load this small: nodes are {} m apart; did you mean a \
+             `mesh.spacing` of {} m or less?",
+            number(spacing),
+            number(0.2 * size)
+        );
+        reviewer.warn(&path.at(&key), message);
+    }
+}

@@ -1,0 +1,81 @@
+//! Whether what a scene says is plausible: values in wrong units, sizes that do not go together, parts
+//! that were forgotten. Nothing here is refused; each finding is a [`Warning`].
+
+mod arrangement;
+mod ranges;
+mod relations;
+mod values;
+
+use std::fmt;
+
+use super::check::number;
+use super::error::Problem;
+use super::locate::{Path, Source};
+use super::types::Scene;
+use ranges::Range;
+
+/// Something that a scene says, and that is hardly meant.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    problem: Problem,
+}
+
+impl fmt::Display for Warning {
+    /// `FILE:LINE: KEY = VALUE: why (did you mean …?)`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.problem.write_place(f)?;
+        write!(f, " {}", self.problem.message)
+    }
+}
+
+impl Warning {
+    /// What the warning is about, wherever in a file it stands.
+    pub fn subject(&self) -> String {
+        format!("{}: {}", self.problem.path, self.problem.message)
+    }
+
+    /// The same of a scene that has no lines of its own.
+    pub(super) fn without_line(mut self) -> Self {
+        self.problem.line = None;
+        self
+    }
+}
+
+/// Everything in a checked scene that is hardly meant, in the order of the lines.
+pub(super) fn warnings(scene: &Scene, source: &Source) -> Vec<Warning> {
+    let mut reviewer = Reviewer { scene, source, found: Vec::new() };
+    values::review(&mut reviewer);
+    relations::review(&mut reviewer);
+    arrangement::review(&mut reviewer);
+    reviewer.found.sort_by_key(|warning| warning.problem.line);
+    reviewer.found
+}
+
+/// Collects the warnings about a scene.
+struct Reviewer<'a> {
+    scene: &'a Scene,
+    source: &'a Source<'a>,
+    found: Vec<Warning>,
+}
+
+impl Reviewer<'_> {
+    fn warn(&mut self, path: &Path, message: String) {
+        let problem = self.source.problem(path, message, String::new());
+        self.found.push(Warning { problem });
+    }
+
+    /// Warns of a value outside of its plausible range.
+    fn value(&mut self, path: &Path, value: f64, range: &Range) {
+        if range.holds(value) {
+            return;
+        }
+        let Range { what, unit, lowest, highest, .. } = range;
+        let (lowest, highest) = (number(*lowest), number(*highest));
+        let mut message = format!("{what} is plausible from {lowest} to {highest} {unit}");
+        if let Some((meant, unit)) = range.meant(value) {
+            let (meant, value) = (number(meant), number(value));
+            message += &format!("; did you mean {meant} ({value} {unit})?");
+        }
+        self.warn(path, message);
+    }
+}

@@ -1,0 +1,128 @@
+//! Constants that are plausible each, but not together; and what loads come to.
+
+use std::f64::consts::PI;
+
+use super::Reviewer;
+use super::ranges;
+use crate::material::Material;
+use crate::scene::check::number;
+use crate::scene::droplet::Fluid;
+use crate::scene::locate::Path;
+use crate::scene::types::{CellValues, Solid};
+
+/// Foams and aerogels are lighter [kg/m³] and conduct less [W/(m K)] than this.
+const LIGHT: f64 = 30.0;
+const LIGHT_CONDUCTS: f64 = 1.0;
+/// Speed of sound √(E/ρ) in a bar, 18 600 m/s in diamond [m/s].
+const FASTEST_SOUND: f64 = 22_000.0;
+/// Liquids that take up heat like water, or that conduct like a metal, are thinner than this [Pa s].
+const THIN: f64 = 0.1;
+const WATERY: f64 = 3900.0;
+const METALLIC: f64 = 7.0;
+/// Rise of the surface that nothing solid bears [K].
+const HOTTEST_RISE: f64 = 1e4;
+
+pub fn review(reviewer: &mut Reviewer) {
+    let root = Path::default();
+    for (name, body) in reviewer.scene.solids() {
+        let path = root.key("body").key(name);
+        solid(reviewer, &path.key("material"), body);
+        fluxes(reviewer, (&path, name), body);
+    }
+    for (name, body) in reviewer.scene.droplets() {
+        fluid(reviewer, &root.key("body").key(name).key("fluid"), &body.fluid);
+    }
+}
+
+fn solid(reviewer: &mut Reviewer, path: &Path, solid: &Solid) {
+    let Material::Thermoelastic(law) = &solid.material;
+    if !ranges::DENSITY.holds(law.density) {
+        return;
+    }
+    if law.density < LIGHT && law.conductivity > LIGHT_CONDUCTS {
+        let (meant, given) = (number(1e3 * law.density), number(law.density));
+        let message = format!(
+            "no solid this light conducts {} W/(m K); did you mean {meant} ({given} g/cm³)?",
+            number(law.conductivity)
+        );
+        reviewer.warn(&path.key("density"), message);
+    } else if let Some(young) = law.young.filter(|&young| ranges::YOUNG.holds(young)) {
+        let sound = (young / law.density).sqrt();
+        if sound > FASTEST_SOUND {
+            let message = format!(
+                "with the density of {} kg/m³ sound would travel at √(E/ρ) = {} m/s, faster than in \
+                 diamond",
+                number(law.density),
+                number(sound.round())
+            );
+            reviewer.warn(&path.key("young"), message);
+        }
+    }
+}
+
+fn fluid(reviewer: &mut Reviewer, path: &Path, fluid: &Fluid) {
+    let Fluid { density, viscosity, specific_heat, conductivity, .. } = *fluid;
+    let kind = if conductivity >= METALLIC {
+        "conducts like a metal"
+    } else if specific_heat >= WATERY && (900.0..=1200.0).contains(&density) {
+        "takes up heat like water"
+    } else {
+        return;
+    };
+    if viscosity >= THIN && ranges::VISCOSITY.holds(viscosity) {
+        let (meant, given) = (number(1e-3 * viscosity), number(viscosity));
+        let message =
+            format!("no liquid that {kind} is this viscous; did you mean {meant} ({given} mPa s)?");
+        reviewer.warn(&path.key("viscosity"), message);
+    }
+}
+
+/// What the fluxes of loads and faces come to by the stop time.
+fn fluxes(reviewer: &mut Reviewer, (path, name): (&Path, &str), solid: &Solid) {
+    for (face, condition) in &solid.faces {
+        if let Some(flux) = condition.flux {
+            let path = path.key("faces").key(face.as_str()).key("flux");
+            flux_of(reviewer, &path, (flux, f64::INFINITY), solid);
+        }
+    }
+    for (i, load) in reviewer.scene.load.iter().enumerate() {
+        let Some(values) = load.start.heat_flux.as_ref() else { continue };
+        let face = solid.face(load.body_and_face().1);
+        if load.body_and_face().0 == name && face.temperature.is_none() {
+            let path = Path::default().key("load").index(i).at("start.heat_flux");
+            let size = load.start.radius.or(load.footprint.radius()).unwrap_or(f64::INFINITY);
+            flux_of(reviewer, &path, (largest(values), size), solid);
+        }
+    }
+}
+
+/// The rise of a half space's surface under a constant flux, `2q√(at/π)/k`, and no more than on the
+/// axis of a disc in the long run, `qR/k`.
+fn flux_of(reviewer: &mut Reviewer, path: &Path, (flux, radius): (f64, f64), solid: &Solid) {
+    let Material::Thermoelastic(law) = &solid.material;
+    let diffusivity = law.conductivity / (law.density * law.specific_heat);
+    let depth = 2.0 * (diffusivity * reviewer.scene.stop_time / PI).sqrt();
+    let rise = flux * depth.min(radius) / law.conductivity;
+    if !ranges::HEAT_FLUX.holds(flux) {
+        return;
+    }
+    let about = number((rise.abs() / 10.0).round() * 10.0);
+    if rise > HOTTEST_RISE {
+        reviewer.warn(path, format!("this would heat the surface by {about} K by the stop time"));
+    } else if rise < -solid.initial_temperature {
+        let message = format!(
+            "this would cool the surface by {about} K by the stop time, below absolute zero"
+        );
+        reviewer.warn(path, message);
+    }
+}
+
+/// The value of the largest magnitude.
+fn largest(values: &CellValues) -> f64 {
+    let larger = |a: f64, b: &f64| if b.abs() > a.abs() { *b } else { a };
+    match values {
+        CellValues::Uniform(value) => *value,
+        CellValues::Rings(list) => list.iter().fold(0.0, larger),
+        CellValues::Tiles(rows) => rows.iter().flatten().fold(0.0, larger),
+    }
+}

@@ -1,0 +1,133 @@
+//! Every constant, size, time and load of a scene against its plausible range.
+
+use super::Reviewer;
+use super::ranges::{self, Range};
+use crate::material::Material;
+use crate::scene::droplet::{Droplet, Wall};
+use crate::scene::locate::Path;
+use crate::scene::types::{CellValues, Load, Shape, Solid};
+
+pub fn review(reviewer: &mut Reviewer) {
+    let (scene, root) = (reviewer.scene, Path::default());
+    reviewer.value(&root.key("stop_time"), scene.stop_time, &ranges::TIME);
+    reviewer.value(&root.key("step"), scene.step, &ranges::TIME);
+    let temperature = temperatures(reviewer);
+    for (name, body) in scene.solids() {
+        solid(reviewer, &root.key("body").key(name), body, &temperature);
+    }
+    for (name, body) in scene.droplets() {
+        droplet(reviewer, &root.key("body").key(name), body, &temperature);
+    }
+    for (i, entry) in scene.load.iter().enumerate() {
+        load(reviewer, &root.key("load").index(i), entry);
+    }
+    for (i, Wall { start, .. }) in scene.wall.iter().enumerate() {
+        if let Some(values) = &start.temperature {
+            let path = root.key("wall").index(i).at("start.temperature");
+            cells(reviewer, &path, values, &temperature);
+        }
+    }
+}
+
+/// Density below which a liquid is hydrogen or helium [kg/m³].
+const LIGHTEST_COMMON: f64 = 150.0;
+
+/// The range of temperatures: cold ones are believed around the lightest liquids.
+fn temperatures(reviewer: &Reviewer) -> Range {
+    let mut droplets = reviewer.scene.droplets();
+    let cryogenic = droplets.any(|(_, droplet)| droplet.fluid.density < LIGHTEST_COMMON);
+    if cryogenic { ranges::CRYOGENIC } else { ranges::TEMPERATURE }
+}
+
+fn solid(reviewer: &mut Reviewer, path: &Path, solid: &Solid, temperature: &Range) {
+    match solid.shape {
+        Shape::Box(extents) => {
+            for (i, extent) in extents.into_iter().enumerate() {
+                reviewer.value(&path.at("shape.box").index(i), extent, &ranges::EXTENT);
+            }
+        }
+        Shape::Disc(disc) => {
+            for (key, extent) in [("radius", disc.radius), ("thickness", disc.thickness)] {
+                reviewer.value(&path.at("shape.disc").key(key), extent, &ranges::EXTENT);
+            }
+        }
+    }
+    let Material::Thermoelastic(law) = &solid.material;
+    for (key, value, range) in [
+        ("density", Some(law.density), &ranges::DENSITY),
+        ("specific_heat", Some(law.specific_heat), &ranges::SPECIFIC_HEAT),
+        ("conductivity", Some(law.conductivity), &ranges::CONDUCTIVITY),
+        ("young", law.young, &ranges::YOUNG),
+        ("expansion", law.expansion, &ranges::EXPANSION),
+    ] {
+        if let Some(value) = value {
+            reviewer.value(&path.at("material").key(key), value, range);
+        }
+    }
+    reviewer.value(&path.key("initial_temperature"), solid.initial_temperature, temperature);
+    for (name, face) in &solid.faces {
+        let path = path.key("faces").key(name.as_str());
+        if let Some(value) = face.temperature {
+            reviewer.value(&path.key("temperature"), value, temperature);
+        }
+        if let Some(flux) = face.flux {
+            reviewer.value(&path.key("flux"), flux, &ranges::HEAT_FLUX);
+        }
+        if let Some(convection) = face.convection {
+            let path = path.key("convection");
+            let ambient = Range { lowest: temperature.lowest, ..ranges::AMBIENT };
+            reviewer.value(&path.key("ambient"), convection.ambient, &ambient);
+            let coefficient = convection.coefficient;
+            reviewer.value(&path.key("coefficient"), coefficient, &ranges::HEAT_TRANSFER);
+        }
+    }
+}
+
+fn droplet(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet, temperature: &Range) {
+    let fluid = &droplet.fluid;
+    for (key, value, range) in [
+        ("diameter", droplet.diameter, &ranges::DIAMETER),
+        ("impact_velocity", droplet.impact_velocity, &ranges::SPEED),
+        ("height", droplet.gap(), &ranges::HEIGHT),
+        ("gravity", droplet.gravity, &ranges::GRAVITY),
+        ("initial_temperature", droplet.initial_temperature, temperature),
+        ("fluid.density", fluid.density, &ranges::FLUID_DENSITY),
+        ("fluid.specific_heat", fluid.specific_heat, &ranges::FLUID_SPECIFIC_HEAT),
+        ("fluid.conductivity", fluid.conductivity, &ranges::FLUID_CONDUCTIVITY),
+        ("fluid.viscosity", fluid.viscosity, &ranges::VISCOSITY),
+        ("fluid.surface_tension", fluid.surface_tension, &ranges::SURFACE_TENSION),
+    ] {
+        reviewer.value(&path.at(key), value, range);
+    }
+}
+
+fn load(reviewer: &mut Reviewer, path: &Path, load: &Load) {
+    let start = &load.start;
+    for (key, values, range) in [
+        ("heat_flux", &start.heat_flux, &ranges::HEAT_FLUX),
+        ("pressure", &start.pressure, &ranges::TRACTION),
+        ("shear_x", &start.shear_x, &ranges::TRACTION),
+        ("shear_y", &start.shear_y, &ranges::TRACTION),
+        ("shear_r", &start.shear_r, &ranges::TRACTION),
+    ] {
+        if let Some(values) = values {
+            cells(reviewer, &path.key("start").key(key), values, range);
+        }
+    }
+}
+
+/// Warns of the first cell that is out of range: the others are hardly better.
+fn cells(reviewer: &mut Reviewer, path: &Path, values: &CellValues, range: &Range) {
+    let odd = |value: &f64| !range.holds(*value);
+    let found = match values {
+        CellValues::Uniform(value) => Some((path.clone(), *value)),
+        CellValues::Rings(list) => list.iter().position(odd).map(|i| (path.index(i), list[i])),
+        CellValues::Tiles(rows) => rows.iter().enumerate().find_map(|(i, row)| {
+            let j = row.iter().position(odd)?;
+            Some((path.index(i).index(j), row[j]))
+        }),
+    };
+    if let Some((path, value)) = found {
+        reviewer.value(&path, value, range);
+    }
+}
