@@ -7,8 +7,8 @@ mod capillary;
 use std::f64::consts::PI;
 
 use capillary::{
-    DENSITY, RADIUS, TENSION, core_pressure, elongation, found_half_width, half_width, on_wall,
-    period, plan, stretched,
+    DENSITY, RADIUS, TENSION, core_pressure, elongation, elongations, fitted, found_half_width,
+    half_width, normal_mode, on_wall, period, plan, stretched, viscosity,
 };
 use impinge::body::sph::{DropletPlan, DropletSph};
 
@@ -47,6 +47,19 @@ fn a_stretched_drop_swings_at_rayleighs_period_under_laplaces_pressure() {
     assert!((0.85..1.0).contains(&left), "amplitude after a swing: {left}");
     let pressure = pressures.iter().sum::<f64>() / pressures.len() as f64;
     assert!((pressure - 1.0).abs() < 0.05, "pressure over Laplace's: {pressure}");
+}
+
+#[test]
+fn a_swing_dies_away_at_the_rate_of_a_viscous_drop() {
+    for ohnesorge in [0.03, 0.1] {
+        let plan = plan(3, 18.0, viscosity(ohnesorge));
+        let mode = normal_mode(&plan);
+        let exact = mode.decay_and_frequency().map(|rate| rate * period());
+        let found = fitted(&elongations(plan), exact);
+        println!("Oh {ohnesorge}: decay and frequency {found:?}, normal mode {exact:?}");
+        assert!((found[0] / exact[0] - 1.0).abs() < 0.1, "{ohnesorge}: {found:?} {exact:?}");
+        assert!((found[1] / exact[1] - 1.0).abs() < 0.03, "{ohnesorge}: {found:?} {exact:?}");
+    }
 }
 
 #[test]
@@ -89,7 +102,7 @@ fn what_pulls_a_drop_to_the_wall_pulls_at_the_wall() {
 }
 
 #[test]
-fn tension_that_acts_every_fourth_step_drives_the_same_swing() {
+fn tension_that_acts_every_few_steps_drives_the_same_swing() {
     // Sound is so fast that a step is short beside capillary waves.
     let mut plan = plan(3, 12.0, 1e-3);
     plan.fluid.sound_speed *= 4.0;

@@ -84,7 +84,8 @@ pub struct Fluid {
     /// Angle of contact with the wall [rad]; matters with surface tension only.
     #[serde(default = "right_angle")]
     pub contact_angle: f64,
-    /// Speed of sound of the model [m/s]; ten times the fastest flow if left out.
+    /// Speed of sound of the model [m/s]; ten times the fastest flow if left out, be it of the impact or of surface
+    /// tension.
     pub sound_speed: Option<f64>,
 }
 
@@ -204,12 +205,20 @@ impl Droplet {
         self.height.unwrap_or(0.5 * self.spacing)
     }
 
-    /// The largest of the speed of a drop that has fallen through its gap and its own height, and of
-    /// capillary waves, √(σ/(ρR)) [m/s].
+    /// The largest of the speed of a drop that has fallen through its gap and its own height, and of those that
+    /// surface tension gives the fluid, [`Self::capillary_speed`] [m/s].
     pub fn fastest_flow(&self) -> f64 {
         let fall = 2.0 * self.gravity * (self.gap() + self.diameter);
-        let capillary = self.fluid.surface_tension / (self.fluid.density * 0.5 * self.diameter);
-        (self.impact_velocity.powi(2) + fall).max(capillary).sqrt()
+        let fallen = (self.impact_velocity.powi(2) + fall).sqrt();
+        fallen.max(self.capillary_speed())
+    }
+
+    /// The larger of √(σ/(ρΔx)), of the shortest waves, and √(2σ/(ρR)), of Laplace's pressure [m/s]: a fluid whose
+    /// sound is not much faster is so soft that its surface's pull loosens the outermost particles.
+    pub fn capillary_speed(&self) -> f64 {
+        let Fluid { density, surface_tension, .. } = self.fluid;
+        let shortest = self.spacing.min(0.25 * self.diameter);
+        (surface_tension / (density * shortest)).sqrt()
     }
 
     /// Speed of sound of the model [m/s].
