@@ -297,19 +297,7 @@ pub fn notes(droplet: &Droplet) -> Vec<String> {
         _ => "the whole drop is modelled: nothing makes it mirror itself, or the scene asks for it",
     }
     .to_owned()];
-    let (sound, flow) = (droplet.sound_speed(), droplet.fastest_flow());
-    let ratio = sound / flow;
-    if droplet.fluid.sound_speed.is_none() {
-        notes.push(format!(
-            "speed of sound chosen: {sound:.4} m/s, ten times the fastest flow expected"
-        ));
-    } else if ratio < 10.0 {
-        notes.push(format!(
-            "the speed of sound is only {ratio:.2} times the fastest flow: the fluid is compressed \
-             by about {:.1} %, by 1 % at ten times",
-            100.0 / (ratio * ratio)
-        ));
-    }
+    notes.extend(note_on_sound(droplet));
     if droplet.fluid.surface_tension == 0.0 {
         notes.push("surface tension is left out: the scene names none".to_owned());
     } else if !droplet.shifts() && droplet.shifting.is_none() {
@@ -319,4 +307,30 @@ pub fn notes(droplet: &Droplet) -> Vec<String> {
         notes.push("heat is left out: the fluid does not conduct any".to_owned());
     }
     notes
+}
+
+/// The speed of sound that was chosen, or what one that the scene asks for costs.
+fn note_on_sound(droplet: &Droplet) -> Option<String> {
+    let (sound, speed) = (droplet.sound_speed(), droplet.governing_speed());
+    let of_surface = droplet.surface_speed() > droplet.fastest_flow();
+    let ratio = sound / speed;
+    if droplet.fluid.sound_speed.is_none() {
+        let what = if of_surface {
+            "the speed √(2σ/(ρΔx)) that surface tension gives single particles"
+        } else {
+            "the fastest flow expected"
+        };
+        return Some(format!("speed of sound chosen: {sound:.4} m/s, ten times {what}"));
+    }
+    (ratio < 10.0).then(|| match of_surface {
+        true => format!(
+            "the speed of sound is only {ratio:.2} times √(2σ/(ρΔx)): single particles may come loose from the \
+             surface, none at ten times"
+        ),
+        false => format!(
+            "the speed of sound is only {ratio:.2} times the fastest flow: the fluid is compressed \
+             by about {:.1} %, by 1 % at ten times",
+            100.0 / (ratio * ratio)
+        ),
+    })
 }

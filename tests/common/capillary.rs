@@ -14,7 +14,11 @@ use nalgebra::{DMatrix, DVector};
 pub const RADIUS: f64 = 1e-3;
 pub const DENSITY: f64 = 1000.0;
 pub const TENSION: f64 = 0.072;
-const SOUND: f64 = 10.0;
+
+/// Speed of sound that scenes get where they name none, for a distance of particles [m/s].
+pub fn sound_speed(spacing: f64) -> f64 {
+    10.0 * (2.0 * TENSION / (DENSITY * spacing)).sqrt()
+}
 
 /// A drop about the origin at rest, of some particles over its diameter.
 pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
@@ -29,7 +33,7 @@ pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
             specific_heat: 4000.0,
             conductivity: 0.0,
             surface_tension: TENSION,
-            sound_speed: SOUND,
+            sound_speed: sound_speed(2.0 * RADIUS / across),
         },
         placement: Placement::Lattice,
         precision: Precision::Single,

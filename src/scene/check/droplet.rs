@@ -11,7 +11,8 @@ use crate::scene::types::Symmetry;
 const FEWEST_ACROSS: f64 = 6.0;
 /// More particles than this fit no machine of today.
 const MOST_PARTICLES: f64 = 2e7;
-/// Least speed of sound over the fastest flow: below, the fluid would be compressed by 4 % and more.
+/// Least speed of sound over that of the flow or its surface: below, the fluid would be compressed by 4 % and
+/// more, or its surface come loose.
 const LEAST_SOUND_OVER_FLOW: f64 = 5.0;
 
 pub fn check(checker: &mut Checker) {
@@ -102,7 +103,7 @@ fn resolution(checker: &mut Checker, path: &Path, droplet: &Droplet) {
 }
 
 fn sound(checker: &mut Checker, path: &Path, droplet: &Droplet) {
-    let flow = droplet.fastest_flow();
+    let (flow, surface) = (droplet.fastest_flow(), droplet.surface_speed());
     match droplet.fluid.sound_speed {
         None => {
             let message = "neither impact, gravity nor surface tension gives the flow a speed to \
@@ -110,15 +111,21 @@ fn sound(checker: &mut Checker, path: &Path, droplet: &Droplet) {
             checker.require(flow > 0.0, path, message, "> 0");
         }
         Some(speed) => {
-            let least = LEAST_SOUND_OVER_FLOW * flow;
-            let message = format!(
-                "the flow of up to {} m/s would compress the fluid by more than 4 %",
-                number(flow)
-            );
-            let allowed = format!(
-                ">= {} (five times that flow; ten times keeps density within 1 %)",
-                number(least)
-            );
+            let (what, message) = if surface > flow {
+                let message = format!(
+                    "a surface whose tension moves particles at up to {} m/s would come loose",
+                    number(surface)
+                );
+                ("speed, √(2σ/(ρΔx)); ten times keep all particles", message)
+            } else {
+                let message = format!(
+                    "the flow of up to {} m/s would compress the fluid by more than 4 %",
+                    number(flow)
+                );
+                ("flow; ten times keeps density within 1 %", message)
+            };
+            let least = LEAST_SOUND_OVER_FLOW * droplet.governing_speed();
+            let allowed = format!(">= {} (five times that {what})", number(least));
             checker.require(fits(least, speed), path, message, allowed);
         }
     }
