@@ -150,6 +150,8 @@ impl DropletModel {
             DropletTotal::MaxTemperature => totals.temperature_range[1],
             DropletTotal::Particles => self.copies * totals.particles,
             DropletTotal::Steps => totals.steps,
+            DropletTotal::StrayMass => totals.stray_mass,
+            DropletTotal::StrayParticles => self.copies * totals.stray_particles,
             DropletTotal::SpreadDiameter => totals.spread_diameter,
             DropletTotal::Heat => totals.heat_to_wall,
             DropletTotal::Impulse(axis) => totals.impulse_to_wall[axis],

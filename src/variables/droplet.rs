@@ -36,6 +36,8 @@ pub enum DropletTotal {
     MaxTemperature,
     Particles,
     Steps,
+    StrayMass,
+    StrayParticles,
     SpreadDiameter,
     Heat,
     HeatFlow,
@@ -127,7 +129,7 @@ impl DropletConstant {
 
 impl DropletTotal {
     /// Of any droplet.
-    const FREE: [DropletTotal; 18] = [
+    const FREE: [DropletTotal; 20] = [
         DropletTotal::Height,
         DropletTotal::KineticEnergy,
         DropletTotal::CompressionEnergy,
@@ -146,6 +148,8 @@ impl DropletTotal {
         DropletTotal::MaxTemperature,
         DropletTotal::Particles,
         DropletTotal::Steps,
+        DropletTotal::StrayMass,
+        DropletTotal::StrayParticles,
     ];
     /// Of a droplet above a wall or a solid.
     const ABOVE_A_WALL: [DropletTotal; 7] = [
@@ -176,6 +180,8 @@ impl DropletTotal {
             DropletTotal::MaxTemperature => "max_temperature",
             DropletTotal::Particles => "particles",
             DropletTotal::Steps => "steps",
+            DropletTotal::StrayMass => "stray_mass",
+            DropletTotal::StrayParticles => "stray_particles",
             DropletTotal::SpreadDiameter => "spread_diameter",
             DropletTotal::Heat => "heat",
             DropletTotal::HeatFlow => "heat_flow",
@@ -187,7 +193,7 @@ impl DropletTotal {
 
     fn description(self) -> String {
         let text = match self {
-            DropletTotal::Height => "height of the highest particle above the wall",
+            DropletTotal::Height => "height of the body of fluid above the wall, without strays",
             DropletTotal::KineticEnergy => "kinetic energy",
             DropletTotal::CompressionEnergy => "elastic energy of the weak compression",
             DropletTotal::SurfaceEnergy => "energy of free and wetted surface, against a dry wall",
@@ -205,6 +211,12 @@ impl DropletTotal {
             DropletTotal::MaxTemperature => "highest temperature of a particle",
             DropletTotal::Particles => "number of particles, images at mirrors included",
             DropletTotal::Steps => "time steps made inside the unit",
+            DropletTotal::StrayMass => {
+                "mass that has come off the body of fluid, in lumps below a tenth of a drop"
+            }
+            DropletTotal::StrayParticles => {
+                "number of particles that have come off the body of fluid, images included"
+            }
             DropletTotal::SpreadDiameter => {
                 "diameter of the film on the wall, without holes and spray"
             }
@@ -227,13 +239,15 @@ impl DropletTotal {
             | DropletTotal::HeatStored
             | DropletTotal::HeatDrift
             | DropletTotal::Heat => Quantity::Energy,
-            DropletTotal::Mass => Quantity::Mass,
+            DropletTotal::Mass | DropletTotal::StrayMass => Quantity::Mass,
             DropletTotal::Momentum(_) | DropletTotal::Impulse(_) => Quantity::Momentum,
             DropletTotal::MaxPressure => Quantity::Stress,
             DropletTotal::MaxSpeed => Quantity::Velocity,
             DropletTotal::MinDensity | DropletTotal::MaxDensity => Quantity::Density,
             DropletTotal::MinTemperature | DropletTotal::MaxTemperature => Quantity::Temperature,
-            DropletTotal::Particles | DropletTotal::Steps => Quantity::Ratio,
+            DropletTotal::Particles | DropletTotal::Steps | DropletTotal::StrayParticles => {
+                Quantity::Ratio
+            }
             DropletTotal::HeatFlow => Quantity::HeatFlow,
             DropletTotal::Force => Quantity::Force,
         }
