@@ -340,6 +340,24 @@ fn a_step_that_fails_changes_nothing_and_says_where() {
     assert!(matches!(error, ModelError::Input { index: 2, .. }), "{error}");
 }
 
+/// Time steps fit into communication steps, so that these change how long they are, but little of what comes out.
+#[test]
+fn communication_steps_change_little() {
+    let text = drop("") + &wall(RINGS);
+    let names = ["drop.kinetic_energy", "drop.height", "drop.spread_diameter", "drop.impulse_z"];
+    let run = |steps: usize| {
+        let mut trial = Trial::new(&text);
+        (0..steps).for_each(|_| trial.step(4e-6 / steps as f64));
+        names.map(|name| trial.get(name))
+    };
+    let once = run(1);
+    for steps in [7, 40, 400] {
+        for (name, (a, b)) in names.iter().zip(run(steps).iter().zip(&once)) {
+            assert!((a / b - 1.0).abs() < 0.03, "{name} in {steps} steps: {a} {b}");
+        }
+    }
+}
+
 #[test]
 fn the_speed_of_sound_is_chosen_and_said() {
     let mut trial = Trial::new(&drop("gravity = 9.81"));

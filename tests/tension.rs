@@ -3,6 +3,8 @@
 #[path = "common/capillary.rs"]
 #[allow(dead_code)]
 mod capillary;
+#[allow(dead_code)]
+mod common;
 
 use std::f64::consts::PI;
 
@@ -10,6 +12,7 @@ use capillary::{
     DENSITY, RADIUS, TENSION, core_pressure, elongation, elongations, fitted, found_half_width,
     half_width, normal_mode, on_wall, period, plan, stretched, viscosity,
 };
+use common::Trial;
 use impinge::body::sph::{DropletPlan, DropletSph};
 
 /// Samples in a period.
@@ -59,6 +62,44 @@ fn a_swing_dies_away_at_the_rate_of_a_viscous_drop() {
         println!("Oh {ohnesorge}: decay and frequency {found:?}, normal mode {exact:?}");
         assert!((found[0] / exact[0] - 1.0).abs() < 0.1, "{ohnesorge}: {found:?} {exact:?}");
         assert!((found[1] / exact[1] - 1.0).abs() < 0.03, "{ohnesorge}: {found:?} {exact:?}");
+    }
+}
+
+/// A scene of a free drop of radius 1 mm that names neither a speed of sound nor anything else it can do without.
+fn scene(fluid: &str, keys: &str) -> String {
+    format!(
+        r#"
+name = "Drop"
+stop_time = 1.0
+step = 1e-3
+[body.drop]
+kind = "droplet"
+diameter = 2e-3
+initial_temperature = 300.0
+spacing = {:?}
+fluid = {{ {fluid}, specific_heat = 4000.0, conductivity = 0.0 }}
+{keys}
+"#,
+        2e-3 / 20.0
+    )
+}
+
+/// Water at rest, and in flight at We 2.
+#[test]
+fn a_drop_keeps_its_mass_for_three_periods_on_defaults() {
+    let fluid = "density = 998.0, viscosity = 1e-3, surface_tension = 0.072";
+    let period = 2.0 * PI * (998e-9_f64 / (8.0 * 0.072)).sqrt();
+    for keys in ["impact_velocity = 0.0", "impact_velocity = 0.26859\nheight = 1.0"] {
+        let mut trial = Trial::new(&scene(fluid, keys));
+        let start = trial.get("drop.height");
+        let speed = -trial.get("drop.momentum_z") / trial.get("drop.mass");
+        for step in 1..=6 {
+            trial.step(0.5 * period);
+            assert_eq!(trial.get("drop.stray_particles"), 0.0, "{keys} {step}");
+            let height = trial.get("drop.height") + speed * 0.5 * period * f64::from(step);
+            assert!((height - start).abs() < 0.15e-3, "{keys} {step}: {height} {start}");
+        }
+        assert_eq!(trial.get("drop.stray_mass"), 0.0);
     }
 }
 

@@ -203,7 +203,9 @@ impl DropletTotal {
             DropletTotal::HeatDrift => {
                 "heat stored and given to the wall, together: zero but for rounding"
             }
-            DropletTotal::MaxPressure => "highest pressure of a particle",
+            DropletTotal::MaxPressure => {
+                "highest pressure of a single particle, which rings and grows with resolution"
+            }
             DropletTotal::MaxSpeed => "highest speed of a particle",
             DropletTotal::MinDensity => "lowest density of a particle",
             DropletTotal::MaxDensity => "highest density of a particle",
@@ -225,7 +227,9 @@ impl DropletTotal {
             DropletTotal::Impulse(axis) => {
                 return format!("impulse along {} given to the wall since time zero", AXES[axis]);
             }
-            DropletTotal::Force => "force into the wall, mean over the last exchange",
+            DropletTotal::Force => {
+                "force into the wall, mean over the last exchange, which rings with the fluid's sound"
+            }
         };
         text.to_owned()
     }

@@ -1,8 +1,8 @@
 //! Which particles belong together: the body of fluid, and what has come off.
 
 /// Largest distance over Δx of two particles that touch: more than √2, to which a film of a cubic lattice may
-/// thin out without holes.
-const TOUCH: f64 = 1.5;
+/// thin out without holes, and less than the reach of forces.
+const TOUCH: f64 = 2.0;
 /// Share of a drop's mass below which a lump is astray.
 const LEAST: f64 = 0.1;
 
@@ -85,11 +85,11 @@ mod tests {
     fn lumps_are_told_apart_wherever_they_stand() {
         for corner in [[0.0; 3], [-3.7, 11.2, -0.4]] {
             let mut positions = cube(6, corner);
-            let gaps = [[7.0, 0.0, 0.0], [0.0, -1.6, 0.0], [2.0, 2.0, 6.4], [6.0, 6.0, 6.0]];
+            let gaps = [[7.2, 0.0, 0.0], [0.0, -2.1, 0.0], [2.0, 2.0, 6.9], [6.2, 6.2, 6.2]];
             positions.extend(gaps.map(|gap| [0, 1, 2].map(|a| corner[a] + gap[a])));
             positions.extend(cube(3, corner.map(|x| x + 20.0)));
             let lumps = lumps(&positions);
-            // The third stands 1.4 above the cube's uppermost layer, the fourth √3 off its corner.
+            // The third stands 1.9 above the cube's uppermost layer, the fourth 1.2 √3 off its corner.
             assert!(lumps[..216].iter().all(|&lump| lump == lumps[0]));
             assert_eq!(
                 [216, 217, 218, 219].map(|i| lumps[i] == lumps[0]),

@@ -24,6 +24,9 @@ pub fn check(checker: &mut Checker) {
         method(checker, &path, droplet);
         if checker.problems.len() == before {
             resolution(checker, &path.at("spacing"), droplet);
+        }
+        // What moves the surface depends on the distance of particles.
+        if checker.problems.len() == before {
             sound(checker, &path.at("fluid.sound_speed"), droplet);
             arrivals(checker, &path.at("arrivals"), name, droplet);
             symmetry(checker, &path.at("symmetry"), droplet);
