@@ -87,22 +87,20 @@ fn all_heat_that_leaves_the_drop_enters_the_plate() {
     }
 }
 
-/// A film that runs over the edge of its plate gives there what does not enter the plate, and says so.
+/// A film that runs over the edge of its plate gives no heat there, and a force apart, and says so.
 #[test]
 fn what_lies_beyond_the_edge_is_counted_apart() {
     let dt = 1e-7;
     for shape in ["box = [1.2e-4, 1.2e-4, 1e-4]", "disc = { radius = 6e-5, thickness = 1e-4 }"] {
         let text = drop("") + &plate(shape, "auto", 10.0, "interval = 1e-7");
         let mut trial = Trial::new(&text);
-        let [mut heat, mut impulse] = [0.0; 2];
+        let mut impulse = 0.0;
         for _ in 0..80 {
             trial.step(dt);
-            heat += dt * trial.get("drop.heat_flow_outside");
             impulse += dt * trial.get("drop.force_outside");
         }
         let [given, taken] = ["drop.heat", "plate.heat_in"].map(|name| trial.get(name));
-        assert!(heat > 0.02 * given, "{shape}: {heat} J of {given} J");
-        assert!(off(taken + heat, given) < 1e-10, "{shape}: {taken} + {heat} of {given} J");
+        assert!(off(taken, given) < 1e-10, "{shape}: {taken} of {given} J");
         assert!(impulse > 0.0, "{shape}");
         let said = trial.model.overflows(&trial.state);
         assert!(said.len() == 1 && said[0].starts_with("drop: fluid lies beyond"), "{said:?}");
@@ -110,7 +108,7 @@ fn what_lies_beyond_the_edge_is_counted_apart() {
     let wide = drop("") + &plate(BOX, "auto", 10.0, "");
     let mut trial = Trial::new(&wide);
     steps(&mut trial, 20, dt);
-    assert_eq!(trial.get("drop.heat_flow_outside"), 0.0);
+    assert_eq!(trial.get("drop.force_outside"), 0.0);
     assert_eq!(trial.model.overflows(&trial.state), [""; 0]);
 }
 
@@ -380,6 +378,24 @@ fn a_step_that_fails_changes_nothing_and_says_where() {
     state.inputs[2] = 0.0;
     let error = model.step(&mut state, &mut cache, 1e-6).unwrap_err();
     assert!(matches!(error, ModelError::Input { index: 2, .. }), "{error}");
+}
+
+/// Time steps fit into communication steps, so that these change how long they are, but little of what comes out.
+#[test]
+fn communication_steps_change_little() {
+    let text = drop("") + &wall(RINGS);
+    let names = ["drop.kinetic_energy", "drop.height", "drop.spread_diameter", "drop.impulse_z"];
+    let run = |steps: usize| {
+        let mut trial = Trial::new(&text);
+        (0..steps).for_each(|_| trial.step(4e-6 / steps as f64));
+        names.map(|name| trial.get(name))
+    };
+    let once = run(1);
+    for steps in [7, 40, 400] {
+        for (name, (a, b)) in names.iter().zip(run(steps).iter().zip(&once)) {
+            assert!((a / b - 1.0).abs() < 0.03, "{name} in {steps} steps: {a} {b}");
+        }
+    }
 }
 
 #[test]

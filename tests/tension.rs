@@ -3,13 +3,16 @@
 #[path = "common/capillary.rs"]
 #[allow(dead_code)]
 mod capillary;
+#[allow(dead_code)]
+mod common;
 
 use std::f64::consts::PI;
 
 use capillary::{
-    DENSITY, RADIUS, TENSION, core_pressure, elongation, found_half_width, half_width, on_wall,
-    period, plan, stretched,
+    DENSITY, RADIUS, TENSION, core_pressure, elongation, elongations, fitted, found_half_width,
+    half_width, normal_mode, on_wall, period, plan, stretched, viscosity,
 };
+use common::Trial;
 use impinge::body::sph::{DropletPlan, DropletSph};
 
 /// Samples in a period.
@@ -47,6 +50,57 @@ fn a_stretched_drop_swings_at_rayleighs_period_under_laplaces_pressure() {
     assert!((0.85..1.0).contains(&left), "amplitude after a swing: {left}");
     let pressure = pressures.iter().sum::<f64>() / pressures.len() as f64;
     assert!((pressure - 1.0).abs() < 0.05, "pressure over Laplace's: {pressure}");
+}
+
+#[test]
+fn a_swing_dies_away_at_the_rate_of_a_viscous_drop() {
+    for ohnesorge in [0.03, 0.1] {
+        let plan = plan(3, 18.0, viscosity(ohnesorge));
+        let mode = normal_mode(&plan);
+        let exact = mode.decay_and_frequency().map(|rate| rate * period());
+        let found = fitted(&elongations(plan), exact);
+        println!("Oh {ohnesorge}: decay and frequency {found:?}, normal mode {exact:?}");
+        assert!((found[0] / exact[0] - 1.0).abs() < 0.1, "{ohnesorge}: {found:?} {exact:?}");
+        assert!((found[1] / exact[1] - 1.0).abs() < 0.03, "{ohnesorge}: {found:?} {exact:?}");
+    }
+}
+
+/// A scene of a free drop of radius 1 mm that names neither a speed of sound nor anything else it can do without.
+fn scene(fluid: &str, keys: &str) -> String {
+    format!(
+        r#"
+name = "Drop"
+stop_time = 1.0
+step = 1e-3
+[body.drop]
+kind = "droplet"
+diameter = 2e-3
+initial_temperature = 300.0
+spacing = {:?}
+fluid = {{ {fluid}, specific_heat = 4000.0, conductivity = 0.0 }}
+{keys}
+"#,
+        2e-3 / 20.0
+    )
+}
+
+/// Water at rest, and in flight at We 2.
+#[test]
+fn a_drop_keeps_its_mass_for_three_periods_on_defaults() {
+    let fluid = "density = 998.0, viscosity = 1e-3, surface_tension = 0.072";
+    let period = 2.0 * PI * (998e-9_f64 / (8.0 * 0.072)).sqrt();
+    for keys in ["impact_velocity = 0.0", "impact_velocity = 0.26859\nheight = 1.0"] {
+        let mut trial = Trial::new(&scene(fluid, keys));
+        let start = trial.get("drop.height");
+        let speed = -trial.get("drop.momentum_z") / trial.get("drop.mass");
+        for step in 1..=6 {
+            trial.step(0.5 * period);
+            assert_eq!(trial.get("drop.stray_particles"), 0.0, "{keys} {step}");
+            let height = trial.get("drop.height") + speed * 0.5 * period * f64::from(step);
+            assert!((height - start).abs() < 0.15e-3, "{keys} {step}: {height} {start}");
+        }
+        assert_eq!(trial.get("drop.stray_mass"), 0.0);
+    }
 }
 
 #[test]
@@ -89,7 +143,7 @@ fn what_pulls_a_drop_to_the_wall_pulls_at_the_wall() {
 }
 
 #[test]
-fn tension_that_acts_every_fourth_step_drives_the_same_swing() {
+fn tension_that_acts_every_few_steps_drives_the_same_swing() {
     // Sound is so fast that a step is short beside capillary waves.
     let mut plan = plan(3, 12.0, 1e-3);
     plan.fluid.sound_speed *= 4.0;

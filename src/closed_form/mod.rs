@@ -8,6 +8,7 @@
 //! | [`gaussian_flux`] | half space under a Gaussian flux, at rest or moving |
 //! | [`contact`] | two half spaces brought together |
 //! | [`spreading_film`] | film of fluid that spreads over a wall |
+//! | [`swinging_drop`] | viscous drop that swings under surface tension |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
 //! | [`convective_slab`] | slab that meets a fluid, its back insulated |
 //! | [`constrained_layer`] | step heating of a laterally constrained surface |
@@ -38,6 +39,7 @@ pub mod slab;
 pub mod special;
 pub mod spreading_film;
 pub mod square_plate;
+pub mod swinging_drop;
 pub mod thick_cylinder;
 
 #[cfg(test)]
@@ -57,4 +59,5 @@ pub use medium::{Conductor, Elastic};
 pub use slab::HeatedSlab;
 pub use spreading_film::flux_over_rest;
 pub use square_plate::SquarePlate;
+pub use swinging_drop::SwingingDrop;
 pub use thick_cylinder::ThickCylinder;

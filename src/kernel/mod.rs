@@ -8,6 +8,7 @@ mod quintic_spline;
 mod wendland_c2;
 mod wendland_c4;
 
+use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Sub};
 
 use serde::{Deserialize, Serialize};
@@ -16,6 +17,8 @@ pub use cubic_spline::CubicSpline;
 pub use quintic_spline::QuinticSpline;
 pub use wendland_c2::WendlandC2;
 pub use wendland_c4::WendlandC4;
+
+use crate::math::gauss::gauss_on;
 
 /// What the formulas of kernels are made of: a number, or many numbers in the lanes of a vector.
 pub trait Number:
@@ -129,38 +132,38 @@ impl Kernel {
         self.scale(support, dimension) * slope / (support * support)
     }
 
+    /// ∫ r² W dV over H².
+    pub fn second_moment(self, dimension: usize) -> f64 {
+        let square = |q: f64| q * q * self.value(q, 1.0, dimension);
+        integral(dimension, 1.0, square)
+    }
+
     /// σ_d / H^d [1/m^d].
     pub fn scale(self, support: f64, dimension: usize) -> f64 {
         with_kernel_shape!(self, S => S::NORMALISATION[dimension - 1] / support.powi(dimension as i32))
     }
 }
 
+/// ∫ f(r) dV over the support by Gauss quadrature, exact for piecewise polynomials: knots of the splines
+/// lie at multiples of H/6.
+fn integral(dimension: usize, support: f64, f: impl Fn(f64) -> f64) -> f64 {
+    const PIECES: usize = 6;
+    let sphere = [2.0, 2.0 * PI, 4.0 * PI][dimension - 1];
+    let mut sum = 0.0;
+    for piece in 0..PIECES {
+        let [a, b] = [piece, piece + 1].map(|knot| support * knot as f64 / PIECES as f64);
+        for (r, weight) in gauss_on(8, a, b) {
+            sum += weight * sphere * r.powi(dimension as i32 - 1) * f(r);
+        }
+    }
+    sum
+}
+
 #[cfg(test)]
 mod tests {
-    use std::f64::consts::PI;
-
     use super::*;
-    use crate::math::gauss::gauss_on;
 
     const SUPPORT: f64 = 0.7;
-
-    /// Surface of the unit sphere in d dimensions.
-    fn sphere(dimension: usize) -> f64 {
-        [2.0, 2.0 * PI, 4.0 * PI][dimension - 1]
-    }
-
-    /// ∫ f(r) dV by Gauss quadrature, exact for these piecewise polynomials.
-    fn integral(dimension: usize, f: impl Fn(f64) -> f64) -> f64 {
-        let pieces = 6; // Knots of the splines lie at multiples of H/6.
-        let mut sum = 0.0;
-        for piece in 0..pieces {
-            let [a, b] = [piece, piece + 1].map(|knot| SUPPORT * knot as f64 / pieces as f64);
-            for (r, weight) in gauss_on(8, a, b) {
-                sum += weight * sphere(dimension) * r.powi(dimension as i32 - 1) * f(r);
-            }
-        }
-        sum
-    }
 
     fn for_all(test: impl Fn(Kernel, usize)) {
         for kernel in Kernel::ALL {
@@ -171,7 +174,7 @@ mod tests {
     #[test]
     fn the_integral_is_one() {
         for_all(|kernel, d| {
-            let sum = integral(d, |r| kernel.value(r, SUPPORT, d));
+            let sum = integral(d, SUPPORT, |r| kernel.value(r, SUPPORT, d));
             assert!((sum - 1.0).abs() < 1e-13, "{kernel:?} {d}-D: {sum}");
         });
     }
@@ -210,9 +213,21 @@ mod tests {
         // ∫ r ⊗ ∇W dV = −1, one diagonal entry: ∫ F r² dV / d = −1.
         for_all(|kernel, d| {
             let factor = |r| kernel.gradient_factor(r, SUPPORT, d) * r * r;
-            let moment = integral(d, factor) / d as f64;
+            let moment = integral(d, SUPPORT, factor) / d as f64;
             assert!((moment + 1.0).abs() < 1e-13, "{kernel:?} {d}-D: {moment}");
         });
+    }
+
+    #[test]
+    fn the_second_moment_is_that_of_the_slope() {
+        // By parts, ∫ F r⁴ dV = −(d + 2) ∫ r² W dV.
+        for_all(|kernel, d| {
+            let fourth = |r: f64| kernel.gradient_factor(r, SUPPORT, d) * r.powi(4);
+            let expected = -(d as f64 + 2.0) * SUPPORT * SUPPORT * kernel.second_moment(d);
+            let moment = integral(d, SUPPORT, fourth);
+            assert!((moment / expected - 1.0).abs() < 1e-12, "{kernel:?} {d}-D: {moment}");
+        });
+        assert!((Kernel::WendlandC2.second_moment(3) - 0.2).abs() < 1e-14);
     }
 
     #[test]

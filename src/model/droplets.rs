@@ -159,10 +159,6 @@ impl DropletModel {
                 let sum = exchange.heat.iter().sum::<f64>() + exchange.heat_outside;
                 return a_time(sum, exchange);
             }
-            DropletTotal::HeatFlowOutside => {
-                let exchange = self.exchange(state, cache);
-                return a_time(exchange.heat_outside, exchange);
-            }
             DropletTotal::ForceOutside => {
                 let exchange = self.exchange(state, cache);
                 return a_time(-exchange.impulse_outside[2], exchange);
@@ -187,12 +183,13 @@ impl DropletModel {
             DropletTotal::MaxTemperature => totals.temperature_range[1],
             DropletTotal::Particles => self.copies * totals.particles,
             DropletTotal::Steps => totals.steps,
+            DropletTotal::StrayMass => totals.stray_mass,
+            DropletTotal::StrayParticles => self.copies * totals.stray_particles,
             DropletTotal::SpreadDiameter => totals.spread_diameter,
             DropletTotal::Heat => totals.heat_to_wall,
             DropletTotal::Impulse(axis) => totals.impulse_to_wall[axis],
             DropletTotal::HeatFlow
             | DropletTotal::Force
-            | DropletTotal::HeatFlowOutside
             | DropletTotal::ForceOutside => unreachable!("returned above"),
         }
     }
@@ -328,19 +325,7 @@ pub fn notes(droplet: &Droplet) -> Vec<String> {
         _ => "the whole drop is modelled: nothing makes it mirror itself, or the scene asks for it",
     }
     .to_owned()];
-    let (sound, flow) = (droplet.sound_speed(), droplet.fastest_flow());
-    let ratio = sound / flow;
-    if droplet.fluid.sound_speed.is_none() {
-        notes.push(format!(
-            "speed of sound chosen: {sound:.4} m/s, ten times the fastest flow expected"
-        ));
-    } else if ratio < 10.0 {
-        notes.push(format!(
-            "the speed of sound is only {ratio:.2} times the fastest flow: the fluid is compressed \
-             by about {:.1} %, by 1 % at ten times",
-            100.0 / (ratio * ratio)
-        ));
-    }
+    notes.extend(note_on_sound(droplet));
     if droplet.fluid.surface_tension == 0.0 {
         notes.push("surface tension is left out: the scene names none".to_owned());
     } else if !droplet.shifts() && droplet.shifting.is_none() {
@@ -350,4 +335,30 @@ pub fn notes(droplet: &Droplet) -> Vec<String> {
         notes.push("heat is left out: the fluid does not conduct any".to_owned());
     }
     notes
+}
+
+/// The speed of sound that was chosen, or what one that the scene asks for costs.
+fn note_on_sound(droplet: &Droplet) -> Option<String> {
+    let (sound, speed) = (droplet.sound_speed(), droplet.governing_speed());
+    let of_surface = droplet.surface_speed() > droplet.fastest_flow();
+    let ratio = sound / speed;
+    if droplet.fluid.sound_speed.is_none() {
+        let what = if of_surface {
+            "the speed √(2σ/(ρΔx)) that surface tension gives single particles"
+        } else {
+            "the fastest flow expected"
+        };
+        return Some(format!("speed of sound chosen: {sound:.4} m/s, ten times {what}"));
+    }
+    (ratio < 10.0).then(|| match of_surface {
+        true => format!(
+            "the speed of sound is only {ratio:.2} times √(2σ/(ρΔx)): single particles may come loose from the \
+             surface, none at ten times"
+        ),
+        false => format!(
+            "the speed of sound is only {ratio:.2} times the fastest flow: the fluid is compressed \
+             by about {:.1} %, by 1 % at ten times",
+            100.0 / (ratio * ratio)
+        ),
+    })
 }

@@ -36,8 +36,8 @@ impl Model {
         let over = droplets.filter(|(droplet, unknowns)| droplet.overflows(unknowns));
         let sentence = |(droplet, _): (&DropletModel, _)| {
             format!(
-                "{}: fluid lies beyond the edge of the solid; its heat and force do not enter the solid \
-                 but are counted apart, as heat_flow_outside and force_outside",
+                "{}: fluid lies beyond the edge of the solid; it gives no heat there, and its force, which \
+                 does not act on the solid, is counted apart as force_outside",
                 droplet.name
             )
         };

@@ -84,7 +84,7 @@ pub struct Fluid {
     /// Angle of contact with the wall [rad]; matters with surface tension only.
     #[serde(default = "right_angle")]
     pub contact_angle: f64,
-    /// Speed of sound of the model [m/s]; ten times the fastest flow if left out.
+    /// Speed of sound of the model [m/s]; ten times [`Droplet::governing_speed`] if left out.
     pub sound_speed: Option<f64>,
 }
 
@@ -192,7 +192,7 @@ fn yes() -> bool {
     true
 }
 
-/// Speed of sound over the fastest flow where the scene names none: density then stays within 1 %.
+/// Speed of sound over the governing speed where the scene names none: density then stays within 1 %.
 const SOUND_OVER_FLOW: f64 = 10.0;
 
 /// Weber number from which inertia rules.
@@ -204,7 +204,7 @@ impl Droplet {
         self.height.unwrap_or(0.5 * self.spacing)
     }
 
-    /// The largest of the speed of a drop that has fallen through its gap and its own height, and of
+    /// The larger of the speed of a drop that has fallen through its gap and its own height, and of
     /// capillary waves, √(σ/(ρR)) [m/s].
     pub fn fastest_flow(&self) -> f64 {
         let fall = 2.0 * self.gravity * (self.gap() + self.diameter);
@@ -212,9 +212,21 @@ impl Droplet {
         (self.impact_velocity.powi(2) + fall).max(capillary).sqrt()
     }
 
+    /// √(2σ/(ρΔx)) [m/s], the speed that belongs to Laplace's pressure 2σ/Δx of the sharpest surface that
+    /// particles can show; no less than √(σ/(ρΔx)) of the shortest waves and √(2σ/(ρR)) of the whole drop. Sound
+    /// that is not much faster lets the outermost particles come loose, one after the other.
+    pub fn surface_speed(&self) -> f64 {
+        (2.0 * self.fluid.surface_tension / (self.fluid.density * self.spacing)).sqrt()
+    }
+
+    /// The speed beside which that of sound is to be large: of the flow or of its surface [m/s].
+    pub fn governing_speed(&self) -> f64 {
+        self.fastest_flow().max(self.surface_speed())
+    }
+
     /// Speed of sound of the model [m/s].
     pub fn sound_speed(&self) -> f64 {
-        self.fluid.sound_speed.unwrap_or_else(|| SOUND_OVER_FLOW * self.fastest_flow())
+        self.fluid.sound_speed.unwrap_or_else(|| SOUND_OVER_FLOW * self.governing_speed())
     }
 
     /// Whether all drops arrive at the origin.

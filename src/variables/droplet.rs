@@ -36,12 +36,13 @@ pub enum DropletTotal {
     MaxTemperature,
     Particles,
     Steps,
+    StrayMass,
+    StrayParticles,
     SpreadDiameter,
     Heat,
     HeatFlow,
     Impulse(usize),
     Force,
-    HeatFlowOutside,
     ForceOutside,
 }
 
@@ -129,7 +130,7 @@ impl DropletConstant {
 
 impl DropletTotal {
     /// Of any droplet.
-    const FREE: [DropletTotal; 18] = [
+    const FREE: [DropletTotal; 20] = [
         DropletTotal::Height,
         DropletTotal::KineticEnergy,
         DropletTotal::CompressionEnergy,
@@ -148,6 +149,8 @@ impl DropletTotal {
         DropletTotal::MaxTemperature,
         DropletTotal::Particles,
         DropletTotal::Steps,
+        DropletTotal::StrayMass,
+        DropletTotal::StrayParticles,
     ];
     /// Of a droplet above a wall or a solid.
     const ABOVE_A_WALL: [DropletTotal; 7] = [
@@ -160,8 +163,7 @@ impl DropletTotal {
         DropletTotal::Force,
     ];
     /// Of a droplet on a solid, which may run over its edge.
-    const ON_A_SOLID: [DropletTotal; 2] =
-        [DropletTotal::HeatFlowOutside, DropletTotal::ForceOutside];
+    const ON_A_SOLID: [DropletTotal; 1] = [DropletTotal::ForceOutside];
 
     fn key(self) -> String {
         let key = match self {
@@ -181,12 +183,13 @@ impl DropletTotal {
             DropletTotal::MaxTemperature => "max_temperature",
             DropletTotal::Particles => "particles",
             DropletTotal::Steps => "steps",
+            DropletTotal::StrayMass => "stray_mass",
+            DropletTotal::StrayParticles => "stray_particles",
             DropletTotal::SpreadDiameter => "spread_diameter",
             DropletTotal::Heat => "heat",
             DropletTotal::HeatFlow => "heat_flow",
             DropletTotal::Impulse(axis) => return format!("impulse_{}", AXES[axis]),
             DropletTotal::Force => "force",
-            DropletTotal::HeatFlowOutside => "heat_flow_outside",
             DropletTotal::ForceOutside => "force_outside",
         };
         key.to_owned()
@@ -194,7 +197,7 @@ impl DropletTotal {
 
     fn description(self) -> String {
         let text = match self {
-            DropletTotal::Height => "height of the highest particle above the wall",
+            DropletTotal::Height => "height of the body of fluid above the wall, without strays",
             DropletTotal::KineticEnergy => "kinetic energy",
             DropletTotal::CompressionEnergy => "elastic energy of the weak compression",
             DropletTotal::SurfaceEnergy => "energy of free and wetted surface, against a dry wall",
@@ -204,7 +207,9 @@ impl DropletTotal {
             DropletTotal::HeatDrift => {
                 "heat stored and given to the wall, together: zero but for rounding"
             }
-            DropletTotal::MaxPressure => "highest pressure of a particle",
+            DropletTotal::MaxPressure => {
+                "highest pressure of a single particle, which rings and grows with resolution"
+            }
             DropletTotal::MaxSpeed => "highest speed of a particle",
             DropletTotal::MinDensity => "lowest density of a particle",
             DropletTotal::MaxDensity => "highest density of a particle",
@@ -212,6 +217,12 @@ impl DropletTotal {
             DropletTotal::MaxTemperature => "highest temperature of a particle",
             DropletTotal::Particles => "number of particles, images at mirrors included",
             DropletTotal::Steps => "time steps made inside the unit",
+            DropletTotal::StrayMass => {
+                "mass that has come off the body of fluid, in lumps below a tenth of a drop"
+            }
+            DropletTotal::StrayParticles => {
+                "number of particles that have come off the body of fluid, images included"
+            }
             DropletTotal::SpreadDiameter => {
                 "diameter of the film on the wall, without holes and spray"
             }
@@ -220,10 +231,8 @@ impl DropletTotal {
             DropletTotal::Impulse(axis) => {
                 return format!("impulse along {} given to the wall since time zero", AXES[axis]);
             }
-            DropletTotal::Force => "force into the wall, mean over the last exchange",
-            DropletTotal::HeatFlowOutside => {
-                "heat flow beyond the edge of the solid, which does not enter it, mean over the last \
-                 exchange"
+            DropletTotal::Force => {
+                "force into the wall, mean over the last exchange, which rings with the fluid's sound"
             }
             DropletTotal::ForceOutside => {
                 "force beyond the edge of the solid, which does not act on it, mean over the last \
@@ -242,14 +251,16 @@ impl DropletTotal {
             | DropletTotal::HeatStored
             | DropletTotal::HeatDrift
             | DropletTotal::Heat => Quantity::Energy,
-            DropletTotal::Mass => Quantity::Mass,
+            DropletTotal::Mass | DropletTotal::StrayMass => Quantity::Mass,
             DropletTotal::Momentum(_) | DropletTotal::Impulse(_) => Quantity::Momentum,
             DropletTotal::MaxPressure => Quantity::Stress,
             DropletTotal::MaxSpeed => Quantity::Velocity,
             DropletTotal::MinDensity | DropletTotal::MaxDensity => Quantity::Density,
             DropletTotal::MinTemperature | DropletTotal::MaxTemperature => Quantity::Temperature,
-            DropletTotal::Particles | DropletTotal::Steps => Quantity::Ratio,
-            DropletTotal::HeatFlow | DropletTotal::HeatFlowOutside => Quantity::HeatFlow,
+            DropletTotal::Particles | DropletTotal::Steps | DropletTotal::StrayParticles => {
+                Quantity::Ratio
+            }
+            DropletTotal::HeatFlow => Quantity::HeatFlow,
             DropletTotal::Force | DropletTotal::ForceOutside => Quantity::Force,
         }
     }

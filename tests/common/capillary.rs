@@ -6,13 +6,19 @@ use impinge::body::sph::{
     DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
     WallCells,
 };
+use impinge::closed_form::SwingingDrop;
 use impinge::kernel::Kernel;
+use nalgebra::{DMatrix, DVector};
 
 /// Water, radius 1 mm.
 pub const RADIUS: f64 = 1e-3;
 pub const DENSITY: f64 = 1000.0;
 pub const TENSION: f64 = 0.072;
-const SOUND: f64 = 10.0;
+
+/// Speed of sound that scenes get where they name none, for a distance of particles [m/s].
+pub fn sound_speed(spacing: f64) -> f64 {
+    10.0 * (2.0 * TENSION / (DENSITY * spacing)).sqrt()
+}
 
 /// A drop about the origin at rest, of some particles over its diameter.
 pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
@@ -27,7 +33,7 @@ pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
             specific_heat: 4000.0,
             conductivity: 0.0,
             surface_tension: TENSION,
-            sound_speed: SOUND,
+            sound_speed: sound_speed(2.0 * RADIUS / across),
         },
         placement: Placement::Lattice,
         precision: Precision::Single,
@@ -64,6 +70,65 @@ pub fn stretched(plan: DropletPlan, factor: f64) -> (DropletSph, Vec<f64>) {
 /// 10.1098/rspl.1879.0015).
 pub fn period() -> f64 {
     2.0 * PI * (DENSITY * RADIUS.powi(3) / (8.0 * TENSION)).sqrt()
+}
+
+/// The swing of a plan's drop by the theory of small swings.
+pub fn normal_mode(plan: &DropletPlan) -> SwingingDrop {
+    SwingingDrop {
+        radius: RADIUS,
+        density: DENSITY,
+        viscosity: plan.fluid.viscosity,
+        surface_tension: TENSION,
+    }
+}
+
+/// Viscosity [Pa s] for an Ohnesorge number µ/√(ρσR).
+pub fn viscosity(ohnesorge: f64) -> f64 {
+    ohnesorge * (DENSITY * TENSION * RADIUS).sqrt()
+}
+
+/// Elongation of a plan's drop, stretched by a tenth, at times over Rayleigh's period, for 1.3 periods.
+pub fn elongations(plan: DropletPlan) -> Vec<[f64; 2]> {
+    const SAMPLES: usize = 40;
+    let (drop, mut state) = stretched(plan, 1.1);
+    let mut rows = vec![[0.0, elongation(&drop.particles(&state))]];
+    for sample in 1..=13 * SAMPLES / 10 {
+        drop.advance(&mut state, &[], period() / SAMPLES as f64).unwrap();
+        rows.push([sample as f64 / SAMPLES as f64, elongation(&drop.particles(&state))]);
+    }
+    rows
+}
+
+/// Decay rate and angular frequency of `e^(−at) (A cos bt + B sin bt) + C` that fits rows of time and value
+/// best from 0.3 on, when the layer of vorticity below the surface has formed; by Gauss and Newton's method
+/// from a first guess on.
+pub fn fitted(rows: &[[f64; 2]], guess: [f64; 2]) -> [f64; 2] {
+    let rows: Vec<_> = rows.iter().filter(|row| row[0] >= 0.3).collect();
+    let times = DVector::from_iterator(rows.len(), rows.iter().map(|row| row[0]));
+    let values = DVector::from_iterator(rows.len(), rows.iter().map(|row| row[1]));
+    let terms = |[decay, frequency]: [f64; 2]| {
+        DMatrix::from_fn(rows.len(), 3, |i, term| match term {
+            0 => (-decay * times[i]).exp() * (frequency * times[i]).cos(),
+            1 => (-decay * times[i]).exp() * (frequency * times[i]).sin(),
+            _ => 1.0,
+        })
+    };
+    let misfit = |swing: [f64; 2]| {
+        let terms = terms(swing);
+        let parts = terms.clone().svd(true, true).solve(&values, 1e-12).unwrap();
+        terms * parts - &values
+    };
+    let mut swing = guess;
+    for _ in 0..40 {
+        const STEP: f64 = 1e-5;
+        let here = misfit(swing);
+        let ahead = [[STEP, 0.0], [0.0, STEP]]
+            .map(|[a, b]| (misfit([swing[0] + a, swing[1] + b]) - &here) / STEP);
+        let slopes = DMatrix::from_columns(&ahead);
+        let change = slopes.svd(true, true).solve(&here, 1e-12).unwrap();
+        swing = [swing[0] - change[0].clamp(-0.3, 0.3), swing[1] - change[1].clamp(-0.3, 0.3)];
+    }
+    swing
 }
 
 /// Mean of z² − (x² + y²)/2 over R², 0 for a sphere.

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use crate::capillary::{
-    RADIUS, TENSION, core_pressure, elongation, found_half_width, half_width, on_wall, period,
-    plan, stretched,
+    RADIUS, TENSION, core_pressure, elongation, elongations, fitted, found_half_width, half_width,
+    normal_mode, on_wall, period, plan, stretched, viscosity,
 };
 use crate::study::keep;
 use impinge::body::sph::{DropletPlan, Placement};
@@ -49,6 +49,32 @@ fn tension_of_a_swinging_drop() {
             assert!((lasting - 1.0).abs() < error, "{label} {across}: {lasting}");
             assert!((pressure - 1.0).abs() < error, "{label} {across}: {pressure}");
             assert!((0.75..1.0).contains(&left), "{label} {across}: {left}");
+        }
+    }
+}
+
+#[test]
+fn decay_of_a_swinging_drop() {
+    println!("\nSwinging drop: decay in a period of Rayleigh, of the normal mode and found");
+    println!(
+        "\n| Oh | D/Δx | normal mode | found | kept over that of the normal mode | frequency |"
+    );
+    println!("|---|---|---|---|---|---|");
+    for ohnesorge in [0.01, 0.03, 0.1, 0.3] {
+        for across in [20.0, 32.0] {
+            let plan = plan(3, across, viscosity(ohnesorge));
+            let exact = normal_mode(&plan).decay_and_frequency().map(|rate| rate * period());
+            let found = fitted(&elongations(plan), exact);
+            let kept = (exact[0] - found[0]).exp();
+            let frequency = found[1] / exact[1];
+            println!(
+                "| {ohnesorge} | {across} | {:.4} | {:.4} | {kept:.3} | {frequency:.3} |",
+                exact[0], found[0]
+            );
+            // What is left after a period, where viscosity takes little, and the decay, where it takes much.
+            let error = (kept - 1.0).abs().min((found[0] / exact[0] - 1.0).abs());
+            assert!(error < 0.06, "{ohnesorge} {across}: {found:?} {exact:?}");
+            assert!((frequency - 1.0).abs() < 0.04, "{ohnesorge} {across}: {frequency}");
         }
     }
 }

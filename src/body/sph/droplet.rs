@@ -8,6 +8,7 @@ use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in};
 use super::failure::Failure;
 use super::images::copies;
 use super::loops::PART;
+use super::lumps::body_of_fluid;
 use super::method::Method;
 use super::placement::place;
 use super::plan::{DropletPlan, Release};
@@ -51,10 +52,14 @@ pub struct DropletTotals {
     pub impulse_to_wall: [f64; 3],
     /// Impulse of gravity since time zero [N s].
     pub impulse_of_gravity: [f64; 3],
-    /// Diameter of the film on the wall, see [`spread_diameter`] [m].
+    /// Diameter of the film that the body of fluid makes on the wall, see [`spread_diameter`] [m].
     pub spread_diameter: f64,
-    /// Height of the highest particle above the wall [m].
+    /// Height of the body of fluid above the wall: of its highest particle [m].
     pub height: f64,
+    /// Mass [kg] and number of particles, images left out, that have come off the body of fluid: in lumps
+    /// of less than a tenth of a drop's mass.
+    pub stray_mass: f64,
+    pub stray_particles: f64,
     pub max_speed: f64,
     pub max_pressure: f64,
     /// Lowest and highest density over the density at rest.
@@ -404,22 +409,36 @@ fn totals(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud) -
         let temperature = cloud.temperature[i] + reference;
         totals.temperature_range = [low.min(temperature), high.max(temperature)];
     }
-    let heights = cloud.position.iter().map(|x| x[2] * units.length);
-    totals.height = heights.fold(0.0, f64::max);
+    let body = body(plan, ledger, cloud);
+    for (i, &in_body) in body.iter().enumerate() {
+        if in_body {
+            totals.height = totals.height.max(cloud.position[i][2] * units.length);
+        } else {
+            totals.stray_mass += images * cloud.mass[i] * units.mass();
+            totals.stray_particles += 1.0;
+        }
+    }
     totals.spread_diameter =
-        plan.spacing * spread_diameter(&wetting_places(plan, cloud), plan.dimension);
+        plan.spacing * spread_diameter(&wetting_places(plan, cloud, &body), plan.dimension);
     totals
+}
+
+/// Whether each particle belongs to the body of fluid.
+fn body(plan: &DropletPlan, ledger: &Ledger, cloud: &Cloud) -> Vec<bool> {
+    let places: Vec<_> = cloud.position.iter().map(|x| x.map(|x| x * plan.support)).collect();
+    let mass: f64 = cloud.mass.iter().sum();
+    body_of_fluid(&places, &cloud.mass, mass / ledger.released.max(1) as f64)
 }
 
 /// Height over Δx below which a particle's middle is at the wall: that of its first layer, with as much
 /// again to move in.
 const AT_WALL: f64 = 1.5;
 
-/// Places over Δx, round their middle, of all particles that lie on the wall; images at mirrors
-/// included.
-fn wetting_places(plan: &DropletPlan, cloud: &Cloud) -> Vec<[f64; 2]> {
+/// Places over Δx, round their middle, of all particles of the body that lie on the wall; images at
+/// mirrors included.
+fn wetting_places(plan: &DropletPlan, cloud: &Cloud, body: &[bool]) -> Vec<[f64; 2]> {
     let spacing = 1.0 / plan.support;
-    let at_wall = |&i: &usize| cloud.position[i][2] < AT_WALL * spacing;
+    let at_wall = |&i: &usize| body[i] && cloud.position[i][2] < AT_WALL * spacing;
     let wetting: Vec<usize> = (0..cloud.len()).filter(at_wall).collect();
     let mass: f64 = wetting.iter().map(|&i| cloud.mass[i]).sum();
     let middle = |a: usize| match plan.mirrors[a] {

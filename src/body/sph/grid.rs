@@ -86,8 +86,8 @@ impl Grid {
         self.volume() / self.spacing[2]
     }
 
-    /// All bins in which points are, and those beside them, once each.
-    pub fn bins(&self, points: &[[f64; 3]], origin: [f64; 3]) -> Vec<[i32; 3]> {
+    /// All bins within a distance of points along each axis, once each.
+    pub fn bins(&self, points: &[[f64; 3]], origin: [f64; 3], distance: f64) -> Vec<[i32; 3]> {
         let bin = |x: &[f64; 3]| {
             let mut bin = [0; 3];
             for &(a, _) in &self.axes {
@@ -101,15 +101,16 @@ impl Grid {
         for &(a, axis) in &self.axes {
             bins.sort_unstable();
             bins.dedup();
-            let beside = |bin: &[i32; 3]| {
+            let beside = (distance / (f64::from(BIN) * self.spacing[a])).ceil() as i32;
+            let near = |bin: &[i32; 3]| {
                 let bin = *bin;
-                (-1..=1).filter_map(move |step| {
+                (-beside..=beside).filter_map(move |step| {
                     let mut bin = bin;
                     bin[a] = axis.fitted(bin[a] + step)?;
                     Some(bin)
                 })
             };
-            bins = bins.iter().flat_map(beside).collect();
+            bins = bins.iter().flat_map(near).collect();
         }
         bins.sort_unstable();
         bins.dedup();
@@ -217,7 +218,7 @@ mod tests {
         let grid = Grid::of([Ends::Period(2.1), MIRROR, OPEN], 0.2, 3);
         assert!((grid.spacing[0] * 12.0 - 2.1).abs() < 1e-14 && grid.spacing[1] == 0.2);
         assert!(grid.is_free(2) && !grid.is_free(0) && !grid.is_free(1));
-        let bins = grid.bins(&[[2.0, 0.1, -0.1]], [0.0, 0.0, 0.05]);
+        let bins = grid.bins(&[[2.0, 0.1, -0.1]], [0.0, 0.0, 0.05], 0.1);
         let mut along_x: Vec<i32> = bins.iter().map(|bin| bin[0]).collect();
         along_x.dedup();
         assert_eq!(along_x, [0, 1, 2]);

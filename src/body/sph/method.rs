@@ -25,7 +25,9 @@ pub struct Method {
     pub normalisation: f64,
     pub mirrors: [bool; 2],
     pub images: Images,
+    /// ν over c₀H, and what pairs of particles make of it, see [`Momentum`](super::momentum::Momentum).
     pub viscosity: f64,
+    pub pair_viscosity: f64,
     pub conduction: f64,
     pub diffusion: f64,
     /// Whether density diffusion is corrected by renormalised gradients.
@@ -58,7 +60,7 @@ const CAPILLARY: f64 = 0.25;
 /// Most steps that surface tension acts for at once, as it changes slowly beside sound: impulses between
 /// steps keep its energy (reversible reference system propagator, Tuckerman, Berne & Martyna 1992,
 /// J. Chem. Phys. 97, 1990–2001, doi 10.1063/1.463137).
-const TURN: f64 = 4.0;
+const TURN: f64 = 10.0;
 
 impl Method {
     pub fn of(plan: &DropletPlan) -> Self {
@@ -70,6 +72,8 @@ impl Method {
         let gravity = plan.gravity.map(|g| g * h / (c * c));
         let images = Images::of(plan, h, gravity);
         let points = PointLattice::of(plan);
+        let viscosity = fluid.viscosity / (units.density * c * h);
+        let moment = plan.kernel.second_moment(plan.dimension);
         Self {
             units,
             dimension: plan.dimension,
@@ -78,7 +82,8 @@ impl Method {
             normalisation,
             mirrors: plan.mirrors,
             images: images.clone(),
-            viscosity: fluid.viscosity / (units.density * c * h),
+            viscosity,
+            pair_viscosity: 2.0 * plan.dimension as f64 / moment * viscosity,
             conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
             diffusion: plan.density_diffusion,
             corrects: plan.corrected_diffusion && plan.density_diffusion > 0.0,

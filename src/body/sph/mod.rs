@@ -22,6 +22,7 @@ mod images;
 mod kick;
 mod lanes;
 mod loops;
+mod lumps;
 mod method;
 mod moment;
 mod momentum;

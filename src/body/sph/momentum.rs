@@ -6,15 +6,24 @@ use super::loops::{Local, PairSum};
 use super::neighbours::Block;
 use crate::kernel::Shape;
 
-/// Pressure and viscosity, equal and opposite in every pair.
+/// Pressure and viscosity, equal and opposite in every pair and along the line between both.
 ///
-/// With lengths over H, velocities over c₀, pressures over ρ₀c₀² and F = w′(q)/q of the kernel,
+/// With lengths over H, velocities over c₀, pressures over ρ₀c₀², F = w′(q)/q of the kernel and its
+/// second moment m = ∫ q² W dV in d dimensions,
 ///
-/// `(1 + r_i) du_i/dt = Σ V_j F [−(p_i + p_j) x_ij + 2 ν u_ij]`.
+/// `(1 + r_i) du_i/dt = Σ V_j F x_ij [−(p_i + p_j) + (2d/m) ν u_ij·x_ij]`.
+///
+/// Inside the fluid the second part is `ν (∇²u + 2 ∇∇·u)`. What it takes from the flow depends on
+/// the rate of strain e alone, `∫ 2µ e:e dV` of an incompressible flow, so free surfaces bear no viscous stress
+/// and need no condition.
 ///
 /// Images across z move against their originals, so that the fluid sticks.
 ///
-/// Source: Morris, Fox & Zhu (1997), J. Comput. Phys. 136, 214–226, doi 10.1006/jcph.1997.5776.
+/// Sources: Monaghan & Gingold (1983), J. Comput. Phys. 52, 374–389, doi 10.1016/0021-9991(83)90036-0,
+/// whose weight F/q² is here F, which needs no division and is less uneven between the directions of a
+/// lattice; any weight will do with its moment (Español & Revenga 2003, Phys. Rev. E 67, 026705, doi
+/// 10.1103/PhysRevE.67.026705). Free surfaces: Colagrossi, Antuono, Souto-Iglesias & Le Touzé (2011), Phys.
+/// Rev. E 84, 026705, doi 10.1103/PhysRevE.84.026705.
 pub struct Momentum<'a> {
     pub images: &'a Images,
     /// Position, velocity, volume and pressure of every particle.
@@ -23,7 +32,7 @@ pub struct Momentum<'a> {
     pub densities: &'a [f64],
     /// σ of the kernel.
     pub normalisation: f64,
-    /// ν = µ/(ρ₀ c₀ H).
+    /// (2d/m) ν, with ν = µ/(ρ₀ c₀ H).
     pub viscosity: f64,
 }
 
@@ -68,7 +77,7 @@ impl PairSum for Momentum<'_> {
             ]),
             velocity: lanes([own[3], own[4], own[5]]),
             pressure: L::constant(own[7]),
-            viscosity: L::constant(2.0 * self.viscosity),
+            viscosity: L::constant(self.viscosity),
         };
         let [fluid, wall] = block.neighbours(k);
         let scale = self.normalisation / (1.0 + self.densities[block.first + k]);
@@ -114,9 +123,9 @@ fn add<L: Lanes, S: Shape>(force: &mut [L; 3], here: &Here<L>, neighbour: [L; 8]
     let u = [here.velocity[0] - vx, here.velocity[1] - vy, here.velocity[2] - vz];
     let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
     let slope = volume * S::slope_over_q(q);
-    let along = L::constant(0.0) - slope * (here.pressure + pressure);
-    let viscous = here.viscosity * slope;
+    let closing = u[0] * d[0] + u[1] * d[1] + u[2] * d[2];
+    let along = slope * (here.viscosity * closing - (here.pressure + pressure));
     for n in 0..3 {
-        force[n] = force[n] + (along * d[n] + viscous * u[n]);
+        force[n] = force[n] + along * d[n];
     }
 }

@@ -11,6 +11,9 @@ const REACH: f64 = 4.0;
 const FULL: f64 = 0.95;
 /// Volume fraction below which surfaces have no weight to speak of.
 const FAINTEST: f64 = 0.02;
+/// Share of h beyond the outermost particles from which the volume fraction has no weight: 1e-3 at a plane
+/// surface, Δx/2 beyond them.
+const OUTSIDE: f64 = 0.75;
 /// How much particles that stand unevenly lower the volume fraction beyond what its slope tells.
 const UNEVENNESS: f64 = 0.03;
 /// Share of 1/h below which a gradient of the volume fraction has no certain direction.
@@ -49,6 +52,11 @@ impl SurfaceEnergy {
     /// Whether the wall has a share.
     pub fn wets(&self) -> bool {
         self.cosine.abs() > 1e-12
+    }
+
+    /// Distance from all particles beyond which no point has a share.
+    pub fn farthest(&self) -> f64 {
+        OUTSIDE * self.smoothing.reach
     }
 
     /// Whether the surface may pass within `distance` of a point with a volume fraction and a length of its

@@ -11,7 +11,8 @@ use crate::scene::types::Symmetry;
 const FEWEST_ACROSS: f64 = 6.0;
 /// More particles than this fit no machine of today.
 const MOST_PARTICLES: f64 = 2e7;
-/// Least speed of sound over the fastest flow: below, the fluid would be compressed by 4 % and more.
+/// Least speed of sound over that of the flow or its surface: below, the fluid would be compressed by 4 % and
+/// more, or its surface come loose.
 const LEAST_SOUND_OVER_FLOW: f64 = 5.0;
 
 /// Bounds of what a drop and its fluid have, wide about all that drops are made of: from liquid helium to
@@ -52,6 +53,9 @@ pub fn check(checker: &mut Checker) {
         method(checker, &path, droplet);
         if checker.problems.len() == before {
             resolution(checker, &path.at("spacing"), droplet);
+        }
+        // What moves the surface depends on the distance of particles.
+        if checker.problems.len() == before {
             sound(checker, &path.at("fluid.sound_speed"), droplet);
             arrivals(checker, &path.at("arrivals"), name, droplet);
             symmetry(checker, &path.at("symmetry"), droplet);
@@ -148,7 +152,7 @@ fn resolution(checker: &mut Checker, path: &Path, droplet: &Droplet) {
 }
 
 fn sound(checker: &mut Checker, path: &Path, droplet: &Droplet) {
-    let flow = droplet.fastest_flow();
+    let (flow, surface) = (droplet.fastest_flow(), droplet.surface_speed());
     match droplet.fluid.sound_speed {
         None => {
             let message = "neither impact, gravity nor surface tension gives the flow a speed to \
@@ -156,15 +160,21 @@ fn sound(checker: &mut Checker, path: &Path, droplet: &Droplet) {
             checker.require(flow > 0.0, path, message, "> 0");
         }
         Some(speed) => {
-            let least = LEAST_SOUND_OVER_FLOW * flow;
-            let message = format!(
-                "the flow of up to {} m/s would compress the fluid by more than 4 %",
-                number(flow)
-            );
-            let allowed = format!(
-                ">= {} (five times that flow; ten times keeps density within 1 %)",
-                number(least)
-            );
+            let (what, message) = if surface > flow {
+                let message = format!(
+                    "a surface whose tension moves particles at up to {} m/s would come loose",
+                    number(surface)
+                );
+                ("speed, √(2σ/(ρΔx)); ten times keep all particles", message)
+            } else {
+                let message = format!(
+                    "the flow of up to {} m/s would compress the fluid by more than 4 %",
+                    number(flow)
+                );
+                ("flow; ten times keeps density within 1 %", message)
+            };
+            let least = LEAST_SOUND_OVER_FLOW * droplet.governing_speed();
+            let allowed = format!(">= {} (five times that {what})", number(least));
             checker.require(fits(least, speed), path, message, allowed);
         }
     }
