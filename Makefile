@@ -31,8 +31,8 @@ test: rust-test python-test ## everything that is fast
 
 rust-test:
 	cargo fmt --all --check
-	cargo clippy --workspace --all-targets -- -D warnings
-	cargo test --workspace
+	cargo clippy --release --workspace --all-targets -- -D warnings
+	cargo test --release --workspace
 
 python-test: build $(VENV)/ready
 	$(BIN)/ruff check $(PY_FILES)
@@ -42,7 +42,7 @@ python-test: build $(VENV)/ready
 SECONDS ?= 600
 
 fuzz: ## drive the C ABI with random calls for SECONDS seconds
-	FUZZ_SECONDS=$(SECONDS) cargo test --test fmi fuzz:: -- --nocapture
+	FUZZ_SECONDS=$(SECONDS) cargo test --release --test fmi fuzz:: -- --nocapture
 
 verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent finite-element code
 	cargo test --release --features verification --test verification -- --nocapture --test-threads 1

@@ -156,7 +156,8 @@ fn check_and_run_warn_of_what_is_hardly_meant() {
                       plausible from 60 to 6000 K; did you mean 293.15 (20 °C)?";
         assert!(said.contains(wanted), "{arguments:?}: {said}");
     }
-    let said = place.run(&["--set", "plate.initial_temperature=25"]).succeeds().stderr();
+    let arguments = ["--overwrite", "--set", "plate.initial_temperature=25"];
+    let said = place.run(&arguments).succeeds().stderr();
     assert!(said.contains("did you mean 298.15 (25 °C)?"), "{said}");
 }
 

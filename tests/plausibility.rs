@@ -225,7 +225,12 @@ fn sizes_loads_and_forgotten_parts_are_warned_of() {
         ),
         ("spacing = 5e-6", "spacing = 42e-6", "footprint.disc.radius = 30e-6", "nodes"),
         ("ambient = 293.15", "ambient = 25.0", "convection.ambient = 25.0", "298.15 (25 °C)"),
-        ("stop_time = 1e-5", "stop_time = 1e9", "stop_time = 1e9", "plausible"),
+        (
+            "stop_time = 1e-5\nstep = 1e-6",
+            "stop_time = 1e9\nstep = 1e3",
+            "stop_time = 1e9",
+            "plausible",
+        ),
     ];
     for (from, to, key, says) in plate_edits {
         let found = warnings(&edited(&plate(ALUMINA), from, to));

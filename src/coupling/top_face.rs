@@ -226,8 +226,9 @@ mod tests {
         let face = TopFace::of(&mesh, false);
         let [x, y] = [&mesh.axes[0], &mesh.axes[1]];
         let widths = |axis: &Axis| -> Vec<f64> {
-            let at = |i: usize| axis.nodes[i.min(axis.len() - 1)];
-            (0..axis.len()).map(|i| 0.5 * (at(i + 1) - at(i.saturating_sub(1)))).collect()
+            let ends: Vec<f64> = axis.nodes.iter().copied().step_by(2).collect();
+            let at = |i: usize| ends[i.min(ends.len() - 1)];
+            (0..ends.len()).map(|i| 0.5 * (at(i + 1) - at(i.saturating_sub(1)))).collect()
         };
         let amounts: Vec<f64> =
             widths(y).iter().flat_map(|b| widths(x).into_iter().map(move |a| a * b)).collect();

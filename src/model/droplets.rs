@@ -188,9 +188,9 @@ impl DropletModel {
             DropletTotal::SpreadDiameter => totals.spread_diameter,
             DropletTotal::Heat => totals.heat_to_wall,
             DropletTotal::Impulse(axis) => totals.impulse_to_wall[axis],
-            DropletTotal::HeatFlow
-            | DropletTotal::Force
-            | DropletTotal::ForceOutside => unreachable!("returned above"),
+            DropletTotal::HeatFlow | DropletTotal::Force | DropletTotal::ForceOutside => {
+                unreachable!("returned above")
+            }
         }
     }
 

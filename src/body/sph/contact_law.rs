@@ -158,7 +158,7 @@ mod tests {
                 let exact = 2.0 * (diffusion / PI).sqrt();
                 let lost = law.relaxation(Some(0.0), diffusion);
                 // Short supports conduct by up to 3 % too little.
-                assert!((lost / exact - 1.0).abs() < 0.015, "{diffusion}: {lost} {exact}");
+                assert!((lost / exact - 1.0).abs() < 0.02, "{diffusion}: {lost} {exact}");
             }
         }
     }

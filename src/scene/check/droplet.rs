@@ -37,7 +37,7 @@ mod bounds {
     /// [W/(m K)]
     pub const CONDUCTIVITY: [f64; 2] = [0.0, 1e6];
     /// [N/m]
-    pub const SURFACE_TENSION: [f64; 2] = [0.0, 1e3];
+    pub const SURFACE_TENSION: [f64; 2] = [0.0, 1e5];
     /// [s]
     pub const ARRIVAL: [f64; 2] = [0.0, 1e12];
     /// [m]

@@ -3,10 +3,7 @@
 //! In a box they are the strains xx, yy, xy and the stresses zz, yz, xz; in a meridian section the mean of
 //! the strains rr and tt, half their difference, and the stresses zz and rz.
 
-use std::sync::OnceLock;
-
 use faer::Mat;
-use nalgebra::DMatrix;
 
 use super::{Deformation, SolidFem, Temperatures, Weights, weighted};
 use crate::body::fem::elastic::{ElasticProblem, Strains, Support};
@@ -27,8 +24,9 @@ pub struct Recoveries {
     lateral: [[Recovery; 3]; 2],
     /// Along z: of strains, of the stress zz and of the stresses yz and xz.
     depth: [Recovery; 3],
-    /// Inverses of the mass matrices along x and y, made when a traction is first read.
-    projections: OnceLock<[Mat<f64>; 2]>,
+    /// Areas of the nodes of a horizontal face, and mass matrices along x and y.
+    areas: Vec<f64>,
+    masses: [Mat<f64>; 2],
 }
 
 /// A recovered quantity.
@@ -93,8 +91,11 @@ impl Recoveries {
             };
             all.map(|beyond| Recovery::new(&mesh.axes[axis], beyond, [false; 2]))
         };
+        let [along_x, along_y] = [0, 1].map(|axis: usize| mesh.axes[axis].integrals());
+        let areas = along_y.iter().flat_map(|b| along_x.iter().map(move |a| a * b));
         Self {
-            projections: OnceLock::new(),
+            areas: areas.collect(),
+            masses: [0, 1].map(|axis: usize| mesh.axes[axis].mass()),
             lateral: [lateral(0), lateral(1)],
             depth: [
                 along_z(|_| false),
@@ -244,39 +245,49 @@ impl SolidFem {
         strains
     }
 
-    /// The stresses on bottom and top that nodal forces come from.
+    /// The stresses on bottom and top that nodal forces come to: over the area of each node.
     pub(super) fn face_stresses(&self, forces: &[Vec<Vec<f64>>; 2]) -> FaceStresses {
         let geometry = self.mesh.geometry;
         [0, 1].map(|end| {
             // The outward normal turns the traction into a stress.
             let sign = if end == 0 { -1.0 } else { 1.0 };
             let of = |quantity: &Quantity| match traction_of(geometry, quantity.slot) {
-                Some(component) => self.density(&forces[end][component], sign),
+                Some(component) => self.per_area(&forces[end][component], sign),
                 None => Vec::new(),
             };
             quantities(geometry).iter().map(of).collect()
         })
     }
 
-    /// The density whose consistent nodal values on a horizontal face these are: the best fit of what acts
-    /// there in the mean square. Beside a jump it is off by up to 7 % of that at the next node.
-    fn density(&self, values: &[f64], sign: f64) -> Vec<f64> {
+    /// The density that consistent nodal values on a horizontal face come from: values over the areas of
+    /// the nodes, and once corrected by what such a density leaves over of them, which makes it fourth
+    /// order where the density is smooth and hardly overshoots where it jumps.
+    fn per_area(&self, values: &[f64], sign: f64) -> Vec<f64> {
         if values.is_empty() {
             return Vec::new();
         }
-        let [x, y, _] = &self.mesh.axes;
-        let [along_x, along_y] =
-            self.recoveries.projections.get_or_init(|| [x, y].map(|axis| inverse(&axis.mass())));
-        let one = Mat::from_fn(1, 1, |_, _| sign);
-        transform(values, [along_x, along_y, &one], Side::Direct)
+        let Recoveries { areas, masses: [x, y], .. } = &self.recoveries;
+        let over_areas = |values: &[f64]| -> Vec<f64> {
+            areas.iter().zip(values).map(|(area, value)| sign * value / area).collect()
+        };
+        let mut density = self.with_axis(over_areas(values));
+        let one = Mat::from_fn(1, 1, |_, _| 1.0);
+        let met = transform(&density, [x, y, &one], Side::Direct);
+        let left: Vec<f64> = values.iter().zip(met).map(|(v, met)| v - sign * met).collect();
+        density.iter_mut().zip(over_areas(&left)).for_each(|(d, more)| *d += more);
+        self.with_axis(density)
     }
-}
 
-/// Inverse of a mass matrix.
-fn inverse(mass: &Mat<f64>) -> Mat<f64> {
-    let dense = DMatrix::from_fn(mass.nrows(), mass.ncols(), |i, j| mass[(i, j)]);
-    let inverse = dense.cholesky().expect("mass matrices are positive definite").inverse();
-    Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| inverse[(i, j)])
+    /// On the axis of a disc the quadratic shape function has no area: the parabola through the next
+    /// two nodes instead.
+    fn with_axis(&self, mut density: Vec<f64>) -> Vec<f64> {
+        let x = &self.mesh.axes[0];
+        if self.mesh.geometry == Geometry::Axisymmetric && x.start() == 0.0 && x.order > 1 {
+            let [near, far] = [x.nodes[1].powi(2), x.nodes[2].powi(2)];
+            density[0] = (density[1] * far - density[2] * near) / (far - near);
+        }
+        density
+    }
 }
 
 impl Weights {
