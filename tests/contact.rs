@@ -35,7 +35,7 @@ const STOP: f64 = 5e-6;
 const STEPS: usize = 10;
 /// How far a plate may go beyond the range, over its width, with linear elements, with quadratic ones, which
 /// overshoot beside a sharp edge of heat, and with particles, for which the modes of elements stand in.
-const BEYOND: [f64; 3] = [3e-3, 0.08, 0.025];
+const BEYOND: [f64; 3] = [5e-3, 0.08, 0.025];
 /// Ways of heat [m] short beside the width of the contact, so that it goes straight down.
 const NARROW: f64 = 5e-6;
 

@@ -23,13 +23,13 @@ def resident():
     return int(line.split()[1])
 
 unit, start_values = sys.argv[1], {"solver.threads": 3}
-for count in range(12):
+for count in range(24):
     simulate_fmu(unit, stop_time=4e-8, output_interval=1e-8, start_values=start_values)
     assert libraries() == 0, libraries()
-    if count == 1:
+    if count == 5:
         before = threads(), resident()
 assert threads() == before[0], (threads(), before)
-assert resident() < before[1] + 8000, (resident(), before)
+assert resident() < before[1] + 12000, (resident(), before)
 """
 
 # A pool of forked processes runs the unit that the parent has run.

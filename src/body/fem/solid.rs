@@ -234,7 +234,7 @@ impl SolidFem {
                 true => Vec::new(),
                 false => self.quantities_of(elastic, elastic.strains(&displacement, temperature)),
             };
-            result.tractions.push(self.face_stresses(&loads.force[class]));
+            result.tractions.push(self.face_stresses(self.parities[class], &loads.force[class]));
             result.displacement.push(displacement);
             result.strains.push(strains);
         }

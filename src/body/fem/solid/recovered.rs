@@ -246,13 +246,20 @@ impl SolidFem {
     }
 
     /// The stresses on bottom and top that nodal forces come to: over the area of each node.
-    pub(super) fn face_stresses(&self, forces: &[Vec<Vec<f64>>; 2]) -> FaceStresses {
+    pub(super) fn face_stresses(
+        &self,
+        parity: Parity,
+        forces: &[Vec<Vec<f64>>; 2],
+    ) -> FaceStresses {
         let geometry = self.mesh.geometry;
         [0, 1].map(|end| {
             // The outward normal turns the traction into a stress.
             let sign = if end == 0 { -1.0 } else { 1.0 };
             let of = |quantity: &Quantity| match traction_of(geometry, quantity.slot) {
-                Some(component) => self.per_area(&forces[end][component], sign),
+                Some(component) => {
+                    let odd = self.odd_along(parity, quantity.slot);
+                    self.per_area(&forces[end][component], sign, odd)
+                }
                 None => Vec::new(),
             };
             quantities(geometry).iter().map(of).collect()
@@ -262,7 +269,7 @@ impl SolidFem {
     /// The density that consistent nodal values on a horizontal face come from: values over the areas of
     /// the nodes, and once corrected by what such a density leaves over of them, which makes it fourth
     /// order where the density is smooth and hardly overshoots where it jumps.
-    fn per_area(&self, values: &[f64], sign: f64) -> Vec<f64> {
+    fn per_area(&self, values: &[f64], sign: f64, odd: [bool; 2]) -> Vec<f64> {
         if values.is_empty() {
             return Vec::new();
         }
@@ -271,11 +278,30 @@ impl SolidFem {
             areas.iter().zip(values).map(|(area, value)| sign * value / area).collect()
         };
         let mut density = self.with_axis(over_areas(values));
+        self.vanish_on_planes(&mut density, odd);
         let one = Mat::from_fn(1, 1, |_, _| 1.0);
         let met = transform(&density, [x, y, &one], Side::Direct);
         let left: Vec<f64> = values.iter().zip(met).map(|(v, met)| v - sign * met).collect();
         density.iter_mut().zip(over_areas(&left)).for_each(|(d, more)| *d += more);
+        self.vanish_on_planes(&mut density, odd);
         self.with_axis(density)
+    }
+
+    /// Along which of x and y a stress of a symmetry class changes its sign at the mirror plane.
+    fn odd_along(&self, parity: Parity, slot: usize) -> [bool; 2] {
+        let odd = [[true, false], [false, true]].map(|image| parity.tensor_sign(image, slot) < 0.0);
+        [0, 1].map(|axis| self.mesh.mirrored[axis] && odd[axis])
+    }
+
+    /// What is odd about a mirror plane is nothing on it.
+    fn vanish_on_planes(&self, density: &mut [f64], odd: [bool; 2]) {
+        let [nx, ny, _] = self.mesh.node_counts();
+        if odd[0] {
+            density.iter_mut().step_by(nx).for_each(|value| *value = 0.0);
+        }
+        if odd[1] && ny > 1 {
+            density[..nx].fill(0.0);
+        }
     }
 
     /// On the axis of a disc the quadratic shape function has no area: the parabola through the next
