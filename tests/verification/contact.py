@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 KINDS = {
-    0: ("images alone", "0.5", "x", "--"),
+    0: ("layers taken to be even", "0.5", "x", "--"),
     1: ("with the thin layer", "C0", "o", "-"),
     2: ("H = 4Δx", "C2", "^", "-"),
     3: ("sheared", "C3", "s", "-"),
@@ -44,7 +44,7 @@ def over_time(axes, table, quantity, exact, name):
         for thin, line in [(1, "-"), (0, "--")]:
             run = table[(table["fineness"] == fineness) & (table["thin"] == thin)]
             values = run[quantity] - 273.15 if quantity == "temperature" else 1e-6 * run[quantity]
-            label = f"Δx = layer/{fineness:g}" + ("" if thin else ", images alone")
+            label = f"Δx = layer/{fineness:g}" + ("" if thin else ", layers taken to be even")
             # Temperatures are those after an exchange, fluxes means over it.
             back = 0 if quantity == "temperature" else 0.5 * run["time"][0]
             axes.plot(1e6 * (run["time"] - back), values, line, color=colour, label=label)

@@ -47,7 +47,7 @@ struct Layer {
 struct Case {
     /// H/Δx.
     support: f64,
-    /// Whether the law of thin layers acts; without it the images at the wall are alone.
+    /// Whether the temperature before contact is known; without it the layer at the wall is taken to be even.
     thin: bool,
     /// Rate at which the fluid is sheared at first [1/s].
     shear: f64,
@@ -86,7 +86,7 @@ impl Layer {
             gravity: [0.0; 3],
             mirrors: [false; 2],
             extents: [Extent::Periodic(period), Extent::Periodic(period), Extent::Open],
-            // Without droplets there is no temperature before contact, and so no thin layer.
+            // Without droplets there is no temperature before contact.
             releases: if case.thin { vec![at_no_time] } else { Vec::new() },
             wall: Some(Wall { cells, contact_angle: 0.5 * PI, effusivity: case.effusivity }),
         };
@@ -134,7 +134,7 @@ fn contact_with_a_held_wall() {
     let mut table = Vec::new();
     let sheared = Case { shear: 1e6, ..AT_REST };
     for (kind, title, case) in [
-        (0.0, "at rest, images alone", Case { thin: false, ..AT_REST }),
+        (0.0, "at rest, layers taken to be even", Case { thin: false, ..AT_REST }),
         (1.0, "at rest", AT_REST),
         (2.0, "at rest, H = 4Δx", Case { support: 4.0, ..AT_REST }),
         (3.0, "sheared by 3.5", sheared),
@@ -236,7 +236,7 @@ fn contact_with_a_plate() {
     let usual = Joint { fineness: 1.0, thin: true, exchanges: 70, depth: 0.3e-6, order: 2 };
     let mut table = Vec::new();
     for thin in [false, true] {
-        let title = if thin { "" } else { ", images alone" };
+        let title = if thin { "" } else { ", layers taken to be even" };
         let mut study = Study::new(&format!("Contact with a plate, 70 exchanges{title}"), &names);
         for fineness in FINENESS {
             let joint = Joint { fineness, thin, ..usual };

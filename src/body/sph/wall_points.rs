@@ -126,7 +126,7 @@ impl PointLattice {
     /// Where the model has points, along x and y [m]; a plane model is a metre deep.
     fn domain(&self) -> Domain {
         let along = self.rows.map(|row| {
-            let Some(pitch) = row.pitch else { return None };
+            let pitch = row.pitch?;
             let begins = row.mirrored || row.end.is_some();
             let first = if begins { 0.0 } else { f64::NEG_INFINITY };
             Some([first, row.end.map_or(f64::INFINITY, |(count, _)| pitch * f64::from(count))])
