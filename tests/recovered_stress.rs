@@ -127,7 +127,7 @@ fn under_a_load_the_normal_stress_is_its_pressure() {
                 |p: &str, r: f64| (trial.get(&format!("{p}.stress_zz")) / exact(r) - 1.0).abs();
             [error("p0", 0.0), error("p4", 7e-5)].into_iter().fold(0.0, f64::max)
         });
-        assert!(errors[0] < 0.03 && errors[2] < 2e-3, "order {order}: {errors:?}");
+        assert!(errors[0] < 0.04 && errors[2] < 4e-3, "order {order}: {errors:?}");
         assert!((errors[0] / errors[2]).log2() > 3.0, "order {order}: {errors:?}");
     }
 }
