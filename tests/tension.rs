@@ -9,8 +9,8 @@ mod common;
 use std::f64::consts::PI;
 
 use capillary::{
-    DENSITY, RADIUS, TENSION, core_pressure, elongation, elongations, fitted, found_half_width,
-    half_width, normal_mode, on_wall, period, plan, stretched, viscosity,
+    DENSITY, RADIUS, SphericalCap, TENSION, core_pressure, elongation, elongations, fitted,
+    found_half_width, half_width, normal_mode, on_wall, period, plan, stretched, viscosity,
 };
 use common::Trial;
 use impinge::body::sph::{DropletPlan, DropletSph};
@@ -66,7 +66,7 @@ fn a_swing_dies_away_at_the_rate_of_a_viscous_drop() {
 }
 
 /// A scene of a free drop of radius 1 mm that names neither a speed of sound nor anything else it can do without.
-fn scene(fluid: &str, keys: &str) -> String {
+fn scene(fluid: &str, across: f64, keys: &str) -> String {
     format!(
         r#"
 name = "Drop"
@@ -80,26 +80,47 @@ spacing = {:?}
 fluid = {{ {fluid}, specific_heat = 4000.0, conductivity = 0.0 }}
 {keys}
 "#,
-        2e-3 / 20.0
+        2e-3 / across
     )
 }
 
 /// Water at rest, and in flight at We 2.
 #[test]
-fn a_drop_keeps_its_mass_for_three_periods_on_defaults() {
+fn a_drop_keeps_its_mass_for_seven_periods_on_defaults() {
     let fluid = "density = 998.0, viscosity = 1e-3, surface_tension = 0.072";
     let period = 2.0 * PI * (998e-9_f64 / (8.0 * 0.072)).sqrt();
-    for keys in ["impact_velocity = 0.0", "impact_velocity = 0.26859\nheight = 1.0"] {
-        let mut trial = Trial::new(&scene(fluid, keys));
+    let (at_rest, in_flight) = ("impact_velocity = 0.0", "impact_velocity = 0.26859\nheight = 1.0");
+    for (across, keys) in [(14.0, at_rest), (14.0, in_flight), (20.0, at_rest)] {
+        let mut trial = Trial::new(&scene(fluid, across, keys));
         let start = trial.get("drop.height");
         let speed = -trial.get("drop.momentum_z") / trial.get("drop.mass");
-        for step in 1..=6 {
-            trial.step(0.5 * period);
-            assert_eq!(trial.get("drop.stray_particles"), 0.0, "{keys} {step}");
-            let height = trial.get("drop.height") + speed * 0.5 * period * f64::from(step);
-            assert!((height - start).abs() < 0.15e-3, "{keys} {step}: {height} {start}");
+        for step in 1..=7 {
+            trial.step(period);
+            assert_eq!(trial.get("drop.stray_particles"), 0.0, "{across} {keys} {step}");
+            let height = trial.get("drop.height") + speed * period * f64::from(step);
+            assert!((height - start).abs() < 0.17e-3, "{across} {keys} {step}: {height} {start}");
         }
         assert_eq!(trial.get("drop.stray_mass"), 0.0);
+    }
+}
+
+/// A hemisphere becomes the cap that Young's angle asks for and comes to rest.
+#[test]
+fn a_drop_on_a_wall_comes_to_rest_as_a_spherical_cap() {
+    for degrees in [60.0, 120.0] {
+        let cap = SphericalCap::of(PI * degrees / 180.0);
+        let (drop, mut state) = cap.drop(16.0, 0.03);
+        drop.advance(&mut state, &[300.0], 7.0 * period()).unwrap();
+        let totals = drop.totals(&state);
+        let surface = 4.0 * PI * RADIUS * RADIUS * TENSION;
+        assert!(totals.kinetic_energy < 1e-4 * surface, "{degrees}: {:e}", totals.kinetic_energy);
+        assert_eq!(totals.stray_mass, 0.0, "{degrees}");
+        let [height, radius] = cap.found(&drop.particles(&state));
+        println!(
+            "{degrees}°: height of the centre {height:.4}, root mean square radius {radius:.4}"
+        );
+        assert!((height - 1.0).abs() < 0.04, "{degrees}: {height}");
+        assert!((radius - 1.0).abs() < 0.02, "{degrees}: {radius}");
     }
 }
 

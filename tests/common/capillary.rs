@@ -147,17 +147,79 @@ pub fn core_pressure(particles: &ParticleFields) -> f64 {
     inner.iter().sum::<f64>() / inner.len() as f64 / (2.0 * TENSION / RADIUS)
 }
 
+/// A drop of the volume of a sphere of radius R on a wall that it meets at an angle, without gravity.
+pub struct SphericalCap {
+    angle: f64,
+    /// Of its sphere [m].
+    radius: f64,
+}
+
+impl SphericalCap {
+    /// `4R³ = r³ (1 − cos θ)² (2 + cos θ)`.
+    pub fn of(angle: f64) -> Self {
+        let cosine = angle.cos();
+        let volume = (1.0 - cosine).powi(2) * (2.0 + cosine);
+        Self { angle, radius: RADIUS * (4.0 / volume).cbrt() }
+    }
+
+    /// The drop, at first a hemisphere at rest.
+    pub fn drop(&self, across: f64, viscosity: f64) -> (DropletSph, Vec<f64>) {
+        let cells = WallCells::Tiles { count: [1, 1], size: [10.0 * RADIUS; 2] };
+        let wall = Some(Wall { cells, contact_angle: self.angle, effusivity: None });
+        let mut plan = DropletPlan { wall, ..plan(3, across, viscosity) };
+        // Half of a sphere has the drop's volume.
+        plan.releases[0].diameter *= 2f64.cbrt();
+        upper_half(DropletSph::new(plan, 1))
+    }
+
+    /// Height of the centre of mass and root mean square distance from the axis, over those of the cap.
+    pub fn found(&self, particles: &ParticleFields) -> [f64; 2] {
+        let ParticleFields { position, mass, .. } = particles;
+        let mean = |of: &dyn Fn(&[f64; 3]) -> f64| {
+            let sum: f64 = position.iter().zip(mass).map(|(x, m)| m * of(x)).sum();
+            sum / mass.iter().sum::<f64>()
+        };
+        let [height, square] = self.moments();
+        let across = mean(&|x| x[0] * x[0] + x[1] * x[1]);
+        [mean(&|x| x[2]) / height, (across / square).sqrt()]
+    }
+
+    /// Means of z and of x² + y².
+    fn moments(&self) -> [f64; 2] {
+        let (r, centre) = (self.radius, -self.radius * self.angle.cos());
+        // Square of the radius at a height.
+        let circle = |z: f64| r * r - (z - centre).powi(2);
+        let height = r * (1.0 - self.angle.cos());
+        const PARTS: usize = 100;
+        let step = height / PARTS as f64;
+        let integral = |of: &dyn Fn(f64) -> f64| {
+            let part = |n: usize| {
+                let z = n as f64 * step;
+                step / 6.0 * (of(z) + 4.0 * of(z + 0.5 * step) + of(z + step))
+            };
+            (0..PARTS).map(part).sum::<f64>()
+        };
+        let volume = integral(&|z| PI * circle(z));
+        [
+            integral(&|z| PI * z * circle(z)) / volume,
+            integral(&|z| 0.5 * PI * circle(z).powi(2)) / volume,
+        ]
+    }
+}
+
 /// Half of a plane drop on a wall that it meets at an angle [rad], at first at a right one.
 pub fn on_wall(across: f64, angle: f64) -> (DropletSph, Vec<f64>) {
     let cells = WallCells::Tiles { count: [1, 1], size: [10.0 * RADIUS, 1.0] };
-    let drop = DropletSph::new(
-        DropletPlan {
-            mirrors: [true, false],
-            wall: Some(Wall { cells, contact_angle: angle, effusivity: None }),
-            ..plan(2, across, 1e-2)
-        },
-        1,
-    );
+    let plan = DropletPlan {
+        mirrors: [true, false],
+        wall: Some(Wall { cells, contact_angle: angle, effusivity: None }),
+        ..plan(2, across, 1e-2)
+    };
+    upper_half(DropletSph::new(plan, 1))
+}
+
+/// The state of a drop about the origin of which what is below is cut away.
+fn upper_half(drop: DropletSph) -> (DropletSph, Vec<f64>) {
     let whole = drop.particles(&drop.initial_state());
     let above: Vec<usize> = (0..whole.mass.len()).filter(|&i| whole.position[i][2] > 0.0).collect();
     let of = |list: &[f64]| above.iter().map(|&i| list[i]).collect();

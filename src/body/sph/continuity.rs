@@ -17,7 +17,9 @@ use crate::kernel::Shape;
 /// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. Images at planes slip in the first
 /// equation, and under a body force the density goes on in them as it does at rest, so that a fluid at
 /// rest is not diffused; neither is one at rest under surface tension, because r in the diffusion stands
-/// for r + φ with the tension's potential φ (0 without). In the second they are as warm as their originals:
+/// for r + φ with the tension's potential φ (0 without). At a surface that has tension the diffusion fades
+/// with the mean eigenvalue of `−Σ V_j F x_ij ⊗ x_ij` (½ on a flat surface, 1 inside): among the outermost
+/// particles r + φ is not even, and a diffusion that evens it drives them out of the fluid one by one. In the second they are as warm as their originals:
 /// heat of the wall comes by [`WallHeat`](super::wall_heat::WallHeat).
 ///
 /// Only with `HEAT` is heat conducted; without `MOMENTS` all g are 0, and neither they nor what B is
@@ -39,9 +41,14 @@ pub struct Continuity<'a, const HEAT: bool, const MOMENTS: bool> {
     pub normalisation: f64,
     /// δ.
     pub diffusion: f64,
+    /// Number of dimensions where free surfaces have tension.
+    pub tense: Option<usize>,
     /// κ = k/(ρ₀ c c₀ H).
     pub conduction: f64,
 }
+
+/// Mean eigenvalues of a particle's moment matrix between which its density diffusion rises from nothing to all.
+const FADE: [f64; 2] = [0.4, 0.6];
 
 /// Sums for one particle, their factors included; 0 where they are not asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,8 +128,7 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
         let dense = 1.0 + self.densities[i];
         let heating = 2.0 * self.conduction * scale / dense;
         let mut rates = ContinuityRates {
-            density: scale * dense * sums.divergence.sum().into()
-                - scale * self.diffusion * sums.diffusion.sum().into(),
+            density: 0.0,
             temperature: 0.0,
             moment: [0.0; 6],
             gradient: [0.0; 3],
@@ -138,8 +144,19 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
                 *total = scale * sum.sum().into();
             }
         }
+        let part = self.tense.map_or(1.0, |dimension| part_of_diffusion(&rates.moment, dimension));
+        rates.density = scale * dense * sums.divergence.sum().into()
+            - part * scale * self.diffusion * sums.diffusion.sum().into();
         rates
     }
+}
+
+/// Part of its density diffusion that a particle keeps by its moment.
+#[inline(always)]
+fn part_of_diffusion(moment: &[f64; 6], dimension: usize) -> f64 {
+    let mean = moment[..3].iter().sum::<f64>() / dimension as f64;
+    let way = ((mean - FADE[0]) / (FADE[1] - FADE[0])).clamp(0.0, 1.0);
+    way * way * (3.0 - 2.0 * way)
 }
 
 /// The particle whose neighbours are summed, in all lanes.

@@ -101,7 +101,7 @@ impl Method {
 
     /// Whether the moments of the particles' neighbours are asked for.
     pub fn needs_moments(&self) -> bool {
-        self.corrects || self.shifts
+        self.corrects || self.shifts || (self.surface.is_some() && self.diffusion > 0.0)
     }
 
     /// Changes density and temperature of the k-th particle of a part at its rates.

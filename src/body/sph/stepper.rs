@@ -293,6 +293,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             annexes: &self.annexes,
             normalisation: method.normalisation,
             diffusion: method.diffusion,
+            tense: method.surface.as_ref().map(|_| method.dimension),
             conduction: method.conduction / conducting::<MOMENTS>(method, &self.cloud.moment),
         };
         let parts = self.cloud.parts(PART);
