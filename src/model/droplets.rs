@@ -9,7 +9,7 @@ use crate::body::sph::{
     Surface, WallCells, WallExchange,
 };
 use crate::math::allowance::Allowance;
-use crate::scene::{Droplet, Footprint, Scene};
+use crate::scene::{Droplet, Footprint, Governing, Scene};
 use crate::variables::{DropletTotal, InputLayout, WallOutput};
 
 /// A body of droplets and what lies below it.
@@ -339,26 +339,33 @@ pub fn notes(droplet: &Droplet) -> Vec<String> {
 
 /// The speed of sound that was chosen, or what one that the scene asks for costs.
 fn note_on_sound(droplet: &Droplet) -> Option<String> {
-    let (sound, speed) = (droplet.sound_speed(), droplet.governing_speed());
-    let of_surface = droplet.surface_speed() > droplet.fastest_flow();
+    let (sound, (governing, speed)) = (droplet.sound_speed(), droplet.governing_speed());
     let ratio = sound / speed;
     if droplet.fluid.sound_speed.is_none() {
-        let what = if of_surface {
-            "the speed √(2σ/(ρΔx)) that surface tension gives single particles"
-        } else {
-            "the fastest flow expected"
+        let what = match governing {
+            Governing::Flow => "the fastest flow expected",
+            Governing::Surface => {
+                "the speed √(2σ/(ρΔx)) that surface tension gives single particles"
+            }
+            Governing::Viscosity => {
+                "the speed √(12µU/(ρD)) of the pressure that stops a viscous drop"
+            }
         };
         return Some(format!("speed of sound chosen: {sound:.4} m/s, ten times {what}"));
     }
-    (ratio < 10.0).then(|| match of_surface {
-        true => format!(
+    let compressed = 100.0 / (ratio * ratio);
+    (ratio < 10.0).then(|| match governing {
+        Governing::Surface => format!(
             "the speed of sound is only {ratio:.2} times √(2σ/(ρΔx)): single particles may come loose from the \
              surface, none at ten times"
         ),
-        false => format!(
-            "the speed of sound is only {ratio:.2} times the fastest flow: the fluid is compressed \
-             by about {:.1} %, by 1 % at ten times",
-            100.0 / (ratio * ratio)
+        Governing::Flow => format!(
+            "the speed of sound is only {ratio:.2} times the fastest flow: the fluid is compressed by about \
+             {compressed:.1} %, by 1 % at ten times"
+        ),
+        Governing::Viscosity => format!(
+            "the speed of sound is only {ratio:.2} times √(12µU/(ρD)): where the drop is stopped, the fluid is \
+             compressed by about {compressed:.1} %, by 1 % at ten times"
         ),
     })
 }

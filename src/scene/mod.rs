@@ -17,7 +17,8 @@ use std::fs;
 use std::path::Path;
 
 pub use droplet::{
-    Arrival, Coupling, Droplet, DropletMethod, Fluid, Placement, Precision, Wall, WallStart,
+    Arrival, Coupling, Droplet, DropletMethod, Fluid, Governing, Placement, Precision, Wall,
+    WallStart,
 };
 pub use error::{Problem, SceneError};
 pub use grid::Grid;

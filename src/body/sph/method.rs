@@ -25,8 +25,7 @@ pub struct Method {
     pub normalisation: f64,
     pub mirrors: [bool; 2],
     pub images: Images,
-    /// ν over c₀H, and what pairs of particles make of it, see [`Momentum`](super::momentum::Momentum).
-    pub viscosity: f64,
+    /// What pairs of particles make of ν over c₀H, see [`Momentum`](super::momentum::Momentum).
     pub pair_viscosity: f64,
     pub conduction: f64,
     pub diffusion: f64,
@@ -51,10 +50,12 @@ pub type Push = ([f64; 2], [f64; 3]);
 
 /// Share of H/c₀ that a step may take.
 const COURANT: f64 = 0.2;
-/// Shares of H²/ν, √(H/a) and of √(ρλ³/16πσ), with which the shortest capillary wave passes half its
+/// Share of the largest step at which viscosity cannot make a flow grow, see [`Method::viscous_step`].
+const VISCOUS: f64 = 0.85;
+/// Shares of H²/κ, √(H/a) and of √(ρλ³/16πσ), with which the shortest capillary wave passes half its
 /// length λ (Brackbill, Kothe & Zemach 1992, J. Comput. Phys. 100, 335–354, doi
 /// 10.1016/0021-9991(92)90240-Y).
-const DIFFUSIVE: f64 = 0.02;
+const CONDUCTIVE: f64 = 0.02;
 const FORCED: f64 = 0.18;
 const CAPILLARY: f64 = 0.25;
 /// Most steps that surface tension acts for at once, as it changes slowly beside sound: impulses between
@@ -82,7 +83,6 @@ impl Method {
             normalisation,
             mirrors: plan.mirrors,
             images: images.clone(),
-            viscosity,
             pair_viscosity: 2.0 * plan.dimension as f64 / moment * viscosity,
             conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
             diffusion: plan.density_diffusion,
@@ -152,12 +152,19 @@ impl Method {
     pub fn stable_step(&self, fastest: f64, most_accelerated: f64) -> f64 {
         [
             COURANT / (1.0 + fastest),
-            DIFFUSIVE / self.viscosity.max(self.conduction),
+            self.viscous_step(),
+            CONDUCTIVE / self.conduction,
             FORCED / most_accelerated.sqrt(),
             self.capillary_step(),
         ]
         .into_iter()
         .fold(f64::INFINITY, f64::min)
+    }
+
+    /// The sums of viscosity have no rate above twice their diagonal, `(4d/m) ν`, m the kernel's second moment; the
+    /// steps, whose accelerations are those for velocities ahead, grow nothing whose rate times the step is below 1.
+    fn viscous_step(&self) -> f64 {
+        VISCOUS / (2.0 * self.pair_viscosity)
     }
 
     /// For the shortest wave that surface tension, smoothed over h, still drives.

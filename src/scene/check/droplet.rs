@@ -173,7 +173,7 @@ fn sound(checker: &mut Checker, path: &Path, droplet: &Droplet) {
                 );
                 ("flow; ten times keeps density within 1 %", message)
             };
-            let least = LEAST_SOUND_OVER_FLOW * droplet.governing_speed();
+            let least = LEAST_SOUND_OVER_FLOW * flow.max(surface);
             let allowed = format!(">= {} (five times that {what})", number(least));
             checker.require(fits(least, speed), path, message, allowed);
         }
