@@ -37,7 +37,7 @@ rust-test:
 python-test: build $(VENV)/ready
 	$(BIN)/ruff check $(PY_FILES)
 	$(BIN)/ruff format --check $(PY_FILES)
-	$(BIN)/python -m pytest tests/fmpy
+	$(BIN)/python -m pytest tests/fmpy --numprocesses auto --maxprocesses 4 --dist worksteal
 
 SECONDS ?= 600
 
