@@ -295,3 +295,49 @@ fn a_half_space_under_weak_convection_is_resolved_inside_too() {
         }
     }
 }
+
+/// A disc of flux, of which no place gets warmer than a half space under it: until heat has gone half a node's
+/// distance along the surface nodes beside the edge do, and the scene is told when that is over.
+#[test]
+fn the_time_until_edges_are_resolved_is_told() {
+    for (name, density, specific_heat, conductivity) in [MATERIALS[0], MATERIALS[2], MATERIALS[3]] {
+        let heated = |stop: f64| {
+            let text = format!(
+                r#"
+name = "Edge"
+stop_time = {stop:e}
+step = {:e}
+[body.plate]
+kind = "solid"
+shape = {{ box = [4e-3, 4e-3, 1e-3] }}
+material = {{ model = "thermoelastic", density = {density}, specific_heat = {specific_heat}, conductivity = {conductivity} }}
+initial_temperature = 300.0
+[[load]]
+name = "spot"
+on = "plate.top"
+carries = ["heat_flux"]
+footprint = {{ disc = {{ radius = 1e-3 }} }}
+"#,
+                0.1 * stop
+            );
+            let mut trial = Trial::new(&text);
+            trial.set("spot.heat_flux", 1e5);
+            trial.step(stop);
+            let effusivity = f64::sqrt(density * specific_heat * conductivity);
+            let bound = 2e5 * (stop / std::f64::consts::PI).sqrt() / effusivity;
+            let notes = trial.model.notes().join("\n");
+            ((trial.get("plate.max_temperature") - 300.0) / bound, notes)
+        };
+        let conductor = Conductor { conductivity, heat_capacity: density * specific_heat };
+        // Nodes lie a tenth of the radius apart.
+        let resolved = (0.5 * 1e-4f64).powi(2) / conductor.diffusivity();
+        let (early, notes) = heated(0.1 * resolved);
+        assert!(notes.contains(&format!("is resolved after {resolved:.1e} s")), "{name}: {notes}");
+        let (now, _) = heated(resolved);
+        assert!((0.9..1.06).contains(&now), "{name}: {now}");
+        assert!((1.0..1.4).contains(&early), "{name}: {early}");
+        let (late, notes) = heated(10.0 * resolved);
+        assert!(!notes.contains("is resolved after"), "{name}: {notes}");
+        assert!((0.7..1.005).contains(&late), "{name}: {late}");
+    }
+}

@@ -52,7 +52,24 @@ impl<'a> Fineness<'a> {
         let layer = lateral.min(reach / NODES_PER_DIFFUSION_LENGTH).max(finest);
         let chosen = Self { solid, refinements, lateral, layer, order };
         notes.extend(chosen.notes(reach, shortest));
+        notes.extend(chosen.note_on_edges(constants.diffusivity(), shortest));
         chosen
+    }
+
+    /// What temperatures beside the edge of a heated footprint do before heat has gone half a node's distance
+    /// along the surface: there the flux of an element's whole side spreads over nodes as a parabola, which
+    /// overshoots.
+    fn note_on_edges(&self, diffusivity: f64, shortest: f64) -> Option<String> {
+        let resolved = (0.5 * self.lateral).powi(2) / diffusivity;
+        let heated = self.refinements.iter().any(|refinement| refinement.heats);
+        (heated && shortest < resolved).then(|| {
+            format!(
+                "beside the edge of a heated area heat is resolved after {resolved:.1e} s; before, temperatures \
+                 within {:.1e} m of it are up to a third of the rise too high or too low (the finer \
+                 `mesh.spacing`, the sooner)",
+                2.0 * self.lateral
+            )
+        })
     }
 
     /// What was chosen, and why.
