@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::legality::Phase;
 use super::types::{Answer, Refusal, SavedState, Status};
-use super::unit::{Experiment, Run, Unit};
+use super::unit::{Experiment, Run, Unit, expect_room};
 use crate::model::{Model, State};
 use crate::scene::Scene;
 
@@ -74,6 +74,7 @@ fn unknown(pointer: SavedState) -> Refusal {
 impl Unit {
     /// Saves the present state; a null pointer asks for a new place, another for its own again.
     pub fn save(&mut self, place: SavedState) -> Answer<SavedState> {
+        self.expect_room()?;
         let snapshot = Snapshot {
             phase: self.phase,
             scene: self.scene.clone(),
@@ -91,7 +92,11 @@ impl Unit {
 
     /// Takes a saved state over; it stays saved.
     pub fn restore(&mut self, place: SavedState) -> Answer {
-        let snapshot = self.saved.get(place)?.clone();
+        let snapshot = self.saved.get(place)?;
+        if let Some(model) = &snapshot.model {
+            expect_room(model.room(&snapshot.state))?;
+        }
+        let snapshot = snapshot.clone();
         let same_files = snapshot.directory == self.directory;
         self.phase = snapshot.phase;
         self.scene = snapshot.scene;

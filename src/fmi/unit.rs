@@ -12,8 +12,9 @@ use super::log::Log;
 use super::saved::SavedStates;
 use super::types::{Answer, Refusal, Status};
 use crate::machine::available_memory;
+use crate::math::address_space::{self, PRODUCTS, SPARE};
 use crate::math::allowance::{Halt, Interrupt};
-use crate::math::thread::aside;
+use crate::math::thread::{STACK, aside};
 use crate::model::{Cache, Model, ModelError, State, Tangent, initial_inputs};
 use crate::output::{FieldSeries, OutputError};
 use crate::scene::{self, Scene, Warning};
@@ -106,6 +107,7 @@ fn start_state(packed: &Scene) -> State {
 /// Reads the scene in a unit's folder of resources and compares the GUID, in FMI 3.0 the
 /// instantiation token. Nothing heavy: parameters may still change.
 pub fn read(resources: &Path, guid: &str) -> Result<Packed, String> {
+    address_space::expect(STACK + SPARE).map_err(|error| error.to_string())?;
     aside(|| read_here(resources, guid))
 }
 
@@ -321,6 +323,12 @@ impl Unit {
         }
     }
 
+    /// Refuses to look at the state, or to copy it, where there is too little address space for that.
+    pub(super) fn expect_room(&self) -> Answer<()> {
+        let room = |run: &Run| run.model.room(&self.state);
+        expect_room(self.run.as_ref().map_or(0, room))
+    }
+
     fn warn_once(&mut self, messages: Vec<String>) {
         for message in messages {
             if !self.said.contains(&message) {
@@ -332,6 +340,7 @@ impl Unit {
 
     /// The model of a scene with parameters.
     pub(super) fn model_of(&self, scene: &Scene) -> Answer<Arc<Model>> {
+        expect_room(STACK + PRODUCTS + SPARE)?;
         let model = aside(|| {
             scene::check(scene)?;
             Model::shared(scene, scene.solver.threads, available_memory())
@@ -392,6 +401,11 @@ impl Unit {
     }
 }
 
+/// Refuses what takes more address space than there is.
+pub(super) fn expect_room(bytes: usize) -> Answer<()> {
+    address_space::expect(bytes).map_err(|error| Refusal::error(error.to_string()))
+}
+
 /// An error of the model in words that name the variable at fault.
 pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
     let message = error.to_string();
@@ -401,6 +415,7 @@ pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
         ModelError::Overflow { .. }
         | ModelError::BelowAbsoluteZero { .. }
         | ModelError::Droplet { .. }
+        | ModelError::NoRoom(_)
         | ModelError::Halted { .. } => (Status::Discard, None),
         _ => (Status::Error, None),
     };
