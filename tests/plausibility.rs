@@ -231,6 +231,7 @@ fn sizes_loads_and_forgotten_parts_are_warned_of() {
             "stop_time = 1e9",
             "plausible",
         ),
+        ("box = [400e-6,", "box = [4e3,", "shape.box", "the extent of a solid is plausible from"),
     ];
     for (from, to, key, says) in plate_edits {
         let found = warnings(&edited(&plate(ALUMINA), from, to));

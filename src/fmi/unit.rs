@@ -6,6 +6,7 @@ use std::ffi::CString;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::MARK;
 use super::guid;
 use super::legality::{Function, Phase};
 use super::log::Log;
@@ -16,7 +17,7 @@ use crate::math::address_space::{self, PRODUCTS, SPARE};
 use crate::math::allowance::{Halt, Interrupt};
 use crate::math::thread::{STACK, aside};
 use crate::model::{Cache, Model, ModelError, State, Tangent, initial_inputs};
-use crate::output::{FieldSeries, OutputError};
+use crate::output::{FieldSeries, FolderLock, OutputError};
 use crate::scene::{self, Scene, Warning};
 use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
 
@@ -54,7 +55,8 @@ pub struct Unit {
     warnings: Vec<Warning>,
     /// What the master has been warned of.
     said: BTreeSet<String>,
-    pub(super) series: Option<FieldSeries>,
+    /// The files of fields, in a folder that is written by nobody else meanwhile.
+    pub(super) series: Option<(FieldSeries, FolderLock)>,
     /// Ends the step under way, from another thread.
     pub(super) interrupt: Interrupt,
 }
@@ -114,16 +116,15 @@ pub fn read(resources: &Path, guid: &str) -> Result<Packed, String> {
 fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
     let path = resources.join("scene.toml");
     let file = path.display().to_string();
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| format!("cannot read the unit's scene {file}: {error}"))?;
+    let text = scene::text_of(&path, &file)
+        .map_err(|error| format!("cannot read the unit's scene: {error}"))?;
     let scene = scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
     let packed = Packed::of(scene, &text);
     if guid != packed.guid {
         let own = &packed.guid;
         return Err(format!(
-            "the master's GUID {guid} is not {own}, which belongs to {file} and impinge {}: \
-             modelDescription.xml, scene and library are not of one unit",
-            env!("CARGO_PKG_VERSION")
+            "the master's GUID {guid} is not {own}, which belongs to {file} and {MARK}: \
+             modelDescription.xml, scene and library are not of one unit"
         ));
     }
     Ok(packed)
@@ -373,7 +374,11 @@ impl Unit {
             return Status::Ok;
         };
         let directory = Path::new(&self.directory);
-        match aside(|| FieldSeries::create(directory, &run.model)) {
+        let open = || {
+            let lock = FolderLock::take(directory)?;
+            Ok((FieldSeries::create(directory, &run.model)?, lock))
+        };
+        match aside(open) {
             Ok(series) => {
                 self.series = Some(series);
                 self.write_fields()
@@ -383,7 +388,7 @@ impl Unit {
     }
 
     fn write_fields(&mut self) -> Status {
-        let (Some(series), Some(run)) = (&mut self.series, &mut self.run) else {
+        let (Some((series, _)), Some(run)) = (&mut self.series, &mut self.run) else {
             return Status::Ok;
         };
         let state = &self.state;

@@ -154,7 +154,9 @@ mod tests {
         for _ in 0..3 {
             let small = reserve.take(layout(3, 1));
             let aligned = reserve.take(layout(100, 64));
-            assert!(reserve.holds(small) && reserve.holds(aligned) && aligned.addr() % 64 == 0);
+            assert!(
+                reserve.holds(small) && reserve.holds(aligned) && aligned.addr().is_multiple_of(64)
+            );
             assert!(aligned.addr() >= small.addr() + 3);
             assert!(reserve.take(layout(SIZE, 1)).is_null());
             reserve.give_back();

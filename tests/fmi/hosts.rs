@@ -82,6 +82,15 @@ interval = 5e-8
 radius = 2e-4
 "#;
 
+const LOAD: &str = r#"
+[[load]]
+name = "spot"
+on = "plate.top"
+footprint = { disc = { radius = 2e-4 } }
+carries = ["heat_flux", "pressure"]
+start = { heat_flux = 1e6 }
+"#;
+
 struct Case {
     folder: Folder,
     /// All arguments behind the library's, of FMI 2.0 and 3.0.
@@ -189,6 +198,21 @@ fn a_library_whose_instances_are_gone_leaves_the_process_without_a_trace() {
 #[test]
 fn a_thread_with_little_stack_may_call() {
     expect_the_same_bits(&[("stack", 1)]);
+}
+
+#[test]
+fn a_thread_with_very_little_stack_may_read_stresses() {
+    let impact = Case::impact();
+    let plate = IMPACT.split("[[coupling]]").next().unwrap();
+    let [head, plate] = [plate.split("[body.drop]").next(), plate.split("[body.plate]").nth(1)];
+    let text = format!("{}[body.plate]{}{LOAD}", head.unwrap(), plate.unwrap());
+    let outputs = ["plate.max_temperature", "plate.max_von_mises", "plate.heat_in"];
+    for case in [impact, Case::new(&text, 1e-7, &outputs)] {
+        let plain = case.play("plain", 2);
+        for version in [2, 3] {
+            assert_eq!(case.play("little stack", version), plain, "FMI {version}");
+        }
+    }
 }
 
 #[test]
