@@ -399,6 +399,8 @@ fn a_limit_of_address_space_is_memory_that_is_not_there() {
 #[test]
 fn too_little_address_space_is_refused() {
     let place = Workplace::new();
+    let coarse = SCENE.replace("spacing = 2e-5", "spacing = 5e-5, order = 1");
+    fs::write(place.path("scene.toml"), coarse).unwrap();
     let program = env!("CARGO_BIN_EXE_impinge");
     let mut done = 0;
     for megabytes in (24..=180).step_by(12) {
