@@ -226,7 +226,8 @@ fn too_little_address_space_is_refused() {
     let [plate, ..] = Case::all();
     for (case, version) in [(&plate, 2), (&plate, 3), (&Case::impact(), 2)] {
         let complete: usize = case.play("sweep", version)[0].parse().unwrap();
-        assert!(complete > 20, "{complete} of 63");
+        // How many depends on addresses, too: whether the C library finds room for a thread's arena.
+        assert!(complete > 10, "FMI {version}: {complete} of 63");
     }
 }
 
