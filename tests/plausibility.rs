@@ -233,7 +233,7 @@ fn sizes_loads_and_forgotten_parts_are_warned_of() {
         ),
         (
             "box = [2e-3, 2e-3,",
-            "box = [2e5, 2e-3,",
+            "box = [2.0, 2e-3,",
             "shape.box[0]",
             "the extent of a solid is plausible from",
         ),
