@@ -24,6 +24,7 @@ pub use interpolation::HIGHEST_INPUT_DERIVATIVE;
 use interpolation::InputPath;
 use loads::BodyLoads;
 pub use memory::check_memory;
+use memory::threads_that_fit;
 pub use reader::Reader;
 use reality::finite;
 pub use start_rates::start_rates;
@@ -31,10 +32,13 @@ pub use tangent::Tangent;
 pub use timeline::Timeline;
 
 pub use crate::body::fem::NodalFields;
-use crate::body::fem::{Geometry, Mechanics, Plan, Refinement, SolidFem, particle_cost};
+use crate::body::fem::{
+    Geometry, Mechanics, Plan, Refinement, SolidFem, expected_entries, factor_memory, particle_cost,
+};
 pub use crate::body::sph::ParticleFields;
 use crate::body::sph::{DropletSph, Failure};
 use crate::material::stress::{max_principal, von_mises};
+use crate::math::address_space::TooLittle;
 use crate::math::allowance::{Allowance, Halt, Interrupt};
 use crate::math::chebyshev::products;
 use crate::math::cholesky::CholeskyError;
@@ -52,6 +56,8 @@ pub struct Model {
     droplets: Vec<DropletModel>,
     grids: Vec<Grid>,
     threads: usize,
+    /// What a step of the droplets takes, at most [B].
+    memory_of_droplets: usize,
 }
 
 /// One body and what of the scene concerns it.
@@ -117,6 +123,15 @@ pub enum ModelError {
         available / 1e6
     )]
     Memory { needed: f64, available: f64, body: String, size: String, remedy: &'static str },
+    /// A scene is too large for what the process may take of address space.
+    #[error(
+        "{space}, most of it for `{body}` with its {size} (allowed: a scene that fits, such as with {remedy}, or \
+         more address space)"
+    )]
+    Space { space: TooLittle, body: String, size: String, remedy: &'static str },
+    /// What is asked for takes more address space than the process may have.
+    #[error(transparent)]
+    NoRoom(#[from] TooLittle),
     /// A step was ended before it was done.
     #[error("{body}: {halt}")]
     Halted { body: String, halt: Halt },
@@ -181,6 +196,8 @@ impl Model {
 
     fn build_here(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
         let layout = InputLayout::of(scene);
+        let most = threads_that_fit(scene);
+        let resolve_threads = |wanted, is_large| resolve_threads(wanted, is_large).min(most);
         let mut bodies = Vec::new();
         let mut most_threads = 1;
         for (name, body) in scene.solids() {
@@ -205,8 +222,17 @@ impl Model {
             Grid::of(field, scene.solid(body).expect("a checked field lies in a solid"))
         });
         let grids = grids.collect();
-        let scene = scene.clone();
-        Ok(Self { scene, layout, bodies, droplets, grids, threads: most_threads })
+        let memory_of_droplets =
+            droplet_forecasts(scene).map(|droplet| droplet.memory).sum::<f64>();
+        Ok(Self {
+            scene: scene.clone(),
+            layout,
+            bodies,
+            droplets,
+            grids,
+            threads: most_threads,
+            memory_of_droplets: memory_of_droplets as usize,
+        })
     }
 
     pub fn scene(&self) -> &Scene {
@@ -259,6 +285,7 @@ impl Model {
         dt: f64,
     ) -> Result<(), ModelError> {
         let allowance = Allowance::of_step(interrupt);
+        self.expect_room_to_step(state)?;
         self.check_inputs(&state.inputs)?;
         let path = InputPath::of(state);
         let mut bodies = state.bodies.clone();
@@ -493,16 +520,15 @@ pub fn initial_inputs(scene: &Scene) -> Vec<f64> {
 /// What a scene will cost, without building it.
 pub fn forecast(scene: &Scene) -> Forecast {
     let solids = scene.solids().map(|(name, solid)| forecast_body(scene, name, solid));
-    let droplets =
-        scene.droplets().map(|(name, droplet)| DropletForecast::of(scene, name, droplet));
+    let droplets = droplet_forecasts(scene);
     let steps = (scene.stop_time / scene.step).ceil();
     Forecast { bodies: solids.collect(), droplets: droplets.collect(), steps }
 }
 
-/// Entries of the factor of a solid mesh per unknown^(4/3), and of a meridian section per
-/// unknown · log₂(unknowns), measured on the example scenes.
-const ENTRIES_3D: f64 = 21.0;
-const ENTRIES_2D: f64 = 3.1;
+fn droplet_forecasts(scene: &Scene) -> impl Iterator<Item = DropletForecast> {
+    scene.droplets().map(|(name, droplet)| DropletForecast::of(scene, name, droplet))
+}
+
 /// Rates of this kind of machine: entries a second when solving, operations a second when
 /// factoring.
 const SOLVE_RATE: f64 = 1.2e9;
@@ -515,11 +541,11 @@ fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
     let plan = plan(scene, name, solid);
     let unknowns = plan.unknowns();
     let n = unknowns[1] as f64;
-    let flat = plan.mesh.geometry == Geometry::Axisymmetric;
-    let (entries, operations) = match (n > 0.0, flat) {
-        (false, _) => (0.0, 0.0),
-        (_, true) => (ENTRIES_2D * n * n.log2(), 10.0 * n.powf(1.5)),
-        (_, false) => (ENTRIES_3D * n.powf(4.0 / 3.0), 10.0 * n * n),
+    let geometry = plan.mesh.geometry;
+    let entries = expected_entries(geometry, unknowns[1]);
+    let operations = match geometry {
+        Geometry::Axisymmetric => 10.0 * n.powf(1.5),
+        Geometry::Box => 10.0 * n * n,
     };
     let spacing = plan.mesh.axes.each_ref().map(|axis| {
         let steps = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
@@ -544,7 +570,9 @@ fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
         spacing,
         order: plan.mesh.order(),
         particles,
-        memory: 8.0 * (1.2 * entries + 60.0 * n + 20.0 * unknowns[0] as f64 + modes) + 12.0 * links,
+        memory: factor_memory(geometry, unknowns[1])
+            + 8.0 * (20.0 * unknowns[0] as f64 + modes)
+            + 12.0 * links,
         build_time: operations / FACTOR_RATE + 2e-5 * n + rows / ROW_RATE,
         step_time: entries / SOLVE_RATE
             + 5e-7 * n

@@ -391,5 +391,87 @@ fn a_limit_of_address_space_is_memory_that_is_not_there() {
     let limited = format!("ulimit -v 1000000; exec {program} check scene.toml");
     let output =
         Command::new("sh").args(["-c", &limited]).current_dir(place.0.path()).output().unwrap();
-    Called(output).fails(1, &["MB of memory", "larger `mesh.spacing`"]);
+    Called(output).fails(1, &["MB of address space", "RLIMIT_AS", "larger `mesh.spacing`"]);
+}
+
+/// Whatever the limit is, runs are done or refused.
+#[cfg(target_os = "linux")]
+#[test]
+fn too_little_address_space_is_refused() {
+    let place = Workplace::new();
+    let coarse = SCENE.replace("spacing = 2e-5", "spacing = 5e-5, order = 1");
+    fs::write(place.path("scene.toml"), coarse).unwrap();
+    let program = env!("CARGO_BIN_EXE_impinge");
+    let mut done = 0;
+    for megabytes in (24..=180).step_by(12) {
+        let limited = format!(
+            "ulimit -v {megabytes}000; exec {program} run scene.toml --until 2e-7 --overwrite \
+             --set solver.threads=3"
+        );
+        let output =
+            Command::new("sh").args(["-c", &limited]).current_dir(place.0.path()).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        match output.status.code() {
+            Some(0) => done += 1,
+            Some(1) => assert!(said.contains("RLIMIT_AS"), "{megabytes} MB: {said}"),
+            code => panic!("{megabytes} MB: {code:?}, {said}"),
+        }
+    }
+    assert!(done > 5, "{done} runs of 14 had enough");
+}
+
+#[test]
+fn a_folder_that_another_run_is_writing_to_is_left_alone() {
+    let place = Workplace::new();
+    fs::create_dir_all(place.path("out/HotSpot")).unwrap();
+    let folder = fs::File::open(place.path("out/HotSpot")).unwrap();
+    folder.try_lock().unwrap();
+    place.run(&["--overwrite"]).fails(1, &["another run is writing to out/HotSpot"]);
+    assert_eq!(fs::read_dir(place.path("out/HotSpot")).unwrap().count(), 0);
+    drop(folder);
+    place.run(&["--until", "1e-7"]).succeeds();
+}
+
+/// The table is a pipe first, which holds the run until its files are gone.
+#[cfg(unix)]
+#[test]
+fn files_that_vanish_while_a_run_goes_on_are_noticed() {
+    let place = Workplace::new();
+    fs::create_dir_all(place.path("out/HotSpot")).unwrap();
+    let pipe = place.path("out/HotSpot/outputs.csv");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let running = Command::new(env!("CARGO_BIN_EXE_impinge"))
+        .args(["run", "scene.toml", "--overwrite", "--until", "1e-7"])
+        .current_dir(place.0.path())
+        .stderr(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut reader = fs::File::open(&pipe).unwrap();
+    fs::remove_file(&pipe).unwrap();
+    std::io::copy(&mut reader, &mut std::io::sink()).unwrap();
+    Called(running.wait_with_output().unwrap()).fails(1, &["outputs.csv is gone"]);
+}
+
+#[test]
+fn endless_scenes_are_refused() {
+    let place = Workplace::new();
+    place.call(&["check", "/dev/zero"]).fails(1, &["/dev/zero", "at most 16000000 bytes"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_cannot_be_printed_ends_without_a_panic() {
+    let place = Workplace::new();
+    let program = env!("CARGO_BIN_EXE_impinge");
+    let shell = |line: &str| {
+        let line = format!("{program} {line}");
+        Called(Command::new("sh").args(["-c", &line]).current_dir(place.0.path()).output().unwrap())
+    };
+    shell("check scene.toml >/dev/full").fails(1, &["cannot print"]);
+    assert_eq!(shell("check nothing.toml 2>/dev/full").0.status.code(), Some(1));
+    let cold = "run scene.toml --until 1e-7 --set plate.initial_temperature=25 2>/dev/full";
+    shell(cold).succeeds();
+    let piped = shell("check scene.toml | true; echo done").succeeds();
+    assert_eq!((piped.stdout().as_str(), piped.stderr().as_str()), ("done\n", ""));
 }

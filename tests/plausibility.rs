@@ -231,6 +231,12 @@ fn sizes_loads_and_forgotten_parts_are_warned_of() {
             "stop_time = 1e9",
             "plausible",
         ),
+        (
+            "box = [2e-3, 2e-3,",
+            "box = [2.0, 2e-3,",
+            "shape.box[0]",
+            "the extent of a solid is plausible from",
+        ),
     ];
     for (from, to, key, says) in plate_edits {
         let found = warnings(&edited(&plate(ALUMINA), from, to));

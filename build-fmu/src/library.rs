@@ -2,6 +2,7 @@
 
 use std::env::{self, consts};
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use crate::version::Version;
@@ -11,24 +12,74 @@ pub fn entry(model: &str, fmi: Version) -> String {
     format!("binaries/{}/{model}{}", fmi.platform(), consts::DLL_SUFFIX)
 }
 
-/// Reads the library at `path`, or the one beside this program; it must serve units of this version.
-pub fn read(path: Option<&Path>, fmi: Version) -> Result<Vec<u8>, String> {
-    let path = path.map_or_else(beside_this_program, |path| Ok(path.to_owned()))?;
-    let bytes = fs::read(&path).map_err(|error| {
+/// Bytes of a library, at most.
+const LARGEST: u64 = 1 << 30;
+
+/// The library at `path`, or the one beside this program.
+pub fn path(path: Option<&Path>) -> Result<PathBuf, String> {
+    path.map_or_else(beside_this_program, |path| Ok(path.to_owned()))
+}
+
+/// Reads a library, which must serve units of this version.
+pub fn read(path: &Path, fmi: Version) -> Result<Vec<u8>, String> {
+    let mut bytes = Vec::new();
+    let read = fs::File::open(path).and_then(|file| file.take(LARGEST).read_to_end(&mut bytes));
+    read.map_err(|error| {
         format!(
             "cannot read the library {}: {error}\n\
              Build it with `cargo build --release`, or name one with --library PATH.",
             path.display()
         )
     })?;
+    let refused =
+        |reason: String| Err(format!("{} is no library of impinge: it {reason}", path.display()));
+    let has = |mark: &[u8]| bytes.windows(mark.len()).any(|window| window == mark);
     let mark = fmi.step_function();
-    if !bytes.windows(mark.len()).any(|window| window == mark.as_bytes()) {
-        return Err(format!(
-            "{} is no library of impinge: it does not export {mark}",
-            path.display()
-        ));
+    if !is_shared_library(&bytes) {
+        return refused(format!("is no shared library of {} for {}", consts::OS, consts::ARCH));
+    }
+    if !has(mark.as_bytes()) {
+        return refused(format!("does not export {mark}"));
+    }
+    if !has(impinge::fmi::MARK.as_bytes()) {
+        return refused(format!("is not of version {}", env!("CARGO_PKG_VERSION")));
     }
     Ok(bytes)
+}
+
+/// Whether bytes begin as a shared library of this platform does: ELF (type and machine by its header),
+/// Mach-O or PE.
+fn is_shared_library(bytes: &[u8]) -> bool {
+    const SHARED: [u8; 2] = [3, 0];
+    const INTERPRETER: u32 = 3;
+    match consts::OS {
+        "macos" => bytes.starts_with(&[0xcf, 0xfa, 0xed, 0xfe]),
+        "windows" => bytes.starts_with(b"MZ"),
+        _ => {
+            let machine = match consts::ARCH {
+                "x86_64" => Some([62, 0]),
+                "aarch64" => Some([183, 0]),
+                _ => None,
+            };
+            // Programs ask for an interpreter.
+            bytes.starts_with(b"\x7fELF")
+                && bytes.get(16..18) == Some(&SHARED[..])
+                && !segments(bytes).any(|kind| kind == INTERPRETER)
+                && machine.is_none_or(|machine| bytes.get(18..20) == Some(&machine[..]))
+        }
+    }
+}
+
+/// The types of the segments of an ELF file of 64 bits, least bytes first.
+fn segments(bytes: &[u8]) -> impl Iterator<Item = u32> + '_ {
+    let number = |at: usize, size: usize| {
+        let bytes = bytes.get(at..at.checked_add(size)?)?.iter().rev();
+        Some(bytes.fold(0_u64, |all, &byte| (all << 8) | u64::from(byte)))
+    };
+    let [start, size, count] =
+        [(32, 8), (54, 2), (56, 2)].map(|(at, n)| number(at, n).unwrap_or(0));
+    let place = move |k: u64| usize::try_from(start.checked_add(k * size)?).ok();
+    (0..count).filter_map(move |k| Some(number(place(k)?, 4)? as u32))
 }
 
 fn beside_this_program() -> Result<PathBuf, String> {
@@ -43,16 +94,22 @@ mod tests {
 
     #[test]
     fn a_missing_library_is_refused_with_the_way_to_build_it() {
-        let message = read(Some(Path::new("/nowhere/libimpinge.so")), Version::Two).unwrap_err();
+        let message = read(Path::new("/nowhere/libimpinge.so"), Version::Two).unwrap_err();
         assert!(message.contains("/nowhere/libimpinge.so") && message.contains("cargo build"));
     }
 
     #[test]
     fn another_file_is_no_library() {
         let path = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml"));
-        for (version, name) in [(Version::Two, "fmi2DoStep"), (Version::Three, "fmi3DoStep")] {
-            let message = read(Some(path), version).unwrap_err();
-            assert!(message.contains("is no library of impinge") && message.contains(name));
+        let folder = tempfile::tempdir().unwrap();
+        let text = folder.path().join("notlib.txt");
+        fs::write(&text, "fmi2DoStep fmi3DoStep").unwrap();
+        let itself = env::current_exe().unwrap();
+        for version in [Version::Two, Version::Three] {
+            for path in [path, &text, &itself] {
+                let message = read(path, version).unwrap_err();
+                assert!(message.contains("is no library of impinge"), "{message}");
+            }
         }
     }
 }

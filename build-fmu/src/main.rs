@@ -11,8 +11,9 @@ mod version;
 mod words;
 
 use std::fs;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::process::ExitCode;
+use std::process::{self, ExitCode};
 
 use archive::Entries;
 use clap::Parser;
@@ -59,15 +60,27 @@ fn main() -> ExitCode {
     if let Some(details) = &arguments.instantiate {
         return lint::instantiate(details);
     }
-    let (said, code) = match run(&arguments) {
-        Ok(answer) => answer,
-        Err(error) => {
-            eprintln!("build-fmu: {error}");
-            return ExitCode::FAILURE;
+    let answer = run(&arguments).and_then(|(said, code)| print(&said).map(|()| code));
+    answer.unwrap_or_else(|error| {
+        complain(&error);
+        ExitCode::FAILURE
+    })
+}
+
+/// Prints for people; a reader that has seen enough and closed the pipe is no error.
+fn print(said: &str) -> Result<(), String> {
+    let mut out = io::stdout().lock();
+    match writeln!(out, "{said}").and_then(|()| out.flush()) {
+        Err(reason) if reason.kind() != io::ErrorKind::BrokenPipe => {
+            Err(format!("cannot print: {reason}"))
         }
-    };
-    println!("{said}");
-    code
+        _ => Ok(()),
+    }
+}
+
+/// Says what is wrong on standard error; where that cannot be written there is nobody to tell.
+fn complain(message: &str) {
+    let _ = writeln!(io::stderr(), "build-fmu: {message}");
 }
 
 /// Does what is asked; answers with text for people and an exit code.
@@ -86,25 +99,55 @@ fn run(arguments: &Arguments) -> Result<(String, ExitCode), String> {
 /// Packs the scene in `path`; answers with one line for people.
 fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     let file = path.display().to_string();
-    let text = fs::read_to_string(path)
-        .map_err(|error| format!("cannot read the scene {file}: {error}"))?;
+    let text = scene::text_of(path, &file).map_err(|error| error.to_string())?;
     let (scene, warnings) =
         scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
     for warning in warnings {
-        eprintln!("build-fmu: warning: {warning}");
+        complain(&format!("warning: {warning}"));
     }
-    if let Some(path) = &arguments.xml {
-        return write(path, arguments.fmi.model_description(&scene, &text).as_bytes());
+    if let Some(target) = &arguments.xml {
+        refuse_inputs(target, &[path])?;
+        return write(target, arguments.fmi.model_description(&scene, &text).as_bytes());
     }
-    let library = library::read(arguments.library.as_deref(), arguments.fmi)?;
+    let library_path = library::path(arguments.library.as_deref())?;
+    let target = arguments.output.clone().unwrap_or_else(|| format!("{}.fmu", scene.name).into());
+    refuse_inputs(&target, &[path, &library_path])?;
+    let library = library::read(&library_path, arguments.fmi)?;
     let reference = if arguments.reference {
         reference::entries(&scene, arguments.fmi)?
     } else {
         Entries::new()
     };
     let unit = unit(&scene, &text, library, arguments.fmi, reference)?;
-    let path = arguments.output.clone().unwrap_or_else(|| format!("{}.fmu", scene.name).into());
-    write(&path, &unit)
+    write(&target, &unit)
+}
+
+/// Refuses to write where something is read.
+fn refuse_inputs(target: &Path, inputs: &[&Path]) -> Result<(), String> {
+    let Ok(place) = target.canonicalize() else { return Ok(()) };
+    let is_it = |input: &&&Path| {
+        input.canonicalize().is_ok_and(|input| input == place) || is_same_file(input, target)
+    };
+    match inputs.iter().find(is_it) {
+        None => Ok(()),
+        Some(input) => Err(format!(
+            "{} is {}, which is read (allowed: another file to write)",
+            target.display(),
+            input.display()
+        )),
+    }
+}
+
+#[cfg(unix)]
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let place = |path: &Path| fs::metadata(path).map(|data| (data.dev(), data.ino())).ok();
+    place(a).is_some_and(|place_of_a| place(b) == Some(place_of_a))
+}
+
+#[cfg(not(unix))]
+fn is_same_file(_a: &Path, _b: &Path) -> bool {
+    false
 }
 
 /// The bytes of the unit; `entries` come from the options.
@@ -126,12 +169,32 @@ fn unit(
     archive::zip(&entries)
 }
 
-/// Writes a file, into folders that are made where they are missing.
+/// Writes a file, into folders that are made where they are missing: beside its place first, so that an
+/// earlier file stays whole until the new one is. What is no file, such as a pipe, is written as it is.
 fn write(path: &Path, bytes: &[u8]) -> Result<String, String> {
-    let folders = path.parent().map_or(Ok(()), fs::create_dir_all);
-    let written = folders.and_then(|()| fs::write(path, bytes));
+    // A link leads to the file that is meant.
+    let place = path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let folders = place.parent().map_or(Ok(()), fs::create_dir_all);
+    let written = folders.and_then(|()| match fs::metadata(&place) {
+        Ok(data) if !data.is_file() => fs::write(&place, bytes),
+        _ => replace(&place, bytes),
+    });
     written.map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     Ok(format!("{} ({:.1} kB)", path.display(), bytes.len() as f64 / 1e3))
+}
+
+fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let name = format!(".build-fmu.part{}", process::id());
+    let unfinished = path.with_file_name(name);
+    let filled = fs::write(&unfinished, bytes).and_then(|()| {
+        if let Ok(data) = fs::metadata(path) {
+            fs::set_permissions(&unfinished, data.permissions())?;
+        }
+        fs::rename(&unfinished, path)
+    });
+    filled.inspect_err(|_| {
+        let _ = fs::remove_file(&unfinished);
+    })
 }
 
 #[cfg(test)]

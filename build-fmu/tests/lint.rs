@@ -581,3 +581,28 @@ fn no_folder_is_left_behind_not_even_by_a_call_that_was_killed() {
     names.sort();
     assert_eq!(names, [running, foreign]);
 }
+
+/// One bit of an entry is another, in the middle of its data.
+#[test]
+fn entries_that_nothing_else_reads_are_read_too() {
+    let folder = TempDir::new().unwrap();
+    let unit = pack(&root().join("tests/fmi/scene.toml"), &folder);
+    let bytes = fs::read(&unit).unwrap();
+    let mut archive = ZipArchive::new(Cursor::new(bytes.clone())).unwrap();
+    for at in 0..archive.len() {
+        let file = archive.by_index(at).unwrap();
+        let (name, start) = (file.name().unwrap().into_owned(), file.data_start().unwrap());
+        let middle = (start + file.compressed_size() / 2) as usize;
+        drop(file);
+        let mut bytes = bytes.clone();
+        bytes[middle] ^= 0x10;
+        fs::write(&unit, bytes).unwrap();
+        for extra in [&[][..], &["--no-run"]] {
+            let called =
+                Command::new(PROGRAM).arg("--lint").arg(&unit).args(extra).output().unwrap();
+            let said = String::from_utf8_lossy(&called.stdout);
+            assert_eq!(called.status.code(), Some(1), "{name}: {said}");
+            assert!(said.contains(&name) && said.contains("unreadable"), "{name}: {said}");
+        }
+    }
+}

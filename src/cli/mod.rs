@@ -9,6 +9,7 @@ mod summary;
 mod table;
 mod units;
 
+use std::fmt::Display;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
@@ -40,7 +41,7 @@ pub fn main() -> ExitCode {
     match report.and_then(|report| print(&report)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            eprintln!("error: {error}");
+            complain("error", &error);
             ExitCode::FAILURE
         }
     }
@@ -49,13 +50,19 @@ pub fn main() -> ExitCode {
 /// Says on standard error what is hardly meant in a scene.
 fn warn(warnings: &[Warning]) {
     for warning in warnings {
-        eprintln!("warning: {warning}");
+        complain("warning", warning);
     }
+}
+
+/// Says something on standard error; where that cannot be written there is nobody to tell.
+fn complain(kind: &str, what: &dyn Display) {
+    let _ = writeln!(io::stderr(), "{kind}: {what}");
 }
 
 /// Prints a report; a reader that has seen enough and closed the pipe is no error.
 fn print(report: &str) -> Result<(), CliError> {
-    match io::stdout().write_all(report.as_bytes()) {
+    let mut out = io::stdout().lock();
+    match out.write_all(report.as_bytes()).and_then(|()| out.flush()) {
         Err(reason) if reason.kind() != io::ErrorKind::BrokenPipe => Err(CliError::Print(reason)),
         _ => Ok(()),
     }

@@ -4,7 +4,7 @@ use std::time::Instant;
 use clap::Args;
 use impinge::machine::available_memory;
 use impinge::model::{Cache, Model, State, Timeline, check_memory};
-use impinge::output::{CsvTable, FieldSeries, OutputError};
+use impinge::output::{CsvTable, FieldSeries, FolderLock, OutputError};
 use impinge::scene::{self, Scene};
 use indicatif::{ProgressBar, ProgressStyle};
 
@@ -86,6 +86,7 @@ impl Run {
     fn record(&self, run: &Running) -> Result<Record, CliError> {
         let scene = run.model.scene();
         let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
+        let lock = FolderLock::take(&folder)?;
         let table = folder.join("outputs.csv");
         let is_taken = table.exists() || FieldSeries::is_in(&folder, run.model);
         if is_taken && !self.overwrite {
@@ -98,7 +99,7 @@ impl Run {
             _ => Some(FieldSeries::create(&folder, run.model)?),
         };
         let place = format!("files in {}\n", folder.display());
-        Ok(Record { table, fields, every, place })
+        Ok(Record { table, fields, every, place, _lock: lock })
     }
 }
 
@@ -122,9 +123,17 @@ struct Record {
     every: usize,
     /// Words for where the files are.
     place: String,
+    /// Keeps others from writing there meanwhile.
+    _lock: FolderLock,
 }
 
 impl Record {
+    /// Whether all files that were written are still there.
+    fn check_present(&self) -> Result<(), OutputError> {
+        self.table.check_present()?;
+        self.fields.as_ref().map_or(Ok(()), FieldSeries::check_present)
+    }
+
     /// Adds what `run` has reached after `done` steps.
     fn write(&mut self, run: &mut Running, done: usize) -> Result<(), OutputError> {
         let is_due =
@@ -155,7 +164,7 @@ impl Running<'_> {
             progress.inc(1);
         }
         progress.finish_and_clear();
-        Ok(())
+        Ok(record.check_present()?)
     }
 
     /// Takes the step that begins after `i` steps.
@@ -179,7 +188,7 @@ impl Running<'_> {
         let overflows = self.model.overflows(&self.state);
         let balances_off = balances.iter().filter_map(summary::Balance::warning);
         for warning in balances_off.chain(overflows) {
-            eprintln!("warning: {warning}");
+            super::complain("warning", &warning);
         }
         Ok(format!("{}\n{extremes}", summary::balance_table(&balances)))
     }

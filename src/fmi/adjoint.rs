@@ -4,9 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
-use super::rates::{Known, check_finite, outputs};
+use super::rates::{Change, Known, check_finite, outputs};
 use super::types::{Answer, Reference};
 use super::unit::Unit;
+use crate::variables::Output;
 
 impl Unit {
     /// Jᵀ·w, where J holds the derivatives of outputs by inputs, and in initialization mode by
@@ -21,21 +22,30 @@ impl Unit {
         weights: &[f64],
     ) -> Answer<Vec<f64>> {
         let registry = Arc::clone(&self.registry);
-        outputs(&registry, unknowns)?;
+        let asked = outputs(&registry, unknowns)?;
         for (&unknown, &weight) in unknowns.iter().zip(weights) {
             check_finite(&registry.variables[unknown as usize].name, weight)?;
         }
-        let weighted = unknowns.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
-        let (unknowns, weights): (Vec<Reference>, Vec<f64>) = weighted.unzip();
+        let is_weighted = |i: &usize| weights[*i] != 0.0;
+        let weighted: Vec<usize> = (0..unknowns.len()).filter(is_weighted).collect();
+        let asked: Vec<&Output> = weighted.iter().map(|&i| asked[i]).collect();
+        let unknowns: Vec<Reference> = weighted.iter().map(|&i| unknowns[i]).collect();
+        let weights = weighted.iter().map(|&i| weights[i]);
         let followed = self.followed(&unknowns);
-        let mut sums = Vec::with_capacity(knowns.len());
-        for (&reference, (known, _)) in knowns.iter().zip(self.knowns(&registry, knowns)?) {
-            if matches!(known, Known::Input(_)) && !followed.contains(&(reference as usize)) {
-                sums.push(0.0);
-                continue;
+        let (mut changes, mut places) = (Vec::new(), Vec::new());
+        for (place, (&reference, (known, _))) in
+            knowns.iter().zip(self.knowns(&registry, knowns)?).enumerate()
+        {
+            match known {
+                Known::Input(_) if !followed.contains(&(reference as usize)) => continue,
+                Known::Input(index) => changes.push(Change::Input(index)),
+                Known::Parameter(parameter) => changes.push(Change::Parameter(parameter)),
             }
-            let column = self.directional_derivative(&unknowns, &[reference], &[1.0])?;
-            sums.push(column.iter().zip(&weights).map(|(rate, weight)| rate * weight).sum());
+            places.push(place);
+        }
+        let mut sums = vec![0.0; knowns.len()];
+        for (place, column) in places.into_iter().zip(self.rates(&asked, &changes)?) {
+            sums[place] = column.iter().zip(weights.clone()).map(|(rate, w)| rate * w).sum();
         }
         Ok(sums)
     }

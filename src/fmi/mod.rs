@@ -28,6 +28,9 @@ mod uri;
 mod values;
 mod variables;
 
+/// Program and version, as they stand in every library that serves units.
+pub const MARK: &str = concat!("impinge ", env!("CARGO_PKG_VERSION"));
+
 pub mod guid;
 pub mod terminals;
 pub mod three;

@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::legality::Phase;
 use super::types::{Answer, Integer, Reference, Refusal, Status};
 use super::unit::{Unit, explain};
-use super::values::{Kind, find};
-use crate::model::{HIGHEST_INPUT_DERIVATIVE, start_rates};
+use super::values::{Kind, aside_if, find};
+use crate::model::{Cache, HIGHEST_INPUT_DERIVATIVE, ModelError, start_rates};
 use crate::scene::Scene;
 use crate::variables::{Output, Parameter, Registry, Slot, Variable};
 
@@ -22,6 +22,15 @@ pub(super) enum Known<'a> {
     Parameter(&'a Parameter),
 }
 
+/// What changes.
+pub(super) enum Change<'a> {
+    /// All inputs, at these rates.
+    Inputs(Vec<f64>),
+    /// One of them at rate one.
+    Input(usize),
+    Parameter(&'a Parameter),
+}
+
 impl Unit {
     /// Changes of outputs when inputs change by `changes`, and in initialization mode parameters too.
     pub fn directional_derivative(
@@ -33,19 +42,21 @@ impl Unit {
         let registry = Arc::clone(&self.registry);
         let outputs = outputs(&registry, unknowns)?;
         let mut direction = vec![0.0; self.state.inputs.len()];
-        let mut parameters = Vec::new();
+        let (mut changed, mut weights) = (Vec::new(), vec![1.0]);
         for ((known, name), &change) in self.knowns(&registry, knowns)?.into_iter().zip(changes) {
             check_finite(name, change)?;
             match known {
                 Known::Input(index) => direction[index] += change,
-                Known::Parameter(parameter) => parameters.push((parameter, change)),
+                Known::Parameter(parameter) => {
+                    changed.push(Change::Parameter(parameter));
+                    weights.push(change);
+                }
             }
         }
-        let mut sum = self.input_rates(&outputs, &direction)?;
-        for (parameter, change) in parameters {
-            let rates = start_rates(&self.scene, &self.state.inputs, parameter, &outputs);
-            let rates = rates.map_err(|error| explain(&registry, error))?;
-            sum.iter_mut().zip(rates).for_each(|(s, rate)| *s += change * rate);
+        changed.insert(0, Change::Inputs(direction));
+        let mut sum = vec![0.0; outputs.len()];
+        for (rates, weight) in self.rates(&outputs, &changed)?.iter().zip(weights) {
+            sum.iter_mut().zip(rates).for_each(|(s, rate)| *s += weight * rate);
         }
         Ok(sum)
     }
@@ -69,15 +80,41 @@ impl Unit {
         find(registry, references, Kind::Real)?.into_iter().map(known).collect()
     }
 
-    fn input_rates(&mut self, outputs: &[&Output], direction: &[f64]) -> Answer<Vec<f64>> {
+    /// How outputs follow each of these changes.
+    pub(super) fn rates(
+        &mut self,
+        outputs: &[&Output],
+        changes: &[Change],
+    ) -> Answer<Vec<Vec<f64>>> {
         let registry = Arc::clone(&self.registry);
+        self.run()?;
+        self.expect_room()?;
+        let scene = self.scene.clone();
         let (run, state) = self.run()?;
-        let tangent = run.model.input_tangent(state, direction);
-        let mut tangent = tangent.map_err(|error| explain(&registry, error))?;
-        let rate =
-            |output: &&Output| run.model.output_rate(state, &mut run.cache, &mut tangent, output);
-        let found: Result<Vec<f64>, _> = outputs.iter().map(rate).collect();
-        found.map_err(|error| explain(&registry, error))
+        let (model, cache) = (Arc::clone(&run.model), &mut run.cache);
+        // Of a change nothing is solved yet, and for those of parameters models are built.
+        let is_deep = outputs.iter().any(|output| model.is_deep(&Cache::default(), output))
+            || changes.iter().any(|change| matches!(change, Change::Parameter(_)));
+        aside_if(is_deep, || {
+            let mut follow = |direction: &[f64]| -> Result<Vec<f64>, ModelError> {
+                let mut tangent = model.input_tangent(state, direction)?;
+                let rate = |out: &&Output| model.output_rate(state, cache, &mut tangent, out);
+                outputs.iter().map(rate).collect()
+            };
+            let mut rates = |change: &Change| match change {
+                Change::Inputs(direction) => follow(direction),
+                Change::Input(index) => {
+                    let mut direction = vec![0.0; state.inputs.len()];
+                    direction[*index] = 1.0;
+                    follow(&direction)
+                }
+                Change::Parameter(parameter) => {
+                    start_rates(&scene, &state.inputs, parameter, outputs)
+                }
+            };
+            let found: Result<Vec<Vec<f64>>, _> = changes.iter().map(&mut rates).collect();
+            found.map_err(|error| explain(&registry, error))
+        })
     }
 
     /// Sets time derivatives of inputs for the next step; all or none.
@@ -118,17 +155,22 @@ impl Unit {
             let variable = &registry.variables[reference as usize];
             check_order(variable, order, highest)?;
         }
+        self.run()?;
+        self.expect_room()?;
         let (run, state) = self.run()?;
-        let tangent = match &mut run.tangent {
-            Some(tangent) => tangent,
-            none => {
-                let tangent = run.model.time_tangent(state, &mut run.cache);
-                none.insert(tangent.map_err(|error| explain(&registry, error))?)
-            }
-        };
-        let rate = |output| run.model.output_rate(state, &mut run.cache, tangent, output);
-        let found: Result<Vec<f64>, _> = outputs.into_iter().map(rate).collect();
-        found.map_err(|error| explain(&registry, error))
+        let is_deep = outputs.iter().any(|out| run.model.is_deep(&Cache::default(), out));
+        aside_if(is_deep, || {
+            let tangent = match &mut run.tangent {
+                Some(tangent) => tangent,
+                none => {
+                    let tangent = run.model.time_tangent(state, &mut run.cache);
+                    none.insert(tangent.map_err(|error| explain(&registry, error))?)
+                }
+            };
+            let rate = |output| run.model.output_rate(state, &mut run.cache, tangent, output);
+            let found: Result<Vec<f64>, _> = outputs.into_iter().map(rate).collect();
+            found.map_err(|error| explain(&registry, error))
+        })
     }
 }
 

@@ -1,13 +1,17 @@
 //! States that a master has saved: what belongs to one, and which of them live.
 
 use std::collections::BTreeMap;
+use std::collections::hash_map::RandomState;
+use std::hash::BuildHasher;
+use std::process;
 use std::ptr;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, OnceLock};
+use std::time::SystemTime;
 
 use super::legality::Phase;
 use super::types::{Answer, Refusal, SavedState, Status};
-use super::unit::{Experiment, Run, Unit};
+use super::unit::{Experiment, Run, Unit, expect_room};
 use crate::model::{Model, State};
 use crate::scene::Scene;
 
@@ -33,19 +37,32 @@ pub struct Snapshot {
 /// The snapshots of one instance that its master has not freed, by the pointers that stand for
 /// them.
 ///
-/// Such a pointer is a number that is never given out again in this process, and nobody looks at
-/// what it points to. So one that was freed, came from another instance or was never given out is
-/// recognised.
+/// Such a pointer is a number that this copy of the library never gives out again in this process, and
+/// nobody looks at what it points to. Other copies, as other units load them, begin elsewhere among
+/// 2⁶² numbers. So one that was freed, came from another instance or was never given out is recognised.
 #[derive(Default)]
 pub struct SavedStates(BTreeMap<usize, Snapshot>);
 
-/// Numbers given out, odd so that none is null or could be an address of an aligned value.
-static NEXT: AtomicUsize = AtomicUsize::new(1);
+/// Numbers given out after the first one.
+static COUNT: AtomicUsize = AtomicUsize::new(0);
+
+/// The number given out first, odd so that none is null or could be an address of an aligned value.
+///
+/// It follows from where this copy of the library lies, from the process and from the time of the first
+/// call, by a hash whose keys are drawn by the system.
+fn first() -> usize {
+    static FIRST: OnceLock<usize> = OnceLock::new();
+    *FIRST.get_or_init(|| {
+        let place = (&raw const COUNT).addr();
+        let of = (place, process::id(), SystemTime::now());
+        RandomState::new().hash_one(of) as usize | 1
+    })
+}
 
 impl SavedStates {
     /// Keeps a snapshot under a new pointer.
     pub fn insert(&mut self, snapshot: Snapshot) -> SavedState {
-        let number = NEXT.fetch_add(2, Ordering::Relaxed);
+        let number = first().wrapping_add(2 * COUNT.fetch_add(1, Ordering::Relaxed));
         self.0.insert(number, snapshot);
         ptr::without_provenance_mut(number)
     }
@@ -74,6 +91,7 @@ fn unknown(pointer: SavedState) -> Refusal {
 impl Unit {
     /// Saves the present state; a null pointer asks for a new place, another for its own again.
     pub fn save(&mut self, place: SavedState) -> Answer<SavedState> {
+        self.expect_room()?;
         let snapshot = Snapshot {
             phase: self.phase,
             scene: self.scene.clone(),
@@ -91,7 +109,11 @@ impl Unit {
 
     /// Takes a saved state over; it stays saved.
     pub fn restore(&mut self, place: SavedState) -> Answer {
-        let snapshot = self.saved.get(place)?.clone();
+        let snapshot = self.saved.get(place)?;
+        if let Some(model) = &snapshot.model {
+            expect_room(model.room(&snapshot.state))?;
+        }
+        let snapshot = snapshot.clone();
         let same_files = snapshot.directory == self.directory;
         self.phase = snapshot.phase;
         self.scene = snapshot.scene;
@@ -106,7 +128,7 @@ impl Unit {
             return Ok(Status::Ok);
         }
         match &mut self.series {
-            Some(series) if same_files => {
+            Some((series, _)) if same_files => {
                 let gone_back = series.go_back(self.state.time);
                 if let Err(error) = gone_back {
                     return Ok(self.warn_of_output(&error));

@@ -4,7 +4,10 @@
 use super::instance::{array, call, null, write};
 use super::legality::Fmi2;
 use super::types::{Answer, Byte, Handle, Refusal, SavedState, Status};
-use super::unit::Unit;
+use super::unit::{Unit, expect_room};
+
+/// What of a state's bytes there is at once, at most, when they are read.
+const COPIES: usize = 4;
 
 /// Saves the unit's state in the place that `state` points to, a new one if that is null.
 ///
@@ -38,6 +41,7 @@ pub unsafe fn free(unit: &mut Unit, state: *mut SavedState) -> Answer {
 /// # Safety
 /// As for [`save`].
 pub unsafe fn serialized_size(unit: &Unit, state: SavedState, size: *mut usize) -> Answer {
+    unit.expect_room()?;
     let bytes = unit.serialize(unit.saved.get(state)?);
     // SAFETY: by contract.
     unsafe { write(size, &[bytes.len()], "size") }
@@ -48,6 +52,7 @@ pub unsafe fn serialized_size(unit: &Unit, state: SavedState, size: *mut usize) 
 /// # Safety
 /// As for [`save`].
 pub unsafe fn serialize(unit: &Unit, state: SavedState, bytes: *mut u8, size: usize) -> Answer {
+    unit.expect_room()?;
     let found = unit.serialize(unit.saved.get(state)?);
     if size < found.len() {
         let wanted = found.len();
@@ -70,6 +75,7 @@ pub unsafe fn deserialize(
 ) -> Answer {
     // SAFETY: by contract.
     unsafe {
+        expect_room(COPIES * size)?;
         let snapshot = unit.deserialize(array(bytes, size, "serializedState")?)?;
         if state.is_null() {
             return Err(null("FMUstate"));

@@ -6,16 +6,18 @@ use std::ffi::CString;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::MARK;
 use super::guid;
 use super::legality::{Function, Phase};
 use super::log::Log;
 use super::saved::SavedStates;
 use super::types::{Answer, Refusal, Status};
 use crate::machine::available_memory;
+use crate::math::address_space::{self, PRODUCTS, SPARE};
 use crate::math::allowance::{Halt, Interrupt};
-use crate::math::thread::aside;
+use crate::math::thread::{STACK, aside};
 use crate::model::{Cache, Model, ModelError, State, Tangent, initial_inputs};
-use crate::output::{FieldSeries, OutputError};
+use crate::output::{FieldSeries, FolderLock, OutputError};
 use crate::scene::{self, Scene, Warning};
 use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
 
@@ -53,7 +55,8 @@ pub struct Unit {
     warnings: Vec<Warning>,
     /// What the master has been warned of.
     said: BTreeSet<String>,
-    pub(super) series: Option<FieldSeries>,
+    /// The files of fields, in a folder that is written by nobody else meanwhile.
+    pub(super) series: Option<(FieldSeries, FolderLock)>,
     /// Ends the step under way, from another thread.
     pub(super) interrupt: Interrupt,
 }
@@ -106,22 +109,22 @@ fn start_state(packed: &Scene) -> State {
 /// Reads the scene in a unit's folder of resources and compares the GUID, in FMI 3.0 the
 /// instantiation token. Nothing heavy: parameters may still change.
 pub fn read(resources: &Path, guid: &str) -> Result<Packed, String> {
+    address_space::expect(STACK + SPARE).map_err(|error| error.to_string())?;
     aside(|| read_here(resources, guid))
 }
 
 fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
     let path = resources.join("scene.toml");
     let file = path.display().to_string();
-    let text = std::fs::read_to_string(&path)
-        .map_err(|error| format!("cannot read the unit's scene {file}: {error}"))?;
+    let text = scene::text_of(&path, &file)
+        .map_err(|error| format!("cannot read the unit's scene: {error}"))?;
     let scene = scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
     let packed = Packed::of(scene, &text);
     if guid != packed.guid {
         let own = &packed.guid;
         return Err(format!(
-            "the master's GUID {guid} is not {own}, which belongs to {file} and impinge {}: \
-             modelDescription.xml, scene and library are not of one unit",
-            env!("CARGO_PKG_VERSION")
+            "the master's GUID {guid} is not {own}, which belongs to {file} and {MARK}: \
+             modelDescription.xml, scene and library are not of one unit"
         ));
     }
     Ok(packed)
@@ -321,6 +324,12 @@ impl Unit {
         }
     }
 
+    /// Refuses to look at the state, or to copy it, where there is too little address space for that.
+    pub(super) fn expect_room(&self) -> Answer<()> {
+        let room = |run: &Run| run.model.room(&self.state);
+        expect_room(self.run.as_ref().map_or(0, room))
+    }
+
     fn warn_once(&mut self, messages: Vec<String>) {
         for message in messages {
             if !self.said.contains(&message) {
@@ -332,6 +341,7 @@ impl Unit {
 
     /// The model of a scene with parameters.
     pub(super) fn model_of(&self, scene: &Scene) -> Answer<Arc<Model>> {
+        expect_room(STACK + PRODUCTS + SPARE)?;
         let model = aside(|| {
             scene::check(scene)?;
             Model::shared(scene, scene.solver.threads, available_memory())
@@ -364,7 +374,11 @@ impl Unit {
             return Status::Ok;
         };
         let directory = Path::new(&self.directory);
-        match aside(|| FieldSeries::create(directory, &run.model)) {
+        let open = || {
+            let lock = FolderLock::take(directory)?;
+            Ok((FieldSeries::create(directory, &run.model)?, lock))
+        };
+        match aside(open) {
             Ok(series) => {
                 self.series = Some(series);
                 self.write_fields()
@@ -374,7 +388,7 @@ impl Unit {
     }
 
     fn write_fields(&mut self) -> Status {
-        let (Some(series), Some(run)) = (&mut self.series, &mut self.run) else {
+        let (Some((series, _)), Some(run)) = (&mut self.series, &mut self.run) else {
             return Status::Ok;
         };
         let state = &self.state;
@@ -392,6 +406,11 @@ impl Unit {
     }
 }
 
+/// Refuses what takes more address space than there is.
+pub(super) fn expect_room(bytes: usize) -> Answer<()> {
+    address_space::expect(bytes).map_err(|error| Refusal::error(error.to_string()))
+}
+
 /// An error of the model in words that name the variable at fault.
 pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
     let message = error.to_string();
@@ -401,6 +420,7 @@ pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
         ModelError::Overflow { .. }
         | ModelError::BelowAbsoluteZero { .. }
         | ModelError::Droplet { .. }
+        | ModelError::NoRoom(_)
         | ModelError::Halted { .. } => (Status::Discard, None),
         _ => (Status::Error, None),
     };

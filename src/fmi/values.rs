@@ -7,8 +7,10 @@ use std::sync::Arc;
 
 use super::legality::Phase;
 use super::types::{Answer, Reference, Refusal, Status};
-use super::unit::{Unit, explain};
-use crate::variables::{Causality, Registry, Slot, Variable};
+use super::unit::{Unit, expect_room, explain};
+use crate::math::address_space::SPARE;
+use crate::math::thread::{STACK, aside};
+use crate::variables::{Causality, Output, Registry, Slot, Variable};
 
 /// The FMI types of variables in use.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,21 +46,26 @@ impl Unit {
 
     /// Values of those variables that are outputs.
     fn outputs(&mut self, registry: &Registry, variables: &[&Variable]) -> Answer<Vec<f64>> {
-        let output = |variable: &&Variable| matches!(variable.slot, Slot::Output(_));
-        if !variables.iter().any(output) {
+        if !variables.iter().any(|variable| output_of(variable).is_some()) {
             return Ok(Vec::new());
         }
+        self.run()?;
+        self.expect_room()?;
         let (run, state) = self.run()?;
-        let reader = run.model.reader(state, &mut run.cache);
-        let mut reader = reader.map_err(|error| explain(registry, error))?;
-        let value = |variable: &&Variable| {
-            let Slot::Output(output) = &variable.slot else { return None };
-            Some(reader.value(output).map_err(|error| {
-                let reason = explain(registry, error).message;
-                Refusal::error(format!("no value of {}: {reason}", variable.name))
-            }))
+        let (model, cache) = (Arc::clone(&run.model), &mut run.cache);
+        let is_deep = variables.iter().filter_map(output_of).any(|out| model.is_deep(cache, out));
+        let read = || {
+            let reader = model.reader(state, cache);
+            let mut reader = reader.map_err(|error| explain(registry, error))?;
+            let value = |variable: &&Variable| {
+                Some(reader.value(output_of(variable)?).map_err(|error| {
+                    let reason = explain(registry, error).message;
+                    Refusal::error(format!("no value of {}: {reason}", variable.name))
+                }))
+            };
+            variables.iter().filter_map(value).collect()
         };
-        variables.iter().filter_map(value).collect()
+        aside_if(is_deep, read)
     }
 
     pub fn integers(&self, references: &[Reference]) -> Answer<Vec<i32>> {
@@ -157,6 +164,25 @@ impl Unit {
             Causality::Parameter | Causality::Input => Ok(()),
         }
     }
+}
+
+fn output_of<'a>(variable: &&'a Variable) -> Option<&'a Output> {
+    match &variable.slot {
+        Slot::Output(output) => Some(output),
+        _ => None,
+    }
+}
+
+/// Runs `work`, on a thread of our own if it goes deep.
+pub(super) fn aside_if<R: Send>(
+    is_deep: bool,
+    work: impl FnOnce() -> Answer<R> + Send,
+) -> Answer<R> {
+    if !is_deep {
+        return work();
+    }
+    expect_room(STACK + SPARE)?;
+    aside(work)
 }
 
 fn variable(registry: &Registry, reference: Reference) -> Answer<&Variable> {

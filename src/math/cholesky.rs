@@ -10,6 +10,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
+use super::address_space::TooLittle;
 use super::parallel::Team;
 use super::supernodes::{self, Columns};
 
@@ -33,6 +34,8 @@ pub enum CholeskyError {
     NotPositiveDefinite { unknowns: usize },
     #[error("the factorisation of {unknowns} unknowns does not fit into memory")]
     OutOfMemory { unknowns: usize },
+    #[error(transparent)]
+    AddressSpace(#[from] TooLittle),
 }
 
 impl SparseCholesky {

@@ -1,6 +1,7 @@
 //! Numerics without physics: quadrature, shape functions, separable transforms, sparse solvers,
 //! exponentials of matrices, and bounds of how much they compute.
 
+pub mod address_space;
 pub mod allowance;
 pub mod chebyshev;
 pub mod cholesky;

@@ -10,11 +10,19 @@ use std::mem::transmute;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use super::address_space::{self, ARENA, PRODUCTS, SPARE};
+
 /// Address space for the stack of each of our threads [B].
 pub const STACK: usize = 2 << 20;
 
+/// Address space that each of our threads may come to take [B].
+pub const SPACE: usize = STACK + ARENA + PRODUCTS;
+
 /// How many threads of the process run work aside.
 static ASIDE: AtomicUsize = AtomicUsize::new(0);
+
+/// How many threads of ours there are.
+static LIVING: AtomicUsize = AtomicUsize::new(0);
 
 thread_local! {
     static IS_OURS: Cell<bool> = const { Cell::new(false) };
@@ -69,8 +77,13 @@ impl Started {
     }
 }
 
-/// Starts a thread of ours, if the system has one to give. Panics of `work` end with it.
+/// Starts a thread of ours beside others, if the system has one to give, and address space for all of
+/// them: what one sets aside, others miss. Panics of `work` end with it.
 pub fn start(work: impl FnOnce() + Send + 'static) -> Option<Started> {
+    let all = LIVING.load(Ordering::Relaxed) + 1;
+    if !address_space::fits(all * SPACE + SPARE) {
+        return None;
+    }
     system::start(Box::new(work)).map(Started)
 }
 
@@ -79,6 +92,7 @@ fn serve(work: Box<dyn FnOnce() + Send>) {
     IS_OURS.set(true);
     // Whoever wants to know of a panic catches it before.
     let _ = catch_unwind(AssertUnwindSafe(work));
+    LIVING.fetch_sub(1, Ordering::Relaxed);
 }
 
 #[cfg(unix)]
@@ -86,8 +100,9 @@ mod system {
     use std::ffi::c_void;
     use std::mem::MaybeUninit;
     use std::ptr;
+    use std::sync::atomic::Ordering;
 
-    use super::{STACK, serve};
+    use super::{LIVING, STACK, serve};
 
     type Work = Box<dyn FnOnce() + Send>;
 
@@ -124,6 +139,7 @@ mod system {
     }
 
     pub fn start(work: Work) -> Option<Thread> {
+        LIVING.fetch_add(1, Ordering::Relaxed);
         let work = Box::into_raw(Box::new(work));
         with_faults_alone(|| {
             let mut attributes = MaybeUninit::uninit();
@@ -141,6 +157,7 @@ mod system {
                     libc::pthread_attr_destroy(attributes.as_mut_ptr());
                 }
                 if failed != 0 {
+                    LIVING.fetch_sub(1, Ordering::Relaxed);
                     drop(Box::from_raw(work));
                     return None;
                 }
@@ -181,9 +198,10 @@ mod system {
 
 #[cfg(not(unix))]
 mod system {
+    use std::sync::atomic::Ordering;
     use std::thread::{Builder, JoinHandle};
 
-    use super::{STACK, serve};
+    use super::{LIVING, STACK, serve};
 
     pub struct Thread(JoinHandle<()>);
 
@@ -194,8 +212,13 @@ mod system {
     }
 
     pub fn start(work: Box<dyn FnOnce() + Send>) -> Option<Thread> {
+        LIVING.fetch_add(1, Ordering::Relaxed);
         let builder = Builder::new().name("impinge worker".into()).stack_size(STACK);
-        builder.spawn(|| serve(work)).ok().map(Thread)
+        let thread = builder.spawn(|| serve(work)).ok().map(Thread);
+        if thread.is_none() {
+            LIVING.fetch_sub(1, Ordering::Relaxed);
+        }
+        thread
     }
 }
 

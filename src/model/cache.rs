@@ -93,6 +93,16 @@ impl Cache {
         Ok(())
     }
 
+    /// Whether stresses of a body need but be looked up.
+    pub(super) fn is_solved(&self, index: usize) -> bool {
+        self.bodies.get(index).is_some_and(|body| body.deformation.is_some())
+    }
+
+    /// Whether the highest stresses of a body are known.
+    pub(super) fn has_max_stress(&self, index: usize) -> bool {
+        self.bodies.get(index).is_some_and(|body| body.max_stress.is_some())
+    }
+
     pub(super) fn loads(&self, index: usize) -> &SolidLoads {
         &self.bodies[index].loads
     }

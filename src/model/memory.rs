@@ -1,7 +1,16 @@
 //! Whether a scene fits into the memory that there is, before anything large is built.
 
-use super::{Forecast, ModelError, forecast};
+use super::{Forecast, Model, ModelError, State, forecast};
+use crate::math::address_space::{self, ARENA, PRODUCTS, SPARE, TooLittle};
+use crate::math::thread::{SPACE, STACK};
 use crate::scene::Scene;
+
+/// Of each unknown, what a step or a look at temperatures takes beside the state itself [B].
+const WORK: usize = 100;
+/// What any call takes that does not look at bodies [B].
+const LITTLE: usize = 1 << 20;
+/// Data that what the C library sets aside for a thread has room for, whatever else does not [B].
+const WITHIN_ARENA: f64 = 0.6 * ARENA as f64;
 
 impl Forecast {
     /// Memory of all bodies [B].
@@ -38,21 +47,54 @@ struct Need<'a> {
     remedy: &'static str,
 }
 
-/// Refuses a scene that is forecast to need more memory than is `available` [B].
+/// Refuses a scene that is forecast to need more memory than is `available` [B], or more address space than
+/// the limit of the process leaves.
 pub fn check_memory(scene: &Scene, available: f64) -> Result<(), ModelError> {
     let forecast = forecast(scene);
     let needed = forecast.memory();
+    let needs = || {
+        let needs = forecast.needs().into_iter();
+        needs.max_by(|a, b| a.memory.total_cmp(&b.memory)).expect("a body needs it")
+    };
     // Numbers that are none are too many, too.
-    if needed <= available {
-        return Ok(());
+    if needed.is_nan() || needed > available {
+        let Need { name, size, remedy, .. } = needs();
+        let body = name.to_owned();
+        return Err(ModelError::Memory { needed, available, body, size, remedy });
     }
-    let needs = forecast.needs().into_iter();
-    let most = needs.max_by(|a, b| a.memory.total_cmp(&b.memory)).expect("a body needs it");
-    Err(ModelError::Memory {
-        needed,
-        available,
-        body: most.name.to_owned(),
-        size: most.size,
-        remedy: most.remedy,
+    address_space::expect(space(needed, 1)).map_err(|space| {
+        let Need { name, size, remedy, .. } = needs();
+        ModelError::Space { space, body: name.to_owned(), size, remedy }
     })
+}
+
+/// Address space that it takes to build a model with so much data, on so many threads [B].
+fn space(data: f64, threads: usize) -> usize {
+    let arena = if data > WITHIN_ARENA { ARENA } else { 0 };
+    data as usize + arena + STACK + PRODUCTS + SPARE + (threads - 1) * SPACE
+}
+
+/// How many threads there is address space for, beside the data of a scene.
+pub(super) fn threads_that_fit(scene: &Scene) -> usize {
+    let Some(left) = address_space::left() else { return usize::MAX };
+    1 + left.saturating_sub(space(forecast(scene).memory(), 1)) / SPACE
+}
+
+impl Model {
+    /// Refuses a step for which there is too little address space.
+    pub(super) fn expect_room_to_step(&self, state: &State) -> Result<(), TooLittle> {
+        let droplets = match self.droplets.is_empty() {
+            true => 0,
+            false => STACK + SPARE + self.memory_of_droplets,
+        };
+        address_space::expect(droplets + self.room(state))
+    }
+
+    /// What is taken to look at a state, or to copy it [B].
+    pub fn room(&self, state: &State) -> usize {
+        let unknowns: usize = state.bodies.iter().map(Vec::len).sum();
+        let room = WORK * (unknowns + state.inputs.len());
+        // So little is always had.
+        if room < LITTLE / 8 { room } else { room + LITTLE }
+    }
 }

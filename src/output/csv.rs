@@ -37,6 +37,14 @@ impl CsvTable {
         Ok(table)
     }
 
+    /// Whether the file still stands where it was created.
+    pub fn check_present(&self) -> Result<(), OutputError> {
+        if is_at(&self.file, &self.path) {
+            return Ok(());
+        }
+        Err(OutputError::Gone { path: self.path.clone() })
+    }
+
     /// Appends the row of one state.
     pub fn write(
         &mut self,
@@ -61,6 +69,19 @@ impl CsvTable {
         line.push('\n');
         self.file.write_all(line.as_bytes()).map_err(OutputError::at("write", &self.path))
     }
+}
+
+#[cfg(unix)]
+fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let place = |data: fs::Metadata| (data.dev(), data.ino());
+    let [own, there] = [file.metadata(), fs::metadata(path)].map(|data| data.map(place).ok());
+    own.is_some() && own == there
+}
+
+#[cfg(not(unix))]
+fn is_at(_file: &File, path: &Path) -> bool {
+    path.exists()
 }
 
 /// Name and unit of a variable, as a column is headed.

@@ -9,6 +9,14 @@ pub enum OutputError {
     /// The operating system refused.
     #[error("cannot {action} {}: {reason}", path.display())]
     File { action: &'static str, path: PathBuf, reason: io::Error },
+    #[error(
+        "another run is writing to {}; allowed: another folder, or to wait for its end",
+        folder.display()
+    )]
+    Busy { folder: PathBuf },
+    /// A file that was written is there no more, or another one in its place.
+    #[error("{} is gone: it was removed or replaced while the run went on", path.display())]
+    Gone { path: PathBuf },
     /// The value that was to be written could not be computed.
     #[error(transparent)]
     Model(#[from] ModelError),

@@ -2,9 +2,11 @@
 
 mod csv;
 mod error;
+mod lock;
 mod series;
 mod vtk;
 
 pub use csv::CsvTable;
 pub use error::OutputError;
+pub use lock::FolderLock;
 pub use series::FieldSeries;

@@ -56,6 +56,19 @@ impl FieldSeries {
         names.into_iter().any(|name| directory.join(format!("{name}.pvd")).exists())
     }
 
+    /// Whether all files that the lists name are there, and the lists.
+    pub fn check_present(&self) -> Result<(), OutputError> {
+        let files = self.bodies.iter().flat_map(|body| {
+            let files = (0..self.times.len()).map(|place| file_name(body, place));
+            files.chain([format!("{}.pvd", body.0)])
+        });
+        let mut paths = files.map(|name| self.directory.join(name));
+        match paths.find(|path| !path.exists()) {
+            None => Ok(()),
+            Some(path) => Err(OutputError::Gone { path }),
+        }
+    }
+
     /// Forgets the times after `time` [s]: a state of that time was restored.
     pub fn go_back(&mut self, time: f64) -> Result<(), OutputError> {
         self.times.retain(|&written| written <= time);

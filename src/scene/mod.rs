@@ -13,7 +13,8 @@ mod lookup;
 mod plausibility;
 mod types;
 
-use std::fs;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 pub use droplet::{
@@ -40,16 +41,32 @@ pub fn read_with_warnings(path: &Path) -> Result<(Scene, Vec<Warning>), SceneErr
     parse_with_warnings(&text_of(path, &file)?, &file)
 }
 
-fn text_of(path: &Path, file: &str) -> Result<String, SceneError> {
-    let read = fs::read_to_string(path).map_err(|error| Problem {
+/// Bytes of a scene's file, at most: hundreds of thousands of lines.
+pub const LARGEST_FILE: u64 = 16_000_000;
+
+/// The text of the scene in a file, unchecked; `file` is the name that messages show.
+pub fn text_of(path: &Path, file: &str) -> Result<String, SceneError> {
+    let problem = |message: String, allowed: String| Problem {
         file: file.to_owned(),
         line: None,
         path: String::new(),
         value: String::new(),
-        message: format!("cannot be read: {error}"),
-        allowed: "a readable text file in UTF-8".to_owned(),
-    });
-    Ok(read?)
+        message,
+        allowed,
+    };
+    let unreadable = |error: io::Error| {
+        problem(format!("cannot be read: {error}"), "a readable text file in UTF-8".to_owned())
+    };
+    let mut bytes = Vec::new();
+    // What the system says of its size need not be true.
+    let mut start = File::open(path).map_err(unreadable)?.take(LARGEST_FILE + 1);
+    start.read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > LARGEST_FILE {
+        let message = "the file is too large for a scene".to_owned();
+        return Err(problem(message, format!("at most {LARGEST_FILE} bytes")).into());
+    }
+    let text = String::from_utf8(bytes);
+    Ok(text.map_err(|error| unreadable(io::Error::new(io::ErrorKind::InvalidData, error)))?)
 }
 
 /// Reads and checks a scene's text; `file` is the name that messages show.

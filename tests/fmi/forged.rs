@@ -166,6 +166,17 @@ fn particles_that_are_nowhere_are_refused() {
 }
 
 #[test]
+fn particles_far_above_the_speed_of_sound_are_refused() {
+    let (unit, state) = stepped();
+    let first = 3 * state.particles();
+    for speed in [101.0, -1e6, 1e300] {
+        let mut state = state.clone();
+        state.bodies[0][BEFORE_PARTICLES + first + 5] = speed;
+        refused(&unit, &state, "times the speed of sound");
+    }
+}
+
+#[test]
 fn particles_of_other_numbers_and_masses_are_refused() {
     let (unit, state) = stepped();
     for ratio in [-0.9, 2.5] {

@@ -54,6 +54,43 @@ spacing = 5e-6
 fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6, surface_tension = 0.07 }
 "#;
 
+/// A drop on a plate whose stresses are solved for when they are read.
+const IMPACT: &str = r#"
+name = "Impact"
+stop_time = 4e-6
+step = 1e-7
+[body.drop]
+kind = "droplet"
+diameter = 1e-4
+impact_velocity = 20.0
+initial_temperature = 350.0
+spacing = 1.25e-5
+fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6 }
+arrivals = [{ x = 2e-4, y = -1e-4 }]
+[body.plate]
+kind = "solid"
+shape = { box = [1e-3, 1e-3, 2e-4] }
+material = { model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = 10.0, young = 300e9, poisson = 0.21, expansion = 8.1e-6 }
+initial_temperature = 300.0
+mesh = { spacing = 5e-5, depth_spacing = 1e-5, growth = 1.8, order = 1 }
+[body.plate.faces]
+sides = { clamped = true }
+[[coupling]]
+from = "drop"
+to = "plate.top"
+interval = 5e-8
+radius = 2e-4
+"#;
+
+const LOAD: &str = r#"
+[[load]]
+name = "spot"
+on = "plate.top"
+footprint = { disc = { radius = 2e-4 } }
+carries = ["heat_flux", "pressure"]
+start = { heat_flux = 1e6 }
+"#;
+
 struct Case {
     folder: Folder,
     /// All arguments behind the library's, of FMI 2.0 and 3.0.
@@ -92,6 +129,12 @@ impl Case {
             Self::new(DISC, 0.5, &disc),
             Self::new(DROP, 1e-8, &["drop.kinetic_energy", "drop.height"]),
         ]
+    }
+
+    /// A drop on a plate.
+    fn impact() -> Self {
+        let outputs = ["drop.kinetic_energy", "plate.max_temperature", "plate.max_von_mises"];
+        Self::new(IMPACT, 1e-7, &outputs)
     }
 
     /// What a host prints that plays this.
@@ -158,8 +201,34 @@ fn a_thread_with_little_stack_may_call() {
 }
 
 #[test]
+fn a_thread_with_very_little_stack_may_read_stresses() {
+    let impact = Case::impact();
+    let plate = IMPACT.split("[[coupling]]").next().unwrap();
+    let [head, plate] = [plate.split("[body.drop]").next(), plate.split("[body.plate]").nth(1)];
+    let text = format!("{}[body.plate]{}{LOAD}", head.unwrap(), plate.unwrap());
+    let outputs = ["plate.max_temperature", "plate.max_von_mises", "plate.heat_in"];
+    for case in [impact, Case::new(&text, 1e-7, &outputs)] {
+        let plain = case.play("plain", 2);
+        for version in [2, 3] {
+            assert_eq!(case.play("little stack", version), plain, "FMI {version}");
+        }
+    }
+}
+
+#[test]
 fn little_address_space_is_enough() {
     expect_the_same_bits(&[("space", 1)]);
+}
+
+/// Whatever is left, and from whichever moment on, a host is answered: it never ends in a call.
+#[test]
+fn too_little_address_space_is_refused() {
+    let [plate, ..] = Case::all();
+    for (case, version) in [(&plate, 2), (&plate, 3), (&Case::impact(), 2)] {
+        let complete: usize = case.play("sweep", version)[0].parse().unwrap();
+        // How many depends on addresses, too: whether the C library finds room for a thread's arena.
+        assert!(complete > 10, "FMI {version}: {complete} of 63");
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::process::Command;
 use std::ptr::null_mut;
 use std::{env, fs};
 
-use crate::master::{ERROR, Folder, OK, SCENE, Saved, Unit};
+use crate::master::{ERROR, Folder, OK, SCENE, Saved, Unit, WARNING};
 
 /// All values and the time.
 type Seen = ((Vec<u64>, i32, String), u64);
@@ -308,11 +308,90 @@ fn fields_go_on_from_the_restored_time() {
     let times: Vec<&str> =
         list.split("timestep=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
     assert_eq!(times, ["0.0", "1e-8", "4e-8"]);
-    // Another instance goes on in the same folder.
+    // Another instance goes on in the same folder, once the first one writes there no more.
+    let (bytes, directory) = (unit.serialize(state), unit.directory());
     let other = Unit::instantiated();
-    assert_eq!(other.restore(other.deserialize(&unit.serialize(state))), OK);
-    assert_eq!(other.directory(), unit.directory());
+    let state = other.deserialize(&bytes);
+    assert_eq!(other.restore(state), WARNING);
+    assert_eq!(fs::read_to_string(folder.0.join("plate.pvd")).unwrap(), list);
+    drop(unit);
+    assert_eq!(other.restore(state), OK);
+    assert_eq!(other.directory(), directory);
     assert_eq!(other.step(1e-8, 1e-8), OK);
     let list = fs::read_to_string(folder.0.join("plate.pvd")).unwrap();
     assert_eq!(list.matches("timestep=").count(), 2, "{list}");
+}
+
+/// Two copies of the library in one process, as two units of different names are loaded.
+#[test]
+fn a_state_of_another_copy_of_the_library_is_refused() {
+    use crate::master::{Callbacks, Handle};
+    use libloading::Library;
+    use std::ffi::{CString, c_char, c_int};
+    type Instantiate = unsafe extern "C" fn(
+        *const c_char,
+        c_int,
+        *const c_char,
+        *const c_char,
+        *const Callbacks,
+        c_int,
+        c_int,
+    ) -> Handle;
+    type Act = unsafe extern "C" fn(Handle, *mut Saved) -> c_int;
+    type Restore = unsafe extern "C" fn(Handle, Saved) -> c_int;
+    let unit = Unit::running();
+    let own = unit.save();
+    let folder = Folder::with_scene("copy", SCENE);
+    let path = folder.0.join("libcopy.so");
+    fs::copy(env::current_exe().unwrap().with_file_name("libimpinge.so"), &path).unwrap();
+    let callbacks = Callbacks {
+        logger: None,
+        allocate_memory: None,
+        free_memory: None,
+        step_finished: None,
+        environment: null_mut(),
+    };
+    let text = |text: &str| CString::new(text).unwrap();
+    let (name, guid, uri) = (text("copy"), text(&unit.guid), text(&folder.uri()));
+    // SAFETY: the types are those of the header; texts and callbacks outlive the instance.
+    unsafe {
+        let copy = Library::new(&path).unwrap();
+        let other = copy.get::<Instantiate>("fmi2Instantiate").unwrap()(
+            name.as_ptr(),
+            1,
+            guid.as_ptr(),
+            uri.as_ptr(),
+            &callbacks,
+            0,
+            0,
+        );
+        assert!(!other.is_null());
+        let mut states = [null_mut(); 3];
+        for state in &mut states {
+            assert_eq!(copy.get::<Act>("fmi2GetFMUstate").unwrap()(other, state), OK);
+            assert_eq!(unit.restore(*state), ERROR);
+        }
+        assert_eq!(copy.get::<Restore>("fmi2SetFMUstate").unwrap()(other, own), ERROR);
+        let mut foreign = own;
+        assert_eq!(copy.get::<Act>("fmi2FreeFMUstate").unwrap()(other, &mut foreign), ERROR);
+        copy.get::<unsafe extern "C" fn(Handle)>("fmi2FreeInstance").unwrap()(other);
+    }
+    assert_eq!(unit.restore(own), OK);
+}
+
+/// The folder of another writer is left alone, and the run goes on.
+#[test]
+fn a_folder_that_is_written_to_gets_no_fields() {
+    let folder = Folder::new("busy");
+    let writer = fs::File::open(&folder.0).unwrap();
+    writer.try_lock().unwrap();
+    let unit = Unit::initializing();
+    assert_eq!(unit.set_directory(&folder.0), OK);
+    unit.messages.take();
+    assert_eq!(unit.exit(), WARNING);
+    let messages = unit.messages.take();
+    let says = |text: &str| text.contains("output.directory") && text.contains("another run is");
+    assert!(messages.iter().any(|m| m.status == WARNING && says(&m.text)), "{messages:?}");
+    assert_eq!(unit.step(0.0, 1e-8), OK);
+    assert_eq!(fs::read_dir(&folder.0).unwrap().count(), 0);
 }

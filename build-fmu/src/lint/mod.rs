@@ -86,6 +86,9 @@ fn findings(bytes: Vec<u8>, may_run: bool) -> Vec<Finding> {
     let Some(package) = Report::of(&rules::READABLE, &mut found).take(Package::open(bytes)) else {
         return found;
     };
+    for fault in package.read_all() {
+        Report::of(&rules::READABLE, &mut found).take(Err::<(), _>(fault));
+    }
     for rule in rules::all() {
         if let Check::Package(check) = rule.check {
             check(&package, &mut Report::of(rule, &mut found));

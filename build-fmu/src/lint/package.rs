@@ -84,6 +84,35 @@ impl Package {
         Ok(bytes)
     }
 
+    /// Reads every entry to its end, which compares its checksum, within the bounds.
+    pub fn read_all(&self) -> Vec<Fault> {
+        let mut archive = self.archive.borrow_mut();
+        let (mut read, mut faults) = (0, Vec::new());
+        for at in 0..archive.len() {
+            let name = archive.name_for_index(at).and_then(Result::ok);
+            let path = name.map_or_else(|| format!("entry {at}"), Into::into);
+            let fault = |wrong: String| Fault::new(Place::file(&path), wrong);
+            let whole = archive.by_index(at).map_err(std::io::Error::other).and_then(|file| {
+                // What the directory says of its size need not be true.
+                std::io::copy(&mut file.take(LARGEST_ENTRY + 1), &mut std::io::sink())
+            });
+            match whole {
+                Ok(size) if size > LARGEST_ENTRY => {
+                    faults.push(fault(format!("more than {LARGEST_ENTRY} bytes when unpacked")));
+                }
+                Ok(size) => read += size,
+                Err(error) => faults.push(fault(format!("unreadable: {error}"))),
+            }
+            if read > MOST_UNPACKED {
+                let wrong =
+                    format!("more than {MOST_UNPACKED} bytes when unpacked; no more are read");
+                faults.push(Fault::new(Place::unit(), wrong));
+                break;
+            }
+        }
+        faults
+    }
+
     pub fn text(&self, path: &str) -> Result<String, Fault> {
         String::from_utf8(self.bytes(path)?)
             .map_err(|error| Fault::new(Place::file(path), format!("not UTF-8: {error}")))

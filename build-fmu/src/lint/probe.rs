@@ -5,6 +5,7 @@
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::io::Read;
+use std::io::Write as _;
 use std::path::Path;
 use std::process::{ChildStderr, Command, ExitCode, ExitStatus, Stdio};
 use std::sync::mpsc::{Receiver, channel};
@@ -189,7 +190,7 @@ unsafe extern "C" fn logger(
     if !message.is_null() {
         // SAFETY: a library passes a C string.
         let message = unsafe { CStr::from_ptr(message) };
-        eprintln!("{}", message.to_string_lossy());
+        let _ = writeln!(std::io::stderr(), "{}", message.to_string_lossy());
     }
 }
 
@@ -205,7 +206,7 @@ pub fn instantiate(arguments: &[String]) -> ExitCode {
         Ok(true) => ExitCode::from(MADE),
         Ok(false) => ExitCode::from(REFUSED),
         Err(error) => {
-            eprintln!("{error}");
+            let _ = writeln!(std::io::stderr(), "{error}");
             ExitCode::from(UNLOADABLE)
         }
     }

@@ -17,6 +17,7 @@ mod solid;
 
 pub use axis::{Axis, Weight};
 pub use conduction::particle_cost;
+pub use elastic::{expected_entries, factor_memory};
 pub use heat::HeatTotals;
 pub use mesh::{Geometry, Mesh, MeshFace, Parity};
 pub use plan::{Mechanics, Plan, Refinement};

@@ -2,7 +2,7 @@
 
 use super::cloud::{Cloud, cloud_of, ledger_of, particles_in, state_len};
 use super::images::{Ends, Source};
-use super::kick::{DENSITIES, FARTHEST};
+use super::kick::{DENSITIES, FARTHEST, FASTEST};
 use super::method::Method;
 use super::plan::DropletPlan;
 use crate::math::parallel::Team;
@@ -47,6 +47,10 @@ pub fn check(
             if x[a].abs() >= FARTHEST || (near_plane[a] && x[a] < 0.0) {
                 return Err(format!("particle {i} at {:?}, where none gets to", x));
             }
+        }
+        let speed = cloud.velocity[i].iter().map(|v| v * v).sum::<f64>().sqrt();
+        if speed >= FASTEST {
+            return Err(format!("particle {i} at {speed} times the speed of sound"));
         }
         let ratio = 1.0 + density;
         if !(DENSITIES[0]..DENSITIES[1]).contains(&ratio) {

@@ -1,6 +1,6 @@
 //! Why a droplet could not be advanced.
 
-use super::kick::FARTHEST;
+use super::kick::{FARTHEST, FASTEST};
 use crate::math::allowance::Halt;
 
 /// A step that would have no physical meaning; the state is as it was before.
@@ -20,6 +20,10 @@ pub enum Failure {
         "a particle has flown {FARTHEST:.0e} support radii away at t = {time:.6e} s, beyond which places are lost in rounding"
     )]
     Astray { time: f64 },
+    #[error(
+        "a particle flies at {ratio:.3e} times the speed of sound at t = {time:.6e} s (allowed: less than {FASTEST}): the speed of sound is too low for this flow"
+    )]
+    TooFast { ratio: f64, time: f64 },
     #[error("{0}")]
     Halted(#[from] Halt),
 }

@@ -9,6 +9,8 @@ pub const DENSITIES: [f64; 2] = [0.3, 3.0];
 /// Coordinates over H that no particle reaches: from there on a 10⁹th of H would be lost in rounding, and
 /// bins of grids in counting.
 pub const FARTHEST: f64 = 1e6;
+/// Speed over that of sound below which particles stay: beyond it nothing flows that is nearly incompressible.
+pub const FASTEST: f64 = 100.0;
 
 /// How some particles move.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,7 +23,7 @@ pub struct Motion {
     most_accelerated: f64,
     /// Σ m.
     pub mass: f64,
-    /// Whether all numbers are finite, places not too far away, and densities those of a weakly
+    /// Whether all numbers are finite, places not too far away, and speeds and densities those of a weakly
     /// compressible flow.
     pub sound: bool,
     /// Particles that the wall pushes, in their order.
@@ -118,7 +120,8 @@ pub fn kick(part: &mut Part, times: Times, gravity: [f64; 3]) -> Motion {
         let finite = (x + y + z + speed + part.temperature[i]).is_finite()
             && x.abs().max(y.abs()).max(z.abs()) < FARTHEST;
         let density = 1.0 + part.density[i];
-        motion.sound &= finite && (DENSITIES[0]..DENSITIES[1]).contains(&density);
+        motion.sound &=
+            finite && speed < FASTEST * FASTEST && (DENSITIES[0]..DENSITIES[1]).contains(&density);
         if by_wall != [0.0; 3] || pull[3] != 0.0 {
             motion.pushed.push(part.first + i);
         }

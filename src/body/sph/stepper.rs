@@ -11,7 +11,7 @@ use super::continuity::Continuity;
 use super::failure::Failure;
 use super::free_surface::FreeSurface;
 use super::images::copies;
-use super::kick::{DENSITIES, FARTHEST, Motion, Times, kick};
+use super::kick::{DENSITIES, FARTHEST, FASTEST, Motion, Times, kick};
 use super::loops::{PART, PairSum, for_all, for_parts};
 use super::method::{Method, Push};
 use super::moment::least_eigenvalue;
@@ -405,6 +405,10 @@ impl<'a, 'p> Stepper<'a, 'p> {
             }
             if self.cloud.position[i].iter().any(|x| x.abs() >= FARTHEST) {
                 return Err(Failure::Astray { time });
+            }
+            let speed = self.cloud.velocity[i].iter().map(|v| v * v).sum::<f64>().sqrt();
+            if speed >= FASTEST {
+                return Err(Failure::TooFast { ratio: speed, time });
             }
             if !self.cloud.temperature[i].is_finite() {
                 return Err(self.not_finite("temperature"));

@@ -8,6 +8,8 @@ use crate::scene::locate::Path;
 
 /// Prefixes of variables that belong to no body, load, probe, field or wall.
 const RESERVED: [&str; 2] = ["solver", "output"];
+/// Bytes of a name, at most: files are named after it, whose names have at most 255 bytes with all endings.
+const LONGEST_NAME: usize = 200;
 /// More threads than any machine of today runs well.
 const MOST_THREADS: usize = 1024;
 /// More communication steps than any run takes.
@@ -117,4 +119,7 @@ fn identifier(checker: &mut Checker, path: &Path, name: &str) {
     let fine = starts && letters.all(|c| c.is_ascii_alphanumeric() || c == '_');
     let allowed = "letters a-z and A-Z, digits and _, no digit first";
     checker.require(fine, path, format!("{name:?} is not a C identifier"), allowed);
+    let length = name.len();
+    let message = format!("a name of {length} bytes, which no file can be called after");
+    checker.require(length <= LONGEST_NAME, path, message, format!("at most {LONGEST_NAME} bytes"));
 }

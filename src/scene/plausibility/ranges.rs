@@ -108,7 +108,7 @@ pub const TRACTION: Range = Range {
 };
 /// Extents of solids and of loads on them.
 pub const EXTENT: Range = Range {
-    what: "the extent of a body that drops hit",
+    what: "the extent of a solid",
     unit: "m",
     lowest: 1e-7,
     highest: 1.0,

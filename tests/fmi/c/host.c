@@ -268,6 +268,99 @@ static void in_little_space(size_t more) {
   live(NULL);
 }
 
+/* What may be refused for want of memory ends the process as success; all else goes on. */
+static void or_refused(int status) {
+  if (status == fmi2Discard || status == fmi2Error) {
+    _exit(0);
+  }
+  EXPECT(status <= fmi2Warning);
+}
+
+static size_t space_left;
+static int space_from;
+
+static void limit_space(int place) {
+  const size_t most = address_space() + space_left;
+  const struct rlimit limit = {most, most};
+  if (place == space_from) {
+    EXPECT(setrlimit(RLIMIT_AS, &limit) == 0);
+    space_from = -1;
+  }
+}
+
+/* A life with little address space from some moment on, any call of which may be refused. */
+static void live_or_be_refused(void) {
+  const int wanted = THREADS;
+  double values[64];
+  void *unit, *state = NULL;
+  refusing = 1;
+  limit_space(0);
+  if (version == 2) {
+    unit = FUNCTION(fmi2Instantiate)("host", fmi2CoSimulation, guid, resources, &callbacks, 0, 1);
+    or_refused(unit == NULL ? fmi2Error : fmi2OK);
+    or_refused(FUNCTION(fmi2SetupExperiment)(unit, 0, 0.0, 0.0, 0, 0.0));
+    or_refused(FUNCTION(fmi2SetInteger)(unit, &threads, 1, &wanted));
+    or_refused(FUNCTION(fmi2EnterInitializationMode)(unit));
+    or_refused(FUNCTION(fmi2ExitInitializationMode)(unit));
+    limit_space(1);
+    for (int k = 0; k < STEPS; k++) {
+      or_refused(FUNCTION(fmi2DoStep)(unit, k * size, size, 1));
+      limit_space(2);
+      or_refused(FUNCTION(fmi2GetReal)(unit, outputs, count, values));
+    }
+    or_refused(FUNCTION(fmi2GetFMUstate)(unit, &state));
+    or_refused(FUNCTION(fmi2SetFMUstate)(unit, state));
+    FUNCTION(fmi2FreeInstance)(unit);
+  } else {
+    bool events, ends, early;
+    double reached;
+    unit = FUNCTION(fmi3InstantiateCoSimulation)("host", guid, resources, false, true, false, false,
+                                                 NULL, 0, NULL, listen3, NULL);
+    or_refused(unit == NULL ? fmi2Error : fmi2OK);
+    or_refused(FUNCTION(fmi3SetInt32)(unit, &threads, 1, &wanted, 1));
+    or_refused(FUNCTION(fmi3EnterInitializationMode)(unit, false, 0.0, 0.0, false, 0.0));
+    or_refused(FUNCTION(fmi3ExitInitializationMode)(unit));
+    limit_space(1);
+    for (int k = 0; k < STEPS; k++) {
+      or_refused(FUNCTION(fmi3DoStep)(unit, k * size, size, true, &events, &ends, &early, &reached));
+      limit_space(2);
+      or_refused(FUNCTION(fmi3GetFloat64)(unit, outputs, count, values, count));
+    }
+    or_refused(FUNCTION(fmi3GetFMUState)(unit, &state));
+    or_refused(FUNCTION(fmi3SetFMUState)(unit, state));
+    FUNCTION(fmi3FreeInstance)(unit);
+  }
+}
+
+/* Processes with little address space, none of which may end but by itself: with all sizes from the
+ * beginning on, with the smallest ones from later moments on. Answers how many were refused nothing; the one
+ * with most has enough. */
+static void sweep(void) {
+  const size_t fine[] = {64, 256, 512, 1024, 2048, 3072, 6144, 8192};
+  int complete = 0;
+  alarm(300);
+  for (int from = 0; from < 3; from++) {
+    for (int k = 0; k < (from == 0 ? 8 + 39 : 8); k++) {
+      space_left = k < 8 ? fine[k] << 10 : (size_t)(4 + 4 * (k - 7)) * 1000000;
+      space_from = from;
+      const pid_t child = fork();
+      int status;
+      if (child == 0) {
+        live_or_be_refused();
+        _exit(7);
+      }
+      EXPECT(waitpid(child, &status, 0) == child);
+      const int ended = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+      if (ended != 0 && ended != 7) {
+        fprintf(stderr, "%zu bytes from moment %d on: status %x\n", space_left, from, status);
+      }
+      complete += ended == 7;
+      EXPECT(k < 8 + 38 || ended == 7);
+    }
+  }
+  printf("%d\n", complete);
+}
+
 /* Expects that no load leaves a key behind for what threads keep: a process has few. */
 static void again_and_again(void) {
   pthread_key_t before, after;
@@ -397,6 +490,10 @@ int main(int argc, char **argv) {
     on_thread(64 << 10);
   } else if (strcmp(play, "space") == 0) {
     in_little_space((size_t)64 << 20);
+  } else if (strcmp(play, "sweep") == 0) {
+    sweep();
+  } else if (strcmp(play, "little stack") == 0) {
+    on_thread(24 << 10);
   } else if (strcmp(play, "no threads") == 0) {
     threads_left = 0;
     live(NULL);

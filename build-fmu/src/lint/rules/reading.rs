@@ -8,7 +8,7 @@ use crate::lint::finding::{Place, Report};
 pub static READABLE: Rule = Rule {
     name: "zip-readable",
     section: "2.3",
-    says: "a unit is a zip file",
+    says: "a unit is a zip file, every entry of which can be read and has its checksum",
     check: Check::Reading,
 };
 

@@ -1,21 +1,21 @@
 //! What the machine has left: the one thing that a run depends on and no scene says.
 
+mod allocator;
+
 use std::fs;
 use std::path::Path;
 
 /// Memory that this process may still take [B], as far as the system tells; without end where it does
 /// not.
 ///
-/// It is the least of what is free or can be freed (`/proc/meminfo`), what the control groups of the
-/// process leave (version 2, or 1 of memory), and what its limit of address space leaves.
+/// It is the least of what is free or can be freed (`/proc/meminfo`) and what the control groups of the
+/// process leave (version 2, or 1 of memory). Address space is another thing: see
+/// [`crate::math::address_space`].
 pub fn available_memory() -> f64 {
     let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
     let free = kilobytes(&read("/proc/meminfo"), "MemAvailable:");
-    let used = kilobytes(&read("/proc/self/status"), "VmSize:");
-    let most = address_space(&read("/proc/self/limits"));
-    let space = most.zip(used).map(|(most, used)| (most - used).max(0.0));
     let groups = groups(&read("/proc/self/cgroup")).into_iter().filter_map(|path| left_in(&path));
-    [free, space].into_iter().flatten().chain(groups).fold(f64::INFINITY, f64::min)
+    free.into_iter().chain(groups).fold(f64::INFINITY, f64::min)
 }
 
 /// The number behind a key of lines `Key: number kB` [B].
@@ -23,12 +23,6 @@ fn kilobytes(text: &str, key: &str) -> Option<f64> {
     let line = text.lines().find_map(|line| line.strip_prefix(key))?;
     let number: f64 = line.split_whitespace().next()?.parse().ok()?;
     Some(1024.0 * number)
-}
-
-/// The soft limit of address space [B] in `/proc/self/limits`; nothing if there is none.
-fn address_space(limits: &str) -> Option<f64> {
-    let line = limits.lines().find_map(|line| line.strip_prefix("Max address space"))?;
-    line.split_whitespace().next()?.parse().ok()
 }
 
 /// Folders of the control groups that `/proc/self/cgroup` names, and of those around them.
@@ -71,11 +65,6 @@ mod tests {
         let text = "MemTotal:   16 kB\nMemAvailable:   12345 kB\n";
         assert_eq!(kilobytes(text, "MemAvailable:"), Some(12345.0 * 1024.0));
         assert_eq!(kilobytes("", "MemAvailable:"), None);
-        let limits = "Limit  Soft Limit  Hard Limit  Units\n\
-                      Max address space         1048576              unlimited            bytes\n";
-        assert_eq!(address_space(limits), Some(1_048_576.0));
-        let none = limits.replace("1048576", "unlimited");
-        assert_eq!(address_space(&none), None);
     }
 
     #[test]

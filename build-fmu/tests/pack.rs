@@ -1,0 +1,120 @@
+//! `build-fmu` packs into a file that is whole or as it was, and reads what it is given with care.
+
+#![cfg(all(target_os = "linux", target_arch = "x86_64"))]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+const PROGRAM: &str = env!("CARGO_BIN_EXE_build-fmu");
+const SCENE: &str = include_str!("../../tests/fmi/scene.toml");
+
+fn library() -> PathBuf {
+    std::env::current_exe().unwrap().with_file_name("libimpinge.so")
+}
+
+/// A folder with a scene, in which the program is called.
+struct Place(TempDir);
+
+impl Place {
+    fn new() -> Self {
+        let folder = TempDir::new().unwrap();
+        fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
+        fs::copy(library(), folder.path().join("lib.so")).unwrap();
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn shell(&self, arguments: &str) -> Output {
+        Command::new("sh")
+            .current_dir(self.0.path())
+            .args(["-c", &format!("{PROGRAM} {arguments}")])
+            .output()
+            .unwrap()
+    }
+
+    #[track_caller]
+    fn refused(&self, arguments: &str, words: &str) {
+        let called = self.shell(arguments);
+        let said = String::from_utf8_lossy(&called.stderr);
+        assert_eq!(called.status.code(), Some(1), "{arguments}: {said}");
+        assert!(said.contains(words) && !said.contains("panicked"), "{arguments}: {said}");
+    }
+
+    fn names(&self) -> Vec<String> {
+        let entries = fs::read_dir(self.0.path()).unwrap();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_written_whole_is_as_it_was() {
+    let place = Place::new();
+    fs::write(place.path("unit.fmu"), "earlier").unwrap();
+    let shell = Command::new("sh")
+        .current_dir(place.0.path())
+        .args([
+            "-c",
+            &format!(
+                "ulimit -f 1; trap '' XFSZ; {PROGRAM} scene.toml -o unit.fmu --library lib.so"
+            ),
+        ])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&shell.stderr);
+    assert!(!shell.status.success() && said.contains("cannot write"), "{said}");
+    assert_eq!(fs::read(place.path("unit.fmu")).unwrap(), b"earlier");
+    assert_eq!(place.names(), ["lib.so", "scene.toml", "unit.fmu"]);
+    assert!(place.shell("scene.toml -o unit.fmu --library lib.so").status.success());
+    assert!(fs::read(place.path("unit.fmu")).unwrap().starts_with(b"PK"));
+    assert_eq!(place.names(), ["lib.so", "scene.toml", "unit.fmu"]);
+}
+
+#[test]
+fn nothing_is_written_where_something_is_read() {
+    let place = Place::new();
+    std::os::unix::fs::symlink("scene.toml", place.path("link.fmu")).unwrap();
+    fs::hard_link(place.path("lib.so"), place.path("hard.fmu")).unwrap();
+    for output in ["scene.toml", "./scene.toml", "link.fmu", "lib.so", "hard.fmu"] {
+        place.refused(&format!("scene.toml -o {output} --library lib.so"), "which is read");
+    }
+    place.refused("scene.toml --xml scene.toml", "which is read");
+    assert_eq!(fs::read_to_string(place.path("scene.toml")).unwrap(), SCENE);
+    assert_eq!(fs::read(place.path("lib.so")).unwrap(), fs::read(library()).unwrap());
+}
+
+#[test]
+fn only_a_library_of_this_program_is_packed() {
+    let place = Place::new();
+    fs::write(place.path("notlib.txt"), "fmi2DoStep fmi3DoStep impinge").unwrap();
+    for other in ["notlib.txt", "scene.toml", PROGRAM, "/dev/null"] {
+        place.refused(&format!("scene.toml --library {other}"), "is no library of impinge");
+    }
+    assert!(!Path::new(&place.path("SmallPlate.fmu")).exists());
+}
+
+#[test]
+fn what_cannot_be_printed_ends_without_a_panic() {
+    let place = Place::new();
+    place.refused("--lint --rules >/dev/full", "cannot print");
+    place.refused("scene.toml --library lib.so >/dev/full", "cannot print");
+    for quiet in ["nothing.toml 2>/dev/full", "scene.toml -o lib.so --library lib.so 2>/dev/full"] {
+        assert_eq!(place.shell(quiet).status.code(), Some(1), "{quiet}");
+    }
+    let piped = place.shell("--lint --rules | true; echo done");
+    assert_eq!((&piped.stdout[..], &piped.stderr[..]), (&b"done\n"[..], &b""[..]));
+}
+
+#[test]
+fn endless_scenes_are_refused() {
+    let place = Place::new();
+    place.refused("/dev/zero --library lib.so", "at most 16000000 bytes");
+}

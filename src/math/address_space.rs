@@ -1,0 +1,105 @@
+//! Address space, where the process may have only so much of it (`RLIMIT_AS`): what is set aside counts
+//! there, used or not. Where there is no such limit, everything fits.
+
+/// What the C library sets aside for a thread that allocates, where it can [B].
+pub const ARENA: usize = 64 << 20;
+
+/// What the kernels for products of matrices keep for a thread that multiplies [B].
+pub const PRODUCTS: usize = 4 << 20;
+
+/// What is left alone for all that is small and not counted [B].
+pub const SPARE: usize = 4 << 20;
+
+/// Less than this is had without asking: the allocator keeps more in reserve [B].
+const SMALL: usize = 256 << 10;
+
+/// The process may not take as much as is needed.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error(
+    "this takes up to {:.3} MB of address space; the limit of this process (RLIMIT_AS) leaves {:.3} MB",
+    *needed as f64 / 1e6,
+    *left as f64 / 1e6
+)]
+pub struct TooLittle {
+    /// [B]
+    pub needed: usize,
+    pub left: usize,
+}
+
+/// Refuses what might take more than the process may have.
+pub fn expect(bytes: usize) -> Result<(), TooLittle> {
+    if fits(bytes) {
+        return Ok(());
+    }
+    Err(TooLittle { needed: bytes, left: left().unwrap_or(usize::MAX) })
+}
+
+/// Whether the process may take so many bytes more.
+pub fn fits(bytes: usize) -> bool {
+    bytes <= SMALL || !system::is_limited() || system::is_to_be_had(bytes)
+}
+
+/// Bytes that the process may take in one piece; nothing where there is no limit.
+pub fn left() -> Option<usize> {
+    if !system::is_limited() {
+        return None;
+    }
+    let (mut had, mut missed) = (0, 1 << 46);
+    while missed - had > 1 << 16 {
+        let middle = had + (missed - had) / 2;
+        match system::is_to_be_had(middle) {
+            true => had = middle,
+            false => missed = middle,
+        }
+    }
+    Some(had)
+}
+
+#[cfg(target_os = "linux")]
+mod system {
+    use std::mem::MaybeUninit;
+    use std::ptr;
+
+    pub fn is_limited() -> bool {
+        let mut limit = MaybeUninit::<libc::rlimit>::uninit();
+        // SAFETY: the limit is read only where the system has written it.
+        unsafe {
+            libc::getrlimit(libc::RLIMIT_AS, limit.as_mut_ptr()) == 0
+                && limit.assume_init().rlim_cur != libc::RLIM_INFINITY
+        }
+    }
+
+    /// Takes it for a moment and gives it back: the system alone knows what counts.
+    pub fn is_to_be_had(bytes: usize) -> bool {
+        let flags = libc::MAP_PRIVATE | libc::MAP_ANONYMOUS | libc::MAP_NORESERVE;
+        // SAFETY: a new mapping, which nobody else knows of, is given back.
+        unsafe {
+            let place = libc::mmap(ptr::null_mut(), bytes, libc::PROT_NONE, flags, -1, 0);
+            place != libc::MAP_FAILED && libc::munmap(place, bytes) == 0
+        }
+    }
+}
+
+#[cfg(not(target_os = "linux"))]
+mod system {
+    pub fn is_limited() -> bool {
+        false
+    }
+
+    pub fn is_to_be_had(_bytes: usize) -> bool {
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn without_a_limit_everything_fits() {
+        if left().is_none() {
+            assert!(fits(usize::MAX));
+        }
+        assert!(fits(SMALL));
+    }
+}
