@@ -321,6 +321,13 @@ impl Unit {
         }
     }
 
+    /// Warns of a variable unless there was a warning of it before.
+    pub(super) fn warn_once_of(&mut self, variable: &str, message: &str) {
+        if self.said.insert(format!("input {variable}")) {
+            self.log.send(Status::Warning, message);
+        }
+    }
+
     fn warn_once(&mut self, messages: Vec<String>) {
         for message in messages {
             if !self.said.contains(&message) {

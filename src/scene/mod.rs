@@ -11,18 +11,20 @@ mod grid;
 mod locate;
 mod lookup;
 mod plausibility;
+mod spelling;
 mod types;
 
 use std::fs;
 use std::path::Path;
 
 pub use droplet::{
-    Arrival, Coupling, Droplet, DropletMethod, Fluid, Placement, Precision, Wall, WallStart,
+    Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Fluid, Placement, Precision, Wall,
+    WallStart,
 };
 pub use error::{Problem, SceneError};
 pub use grid::Grid;
 pub use lookup::Place;
-pub use plausibility::Warning;
+pub use plausibility::{Measure, Warning, doubt_of_input};
 pub use types::*;
 
 use locate::Source;
