@@ -16,6 +16,7 @@ use std::process::ExitCode;
 
 use archive::Entries;
 use clap::Parser;
+use impinge::model::notes_on_walls;
 use impinge::scene::{self, Scene};
 use version::Version;
 
@@ -92,6 +93,9 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
         scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
     for warning in warnings {
         eprintln!("build-fmu: warning: {warning}");
+    }
+    for note in notes_on_walls(&scene) {
+        eprintln!("build-fmu: note: {note}");
     }
     if let Some(path) = &arguments.xml {
         return write(path, arguments.fmi.model_description(&scene, &text).as_bytes());
