@@ -336,9 +336,9 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     }
     if droplet.fluid.surface_tension > 0.0 && stands {
         notes.push(format!(
-            "contact angle {:.4}°, which decides how far a slow drop spreads (`fluid.contact_angle` in rad; 90° \
+            "contact angle {}°, which decides how far a slow drop spreads (`fluid.contact_angle` in rad; 90° \
              where a scene names none)",
-            droplet.fluid.contact_angle.to_degrees()
+            (10.0 * droplet.fluid.contact_angle.to_degrees()).round() / 10.0
         ));
     }
     if droplet.fluid.conductivity == 0.0 {
