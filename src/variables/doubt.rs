@@ -15,8 +15,7 @@ impl Variable {
             Quantity::Stress => Measure::Traction,
             _ => return None,
         };
-        let why = doubt_of_input(scene, measure, value)?;
-        Some(format!("{} = {value}: {why}", self.name))
+        doubt_of_input(scene, &self.name, measure, value)
     }
 
     /// The name without the indices of an element, in either way of naming.

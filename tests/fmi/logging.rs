@@ -293,6 +293,7 @@ fn a_step_to_below_absolute_zero_is_discarded_with_the_reason() {
 fn outputs_beyond_numbers_are_errors() {
     let unit = Unit::running();
     assert_eq!(unit.set("spot.pressure", 1.7e308), OK);
+    unit.expect_message(WARNING, &["spot.pressure = 1.7e308: a pressure or shear is plausible"]);
     let mut value = [7.0];
     let reference = unit.reference("plate.max_von_mises");
     assert_eq!(unit.get_all(&[reference], &mut value), ERROR);

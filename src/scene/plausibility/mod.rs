@@ -98,14 +98,15 @@ pub enum Measure {
     Traction,
 }
 
-/// What to say of a value that is hardly meant for an input of a unit of the scene.
-pub fn doubt_of_input(scene: &Scene, measure: Measure, value: f64) -> Option<String> {
+/// `NAME = VALUE: why (did you mean …?)` of a value that is hardly meant for an input of a unit of the scene.
+pub fn doubt_of_input(scene: &Scene, name: &str, measure: Measure, value: f64) -> Option<String> {
     let temperature = values::temperatures(scene);
-    match measure {
+    let why = match measure {
         Measure::Temperature => doubt(&temperature, value),
         Measure::Ambient => doubt(&Range { lowest: temperature.lowest, ..ranges::AMBIENT }, value),
         Measure::HeatTransfer => doubt(&ranges::HEAT_TRANSFER, value),
         Measure::HeatFlux => doubt(&ranges::HEAT_FLUX, value),
         Measure::Traction => doubt(&ranges::TRACTION, value),
-    }
+    };
+    why.map(|why| format!("{name} = {}: {why}", number(value)))
 }
