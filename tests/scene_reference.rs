@@ -72,11 +72,11 @@ fn known(scene: &str, from: &str, to: &str) -> BTreeSet<String> {
     let text = scene.replacen(from, to, 1);
     assert_ne!(text, scene, "{from:?} does not occur");
     let error = parse(&text, "scene.toml").expect_err("a key that there is not was accepted");
-    let lists = error.problems.iter().filter(|problem| {
+    let mut lists = error.problems.iter().filter(|problem| {
         let of_key = problem.message.contains("`zz`") || problem.value.contains("zz");
         of_key && (problem.message.contains("`zz`") || problem.allowed.contains(", "))
     });
-    let problem = lists.last().unwrap_or_else(|| panic!("{error}"));
+    let problem = lists.next_back().unwrap_or_else(|| panic!("{error}"));
     let allowed = problem.allowed.strip_prefix("one of ").unwrap_or(&problem.allowed);
     allowed.split(", ").map(str::to_owned).collect()
 }
