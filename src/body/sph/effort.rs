@@ -1,8 +1,9 @@
 //! How many time steps a run of droplets takes, and for how long they are computed.
 //!
 //! Times are sums of what time steps, listings of neighbours and sheets of the free surface take. Each was
-//! found from runs that differ in one of these alone: of 226 to 8378 particles, free and on walls, with and
-//! without tension and heat, on one thread.
+//! found from processor times of some fifty runs, many of which differ in one of these alone: of 226 to 8378
+//! particles, free and on walls, with and without tension and heat, on one thread. Other work ran on the machine
+//! meanwhile, which lengthens such times by some tenths; times of a step were set lower by about that, by judgement.
 
 use std::f64::consts::PI;
 
