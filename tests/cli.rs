@@ -162,6 +162,41 @@ fn check_and_run_warn_of_what_is_hardly_meant() {
 }
 
 #[test]
+fn inputs_are_judged_like_the_scenes_constants() {
+    let place = Workplace::new();
+    let run = |setting| place.run(&["--overwrite", "--set", setting]).succeeds().stderr();
+    let said = run("plate.bottom.temperature=20");
+    let wanted = "warning: plate.bottom.temperature = 20: a temperature is plausible from 60 to 6000 K; did you \
+                  mean 293.15 (20 °C)?";
+    assert!(said.contains(wanted), "{said}");
+    assert!(run("spot.pressure=1e12").contains("a pressure or shear is plausible"));
+    assert!(!run("plate.bottom.temperature=300").contains("warning"));
+}
+
+#[test]
+fn an_input_is_doubted_once_for_all_elements() {
+    let place = Workplace::new();
+    fs::write(place.path("scene.toml"), DROP).unwrap();
+    let said = place.run(&["--set", "wall.temperature=20"]).succeeds().stderr();
+    assert_eq!(said.matches("did you mean 293.15").count(), 1, "{said}");
+}
+
+#[test]
+fn a_run_in_which_nothing_acts_says_so() {
+    let place = Workplace::new();
+    let said = place.run(&[]).succeeds().stderr();
+    assert!(!said.contains("note:"), "{said}");
+    let said = place.run(&["--overwrite", "--set", "spot.heat_flux=0"]).succeeds().stderr();
+    for words in ["note: nothing acts", "spot.heat_flux, spot.pressure", "--set "] {
+        assert!(said.contains(words), "`{words}` is missing in: {said}");
+    }
+    let settings =
+        ["--overwrite", "--set", "spot.heat_flux=0", "--set", "plate.bottom.temperature=310"];
+    let said = place.run(&settings).succeeds().stderr();
+    assert!(!said.contains("note:"), "{said}");
+}
+
+#[test]
 fn a_run_to_below_absolute_zero_fails_with_time_and_reason() {
     let place = Workplace::new();
     let words = ["in the step from t = 0 s", "plate would cool to -", "below absolute zero"];
@@ -328,8 +363,66 @@ fn check_tells_what_a_droplet_costs() {
         "wall.shear_y[2,2]",
         "drop.spread_diameter",
         "drop.viscosity",
+        "`impinge run` takes about",
     ] {
         assert!(report.contains(words), "`{words}` is missing in: {report}");
+    }
+}
+
+#[test]
+fn check_tells_what_decides_a_droplets_results() {
+    let place = Workplace::new();
+    let tense = DROP.replace("conductivity = 0.6", "conductivity = 0.6, surface_tension = 0.07");
+    fs::write(place.path("drop.toml"), &tense).unwrap();
+    let report = place.call(&["check", "drop.toml"]).succeeds().stdout();
+    for words in [
+        "contact angle 90°",
+        "speed of sound is artificial",
+        "ρcU = 4.",
+        "neither solidifies, melts nor evaporates",
+        "`wall` names no `effusivity`",
+        "0.1 Δx²/a = 7.0e-5 s or shorter",
+    ] {
+        assert!(report.contains(words), "`{words}` is missing in: {report}");
+    }
+    let held = tense.replace("under = \"drop\"", "under = \"drop\"\neffusivity = 6000.0");
+    fs::write(place.path("drop.toml"), held).unwrap();
+    let report = place.call(&["check", "drop.toml"]).succeeds().stdout();
+    assert!(!report.contains("names no `effusivity`"), "{report}");
+}
+
+#[test]
+fn check_tells_of_outputs_what_they_are_if_asked() {
+    let place = Workplace::new();
+    fs::write(place.path("drop.toml"), DROP).unwrap();
+    let short = place.call(&["check", "drop.toml"]).succeeds().stdout();
+    let long = place.call(&["check", "drop.toml", "--outputs"]).succeeds().stdout();
+    let what = "diameter of the film on the wall";
+    assert!(long.contains(what) && !short.contains(what), "{long}");
+}
+
+#[test]
+fn a_plane_droplet_is_told_per_metre_of_depth() {
+    let place = Workplace::new();
+    let plane = DROP
+        .replace("spacing = 1e-5", "spacing = 1e-5\ndimension = 2")
+        .replace("count = [2, 2]", "count = [2, 1]");
+    fs::write(place.path("scene.toml"), plane).unwrap();
+    let report = place.call(&["check", "scene.toml", "--outputs"]).succeeds().stdout();
+    assert!(report.contains("kinetic energy, per metre of depth (drop)"), "{report}");
+    place.run(&["--out", "a"]).succeeds();
+    let (head, _) = place.table("a");
+    for title in [
+        "drop.mass [kg/m]",
+        "drop.kinetic_energy [J/m]",
+        "drop.momentum_z [kg/s]",
+        "drop.force [N/m]",
+        "drop.heat_flow [W/m]",
+        "drop.height [m]",
+        "wall.force_outside [N/m]",
+        "\"wall.heat_flux[1,1] [W/m2]\"",
+    ] {
+        assert!(head.contains(title), "`{title}` is missing in: {head}");
     }
 }
 

@@ -283,3 +283,20 @@ fn droplets_and_plates_that_do_not_go_together_are_warned_of() {
     let found = warnings(&narrow);
     assert!(found.len() == 1 && found[0].contains("beyond the edge of `plate`"), "{found:?}");
 }
+
+#[test]
+fn a_drop_that_does_not_arrive_in_time_is_warned_of() {
+    let text = drop(WATER);
+    let high = edited(&text, "spacing = 5e-5", "spacing = 5e-5\nheight = 1e-3");
+    let said = warnings(&high);
+    assert!(said.len() == 1, "{said:?}");
+    let wanted = "body.drop.height = 1e-3: the drop does not arrive before the stop time of 1e-5 s: it comes \
+                  down at 5e-4 s";
+    assert!(said[0].contains(wanted), "{said:?}");
+    let idle = edited(&high, "impact_velocity = 2.0", "impact_velocity = 0.0");
+    let said = warnings(&idle);
+    assert!(said.len() == 1 && said[0].contains("it never comes down"), "{said:?}");
+    assert_eq!(warnings(&edited(&high, "stop_time = 1e-5", "stop_time = 6e-4")), [""; 0]);
+    let late = edited(&text, "spacing = 5e-5", "spacing = 5e-5\narrivals = [{ time = 2e-5 }]");
+    assert_eq!(warnings(&late).len(), 1);
+}

@@ -17,6 +17,7 @@ use std::process::{self, ExitCode};
 
 use archive::Entries;
 use clap::Parser;
+use impinge::model::notes_on_walls;
 use impinge::scene::{self, Scene};
 use version::Version;
 
@@ -104,6 +105,9 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
         scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
     for warning in warnings {
         complain(&format!("warning: {warning}"));
+    }
+    for note in notes_on_walls(&scene) {
+        complain(&format!("note: {note}"));
     }
     if let Some(target) = &arguments.xml {
         refuse_inputs(target, &[path])?;

@@ -19,6 +19,9 @@ use super::units::{decimal, engineering, kelvin};
 pub struct Check {
     /// The scene, a TOML file
     scene: PathBuf,
+    /// Say of every output what it is
+    #[arg(long)]
+    outputs: bool,
 }
 
 impl Check {
@@ -42,7 +45,7 @@ impl Check {
         for (title, body) in sections.iter().filter(|(_, body)| !body.is_empty()) {
             let _ = write!(text, "\n{title}\n{body}");
         }
-        text.push_str(&variables(&scene));
+        text.push_str(&variables(&scene, self.outputs));
         Ok(text)
     }
 }
@@ -51,6 +54,7 @@ impl Check {
 fn notes(scene: &Scene) -> String {
     let mut text = String::new();
     let forecast = forecast(scene);
+    let run_time = forecast.run_time();
     for body in forecast.bodies {
         let [columns, rows, layers] = body.nodes;
         let [heat, mechanics] = body.unknowns;
@@ -91,7 +95,7 @@ fn notes(scene: &Scene) -> String {
         );
         let _ = writeln!(
             text,
-            "    about {:.0} MB, {} for the whole run",
+            "    about {:.0} MB, {} for all its steps and exchanges",
             body.memory / 1e6,
             engineering(body.run_time, "s")
         );
@@ -99,6 +103,7 @@ fn notes(scene: &Scene) -> String {
             let _ = writeln!(text, "    - {note}");
         }
     }
+    let _ = writeln!(text, "  `impinge run` takes about {}", engineering(run_time, "s"));
     text
 }
 
@@ -242,8 +247,9 @@ fn place(field: &Field) -> String {
     }
 }
 
-/// The variables by causality: how many, and each with its unit and start value, arrays folded.
-fn variables(scene: &Scene) -> String {
+/// The variables by causality: how many, and each with its unit and start value, arrays folded; of outputs what
+/// they are, where that is `told`.
+fn variables(scene: &Scene, told: bool) -> String {
     let (registry, arrays) = (Registry::of(scene), ArrayRegistry::of(scene));
     let kinds = [
         ("Parameters", Causality::Parameter),
@@ -265,10 +271,19 @@ fn variables(scene: &Scene) -> String {
             .map(|elements| {
                 let unit = elements[0].quantity.map_or("", |quantity| quantity.unit());
                 // The name with the highest indices tells how many there are.
-                [elements[elements.len() - 1].name.clone(), unit.to_owned(), start(elements)]
+                let last = &elements[elements.len() - 1];
+                let more = match causality {
+                    Causality::Output if told => last.description.clone(),
+                    _ => start(elements),
+                };
+                [last.name.clone(), unit.to_owned(), more]
             })
             .collect();
-        let heading = if causality == Causality::Output { "" } else { "start" };
+        let heading = match causality {
+            Causality::Output if told => "what it is",
+            Causality::Output => "",
+            _ => "start",
+        };
         let _ = write!(text, "\n{title} ({count})\n{}", table(["name", "unit", heading], &rows));
     }
     text

@@ -3,6 +3,7 @@
 
 mod check;
 mod error;
+mod idle;
 mod run;
 mod set;
 mod summary;

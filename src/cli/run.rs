@@ -9,6 +9,7 @@ use impinge::scene::{self, Scene};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::CliError;
+use super::idle;
 use super::set::{self, Assignment, InputValue};
 use super::summary;
 use super::units::engineering;
@@ -60,6 +61,9 @@ impl Run {
             timeline: Timeline::new(scene.step, scene.stop_time),
             model: &model,
         };
+        if let Some(note) = idle::note(&scene, &run.state.inputs) {
+            eprintln!("note: {note}");
+        }
         let mut record = self.record(&run)?;
         run.finish(&mut record)?;
         let spent = engineering(started.elapsed().as_secs_f64(), "s");
@@ -79,6 +83,7 @@ impl Run {
         let inputs = set::apply(&mut scene, &self.set)?;
         scene::check(&scene)?;
         super::warn(&if scene == read { warnings } else { scene::warnings(&scene) });
+        set::doubts(&scene, &inputs).iter().for_each(|doubt| eprintln!("warning: {doubt}"));
         Ok((scene, inputs))
     }
 

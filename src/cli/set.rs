@@ -71,6 +71,20 @@ pub fn apply(scene: &mut Scene, assignments: &[Assignment]) -> Result<Vec<InputV
     if errors.is_empty() { Ok(inputs) } else { Err(SetErrors(errors)) }
 }
 
+/// What to say of inputs whose values are hardly meant, of one element of an array.
+pub fn doubts(scene: &Scene, inputs: &[InputValue]) -> Vec<String> {
+    let registry = Registry::of(scene);
+    let mut doubted = BTreeSet::new();
+    let mut doubts = Vec::new();
+    for &(index, value) in inputs {
+        let is_meant = |variable: &&Variable| variable.slot == Slot::Input(index);
+        let Some(variable) = registry.variables.iter().find(is_meant) else { continue };
+        let doubt = variable.doubt(scene, value);
+        doubts.extend(doubt.filter(|_| doubted.insert(variable.family())));
+    }
+    doubts
+}
+
 /// The variables that a name stands for: at least one, none of them an output.
 fn targets<'a>(registry: &'a Registry, name: &str) -> Result<Vec<&'a Variable>, SetError> {
     let found: Vec<&Variable> = match registry.find(name) {

@@ -330,6 +330,13 @@ impl Unit {
         expect_room(self.run.as_ref().map_or(0, room))
     }
 
+    /// Warns of a variable unless there was a warning of it before.
+    pub(super) fn warn_once_of(&mut self, variable: &str, message: &str) {
+        if self.said.insert(format!("input {variable}")) {
+            self.log.send(Status::Warning, message);
+        }
+    }
+
     fn warn_once(&mut self, messages: Vec<String>) {
         for message in messages {
             if !self.said.contains(&message) {

@@ -123,7 +123,17 @@ impl Unit {
         if let Some(scene) = scene {
             self.set_scene(scene);
         }
+        self.doubt(&variables, values);
         Ok(Status::Ok)
+    }
+
+    /// Says once of each input, and of one element of an array, that a value is hardly meant.
+    fn doubt(&mut self, variables: &[&Variable], values: &[f64]) {
+        for (variable, &value) in variables.iter().zip(values) {
+            if let Some(message) = variable.doubt(&self.scene, value) {
+                self.warn_once_of(variable.family(), &message);
+            }
+        }
     }
 
     pub fn set_integers(&mut self, references: &[Reference], values: &[i32]) -> Answer {

@@ -9,7 +9,7 @@ use crate::body::sph::{
     Surface, WallCells, WallExchange,
 };
 use crate::math::allowance::Allowance;
-use crate::scene::{Droplet, Footprint, Governing, Scene};
+use crate::scene::{Droplet, Footprint, Governing, Scene, Wall};
 use crate::variables::{DropletTotal, InputLayout, WallOutput};
 
 /// A body of droplets and what lies below it.
@@ -73,7 +73,7 @@ impl DropletModel {
             (Some(_), _) => None,
             (None, wall) => wall.and_then(|wall| scene.wall[wall].effusivity),
         };
-        let mut notes = notes(droplet);
+        let mut notes = notes(scene, name, droplet);
         notes.extend(contact.as_ref().map(Contact::note));
         let below = match (contact, wall) {
             (Some(contact), _) => Below::Solid(Box::new(contact)),
@@ -318,7 +318,9 @@ pub fn cells_of(footprint: &Footprint) -> Option<WallCells> {
 }
 
 /// What was chosen or left out, and why: a sentence each.
-pub fn notes(droplet: &Droplet) -> Vec<String> {
+pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
+    let wall = scene.wall_under(name).map(|wall| &scene.wall[wall]);
+    let stands = wall.is_some() || scene.coupling_from(name).is_some();
     let mut notes = vec![match droplet.mirrors() {
         [true, true] => "a quarter of the drop is modelled: it mirrors itself in x = 0 and y = 0",
         [true, false] => "half of the plane drop is modelled: it mirrors itself in x = 0",
@@ -326,15 +328,65 @@ pub fn notes(droplet: &Droplet) -> Vec<String> {
     }
     .to_owned()];
     notes.extend(note_on_sound(droplet));
+    notes.extend(stands.then(|| note_on_first_blow(droplet)));
     if droplet.fluid.surface_tension == 0.0 {
         notes.push("surface tension is left out: the scene names none".to_owned());
     } else if !droplet.shifts() && droplet.shifting.is_none() {
         notes.push("particles are not shifted: surface tension rules this drop".to_owned());
     }
+    if droplet.fluid.surface_tension > 0.0 && stands {
+        notes.push(format!(
+            "contact angle {}°, which decides how far a slow drop spreads (`fluid.contact_angle` in rad; 90° \
+             where a scene names none)",
+            (10.0 * droplet.fluid.contact_angle.to_degrees()).round() / 10.0
+        ));
+    }
     if droplet.fluid.conductivity == 0.0 {
         notes.push("heat is left out: the fluid does not conduct any".to_owned());
+    } else {
+        notes.push(
+            "the fluid neither solidifies, melts nor evaporates, and its constants do not change with temperature"
+                .to_owned(),
+        );
+        notes.extend(wall.and_then(|wall| note_on_held_wall(wall, droplet)));
     }
     notes
+}
+
+/// What is to be known of a scene's walls by who couples them: a sentence each.
+pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
+    let note = |wall: &Wall| {
+        let droplet = scene.droplet(&wall.under)?;
+        note_on_held_wall(wall, droplet).filter(|_| droplet.fluid.conductivity > 0.0)
+    };
+    scene.wall.iter().filter_map(note).collect()
+}
+
+/// What the model's speed of sound does to the first blow.
+fn note_on_first_blow(droplet: &Droplet) -> String {
+    let hammer = droplet.fluid.density * droplet.sound_speed() * droplet.impact_velocity;
+    format!(
+        "that speed of sound is artificial: the pressure of the first blow, ρcU = {hammer:.3e} Pa here, and \
+         `max_pressure` are in proportion to it; what follows after some D/c is not"
+    )
+}
+
+/// Part of the time Δx²/a, in which heat goes through a layer of particles, that steps of a master may take.
+const STEP_OF_MASTER: f64 = 0.1;
+
+/// What a wall does whose temperature is held, though a master may couple it.
+fn note_on_held_wall(wall: &Wall, droplet: &Droplet) -> Option<String> {
+    let fluid = &droplet.fluid;
+    let diffusivity = fluid.conductivity / (fluid.density * fluid.specific_heat);
+    let step = STEP_OF_MASTER * droplet.spacing.powi(2) / diffusivity;
+    wall.effusivity.is_none().then(|| {
+        format!(
+            "`{}` names no `effusivity`: its heat flux just after contact is that of a wall held at its \
+             temperature; a master that couples it with the unit of a plate has to name the plate's √(kρc), or to \
+             take steps of 0.1 Δx²/a = {step:.1e} s or shorter",
+            wall.name
+        )
+    })
 }
 
 /// The speed of sound that was chosen, or what one that the scene asks for costs.

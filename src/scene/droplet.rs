@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use serde::{Deserialize, Serialize};
 
-use super::types::{CellValues, Footprint, Symmetry};
+use super::types::{CellValues, Footprint};
 use crate::kernel::Kernel;
 
 /// Round drops of one fluid that arrive, along −z, above the plane z = 0.
@@ -29,7 +29,7 @@ pub struct Droplet {
     #[serde(default = "three")]
     pub dimension: usize,
     #[serde(default)]
-    pub symmetry: Symmetry,
+    pub symmetry: DropletSymmetry,
     #[serde(default)]
     pub placement: Placement,
     /// Body force a mass towards −z [m/s²].
@@ -64,6 +64,17 @@ pub enum DropletMethod {
     /// Weakly compressible smoothed particle hydrodynamics.
     #[default]
     Sph,
+}
+
+/// How much of the drops is modelled.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DropletSymmetry {
+    /// A quarter, or half of a plane model, where all drops arrive at the origin on a lattice.
+    #[default]
+    Auto,
+    None,
+    Quarter,
 }
 
 /// A Newtonian fluid that conducts heat.
@@ -266,8 +277,8 @@ impl Droplet {
     /// Along which of x and y the half of the model stands for the whole.
     pub fn mirrors(&self) -> [bool; 2] {
         let halved = match self.symmetry {
-            Symmetry::Auto => self.is_centred() && self.placement == Placement::Lattice,
-            symmetry => symmetry == Symmetry::Quarter,
+            DropletSymmetry::Auto => self.is_centred() && self.placement == Placement::Lattice,
+            symmetry => symmetry == DropletSymmetry::Quarter,
         };
         [halved, halved && self.dimension == 3]
     }

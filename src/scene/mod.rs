@@ -11,6 +11,7 @@ mod grid;
 mod locate;
 mod lookup;
 mod plausibility;
+mod spelling;
 mod types;
 
 use std::fs::File;
@@ -18,13 +19,13 @@ use std::io::{self, Read};
 use std::path::Path;
 
 pub use droplet::{
-    Arrival, Coupling, Droplet, DropletMethod, Fluid, Governing, Placement, Precision, Wall,
-    WallStart,
+    Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Fluid, Governing, Placement,
+    Precision, Wall, WallStart,
 };
 pub use error::{Problem, SceneError};
 pub use grid::Grid;
 pub use lookup::Place;
-pub use plausibility::Warning;
+pub use plausibility::{Measure, Warning, doubt_of_input};
 pub use types::*;
 
 use locate::Source;

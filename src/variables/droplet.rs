@@ -320,11 +320,11 @@ pub(super) fn outputs(scene: &Scene, list: &mut Vec<Variable>) {
             None => &[],
         };
         for &total in DropletTotal::FREE.iter().chain(above).chain(on_solid) {
-            let depth = if droplet.dimension == 2 { ", a metre deep" } else { "" };
             let output = Output::Droplet { body: body.to_owned(), total };
-            let description = format!("{} ({body}{depth})", total.description());
+            let (quantity, depth) = by_depth(total.quantity(), Some(droplet));
+            let description = format!("{}{depth} ({body})", total.description());
             let name = format!("{body}.{}", total.key());
-            list.push(output_variable(name, description, output, total.quantity()));
+            list.push(output_variable(name, description, output, quantity));
         }
     }
     for (index, wall) in scene.wall.iter().enumerate() {
@@ -363,14 +363,24 @@ fn wall_outputs(index: usize, wall: &Wall, droplet: Option<&Droplet>, list: &mut
         ("force_outside", "force", Quantity::Force, WallOutput::ForceOutside),
     ] {
         let name = format!("{}.{key}", wall.name);
+        let (quantity, depth) = by_depth(quantity, droplet);
         let description =
-            format!("{meaning} into the wall beyond its cells, {}, {mean}", wall.name);
+            format!("{meaning} into the wall beyond its cells{depth}, {}, {mean}", wall.name);
         list.push(output_variable(
             name,
             description,
             Output::Wall { wall: index, output },
             quantity,
         ));
+    }
+}
+
+/// What a plane model gives of a quantity, and words for it.
+fn by_depth(quantity: Quantity, droplet: Option<&Droplet>) -> (Quantity, &'static str) {
+    let is_plane = droplet.is_some_and(|droplet| droplet.dimension == 2);
+    match quantity.per_depth() {
+        per_depth if is_plane && per_depth != quantity => (per_depth, ", per metre of depth"),
+        _ => (quantity, ""),
     }
 }
 

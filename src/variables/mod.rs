@@ -3,6 +3,7 @@
 //! [`ArrayRegistry`] lists the same variables with each family `name[i,j]` as one array.
 
 mod arrays;
+mod doubt;
 mod droplet;
 mod layout;
 mod parameter;

@@ -22,6 +22,12 @@ pub enum Quantity {
     Momentum,
     Force,
     HeatFlow,
+    /// Of plane models: what there is in each metre of depth.
+    EnergyPerLength,
+    MassPerLength,
+    MomentumPerLength,
+    ForcePerLength,
+    HeatFlowPerLength,
 }
 
 /// A unit for display: `display value = factor · SI value + offset`.
@@ -37,7 +43,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 21] = [
+    pub const ALL: [Quantity; 26] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::HeatFlux,
@@ -59,7 +65,24 @@ impl Quantity {
         Quantity::Momentum,
         Quantity::Force,
         Quantity::HeatFlow,
+        Quantity::EnergyPerLength,
+        Quantity::MassPerLength,
+        Quantity::MomentumPerLength,
+        Quantity::ForcePerLength,
+        Quantity::HeatFlowPerLength,
     ];
+
+    /// The same in each metre of a plane model's depth; itself where depth does not matter.
+    pub fn per_depth(self) -> Self {
+        match self {
+            Quantity::Energy => Quantity::EnergyPerLength,
+            Quantity::Mass => Quantity::MassPerLength,
+            Quantity::Momentum => Quantity::MomentumPerLength,
+            Quantity::Force => Quantity::ForcePerLength,
+            Quantity::HeatFlow => Quantity::HeatFlowPerLength,
+            other => other,
+        }
+    }
 
     /// Name of the FMI type.
     pub fn type_name(self) -> &'static str {
@@ -85,6 +108,11 @@ impl Quantity {
             Quantity::Momentum => "Momentum",
             Quantity::Force => "Force",
             Quantity::HeatFlow => "HeatFlowRate",
+            Quantity::EnergyPerLength => "EnergyPerLength",
+            Quantity::MassPerLength => "MassPerLength",
+            Quantity::MomentumPerLength => "MomentumPerLength",
+            Quantity::ForcePerLength => "ForcePerLength",
+            Quantity::HeatFlowPerLength => "HeatFlowRatePerLength",
         }
     }
 
@@ -110,6 +138,11 @@ impl Quantity {
             Quantity::Momentum => "kg.m/s",
             Quantity::Force => "N",
             Quantity::HeatFlow => "W",
+            Quantity::EnergyPerLength => "J/m",
+            Quantity::MassPerLength => "kg/m",
+            Quantity::MomentumPerLength => "kg/s",
+            Quantity::ForcePerLength => "N/m",
+            Quantity::HeatFlowPerLength => "W/m",
         }
     }
 
@@ -135,6 +168,11 @@ impl Quantity {
             Quantity::Momentum => [1, 1, -1, 0],
             Quantity::Force => [1, 1, -2, 0],
             Quantity::HeatFlow => [1, 2, -3, 0],
+            Quantity::EnergyPerLength => [1, 1, -2, 0],
+            Quantity::MassPerLength => [1, -1, 0, 0],
+            Quantity::MomentumPerLength => [1, 0, -1, 0],
+            Quantity::ForcePerLength => [1, 0, -2, 0],
+            Quantity::HeatFlowPerLength => [1, 1, -3, 0],
         }
     }
 
@@ -184,6 +222,11 @@ impl Quantity {
             Quantity::Momentum => 1e-8,
             Quantity::Force => 1e-2,
             Quantity::HeatFlow => 1e-1,
+            Quantity::EnergyPerLength => 1e-3,
+            Quantity::MassPerLength => 1e-6,
+            Quantity::MomentumPerLength => 1e-5,
+            Quantity::ForcePerLength => 1e1,
+            Quantity::HeatFlowPerLength => 1e2,
         }
     }
 }

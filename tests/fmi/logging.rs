@@ -53,6 +53,28 @@ fn notes_on_the_model_come_when_it_is_built() {
 }
 
 #[test]
+fn an_input_that_is_hardly_meant_is_warned_of_once() {
+    let unit = Unit::running();
+    unit.messages.take();
+    let doubts = || {
+        let messages = unit.messages.take();
+        let texts = messages.into_iter().filter(|m| m.status == WARNING).map(|m| m.text);
+        texts.collect::<Vec<_>>()
+    };
+    assert_eq!(unit.set("plate.bottom.ambient", 20.0), OK);
+    let said = doubts();
+    assert!(said.len() == 1 && said[0].contains("plate.bottom.ambient = 20:"), "{said:?}");
+    assert!(said[0].contains("did you mean 293.15 (20 °C)?"), "{said:?}");
+    assert_eq!(unit.set("plate.bottom.ambient", 25.0), OK);
+    assert_eq!(doubts(), [""; 0]);
+    assert_eq!(unit.set("patch.heat_flux[1,1]", 1e15), OK);
+    assert_eq!(unit.set("patch.heat_flux[2,1]", 1e15), OK);
+    assert_eq!(doubts().len(), 1, "one for the elements of an array");
+    assert_eq!(unit.set("spot.heat_flux", 1e7), OK);
+    assert_eq!(doubts(), [""; 0]);
+}
+
+#[test]
 fn without_debug_logging_only_errors_come() {
     let folder = Folder::with_scene("quiet", SCENE);
     let unit = Unit::initializing();
@@ -271,6 +293,7 @@ fn a_step_to_below_absolute_zero_is_discarded_with_the_reason() {
 fn outputs_beyond_numbers_are_errors() {
     let unit = Unit::running();
     assert_eq!(unit.set("spot.pressure", 1.7e308), OK);
+    unit.expect_message(WARNING, &["spot.pressure = 1.7e308: a pressure or shear is plausible"]);
     let mut value = [7.0];
     let reference = unit.reference("plate.max_von_mises");
     assert_eq!(unit.get_all(&[reference], &mut value), ERROR);

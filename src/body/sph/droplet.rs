@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use super::acceptance::{self, Released};
 use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in};
+use super::effort::particles_of;
 use super::failure::Failure;
 use super::images::copies;
 use super::loops::PART;
@@ -278,14 +279,7 @@ impl DropletSph {
     /// Number of particles that the whole plan will have, and its time step at the speed of the
     /// fastest droplet [s].
     pub fn forecast(plan: &DropletPlan) -> (usize, f64) {
-        let share = 1.0 / copies(plan.mirrors);
-        let volume = |diameter: f64| match plan.dimension {
-            2 => PI / 4.0 * diameter.powi(2),
-            _ => PI / 6.0 * diameter.powi(3),
-        };
-        let cell = plan.spacing.powi(plan.dimension as i32);
-        let particles =
-            plan.releases.iter().map(|r| share * volume(r.diameter) / cell).sum::<f64>();
+        let particles: f64 = plan.releases.iter().map(|r| particles_of(plan, r)).sum();
         let speed = |r: &Release| r.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
         let fastest = plan.releases.iter().map(speed).fold(0.0, f64::max);
         let method = Method::of(plan);
@@ -418,8 +412,11 @@ fn totals(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud) -
             totals.stray_particles += 1.0;
         }
     }
-    totals.spread_diameter =
-        plan.spacing * spread_diameter(&wetting_places(plan, cloud, &body), plan.dimension);
+    // Without a wall there is nothing to spread on, however low particles fall.
+    if plan.wall.is_some() {
+        let places = wetting_places(plan, cloud, &body);
+        totals.spread_diameter = plan.spacing * spread_diameter(&places, plan.dimension);
+    }
     totals
 }
 

@@ -3,9 +3,8 @@
 use std::f64::consts::PI;
 
 use super::{Checker, fits, number};
-use crate::scene::droplet::{Arrival, Droplet, Fluid};
+use crate::scene::droplet::{Arrival, Droplet, DropletSymmetry, Fluid};
 use crate::scene::locate::Path;
-use crate::scene::types::Symmetry;
 
 /// Fewest particles across a drop that make it one.
 const FEWEST_ACROSS: f64 = 6.0;
@@ -223,15 +222,7 @@ fn meets(droplet: &Droplet, earlier: &Arrival, later: &Arrival, free: bool) -> b
 }
 
 fn symmetry(checker: &mut Checker, path: &Path, droplet: &Droplet) {
-    match droplet.symmetry {
-        Symmetry::Axisymmetric => {
-            let message = "droplets are not modelled axisymmetric";
-            checker.refuse(path, message, "auto, none, quarter");
-        }
-        Symmetry::Quarter => {
-            let message = "a quarter needs all drops to arrive at x = 0, y = 0";
-            checker.require(droplet.is_centred(), path, message, "auto, none");
-        }
-        Symmetry::Auto | Symmetry::None => {}
-    }
+    let fine = droplet.symmetry != DropletSymmetry::Quarter || droplet.is_centred();
+    let message = "a quarter needs all drops to arrive at x = 0, y = 0";
+    checker.require(fine, path, message, "auto, none");
 }

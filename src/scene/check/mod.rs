@@ -16,6 +16,7 @@ use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
 use super::locate::{Path, Source};
 use super::lookup::split_place;
+use super::spelling::hint;
 use super::types::{FaceName, Scene, Shape, Solid};
 
 /// Largest number of points, rings or tiles along an axis.
@@ -137,7 +138,8 @@ impl<'a> Checker<'a> {
         let solid = self.scene.solid(name);
         if solid.is_none() {
             let known = self.scene.solids().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
-            let message = self.not_a_solid(name, format!("there is no body `{name}`"));
+            let hint = hint(name, self.scene.solids().map(|(name, _)| name));
+            let message = self.not_a_solid(name, format!("there is no body `{name}`{hint}"));
             self.refuse(path, message, or_none(known, "a body of kind `solid`"));
         }
         solid.filter(|solid| is_sound(&solid.shape))
@@ -162,7 +164,11 @@ impl<'a> Checker<'a> {
             });
             let known = known.collect::<Vec<_>>().join(", ");
             let body = place.rsplit_once('.').map_or(place, |(body, _)| body);
-            let message = self.not_a_solid(body, format!("`{place}` is no face for this"));
+            let hint = match self.scene.solid(body) {
+                Some(_) => String::new(),
+                None => hint(body, self.scene.solids().map(|(name, _)| name)),
+            };
+            let message = self.not_a_solid(body, format!("`{place}` is no face for this{hint}"));
             self.refuse(path, message, or_none(known, "a face of a body of kind `solid`"));
         }
         named.filter(|(_, solid)| is_sound(&solid.shape))
@@ -184,7 +190,8 @@ impl<'a> Checker<'a> {
         let droplet = self.scene.droplet(name);
         if droplet.is_none() {
             let known = self.scene.droplets().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
-            let message = format!("there is no droplet `{name}`");
+            let hint = hint(name, self.scene.droplets().map(|(name, _)| name));
+            let message = format!("there is no droplet `{name}`{hint}");
             self.refuse(path, message, or_none(known, "a body of kind `droplet`"));
         }
         droplet

@@ -5,6 +5,7 @@ use std::fmt;
 use serde::de::{Error, Expected, Unexpected};
 
 use crate::scene::locate::Path;
+use crate::scene::spelling::meant;
 
 /// The first value that does not fit.
 #[derive(Debug)]
@@ -73,12 +74,7 @@ impl Misfit {
         else {
             return None;
         };
-        known
-            .iter()
-            .map(|&known| (edits(word, known), known))
-            .filter(|&(edits, known)| edits <= 2 && edits < known.len())
-            .min_by_key(|&(edits, _)| edits)
-            .map(|(_, known)| known)
+        meant(word, known.iter().copied())
     }
 }
 
@@ -97,29 +93,6 @@ pub fn expectation(serde: &str) -> String {
             None => serde.to_owned(),
         },
     }
-}
-
-/// Number of letters to insert, delete, replace or swap with a neighbour that turn one word into
-/// the other.
-///
-/// Source: R. Lowrance and R. A. Wagner, J. ACM 22 (1975) 177, in its restricted form.
-fn edits(from: &str, to: &str) -> usize {
-    let (from, to): (Vec<_>, Vec<_>) = (from.chars().collect(), to.chars().collect());
-    let mut before_last = Vec::new();
-    let mut last: Vec<usize> = (0..=to.len()).collect();
-    for i in 0..from.len() {
-        let mut row = vec![i + 1];
-        for j in 0..to.len() {
-            let replaced = last[j] + usize::from(from[i] != to[j]);
-            let mut fewest = replaced.min(last[j + 1] + 1).min(row[j] + 1);
-            if i > 0 && j > 0 && from[i] == to[j - 1] && from[i - 1] == to[j] {
-                fewest = fewest.min(before_last[j - 1] + 1);
-            }
-            row.push(fewest);
-        }
-        before_last = std::mem::replace(&mut last, row);
-    }
-    last[to.len()]
 }
 
 impl fmt::Display for Failure {
@@ -175,13 +148,5 @@ mod tests {
         assert_eq!(meant("In"), Some("on"));
         assert_eq!(meant("poisson"), None);
         assert_eq!(meant(""), None);
-    }
-
-    #[test]
-    fn edits_are_counted() {
-        for (from, to, count) in [("", "abc", 3), ("abc", "acb", 1), ("kitten", "sitting", 3)] {
-            assert_eq!(edits(from, to), count, "{from} → {to}");
-            assert_eq!(edits(to, from), count, "{to} → {from}");
-        }
     }
 }

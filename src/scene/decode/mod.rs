@@ -4,6 +4,7 @@
 //! until nothing new turns up, so that one run reports what one run can.
 
 mod failure;
+mod unit;
 mod value;
 
 use std::collections::BTreeSet;
@@ -17,6 +18,7 @@ use super::locate::{Path, Source};
 use super::types::{Scene, Solid};
 use crate::material::Constants;
 use failure::{Failure, Misfit, expectation};
+use unit::with_unit;
 use value::{Node, View};
 
 /// More problems than this are not worth reading.
@@ -98,6 +100,14 @@ impl Decoder<'_> {
             Misfit::MissingKey(key) => place.key(key),
             _ => place.clone(),
         };
+        let is_table = matches!(self.source.value(&place), Some(DeValue::Table(_)));
+        let allowed = match misfit {
+            // One pair of brackets begins a table, two pairs the next table of a list.
+            Misfit::Unexpected { expected } if is_table && expected == "a sequence" => {
+                format!("`[[{place}]]`, with two brackets, once for each")
+            }
+            _ => with_unit(allowed, &place),
+        };
         self.problems.push(self.source.problem(&place, misfit.message(), allowed));
     }
 
@@ -137,7 +147,8 @@ impl Decoder<'_> {
         match value {
             DeValue::Float(float) if !is_finite(float) => {
                 let message = "not a finite number".to_owned();
-                self.problems.push(self.source.problem(path, message, expectation("f64")));
+                let allowed = with_unit(expectation("f64"), path);
+                self.problems.push(self.source.problem(path, message, allowed));
             }
             DeValue::Array(array) => {
                 for (i, element) in array.iter().enumerate() {

@@ -16,6 +16,11 @@ pub fn review(reviewer: &mut Reviewer) {
     for (name, _) in scene.droplets() {
         caught(reviewer, &root.key("body").key(name), name);
     }
+    for (name, droplet) in scene.droplets() {
+        if scene.wall_under(name).is_some() || scene.coupling_from(name).is_some() {
+            arrives(reviewer, &root.key("body").key(name), droplet);
+        }
+    }
     for (i, coupling) in scene.coupling.iter().enumerate() {
         let droplet = scene.droplet(&coupling.from);
         if let Some(droplet) = droplet {
@@ -41,6 +46,33 @@ fn caught(reviewer: &mut Reviewer, path: &Path, name: &str) {
         );
         reviewer.warn(path, message);
     }
+}
+
+/// Warns of a droplet whose first drop does not come down by the stop time.
+fn arrives(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
+    let Some(arrival) = droplet.arrivals.first() else { return };
+    let stop = reviewer.scene.stop_time;
+    let down = arrival.time + fall_time(droplet);
+    // A drop that is released half a distance of particles above the wall touches it.
+    if down <= stop * (1.0 + 1e-9) || (arrival.time < stop && droplet.gap() <= droplet.spacing) {
+        return;
+    }
+    let (key, why) = match (down.is_finite(), droplet.height) {
+        (false, _) => {
+            ("impact_velocity", "without speed and gravity it never comes down".to_owned())
+        }
+        (true, Some(_)) => ("height", format!("it comes down at {} s", number(down))),
+        (true, None) => ("arrivals", format!("it comes down at {} s", number(down))),
+    };
+    let message =
+        format!("the drop does not arrive before the stop time of {} s: {why}", number(stop));
+    reviewer.warn(&path.key(key), message);
+}
+
+/// Time that a drop takes to fall through its gap [s].
+fn fall_time(droplet: &Droplet) -> f64 {
+    let (speed, gravity, gap) = (droplet.impact_velocity, droplet.gravity, droplet.gap());
+    2.0 * gap / (speed + (speed * speed + 2.0 * gravity * gap).sqrt())
 }
 
 /// Warns of fine meshes and of drops that are wider than the plate.

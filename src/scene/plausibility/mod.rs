@@ -66,16 +66,47 @@ impl Reviewer<'_> {
 
     /// Warns of a value outside of its plausible range.
     fn value(&mut self, path: &Path, value: f64, range: &Range) {
-        if range.holds(value) {
-            return;
+        if let Some(message) = doubt(range, value) {
+            self.warn(path, message);
         }
-        let Range { what, unit, lowest, highest, .. } = range;
-        let (lowest, highest) = (number(*lowest), number(*highest));
-        let mut message = format!("{what} is plausible from {lowest} to {highest} {unit}");
-        if let Some((meant, unit)) = range.meant(value) {
-            let (meant, value) = (number(meant), number(value));
-            message += &format!("; did you mean {meant} ({value} {unit})?");
-        }
-        self.warn(path, message);
     }
+}
+
+/// What to say of a value outside of its plausible range.
+fn doubt(range: &Range, value: f64) -> Option<String> {
+    if range.holds(value) {
+        return None;
+    }
+    let Range { what, unit, lowest, highest, .. } = range;
+    let (lowest, highest) = (number(*lowest), number(*highest));
+    let mut message = format!("{what} is plausible from {lowest} to {highest} {unit}");
+    if let Some((meant, unit)) = range.meant(value) {
+        let (meant, value) = (number(meant), number(value));
+        message += &format!("; did you mean {meant} ({value} {unit})?");
+    }
+    Some(message)
+}
+
+/// What inputs are that act on bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Measure {
+    Temperature,
+    /// Temperature of what flows by.
+    Ambient,
+    HeatTransfer,
+    HeatFlux,
+    Traction,
+}
+
+/// `NAME = VALUE: why (did you mean …?)` of a value that is hardly meant for an input of a unit of the scene.
+pub fn doubt_of_input(scene: &Scene, name: &str, measure: Measure, value: f64) -> Option<String> {
+    let temperature = values::temperatures(scene);
+    let why = match measure {
+        Measure::Temperature => doubt(&temperature, value),
+        Measure::Ambient => doubt(&Range { lowest: temperature.lowest, ..ranges::AMBIENT }, value),
+        Measure::HeatTransfer => doubt(&ranges::HEAT_TRANSFER, value),
+        Measure::HeatFlux => doubt(&ranges::HEAT_FLUX, value),
+        Measure::Traction => doubt(&ranges::TRACTION, value),
+    };
+    why.map(|why| format!("{name} = {}: {why}", number(value)))
 }

@@ -5,13 +5,13 @@ use super::ranges::{self, Range};
 use crate::material::Material;
 use crate::scene::droplet::{Droplet, Wall};
 use crate::scene::locate::Path;
-use crate::scene::types::{CellValues, Load, Shape, Solid};
+use crate::scene::types::{CellValues, Load, Scene, Shape, Solid};
 
 pub fn review(reviewer: &mut Reviewer) {
     let (scene, root) = (reviewer.scene, Path::default());
     reviewer.value(&root.key("stop_time"), scene.stop_time, &ranges::TIME);
     reviewer.value(&root.key("step"), scene.step, &ranges::TIME);
-    let temperature = temperatures(reviewer);
+    let temperature = temperatures(scene);
     for (name, body) in scene.solids() {
         solid(reviewer, &root.key("body").key(name), body, &temperature);
     }
@@ -33,8 +33,8 @@ pub fn review(reviewer: &mut Reviewer) {
 const LIGHTEST_COMMON: f64 = 150.0;
 
 /// The range of temperatures: cold ones are believed around the lightest liquids.
-fn temperatures(reviewer: &Reviewer) -> Range {
-    let mut droplets = reviewer.scene.droplets();
+pub fn temperatures(scene: &Scene) -> Range {
+    let mut droplets = scene.droplets();
     let cryogenic = droplets.any(|(_, droplet)| droplet.fluid.density < LIGHTEST_COMMON);
     if cryogenic { ranges::CRYOGENIC } else { ranges::TEMPERATURE }
 }

@@ -4,7 +4,7 @@ use std::ffi::{c_char, c_int, c_void};
 use std::ptr::{null, null_mut};
 
 use super::master::Unit;
-use crate::master::{DISCARD, ERROR, Handle, OK, call};
+use crate::master::{DISCARD, ERROR, Handle, OK, WARNING, call};
 
 /// Phases that a master can bring a unit into, with the letter they have in [`TABLE`].
 const PHASES: [(char, fn() -> Unit); 4] = [
@@ -215,6 +215,7 @@ fn a_discarded_step_leaves_the_unit_in_step_mode() {
     let unit = Unit::running();
     assert_eq!(unit.step(0.0, 1e-8).0, OK);
     assert_eq!(unit.set("spot.heat_flux", &[1e308]), OK);
+    unit.expect_message(WARNING, &["spot.heat_flux = 1e308: a heat flux is plausible"]);
     let before = unit.snapshot();
     let (status, stepped) = unit.step(1e-8, 1e20);
     assert_eq!((status, stepped.flags, stepped.time), (DISCARD, [false; 3], 1e-8));

@@ -1,0 +1,127 @@
+//! What a scene will cost.
+
+use super::{DropletForecast, NODES_WORTH_THREADS, plan, resolve_threads};
+use crate::body::fem::{Geometry, expected_entries, factor_memory, particle_cost};
+use crate::math::chebyshev::products;
+use crate::scene::{Scene, Solid};
+
+/// What a scene will cost, estimated before it is built.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Forecast {
+    /// Of the solids.
+    pub bodies: Vec<BodyForecast>,
+    pub droplets: Vec<DropletForecast>,
+    /// Communication steps of the default experiment.
+    pub steps: f64,
+}
+
+impl Forecast {
+    /// Time to build the model and to run the default experiment, all stresses read in every step [s].
+    pub fn run_time(&self) -> f64 {
+        let of_solid = |body: &BodyForecast| body.build_time + (self.steps + 1.0) * body.step_time;
+        let solids = self.bodies.iter().map(of_solid).sum::<f64>();
+        solids + self.droplets.iter().map(|body| body.run_time).sum::<f64>()
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyForecast {
+    pub name: String,
+    /// Nodes along x, y, z (r, –, z in axisymmetry) of the meshed part.
+    pub nodes: [usize; 3],
+    /// Unknowns of heat and of displacement.
+    pub unknowns: [usize; 2],
+    /// Smallest and largest distance of nodes along each axis [m].
+    pub spacing: [[f64; 2]; 3],
+    /// Order of the shape functions.
+    pub order: usize,
+    /// Set where particles conduct the heat.
+    pub particles: Option<ParticleForecast>,
+    /// Memory of the model [B].
+    pub memory: f64,
+    /// Time to build the model, and of a step whose stresses are read [s].
+    pub build_time: f64,
+    pub step_time: f64,
+    /// What was chosen or left out, and why.
+    pub notes: Vec<String>,
+}
+
+/// What particles will do in a communication step of the default experiment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ParticleForecast {
+    /// Neighbours of a particle, itself included.
+    pub neighbours: usize,
+    /// Equal sub-steps, and products with the sparse matrix in each while inputs are held.
+    pub sub_steps: usize,
+    pub products: usize,
+    /// Sub-steps that the stability of the explicit Euler method would take.
+    pub euler_steps: f64,
+}
+
+/// What a scene will cost, without building it.
+pub fn forecast(scene: &Scene) -> Forecast {
+    let solids = scene.solids().map(|(name, solid)| forecast_body(scene, name, solid));
+    let droplets = droplet_forecasts(scene);
+    let steps = (scene.stop_time / scene.step).ceil();
+    Forecast { bodies: solids.collect(), droplets: droplets.collect(), steps }
+}
+
+/// The same of its droplets alone.
+pub(super) fn droplet_forecasts(scene: &Scene) -> impl Iterator<Item = DropletForecast> {
+    scene.droplets().map(|(name, droplet)| DropletForecast::of(scene, name, droplet))
+}
+
+/// Rates of this kind of machine: entries a second when solving, operations a second when
+/// factoring, the latter on each thread.
+const SOLVE_RATE: f64 = 1.2e9;
+const FACTOR_RATE: f64 = 1.25e10;
+/// Products of particles' matrices: entries a second on one thread, and rows built a second.
+pub(super) const PRODUCT_RATE: f64 = 9e8;
+const ROW_RATE: f64 = 2.5e4;
+
+fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
+    let plan = plan(scene, name, solid);
+    let unknowns = plan.unknowns();
+    let n = unknowns[1] as f64;
+    let geometry = plan.mesh.geometry;
+    let entries = expected_entries(geometry, unknowns[1]);
+    let operations = match geometry {
+        Geometry::Axisymmetric => 10.0 * n.powf(1.5),
+        Geometry::Box => 10.0 * n * n,
+    };
+    let spacing = plan.mesh.axes.each_ref().map(|axis| {
+        let steps = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
+        steps.fold([f64::INFINITY, 0.0], |[low, high], step| [low.min(step), high.max(step)])
+    });
+    let is_large = plan.mesh.nodes() >= NODES_WORTH_THREADS;
+    let threads = resolve_threads(scene.solver.threads, is_large) as f64;
+    let cost = particle_cost(&plan);
+    let particles = cost.map(|cost| {
+        let (sub_steps, products) = products(cost.bound, scene.step);
+        let euler_steps = (0.5 * cost.bound * scene.step).ceil().max(1.0);
+        ParticleForecast { neighbours: cost.neighbours, sub_steps, products, euler_steps }
+    });
+    let links = particles.map_or(0.0, |p| p.neighbours as f64 * unknowns[0] as f64);
+    let passes = particles.map_or(0.0, |p| p.sub_steps as f64 * p.products as f64);
+    // Of each axis a full matrix, and what it is found from.
+    let modes = plan.mesh.axes.iter().map(|axis| 3.0 * (axis.len() as f64).powi(2));
+    let modes: f64 = if particles.is_none() { modes.sum() } else { 0.0 };
+    let rows = if particles.is_some() { unknowns[0] as f64 } else { 0.0 };
+    BodyForecast {
+        name: name.into(),
+        nodes: plan.mesh.node_counts(),
+        unknowns,
+        spacing,
+        order: plan.mesh.order(),
+        particles,
+        memory: factor_memory(geometry, unknowns[1])
+            + 8.0 * (20.0 * unknowns[0] as f64 + modes)
+            + 12.0 * links,
+        build_time: operations / (FACTOR_RATE * threads) + 2e-5 * n + rows / ROW_RATE,
+        step_time: entries / SOLVE_RATE
+            + 5e-7 * n
+            + 1e-7 * unknowns[0] as f64
+            + passes * links / PRODUCT_RATE,
+        notes: plan.notes,
+    }
+}

@@ -1,0 +1,26 @@
+//! Values of inputs that are hardly meant.
+
+use super::{Quantity, Slot, Variable};
+use crate::scene::{Measure, Scene, doubt_of_input};
+
+impl Variable {
+    /// What to say of a value that an input is hardly meant to have, in the words that a scene's constants get.
+    pub fn doubt(&self, scene: &Scene, value: f64) -> Option<String> {
+        let Slot::Input(_) = self.slot else { return None };
+        let measure = match self.quantity? {
+            Quantity::Temperature if self.name.ends_with("ambient") => Measure::Ambient,
+            Quantity::Temperature => Measure::Temperature,
+            Quantity::HeatTransferCoefficient => Measure::HeatTransfer,
+            Quantity::HeatFlux => Measure::HeatFlux,
+            Quantity::Stress => Measure::Traction,
+            _ => return None,
+        };
+        doubt_of_input(scene, &self.name, measure, value)
+    }
+
+    /// The name without the indices of an element, in either way of naming.
+    pub fn family(&self) -> &str {
+        let is_index = |letter: char| letter.is_ascii_digit() || "[],_".contains(letter);
+        self.name.trim_end_matches(is_index)
+    }
+}
