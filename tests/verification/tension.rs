@@ -41,8 +41,13 @@ fn tension_of_a_swinging_drop() {
     println!(
         "\nSwinging drop: period over Rayleigh's, amplitude after a swing, core pressure over 2σ/R"
     );
-    for (placement, label) in [(Placement::Lattice, "lattice"), (Placement::BlueNoise, "noise")] {
-        for (across, error) in [(20.0, 0.07), (28.0, 0.05), (40.0, 0.03)] {
+    // Blue noise settles first, its pressure with it.
+    let cases = [
+        (Placement::Lattice, "lattice", [(20.0, 0.07), (28.0, 0.05), (40.0, 0.03)]),
+        (Placement::BlueNoise, "noise", [(20.0, 0.12), (28.0, 0.1), (40.0, 0.08)]),
+    ];
+    for (placement, label, errors) in cases {
+        for (across, error) in errors {
             let plan = DropletPlan { placement, ..plan(3, across, 1e-3) };
             let [lasting, left, pressure] = swing(plan, &format!("swing_{label}_{across}.csv"));
             println!("{label:8} D/Δx {across}: {lasting:.3}  {left:.2}  {pressure:+.3}");
