@@ -46,6 +46,7 @@ def main(tables, pictures):
     axes[0].set_ylabel("⟨z² − (x² + y²)/2⟩ / R²")
     both[1][0].set_ylabel("core pressure over 2σ/R,\nmean of a tenth of a period")
     figure.legend(*axes[1].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    pictures.mkdir(parents=True, exist_ok=True)
     figure.savefig(pictures / "tension.png", dpi=100)
 
 
