@@ -565,6 +565,10 @@ fn what_cannot_be_printed_ends_without_a_panic() {
     assert_eq!(shell("check nothing.toml 2>/dev/full").0.status.code(), Some(1));
     let cold = "run scene.toml --until 1e-7 --set plate.initial_temperature=25 2>/dev/full";
     shell(cold).succeeds();
+    let bed = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/heated_bed/scene.toml");
+    for (folder, doubted) in [("idle", ""), ("hot", "--set heater.heat_flux=1e16")] {
+        shell(&format!("run {bed} --until 2 --out {folder} {doubted} 2>/dev/full")).succeeds();
+    }
     let piped = shell("check scene.toml | true; echo done").succeeds();
     assert_eq!((piped.stdout().as_str(), piped.stderr().as_str()), ("done\n", ""));
 }

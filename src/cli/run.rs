@@ -62,7 +62,7 @@ impl Run {
             model: &model,
         };
         if let Some(note) = idle::note(&scene, &run.state.inputs) {
-            eprintln!("note: {note}");
+            super::complain("note", &note);
         }
         let mut record = self.record(&run)?;
         run.finish(&mut record)?;
@@ -83,7 +83,9 @@ impl Run {
         let inputs = set::apply(&mut scene, &self.set)?;
         scene::check(&scene)?;
         super::warn(&if scene == read { warnings } else { scene::warnings(&scene) });
-        set::doubts(&scene, &inputs).iter().for_each(|doubt| eprintln!("warning: {doubt}"));
+        for doubt in set::doubts(&scene, &inputs) {
+            super::complain("warning", &doubt);
+        }
         Ok((scene, inputs))
     }
 

@@ -19,8 +19,9 @@ use crate::kernel::Shape;
 /// rest is not diffused; neither is one at rest under surface tension, because r in the diffusion stands
 /// for r + φ with the tension's potential φ (0 without). At a surface that has tension the diffusion fades
 /// with the mean eigenvalue of `−Σ V_j F x_ij ⊗ x_ij` (½ on a flat surface, 1 inside): among the outermost
-/// particles r + φ is not even, and a diffusion that evens it drives them out of the fluid one by one. In the second they are as warm as their originals:
-/// heat of the wall comes by [`WallHeat`](super::wall_heat::WallHeat).
+/// particles r + φ is not even, and a diffusion that evens it drives them out of the fluid one by one. In the second
+/// equation images are as warm as their originals: heat of the wall comes by
+/// [`WallHeat`](super::wall_heat::WallHeat).
 ///
 /// Only with `HEAT` is heat conducted; without `MOMENTS` all g are 0, and neither they nor what B is
 /// made of are summed.
