@@ -101,7 +101,25 @@ fn a_drop_keeps_its_mass_for_seven_periods_on_defaults() {
             assert!((height - start).abs() < 0.17e-3, "{across} {keys} {step}: {height} {start}");
         }
         assert_eq!(trial.get("drop.stray_mass"), 0.0);
+        assert_eq!(trial.model.strays(&trial.state), [""; 0]);
     }
+}
+
+#[test]
+fn fluid_that_comes_off_is_spoken_of() {
+    // Eight particles over the diameter make a film of less than one.
+    let fluid = "density = 998.0, viscosity = 1e-3, surface_tension = 0.072";
+    let wall = "impact_velocity = 1.0\n[[wall]]\nname = \"wall\"\nunder = \"drop\"\nfootprint = { rings = { count = 1, \
+                radius = 8e-3 } }\nstart = { temperature = 300.0 }";
+    let mut trial = Trial::new(&scene(fluid, 8.0, wall));
+    trial.step(5e-3);
+    let part = trial.get("drop.stray_mass") / trial.get("drop.mass");
+    assert!(part > 0.05, "{part}");
+    let said = trial.model.strays(&trial.state);
+    assert!(
+        said.len() == 1 && said[0].contains(&format!("{:.0} % of the fluid", 100.0 * part)),
+        "{said:?}"
+    );
 }
 
 /// A hemisphere becomes the cap that Young's angle asks for and comes to rest.

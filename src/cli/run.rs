@@ -193,8 +193,9 @@ impl Running<'_> {
         let extremes =
             summary::extremes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let overflows = self.model.overflows(&self.state);
+        let strays = self.model.strays(&self.state);
         let balances_off = balances.iter().filter_map(summary::Balance::warning);
-        for warning in balances_off.chain(overflows) {
+        for warning in balances_off.chain(overflows).chain(strays) {
             super::complain("warning", &warning);
         }
         Ok(format!("{}\n{extremes}", summary::balance_table(&balances)))

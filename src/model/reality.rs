@@ -43,7 +43,28 @@ impl Model {
         };
         over.map(sentence).collect()
     }
+
+    /// A sentence for each droplet of which more than a little has come off.
+    pub fn strays(&self, state: &State) -> Vec<String> {
+        let droplets = self.droplets.iter().zip(&state.bodies[self.bodies.len()..]);
+        let sentence = |(droplet, unknowns): (&DropletModel, &Vec<f64>)| {
+            let totals = droplet.droplet.totals(unknowns);
+            let part = totals.stray_mass / totals.mass;
+            (part > MUCH_ASTRAY).then(|| {
+                format!(
+                    "{}: {:.0} % of the fluid have come off in small lumps (stray_mass): films thinner than some two \
+                     particles break up, those of a smaller `spacing` later",
+                    droplet.name,
+                    100.0 * part
+                )
+            })
+        };
+        droplets.filter_map(sentence).collect()
+    }
 }
+
+/// Part of the fluid that may come off without a word.
+const MUCH_ASTRAY: f64 = 0.05;
 
 /// Refuses what is no finite number.
 pub(super) fn finite(value: f64) -> Result<f64, ModelError> {
