@@ -125,8 +125,10 @@ fn conduction_between_free_surfaces() {
         study.add(&format!("{rows} particles"), 1.0 / rows as f64, errors);
     }
     study.print();
-    study.require(&[0], 2.0, 1e-3);
+    // Conduction is divided by the mean moment of inner particles, some of which a surface still cuts: that
+    // leaves a slab, whose particles stand on a lattice, 0.3 % too quick at any fineness.
+    study.require(&[0, 1], 1.2, 3e-3);
     // Particles at a free face miss neighbours: it is as if the fluid ended 0.3 Δx before it.
     study.require(&[2], 1.0, 0.02);
-    study.require(&[1, 3, 4], 1.4, 0.03);
+    study.require(&[3, 4], 2.2, 5e-3);
 }

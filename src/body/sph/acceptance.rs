@@ -1,6 +1,6 @@
 //! Whether a vector that comes from elsewhere is a state that these droplets could have come to.
 
-use super::cloud::{Cloud, cloud_of, ledger_of, particles_in, state_len};
+use super::cloud::{Cloud, WallNumbers, cloud_of, ledger_of, particles_in, state_len};
 use super::images::{Ends, Source};
 use super::kick::{DENSITIES, FARTHEST, FASTEST};
 use super::method::Method;
@@ -21,22 +21,22 @@ const ROUNDING: f64 = 1e-9;
 /// there is after so many releases.
 pub fn check(
     state: &[f64],
-    (plan, method, cells): (&DropletPlan, &Method, usize),
+    (plan, method, wall): (&DropletPlan, &Method, WallNumbers),
     released: impl Fn(usize) -> Released,
 ) -> Result<(), String> {
-    let Some(count) = particles_in(state, cells) else {
+    let Some(count) = particles_in(state, wall) else {
         return Err(format!("{} unknowns, which are no number of particles", state.len()));
     };
     if let Some(number) = state.iter().find(|number| !number.is_finite()) {
         return Err(format!("a number that is not finite: {number}"));
     }
-    let drops = check_head(&state[..state_len(cells, 0)], plan, cells)?;
+    let drops = check_head(&state[..state_len(wall, 0)], plan, wall)?;
     let expected = released(drops);
     if count != expected.particles || count > Source::MOST {
         let expected = expected.particles;
         return Err(format!("{count} particles, where {drops} drops have {expected}"));
     }
-    let cloud = cloud_of(state, cells, &Team::new(1));
+    let cloud = cloud_of(state, wall, &Team::new(1));
     check_masses(&cloud, expected)?;
     let near_plane = method.images.ends().map(|ends| {
         let Ends::Planes { near, .. } = ends else { return false };
@@ -61,9 +61,9 @@ pub fn check(
 }
 
 /// Refuses a ledger that contradicts itself or the plan; how many drops have been released.
-fn check_head(head: &[f64], plan: &DropletPlan, cells: usize) -> Result<usize, String> {
+fn check_head(head: &[f64], plan: &DropletPlan, wall: WallNumbers) -> Result<usize, String> {
     let [time, drops] = [head[0], head[1]];
-    let ledger = ledger_of(head, cells);
+    let ledger = ledger_of(head, wall);
     let due = plan.releases.iter().take_while(|release| release.time <= time).count();
     if drops != due as f64 {
         return Err(format!("{drops} drops released, where {due} are due at {time} s"));

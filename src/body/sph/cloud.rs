@@ -1,5 +1,6 @@
 //! The particles of a model and its ledger: all that changes, and how it lies in a flat vector.
 
+use super::surface::SurfaceMemory;
 use super::wall::WallExchange;
 use crate::math::parallel::Team;
 
@@ -66,6 +67,16 @@ pub struct Ledger {
     pub surrounded: f64,
     /// What the wall got during the last step.
     pub exchange: WallExchange,
+    /// Of the solid below, see [`SurfaceMemory`]; nothing for a wall whose temperature is held.
+    pub memory: SurfaceMemory,
+}
+
+/// How many numbers of a state belong to the wall.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct WallNumbers {
+    pub cells: usize,
+    /// Exponentials of each cell's [`SurfaceMemory`].
+    pub exponentials: usize,
 }
 
 /// Numbers of a particle in a flat vector.
@@ -177,21 +188,22 @@ impl Permutation<'_> {
     }
 }
 
-/// Length of the state of a number of particles above a wall of some cells.
-pub fn state_len(cells: usize, particles: usize) -> usize {
-    HEAD + 4 * cells + NUMBERS * particles
+/// Length of the state of a number of particles above a wall.
+pub fn state_len(wall: WallNumbers, particles: usize) -> usize {
+    HEAD + (4 + 2 * wall.exponentials) * wall.cells + NUMBERS * particles
 }
 
 /// Number of particles of a state; nothing if its length fits none.
-pub fn particles_in(state: &[f64], cells: usize) -> Option<usize> {
-    let rest = state.len().checked_sub(state_len(cells, 0))?;
+pub fn particles_in(state: &[f64], wall: WallNumbers) -> Option<usize> {
+    let rest = state.len().checked_sub(state_len(wall, 0))?;
     (rest % NUMBERS == 0).then_some(rest / NUMBERS)
 }
 
 /// Writes ledger and particles over a flat vector.
 pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team) {
     let exchange = &ledger.exchange;
-    let mut head = Vec::with_capacity(state_len(exchange.heat.len(), 0));
+    let memory = &ledger.memory;
+    let mut head = Vec::new();
     head.extend([ledger.time, ledger.released as f64, ledger.steps]);
     head.extend([ledger.heat_released, ledger.heat_to_wall]);
     head.extend(ledger.impulse_to_wall);
@@ -201,7 +213,9 @@ pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team
     head.extend([ledger.way, ledger.surface_energy, ledger.surrounded]);
     head.extend(&exchange.heat);
     head.extend(exchange.impulse.iter().flatten());
-    state.resize(state_len(exchange.heat.len(), cloud.len()), 0.0);
+    head.extend(&memory.given);
+    head.extend(&memory.reported);
+    state.resize(head.len() + NUMBERS * cloud.len(), 0.0);
     let (first, mut rest) = state.split_at_mut(head.len());
     first.copy_from_slice(&head);
     let mut copies = Vec::new();
@@ -213,9 +227,11 @@ pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team
 }
 
 /// Reads the ledger of a state.
-pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
+pub fn ledger_of(state: &[f64], wall: WallNumbers) -> Ledger {
     let three = |at: usize| [state[at], state[at + 1], state[at + 2]];
-    let (heat, impulse) = (HEAD, HEAD + cells);
+    let cells = wall.cells;
+    let (heat, impulse, given) = (HEAD, HEAD + cells, HEAD + 4 * cells);
+    let reported = given + cells * wall.exponentials;
     Ledger {
         time: state[0],
         released: state[1] as usize,
@@ -234,12 +250,16 @@ pub fn ledger_of(state: &[f64], cells: usize) -> Ledger {
             heat: state[heat..impulse].to_vec(),
             impulse: (0..cells).map(|cell| three(impulse + 3 * cell)).collect(),
         },
+        memory: SurfaceMemory {
+            given: state[given..reported].to_vec(),
+            reported: state[reported..state_len(wall, 0)].to_vec(),
+        },
     }
 }
 
 /// Reads the particles of a state.
-pub fn cloud_of(state: &[f64], cells: usize, team: &Team) -> Cloud {
-    let rest = &state[state_len(cells, 0)..];
+pub fn cloud_of(state: &[f64], wall: WallNumbers, team: &Team) -> Cloud {
+    let rest = &state[state_len(wall, 0)..];
     let mut lists = Lists { rest, count: rest.len() / NUMBERS, team };
     Cloud {
         position: lists.next(|[numbers]| numbers),
@@ -306,15 +326,20 @@ mod tests {
             impulse_to_wall: [1.0, 2.0, 3.0],
             impulse_of_gravity: [4.0, 5.0, 6.0],
             exchange,
+            memory: SurfaceMemory {
+                given: (0..6).map(f64::from).collect(),
+                reported: (0..6).map(|n| 0.5 * f64::from(n)).collect(),
+            },
             ..Ledger::default()
         };
+        let wall = WallNumbers { cells: 3, exponentials: 2 };
         let team = Team::new(2);
         let mut state = vec![7.0; 3];
         flatten(&mut state, &ledger, &cloud, &team);
-        assert_eq!(state.len(), state_len(3, 5));
-        assert_eq!(particles_in(&state, 3), Some(5));
-        assert_eq!(ledger_of(&state, 3), ledger);
-        assert_eq!(cloud_of(&state, 3, &team), cloud);
-        assert_eq!(particles_in(&state[1..], 3), None);
+        assert_eq!(state.len(), state_len(wall, 5));
+        assert_eq!(particles_in(&state, wall), Some(5));
+        assert_eq!(ledger_of(&state, wall), ledger);
+        assert_eq!(cloud_of(&state, wall, &team), cloud);
+        assert_eq!(particles_in(&state[1..], wall), None);
     }
 }

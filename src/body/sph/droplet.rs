@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use super::acceptance::{self, Released};
-use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in};
+use super::cloud::{Cloud, Ledger, WallNumbers, cloud_of, flatten, ledger_of, particles_in};
 use super::effort::particles_of;
 use super::failure::Failure;
 use super::images::copies;
@@ -15,9 +15,9 @@ use super::placement::place;
 use super::plan::{DropletPlan, Release};
 use super::spread::spread_diameter;
 use super::stepper::Stepper;
-use super::surface::{Surface, SurfaceResponse};
+use super::surface::{Surface, SurfaceMemory, SurfaceResponse};
 use super::units::{compression_energy, density, pressure};
-use super::wall::{Domain, WallExchange};
+use super::wall::WallExchange;
 use super::wall_points::WallPoints;
 use crate::math::allowance::Allowance;
 use crate::math::parallel::Team;
@@ -28,6 +28,8 @@ pub struct DropletSph {
     plan: DropletPlan,
     method: Method,
     threads: usize,
+    /// Of a solid below whose temperature somebody else computes; nothing where that is held.
+    below: SurfaceResponse,
     /// What there is after each release, found when a state from elsewhere is looked at.
     released: OnceLock<Vec<Released>>,
 }
@@ -96,7 +98,8 @@ impl DropletSph {
     /// If the plan's planes and periods do not go together, see [`Extent`](super::Extent).
     pub fn new(plan: DropletPlan, threads: usize) -> Self {
         let method = Method::of(&plan);
-        Self { plan, method, threads, released: OnceLock::new() }
+        let below = response_below(&plan, &method);
+        Self { plan, method, threads, below, released: OnceLock::new() }
     }
 
     pub fn plan(&self) -> &DropletPlan {
@@ -105,8 +108,7 @@ impl DropletSph {
 
     /// Time zero: what is released then, nothing else.
     pub fn initial_state(&self) -> Vec<f64> {
-        let ledger = Ledger { exchange: WallExchange::none(self.cells()), ..Ledger::default() };
-        let (mut ledger, mut cloud) = (ledger, Cloud::default());
+        let (mut ledger, mut cloud) = (self.empty_ledger(), Cloud::default());
         // What stands too close to be listed is listed, and refused, again by the first step.
         let _ = self.release(&mut ledger, &mut cloud);
         flat(&ledger, &cloud)
@@ -124,11 +126,8 @@ impl DropletSph {
             cloud.push(position, velocity, mass, particles.temperature[i] - reference);
             cloud.density[i] = particles.density[i] / units.density - 1.0;
         }
-        let mut ledger = Ledger {
-            released: self.plan.releases.len(),
-            exchange: WallExchange::none(self.cells()),
-            ..Ledger::default()
-        };
+        let released = self.plan.releases.len();
+        let mut ledger = Ledger { released, ..self.empty_ledger() };
         // As above.
         let _ = self.prime(&mut ledger, &mut cloud);
         flat(&ledger, &cloud)
@@ -136,13 +135,13 @@ impl DropletSph {
 
     /// Number of particles of a state.
     pub fn particles_in(&self, state: &[f64]) -> usize {
-        particles_in(state, self.cells()).unwrap_or(0)
+        particles_in(state, self.wall()).unwrap_or(0)
     }
 
     /// Refuses a vector that no run of these droplets leads to, with what is wrong with it.
     pub fn check_state(&self, state: &[f64]) -> Result<(), String> {
         let released = |drops: usize| self.released()[drops];
-        acceptance::check(state, (&self.plan, &self.method, self.cells()), released)
+        acceptance::check(state, (&self.plan, &self.method, self.wall()), released)
     }
 
     /// What there is after none, one, … of the releases.
@@ -182,7 +181,7 @@ impl DropletSph {
         duration: f64,
         allowance: &Allowance,
     ) -> Result<(), Failure> {
-        let surface = self.surface(state, wall_temperature, duration);
+        let surface = self.surface(state, wall_temperature);
         self.advance_above(state, &surface, duration, allowance).map(|_| ())
     }
 
@@ -197,8 +196,8 @@ impl DropletSph {
     ) -> Result<Vec<f64>, Failure> {
         let mut team = self.team(self.particles_in(state));
         let (mut ledger, mut cloud) =
-            (ledger_of(state, self.cells()), cloud_of(state, self.cells(), &team));
-        ledger.exchange = WallExchange::none(self.cells());
+            (ledger_of(state, self.wall()), cloud_of(state, self.wall(), &team));
+        ledger.exchange = WallExchange::none(self.wall().cells);
         ledger.exchange.duration = duration;
         let surface = surface.above(self.reference_temperature());
         let method = &self.method;
@@ -225,36 +224,30 @@ impl DropletSph {
             let (heat, impulse) = points.totals();
             ledger.heat_to_wall += heat;
             (0..3).for_each(|n| ledger.impulse_to_wall[n] += impulse[n]);
+            if !self.below.is_empty() {
+                ledger.memory.advance(&self.below, duration, points.warmed());
+            }
         }
         flatten(state, &ledger, &cloud, &team);
         Ok(rises)
     }
 
-    /// The wall under temperatures [K] that are known at the beginning of a step. Where a solid lies below,
-    /// fluxes that go on as in the step before keep them.
-    fn surface(&self, state: &[f64], temperature: &[f64], duration: f64) -> Surface {
-        let effusivity = self.plan.wall.as_ref().and_then(|wall| wall.effusivity);
-        let Some(effusivity) =
-            effusivity.filter(|_| duration > 0.0 && self.method.conduction > 0.0)
-        else {
+    /// The wall under temperatures [K] that are known at the beginning of a step.
+    fn surface(&self, state: &[f64], temperature: &[f64]) -> Surface {
+        if self.below.is_empty() {
             return Surface::held(temperature);
-        };
-        let step = self.method.stable_step(0.0, 0.0) * self.method.units.time();
-        let times = [step.min(duration), duration];
-        let response = SurfaceResponse::of_half_space(effusivity, times);
-        let cells = self.method.wall.as_ref();
-        let areas = cells.map_or(Vec::new(), |c| c.areas(Domain::whole(self.plan.dimension)));
-        let fluxes = self.exchange(state).heat_fluxes(&areas);
-        Surface::answering(temperature, response, &fluxes)
+        }
+        let memory = ledger_of(state, self.wall()).memory;
+        Surface::remembered(temperature, self.below.clone(), &memory)
     }
 
     /// What the wall got during the last step; nothing before the first.
     pub fn exchange(&self, state: &[f64]) -> WallExchange {
-        ledger_of(state, self.cells()).exchange
+        ledger_of(state, self.wall()).exchange
     }
 
     pub fn totals(&self, state: &[f64]) -> DropletTotals {
-        let (ledger, cloud) = (ledger_of(state, self.cells()), self.cloud(state));
+        let (ledger, cloud) = (ledger_of(state, self.wall()), self.cloud(state));
         totals(&self.plan, &self.method, &ledger, &cloud)
     }
 
@@ -290,8 +283,18 @@ impl DropletSph {
         (particles.round() as usize, step)
     }
 
-    fn cells(&self) -> usize {
-        self.plan.wall.as_ref().map_or(0, |wall| wall.cells.len())
+    fn wall(&self) -> WallNumbers {
+        let cells = self.plan.wall.as_ref().map_or(0, |wall| wall.cells.len());
+        WallNumbers { cells, exponentials: self.below.len() }
+    }
+
+    fn empty_ledger(&self) -> Ledger {
+        let cells = self.wall().cells;
+        Ledger {
+            exchange: WallExchange::none(cells),
+            memory: SurfaceMemory::none(cells, &self.below),
+            ..Ledger::default()
+        }
     }
 
     /// The zero of the model's temperatures [K].
@@ -300,7 +303,7 @@ impl DropletSph {
     }
 
     fn cloud(&self, state: &[f64]) -> Cloud {
-        cloud_of(state, self.cells(), &Team::new(1))
+        cloud_of(state, self.wall(), &Team::new(1))
     }
 
     /// Adds all droplets whose time has come; whether there are any.
@@ -354,6 +357,18 @@ impl DropletSph {
             ledger.heat_released += images * share * mass * heat * temperature;
         }
     }
+}
+
+/// Shortest time over a step of the fluid, and longest, for which the response of a solid below is that of a
+/// half space.
+const REMEMBERED: [f64; 2] = [0.1, 1e4];
+
+fn response_below(plan: &DropletPlan, method: &Method) -> SurfaceResponse {
+    let effusivity = plan.wall.as_ref().and_then(|wall| wall.effusivity);
+    let step = method.stable_step(0.0, 0.0) * method.units.time();
+    effusivity.filter(|_| method.conduction > 0.0).map_or_else(SurfaceResponse::default, |e| {
+        SurfaceResponse::of_half_space(e, REMEMBERED.map(|part| part * step))
+    })
 }
 
 fn flat(ledger: &Ledger, cloud: &Cloud) -> Vec<f64> {

@@ -135,12 +135,6 @@ impl Domain {
 }
 
 impl WallExchange {
-    /// Mean heat flux through cells of these areas [W/m²]; nothing before the first step.
-    pub fn heat_fluxes(&self, areas: &[f64]) -> Vec<f64> {
-        let rate = if self.duration > 0.0 { 1.0 / self.duration } else { 0.0 };
-        self.heat.iter().zip(areas).map(|(heat, area)| rate * heat / area).collect()
-    }
-
     pub fn none(cells: usize) -> Self {
         let heat = vec![0.0; cells];
         Self { heat, impulse: vec![[0.0; 3]; cells], ..Self::default() }

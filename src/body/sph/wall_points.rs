@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use super::images::copies;
 use super::plan::{DropletPlan, Extent};
-use super::surface::Surface;
+use super::surface::{Surface, Warmed};
 use super::wall::{Domain, WallCells, WallExchange};
 
 /// Points along an edge of a page, that is made when fluid first comes there.
@@ -305,6 +305,16 @@ impl<'a> WallPoints<'a> {
             }
         }
         (exchange, rises)
+    }
+
+    /// What the cells got so far that have a column.
+    pub fn warmed(&self) -> impl Iterator<Item = Warmed<'_>> {
+        let count = self.surface.response.len();
+        self.columns.iter().enumerate().map(move |(n, column)| Warmed {
+            cell: column.cell,
+            heat: column.heat / column.area,
+            amplitudes: &self.amplitudes[n * count..][..count],
+        })
     }
 
     /// Which way mirrors turn x and y in what each of the images gives on its own.
