@@ -42,7 +42,7 @@ use crate::body::sph::{DropletSph, Failure};
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::address_space::TooLittle;
 use crate::math::allowance::{Allowance, Halt, Interrupt};
-use crate::math::cholesky::CholeskyError;
+use crate::math::cholesky::SolverError;
 use crate::math::thread::aside;
 use crate::scene::{Carries, Droplet, FaceName, Footprint, Grid, Load, Scene, SceneError, Solid};
 use crate::variables::{BodyTotal, Component, InputLayout, Output, Registry, Slot};
@@ -112,7 +112,7 @@ pub enum ModelError {
     #[error("{0}")]
     Scene(#[from] SceneError),
     #[error("{0}")]
-    Solver(#[from] CholeskyError),
+    Solver(#[from] SolverError),
     /// A step of a droplet has no physical meaning.
     #[error("{name}: {failure}")]
     Droplet { name: String, failure: Failure },

@@ -11,6 +11,7 @@ use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
 use super::address_space::TooLittle;
+use super::conjugate_gradients::NotConverged;
 use super::parallel::Team;
 use super::supernodes::{self, Columns};
 
@@ -29,11 +30,13 @@ pub struct SparseCholesky {
 }
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum CholeskyError {
+pub enum SolverError {
     #[error("the matrix of {unknowns} unknowns is not positive definite")]
     NotPositiveDefinite { unknowns: usize },
     #[error("the factorisation of {unknowns} unknowns does not fit into memory")]
     OutOfMemory { unknowns: usize },
+    #[error(transparent)]
+    NotConverged(#[from] NotConverged),
     #[error(transparent)]
     AddressSpace(#[from] TooLittle),
 }
@@ -46,7 +49,7 @@ impl SparseCholesky {
         matrix: &LowerTriangle,
         order: &[usize],
         threads: usize,
-    ) -> Result<Self, CholeskyError> {
+    ) -> Result<Self, SolverError> {
         let unknowns = order.len();
         let mut place = vec![0; unknowns];
         for (k, &i) in order.iter().enumerate() {
@@ -60,7 +63,7 @@ impl SparseCholesky {
             None,
             &matrix.rows,
         );
-        let too_large = CholeskyError::OutOfMemory { unknowns };
+        let too_large = SolverError::OutOfMemory { unknowns };
         let symbolic = factorize_symbolic_cholesky(
             pattern,
             Side::Lower,
@@ -98,7 +101,7 @@ impl SparseCholesky {
             }
         };
         if !is_definite {
-            return Err(CholeskyError::NotPositiveDefinite { unknowns });
+            return Err(SolverError::NotPositiveDefinite { unknowns });
         }
         Ok(Self { symbolic, values })
     }

@@ -1,7 +1,9 @@
 //! What a scene will cost.
 
 use super::{DropletForecast, NODES_WORTH_THREADS, plan, resolve_threads};
-use crate::body::fem::{Geometry, expected_entries, factor_memory, particle_cost};
+use crate::body::fem::{
+    Geometry, expected_entries, particle_cost, solver_memory, suits_conjugate_gradients,
+};
 use crate::math::chebyshev::products;
 use crate::scene::{Scene, Solid};
 
@@ -75,6 +77,8 @@ pub(super) fn droplet_forecasts(scene: &Scene) -> impl Iterator<Item = DropletFo
 /// factoring, the latter on each thread.
 const SOLVE_RATE: f64 = 1.2e9;
 const FACTOR_RATE: f64 = 1.25e10;
+/// Unknowns of bricks that conjugate gradients solve for a second, on each thread.
+const BRICK_RATE: f64 = 3e5;
 /// Products of particles' matrices: entries a second on one thread, and rows built a second.
 pub(super) const PRODUCT_RATE: f64 = 9e8;
 const ROW_RATE: f64 = 2.5e4;
@@ -84,11 +88,15 @@ fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
     let unknowns = plan.unknowns();
     let n = unknowns[1] as f64;
     let geometry = plan.mesh.geometry;
-    let entries = expected_entries(geometry, unknowns[1]);
+    let by_bricks = plan.law.as_ref().is_some_and(|law| suits_conjugate_gradients(&plan.mesh, law));
+    let entries = if by_bricks { 0.0 } else { expected_entries(geometry, unknowns[1]) };
     let operations = match geometry {
+        _ if by_bricks => 0.0,
         Geometry::Axisymmetric => 10.0 * n.powf(1.5),
         Geometry::Box => 10.0 * n * n,
     };
+    let solver = plan.law.as_ref().map_or(0.0, |law| solver_memory(&plan.mesh, law));
+    let iterations = if by_bricks { n / BRICK_RATE } else { 0.0 };
     let spacing = plan.mesh.axes.each_ref().map(|axis| {
         let steps = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
         steps.fold([f64::INFINITY, 0.0], |[low, high], step| [low.min(step), high.max(step)])
@@ -114,11 +122,10 @@ fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
         spacing,
         order: plan.mesh.order(),
         particles,
-        memory: factor_memory(geometry, unknowns[1])
-            + 8.0 * (20.0 * unknowns[0] as f64 + modes)
-            + 12.0 * links,
+        memory: solver + 8.0 * (20.0 * unknowns[0] as f64 + modes) + 12.0 * links,
         build_time: operations / (FACTOR_RATE * threads) + 2e-5 * n + rows / ROW_RATE,
         step_time: entries / SOLVE_RATE
+            + iterations / threads
             + 5e-7 * n
             + 1e-7 * unknowns[0] as f64
             + passes * links / PRODUCT_RATE,

@@ -1,16 +1,18 @@
 //! Quasi-static thermo-elasticity on a structured mesh: one factorisation serves all time.
 
+use std::ops::Range;
 use std::sync::OnceLock;
 
-use super::axis::ShapeAt;
+use super::axis::{Axis, ShapeAt};
 use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
+use super::brick_solver::BrickSolver;
 use super::dilatation::{DilatationProjection, POLYNOMIALS, evaluate};
 use super::hexahedron::HexahedronMatrices;
 use super::mesh::{Geometry, Mesh, MeshFace, Parity};
 use super::recovery::sampling_places;
 use crate::material::Thermoelastic;
 use crate::math::address_space::{self, PRODUCTS};
-use crate::math::cholesky::{CholeskyError, LowerTriangle, SparseCholesky};
+use crate::math::cholesky::{LowerTriangle, SolverError, SparseCholesky};
 use crate::math::nested_dissection::nested_dissection;
 use crate::math::parallel;
 use crate::math::stencil_matrix::{Reach, StencilMatrix};
@@ -27,7 +29,7 @@ pub enum Support {
 
 /// The elastic problem of a body: everything known before time starts.
 ///
-/// The factorisation of a symmetry class is made when that class is first loaded.
+/// The solver of a symmetry class is made when that class is first loaded.
 pub struct ElasticProblem {
     mesh: Mesh,
     law: Thermoelastic,
@@ -35,10 +37,16 @@ pub struct ElasticProblem {
     supports: Vec<(MeshFace, Support)>,
     /// Nodal force per nodal degree, made when first needed.
     thermal: OnceLock<StencilMatrix>,
-    classes: Vec<(Parity, OnceLock<Result<Factor, CholeskyError>>)>,
+    classes: Vec<(Parity, OnceLock<Result<Solver, SolverError>>)>,
 }
 
-/// Factorised stiffness of one symmetry class.
+/// How displacements of one symmetry class are found.
+enum Solver {
+    Factor(Factor),
+    Bricks(BrickSolver),
+}
+
+/// Factorised stiffness.
 struct Factor {
     /// Degrees of freedom that are solved for, ascending.
     free: Vec<usize>,
@@ -66,6 +74,50 @@ pub fn expected_entries(geometry: Geometry, unknowns: usize) -> f64 {
 /// Memory that it takes to factor so many unknowns, most of which the factor keeps [B].
 pub fn factor_memory(geometry: Geometry, unknowns: usize) -> f64 {
     8.0 * (1.2 * expected_entries(geometry, unknowns) + 60.0 * unknowns as f64)
+}
+
+/// Unknowns of a box from which on conjugate gradients are faster than a factor, if no more than a stress or
+/// two is read.
+const MANY: usize = 20_000;
+/// Poisson's ratio up to which they need few iterations.
+const MOST_POISSON: f64 = 0.45;
+/// Ratio of lengths along x or y up to which linear bricks, whose enhanced strains the preconditioner knows on
+/// equal lengths only, need few.
+const MOST_GRADED: f64 = 50.0;
+
+/// Whether a body is one for conjugate gradients.
+pub fn suits_conjugate_gradients(mesh: &Mesh, law: &Thermoelastic) -> bool {
+    let is_even = |axis: &Axis| {
+        let lengths = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
+        let [least, most] =
+            lengths.fold([f64::INFINITY, 0.0_f64], |[l, m], h| [l.min(h), m.max(h)]);
+        most <= MOST_GRADED * least
+    };
+    mesh.geometry == Geometry::Box
+        && mesh.nodes().saturating_mul(3) >= MANY
+        && law.poisson <= MOST_POISSON
+        && (mesh.order() > 1 || mesh.axes[..2].iter().all(is_even))
+}
+
+/// Memory that the solver of one symmetry class takes [B].
+pub fn solver_memory(mesh: &Mesh, law: &Thermoelastic) -> f64 {
+    let unknowns = mesh.nodes().saturating_mul(degrees(mesh.geometry));
+    match suits_conjugate_gradients(mesh, law) {
+        true => BrickSolver::memory(mesh.order(), unknowns),
+        false => factor_memory(mesh.geometry, unknowns),
+    }
+}
+
+impl Factor {
+    /// Replaces forces by displacements, zero where those are held.
+    fn solve_in_place(&self, load: &mut [f64]) {
+        let mut solution: Vec<f64> = self.free.iter().map(|&i| load[i]).collect();
+        self.cholesky.solve_in_place(&mut solution);
+        load.fill(0.0);
+        for (&i, value) in self.free.iter().zip(solution) {
+            load[i] = value;
+        }
+    }
 }
 
 /// What [`ElasticProblem::strains`] gives of one class: 6 a point in a box, 4 (rr, tt, zz, rz) in
@@ -99,16 +151,20 @@ impl ElasticProblem {
         degrees(self.mesh.geometry)
     }
 
-    /// Factors the even class, so that the first step is no slower than the others.
-    pub fn prepare(&self) -> Result<(), CholeskyError> {
+    /// Makes the solver of the even class, so that the first step is no slower than the others.
+    pub fn prepare(&self) -> Result<(), SolverError> {
         self.thermal();
-        self.factor(0).map(|_| ())
+        self.solver(0).map(|_| ())
     }
 
-    /// Entries of all factors made so far.
+    /// Numbers that all solvers made so far keep.
     pub fn factor_entries(&self) -> usize {
         let made = self.classes.iter().filter_map(|(_, lock)| lock.get()?.as_ref().ok());
-        made.map(|factor| factor.cholesky.entries()).sum()
+        let entries = |solver: &Solver| match solver {
+            Solver::Factor(factor) => factor.cholesky.entries(),
+            Solver::Bricks(solver) => solver.entries(),
+        };
+        made.map(entries).sum()
     }
 
     /// Nodal displacements of a class [m], empty if nothing drives it.
@@ -120,7 +176,7 @@ impl ElasticProblem {
         class: usize,
         temperature: &[f64],
         forces: &[Vec<Vec<f64>>; 2],
-    ) -> Result<Vec<f64>, CholeskyError> {
+    ) -> Result<Vec<f64>, SolverError> {
         let degrees = self.degrees();
         address_space::expect(SOLUTION * self.mesh.nodes())?;
         let mut load = vec![0.0; self.mesh.nodes() * degrees];
@@ -138,12 +194,9 @@ impl ElasticProblem {
         if load.iter().all(|&v| v == 0.0) {
             return Ok(Vec::new());
         }
-        let factor = self.factor(class)?;
-        let mut solution: Vec<f64> = factor.free.iter().map(|&i| load[i]).collect();
-        factor.cholesky.solve_in_place(&mut solution);
-        load.fill(0.0);
-        for (&i, value) in factor.free.iter().zip(solution) {
-            load[i] = value;
+        match self.solver(class)? {
+            Solver::Factor(factor) => factor.solve_in_place(&mut load),
+            Solver::Bricks(solver) => solver.solve_in_place(&mut load).map(|_| ())?,
         }
         Ok(load)
     }
@@ -158,16 +211,52 @@ impl ElasticProblem {
         }
     }
 
-    fn factor(&self, class: usize) -> Result<&Factor, CholeskyError> {
+    fn solver(&self, class: usize) -> Result<&Solver, SolverError> {
         let (parity, lock) = &self.classes[class];
         if lock.get().is_none() {
-            let memory = factor_memory(self.mesh.geometry, self.mesh.nodes() * self.degrees());
+            let memory = solver_memory(&self.mesh, &self.law);
             address_space::expect(memory as usize + PRODUCTS + STACK)?;
         }
-        lock.get_or_init(|| aside(|| self.make_factor(*parity))).as_ref().map_err(Clone::clone)
+        lock.get_or_init(|| aside(|| self.make_solver(*parity))).as_ref().map_err(Clone::clone)
     }
 
-    fn make_factor(&self, parity: Parity) -> Result<Factor, CholeskyError> {
+    fn make_solver(&self, parity: Parity) -> Result<Solver, SolverError> {
+        let suits = suits_conjugate_gradients(&self.mesh, &self.law);
+        match self.free_nodes(parity).filter(|_| suits) {
+            Some(free) => {
+                Ok(Solver::Bricks(BrickSolver::new(&self.mesh, &self.law, free, self.threads)))
+            }
+            None => self.make_factor(parity).map(Solver::Factor),
+        }
+    }
+
+    /// Nodes of a box along each axis where a component of displacement is solved for; nothing where one is held
+    /// nowhere, so that the body may move.
+    fn free_nodes(&self, parity: Parity) -> Option<[[Range<usize>; 3]; 3]> {
+        let mut free = [(); 3].map(|()| self.mesh.node_counts().map(|count| 0..count));
+        let mut hold = |component: usize, MeshFace { axis, high }: MeshFace| {
+            let Range { start, end } = &mut free[component][axis];
+            let count = self.mesh.axes[axis].len();
+            if high {
+                *end = count - 1;
+            } else {
+                *start = 1;
+            }
+        };
+        for &(face, support) in &self.supports {
+            let held = |&c: &usize| support == Support::Clamped || c == face.axis;
+            (0..3).filter(held).for_each(|c| hold(c, face));
+        }
+        for axis in (0..2).filter(|&a| self.mesh.mirrored[a]) {
+            let held = |&c: &usize| (c == axis) != parity.odd[axis];
+            (0..3).filter(held).for_each(|c| hold(c, MeshFace { axis, high: false }));
+        }
+        let counts = self.mesh.node_counts();
+        let is_held = |free: &[Range<usize>; 3]| (0..3).any(|a| free[a].len() < counts[a]);
+        free.iter().all(is_held).then_some(free)
+    }
+
+    fn make_factor(&self, parity: Parity) -> Result<Factor, SolverError> {
         let degrees = self.degrees();
         let stiffness =
             assemble(&self.mesh, &self.law, [degrees; 2], Part::Stiffness, self.threads);

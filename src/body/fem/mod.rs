@@ -2,6 +2,9 @@
 
 mod axis;
 mod axisymmetric;
+mod brick_inverse;
+mod brick_solver;
+mod brick_stiffness;
 mod conduction;
 mod dilatation;
 mod elastic;
@@ -17,7 +20,7 @@ mod solid;
 
 pub use axis::{Axis, Weight};
 pub use conduction::particle_cost;
-pub use elastic::{expected_entries, factor_memory};
+pub use elastic::{expected_entries, solver_memory, suits_conjugate_gradients};
 pub use heat::HeatTotals;
 pub use mesh::{Geometry, Mesh, MeshFace, Parity};
 pub use plan::{Mechanics, Plan, Refinement};

@@ -15,7 +15,7 @@ use super::plan::Plan;
 use crate::material::Constants;
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::allowance::{Allowance, Halt};
-use crate::math::cholesky::CholeskyError;
+use crate::math::cholesky::SolverError;
 use crate::math::separable::{Side, transform};
 use recovered::{FaceStresses, Recoveries};
 
@@ -104,7 +104,7 @@ impl SolidLoads {
 
 impl SolidFem {
     /// Builds matrices and factorisations of a plan on at most `threads` threads.
-    pub fn new(plan: &Plan, threads: usize) -> Result<Self, CholeskyError> {
+    pub fn new(plan: &Plan, threads: usize) -> Result<Self, SolverError> {
         let mesh = plan.mesh.clone();
         let heat = Conduction::new(plan, threads);
         let depth = AxisModes::of(
@@ -225,7 +225,7 @@ impl SolidFem {
         &self,
         temperatures: &Temperatures,
         loads: &SolidLoads,
-    ) -> Result<Deformation, CholeskyError> {
+    ) -> Result<Deformation, SolverError> {
         let mut result = Deformation::default();
         let Some(elastic) = &self.elastic else { return Ok(result) };
         for (class, temperature) in temperatures.iter().enumerate() {

@@ -1,0 +1,292 @@
+//! The preconditioner of a box: its stiffness without what couples different components of displacement.
+//!
+//! Each diagonal block is a sum of products of matrices of the three axes, nearly `(λ + 2µ) K ⊗ M ⊗ M + µ (M ⊗ K ⊗ M
+//! + M ⊗ M ⊗ K)`. The eigenvectors of K and M along x and y leave one banded system along z for each pair of them (after
+//! R. E. Lynch, J. R. Rice and D. H. Thomas 1964, doi 10.1007/BF01386067), so grading through the depth is met
+//! exactly. Enhanced strains and projected dilatations keep some parts of K and M from some moduli; of these, what
+//! stands on the diagonal between eigenvectors is taken along x and y, which is all on equal elements.
+
+use std::ops::Range;
+
+use faer::{Mat, MatRef};
+
+use super::axis::Axis;
+use super::brick_stiffness::{PolynomialModuli, legendre, moduli, strain_of};
+use super::mesh::Mesh;
+use super::modes::{AxisModes, EndCondition};
+use crate::material::Thermoelastic;
+use crate::math::parallel::Team;
+use crate::math::product::product;
+
+/// Eigenvectors of the axes for each component, and the factors of what is left along z.
+pub struct BrickInverse {
+    nodes: [usize; 3],
+    blocks: [Block; 3],
+}
+
+struct Block {
+    /// Eigenvectors along x and y.
+    shapes: [Mat<f64>; 2],
+    /// Nodes along z that are solved for.
+    free: Range<usize>,
+    /// For each mode along y, those of all modes along x.
+    columns: Vec<Columns>,
+}
+
+/// `A = L D Lᵀ` for systems along z that stand side by side, a row of `1/D` and one of each diagonal of L a node.
+struct Columns {
+    inverse: Vec<f64>,
+    lower: Vec<Vec<f64>>,
+}
+
+/// Integrals over an axis of squares of parts of degree l in Legendre's polynomials, of functions and of their
+/// derivatives.
+struct Parts<T> {
+    values: Vec<T>,
+    slopes: Vec<T>,
+}
+
+/// Diagonals of a symmetric matrix: the main one and those below.
+type Band = Vec<Vec<f64>>;
+
+impl BrickInverse {
+    pub fn new(
+        mesh: &Mesh,
+        law: &Thermoelastic,
+        free: &[[Range<usize>; 3]; 3],
+        team: &Team,
+    ) -> Self {
+        let moduli = moduli(mesh.order(), law);
+        let two_shear = 2.0 * law.shear_modulus();
+        let depth = bands(&mesh.axes[2]);
+        let blocks = [0, 1, 2].map(|component| {
+            let [x, y, z] = &free[component];
+            let shapes = [eigenvectors(&mesh.axes[0], x), eigenvectors(&mesh.axes[1], y)];
+            let lateral = [0, 1].map(|axis| rayleigh(&mesh.axes[axis], &shapes[axis]));
+            let columns = team.map(shapes[1].ncols(), |q| {
+                let weights = weights(component, &lateral, q, &moduli, two_shear);
+                Columns::factor(&depth, &weights, z)
+            });
+            Block { shapes, free: z.clone(), columns }
+        });
+        Self { nodes: mesh.node_counts(), blocks }
+    }
+
+    /// Numbers that are kept of all systems along z.
+    pub fn entries(&self) -> usize {
+        let of = |columns: &Columns| (1 + columns.lower.len()) * columns.inverse.len();
+        self.blocks.iter().flat_map(|block| block.columns.iter().map(of)).sum()
+    }
+
+    /// `out ≈ K⁻¹ residual`, zero where nothing is solved for.
+    pub fn apply(&self, residual: &[f64], out: &mut [f64], team: &Team) {
+        let component = residual.len() / 3;
+        let parts = residual.chunks_exact(component).zip(out.chunks_exact_mut(component));
+        for (block, (residual, out)) in self.blocks.iter().zip(parts) {
+            block.apply(self.nodes, residual, out, team);
+        }
+    }
+}
+
+impl Block {
+    fn apply(&self, [nx, ny, _]: [usize; 3], residual: &[f64], out: &mut [f64], team: &Team) {
+        let [x, y] = self.shapes.each_ref().map(Mat::as_ref);
+        let (mx, my) = (x.ncols(), y.ncols());
+        // Planes of modes: those of one mode along y are together in each of them.
+        let planes = self.free.clone();
+        let mut modes = vec![0.0; mx * my * planes.len()];
+        let mut slabs: Vec<_> = modes
+            .chunks_exact_mut(mx * my)
+            .zip(residual.chunks_exact(nx * ny).skip(planes.start))
+            .collect();
+        team.for_pieces(&mut slabs, |_, slabs| {
+            let mut along_x = vec![0.0; mx * ny];
+            for (modes, nodes) in slabs {
+                let nodes = MatRef::from_column_major_slice(nodes, nx, ny);
+                product(&mut along_x, x.transpose(), nodes);
+                product(modes, MatRef::from_column_major_slice(&along_x, mx, ny), y);
+            }
+        });
+        let mut rows: Vec<Vec<&mut [f64]>> = (0..my).map(|_| Vec::new()).collect();
+        for plane in modes.chunks_exact_mut(mx * my) {
+            rows.iter_mut().zip(plane.chunks_exact_mut(mx)).for_each(|(row, part)| row.push(part));
+        }
+        team.for_each(&mut rows, |q, rows| self.columns[q].solve_in_place(rows));
+        drop(rows);
+        out[..planes.start * nx * ny].fill(0.0);
+        out[planes.end * nx * ny..].fill(0.0);
+        let mut slabs: Vec<_> = modes
+            .chunks_exact(mx * my)
+            .zip(out.chunks_exact_mut(nx * ny).skip(planes.start))
+            .collect();
+        team.for_pieces(&mut slabs, |_, slabs| {
+            let mut along_x = vec![0.0; nx * my];
+            for (modes, nodes) in slabs {
+                product(&mut along_x, x, MatRef::from_column_major_slice(modes, mx, my));
+                let half = MatRef::from_column_major_slice(&along_x, nx, my);
+                product(nodes, half, y.transpose());
+            }
+        });
+    }
+}
+
+impl Columns {
+    /// Factors `Σ_t w_t A_t` between the free nodes, for weights of every mode along x.
+    fn factor(depth: &Parts<Band>, weights: &Parts<Vec<f64>>, free: &Range<usize>) -> Self {
+        let pairs = || {
+            let values = weights.values.iter().zip(&depth.values);
+            values.chain(weights.slopes.iter().zip(&depth.slopes))
+        };
+        let (modes, reach) = (weights.values[0].len(), depth.values[0].len() - 1);
+        // Row of a node and one `below` nodes before it.
+        let entry = |node: usize, below: usize| {
+            let mut row = vec![0.0; modes];
+            for (weights, band) in pairs() {
+                let value = band[below][node - below];
+                row.iter_mut().zip(weights).for_each(|(entry, weight)| *entry += weight * value);
+            }
+            row
+        };
+        let mut factor = Self { inverse: Vec::new(), lower: vec![Vec::new(); reach] };
+        for node in free.clone() {
+            let n = node - free.start;
+            // `L_{n,n−j} D_{n−j}`, the farthest first.
+            let mut scaled: Vec<Vec<f64>> = vec![vec![0.0; modes]; reach + 1];
+            for j in (1..=reach.min(n)).rev() {
+                let mut row = entry(node, j);
+                for k in j + 1..=reach.min(n) {
+                    let lower = &factor.lower[k - j - 1][(n - j) * modes..][..modes];
+                    let terms = row.iter_mut().zip(&scaled[k]).zip(lower);
+                    terms.for_each(|((entry, s), l)| *entry -= s * l);
+                }
+                scaled[j] = row;
+            }
+            let mut main = entry(node, 0);
+            for j in 1..=reach {
+                let inverse: &[f64] = match j <= n {
+                    true => &factor.inverse[(n - j) * modes..][..modes],
+                    false => &[],
+                };
+                let lower: Vec<f64> = match j <= n {
+                    true => scaled[j].iter().zip(inverse).map(|(s, inverse)| s * inverse).collect(),
+                    false => vec![0.0; modes],
+                };
+                let terms = main.iter_mut().zip(&scaled[j]).zip(&lower);
+                terms.for_each(|((main, s), l)| *main -= s * l);
+                factor.lower[j - 1].extend(lower);
+            }
+            factor.inverse.extend(main.iter().map(|d| d.recip()));
+        }
+        factor
+    }
+
+    /// Replaces what is given of each node, ascending, by the solution.
+    fn solve_in_place(&self, rows: &mut [&mut [f64]]) {
+        let modes = rows.first().map_or(0, |row| row.len());
+        for n in 0..rows.len() {
+            let (before, rest) = rows.split_at_mut(n);
+            for (j, lower) in self.lower.iter().enumerate().take_while(|(j, _)| *j < n) {
+                let terms = rest[0].iter_mut().zip(&*before[n - j - 1]);
+                terms.zip(&lower[n * modes..]).for_each(|((x, y), l)| *x -= l * y);
+            }
+        }
+        for n in (0..rows.len()).rev() {
+            let (rest, after) = rows.split_at_mut(n + 1);
+            let inverse = &self.inverse[n * modes..][..modes];
+            rest[n].iter_mut().zip(inverse).for_each(|(x, inverse)| *x *= inverse);
+            for (j, lower) in self.lower.iter().enumerate().take_while(|(j, _)| *j < after.len()) {
+                let terms = rest[n].iter_mut().zip(&*after[j]);
+                let lower = &lower[(n + j + 1) * modes..];
+                terms.zip(lower).for_each(|((x, y), l)| *x -= l * y);
+            }
+        }
+    }
+}
+
+fn eigenvectors(axis: &Axis, free: &Range<usize>) -> Mat<f64> {
+    let end = |held: bool| match held {
+        true => EndCondition::Prescribed,
+        false => EndCondition::Natural,
+    };
+    AxisModes::of(axis, [end(free.start > 0), end(free.end < axis.len())]).shapes
+}
+
+/// Weight of each matrix along z for modes p, all together, and q.
+fn weights(
+    component: usize,
+    [along_x, along_y]: &[Parts<Vec<f64>>; 2],
+    q: usize,
+    moduli: &[PolynomialModuli],
+    two_shear: f64,
+) -> Parts<Vec<f64>> {
+    let modes = along_x.values[0].len();
+    let zeros = || vec![vec![0.0; modes]; along_x.values.len()];
+    let mut weights = Parts { values: zeros(), slopes: zeros() };
+    for PolynomialModuli { degrees: [lx, ly, lz], lame, shear, .. } in moduli {
+        for axis in 0..3 {
+            let modulus = match axis == component {
+                true => two_shear + lame,
+                false => shear[strain_of(component, axis) - 3],
+            };
+            let x = if axis == 0 { &along_x.slopes[*lx] } else { &along_x.values[*lx] };
+            let y = if axis == 1 { &along_y.slopes[*ly] } else { &along_y.values[*ly] };
+            let z = if axis == 2 { &mut weights.slopes[*lz] } else { &mut weights.values[*lz] };
+            z.iter_mut().zip(x).for_each(|(weight, x)| *weight += modulus * x * y[q]);
+        }
+    }
+    weights
+}
+
+/// Coefficients of each element's shape functions, times what makes their squares integrals: `of(l, a)` for functions
+/// and for derivatives.
+fn element_parts(order: usize, [a, b]: [f64; 2]) -> Parts<[f64; 3]> {
+    let matrix = legendre(order);
+    let root = |l: usize| ((b - a) / (2 * l + 1) as f64).sqrt();
+    let value = |l: usize| matrix[l].map(|weight| weight * root(l));
+    let slope = |l: usize| match l < order {
+        true => matrix[l + 1].map(|weight| weight * root(l) * 2.0 * (2 * l + 1) as f64 / (b - a)),
+        false => [0.0; 3],
+    };
+    Parts { values: (0..=order).map(value).collect(), slopes: (0..=order).map(slope).collect() }
+}
+
+/// The integrals of each mode of an axis.
+fn rayleigh(axis: &Axis, shapes: &Mat<f64>) -> Parts<Vec<f64>> {
+    let zeros = || vec![vec![0.0; shapes.ncols()]; axis.order + 1];
+    let mut sums = Parts { values: zeros(), slopes: zeros() };
+    for element in 0..axis.elements() {
+        let parts = element_parts(axis.order, axis.bounds(element));
+        let add = |sums: &mut Vec<Vec<f64>>, parts: &[[f64; 3]]| {
+            for (sums, part) in sums.iter_mut().zip(parts) {
+                for (mode, sum) in sums.iter_mut().enumerate() {
+                    let node = |i: usize| shapes[(element * axis.order + i, mode)];
+                    *sum += (0..=axis.order).map(|i| part[i] * node(i)).sum::<f64>().powi(2);
+                }
+            }
+        };
+        add(&mut sums.values, &parts.values);
+        add(&mut sums.slopes, &parts.slopes);
+    }
+    sums
+}
+
+/// The integrals between nodes of an axis.
+fn bands(axis: &Axis) -> Parts<Band> {
+    let zeros = || vec![vec![vec![0.0; axis.len()]; axis.order + 1]; axis.order + 1];
+    let mut sums = Parts { values: zeros(), slopes: zeros() };
+    for element in 0..axis.elements() {
+        let parts = element_parts(axis.order, axis.bounds(element));
+        let add = |sums: &mut Vec<Band>, parts: &[[f64; 3]]| {
+            for (band, part) in sums.iter_mut().zip(parts) {
+                for i in 0..=axis.order {
+                    for j in 0..=i {
+                        band[i - j][element * axis.order + j] += part[i] * part[j];
+                    }
+                }
+            }
+        };
+        add(&mut sums.values, &parts.values);
+        add(&mut sums.slopes, &parts.slopes);
+    }
+    sums
+}

@@ -1,0 +1,195 @@
+//! Displacements of a box by conjugate gradients: nothing is factored, nothing grows faster than the nodes.
+
+use std::ops::Range;
+
+use super::brick_inverse::BrickInverse;
+use super::brick_stiffness::BrickStiffness;
+use super::mesh::Mesh;
+use crate::material::Thermoelastic;
+use crate::math::conjugate_gradients::{self, NotConverged, Operator};
+use crate::math::parallel::Team;
+
+/// Stiffness of one symmetry class and what is nearly its inverse.
+pub struct BrickSolver {
+    stiffness: BrickStiffness,
+    inverse: BrickInverse,
+    threads: usize,
+}
+
+/// What is left of the load, in the norm of energy: stresses are then those of a factorisation to nine digits.
+const TOLERANCE: f64 = 1e-12;
+
+impl BrickSolver {
+    /// `free` are the nodes along each axis that are solved for, of each component; each must be held somewhere.
+    pub fn new(
+        mesh: &Mesh,
+        law: &Thermoelastic,
+        free: [[Range<usize>; 3]; 3],
+        threads: usize,
+    ) -> Self {
+        let inverse = BrickInverse::new(mesh, law, &free, &Team::new(threads));
+        Self { stiffness: BrickStiffness::new(mesh, law, free), inverse, threads }
+    }
+
+    /// Numbers that are kept.
+    pub fn entries(&self) -> usize {
+        self.inverse.entries()
+    }
+
+    /// What it takes for so many unknowns, and to solve for them [B].
+    pub fn memory(order: usize, unknowns: usize) -> f64 {
+        // Load, solution, residual, direction, product, its improvement, the load by components and modes of one.
+        const VECTORS: f64 = 8.0;
+        8.0 * (VECTORS + (order + 1) as f64) * unknowns as f64
+    }
+
+    /// Replaces nodal forces by nodal displacements, x, y and z of each node together; how many iterations it took.
+    pub fn solve_in_place(&self, load: &mut [f64]) -> Result<usize, NotConverged> {
+        let nodes = load.len() / 3;
+        let mut apart: Vec<f64> =
+            (0..3).flat_map(|c| load.iter().skip(c).step_by(3)).copied().collect();
+        let team = Team::new(self.threads);
+        self.stiffness.hold(&mut apart, &team);
+        let (solution, iterations) = conjugate_gradients::solve(&(self, &team), &apart, TOLERANCE)?;
+        for (node, displacement) in load.chunks_exact_mut(3).enumerate() {
+            (0..3).for_each(|c| displacement[c] = solution[c * nodes + node]);
+        }
+        Ok(iterations)
+    }
+}
+
+impl Operator for (&BrickSolver, &Team) {
+    fn apply(&self, x: &[f64], out: &mut [f64]) {
+        self.0.stiffness.apply(x, out, self.1);
+    }
+
+    fn precondition(&self, residual: &[f64], out: &mut [f64]) {
+        self.0.inverse.apply(residual, out, self.1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::fem::axis::{Axis, Weight};
+    use crate::body::fem::hexahedron::HexahedronMatrices;
+    use crate::body::fem::mesh::Geometry;
+
+    fn graded(order: usize, counts: [usize; 3], growth: f64) -> Mesh {
+        let axes = counts.map(|count| {
+            let mut ends = vec![0.0];
+            for e in 0..count {
+                ends.push(ends[e] + growth.powi(e as i32));
+            }
+            Axis::from_element_ends(&ends, order, Weight::Uniform)
+        });
+        Mesh { axes, mirrored: [false; 2], geometry: Geometry::Box }
+    }
+
+    fn clamped_below(mesh: &Mesh) -> [[Range<usize>; 3]; 3] {
+        let [x, y, z] = mesh.node_counts();
+        [(); 3].map(|()| [0..x, 0..y, 1..z])
+    }
+
+    fn wave(count: usize) -> Vec<f64> {
+        (0..count).map(|i| (1.7 * (i * i % 1009) as f64).sin()).collect()
+    }
+
+    /// Forces by the matrices of single elements.
+    fn assembled(mesh: &Mesh, law: &Thermoelastic, x: &[f64]) -> Vec<f64> {
+        let [nx, ny, nz] = mesh.element_counts();
+        let [columns, rows, _] = mesh.node_counts();
+        let (order, nodes) = (mesh.order(), mesh.nodes());
+        let n = order + 1;
+        let mut out = vec![0.0; x.len()];
+        for e in 0..nx * ny * nz {
+            let element = [e % nx, e / nx % ny, e / (nx * ny)];
+            let size = [0, 1, 2].map(|a| {
+                let [low, high] = mesh.axes[a].bounds(element[a]);
+                high - low
+            });
+            let matrices = HexahedronMatrices::new(order, size, law);
+            let node = |a: usize| {
+                let at = [a % n, a / n % n, a / (n * n)];
+                let [i, j, k] = [0, 1, 2].map(|axis| element[axis] * order + at[axis]);
+                i + columns * (j + rows * k)
+            };
+            for a in 0..n * n * n {
+                for b in 0..n * n * n {
+                    let block = matrices.stiffness(a, b);
+                    for i in 0..3 {
+                        for j in 0..3 {
+                            out[i * nodes + node(a)] += block[3 * i + j] * x[j * nodes + node(b)];
+                        }
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    #[test]
+    fn forces_are_those_of_the_elements_matrices() {
+        let law = Thermoelastic { young: 200.0, poisson: 0.3, expansion: 1e-3 };
+        for order in [1, 2] {
+            let mesh = graded(order, [4, 3, 5], 1.5);
+            let stiffness = BrickStiffness::new(&mesh, &law, clamped_below(&mesh));
+            let x = wave(3 * mesh.nodes());
+            let mut found = vec![7.0; x.len()];
+            stiffness.apply(&x, &mut found, &Team::new(2));
+            let mut wanted = assembled(&mesh, &law, &x);
+            stiffness.hold(&mut wanted, &Team::new(1));
+            let largest = wanted.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+            for (f, w) in found.iter().zip(&wanted) {
+                assert!((f - w).abs() < 1e-13 * largest, "order {order}: {f}, not {w}");
+            }
+        }
+    }
+
+    #[test]
+    fn few_iterations_are_needed() {
+        for (order, poisson, growth, counts, most) in [
+            (1, 0.21, 1.0, [12, 12, 12], 45),
+            (1, 0.3, 1.05, [24, 24, 24], 50),
+            (1, 0.3, 1.3, [12, 12, 12], 70),
+            (2, 0.0, 1.3, [8, 8, 8], 50),
+            (2, 0.21, 1.0, [8, 8, 8], 50),
+            (2, 0.3, 1.3, [8, 8, 8], 55),
+            (2, 0.3, 1.3, [16, 16, 16], 55),
+            (2, 0.45, 1.3, [8, 8, 8], 100),
+        ] {
+            let law = Thermoelastic { young: 200.0, poisson, expansion: 1e-3 };
+            let mesh = graded(order, counts, growth);
+            let solver = BrickSolver::new(&mesh, &law, clamped_below(&mesh), 2);
+            let load = wave(3 * mesh.nodes());
+            let mut solution = load.clone();
+            let iterations = solver.solve_in_place(&mut solution).unwrap();
+            let case = format!("order {order}, ν {poisson}, growth {growth}, {counts:?}");
+            assert!(iterations <= most, "{case}: {iterations}");
+            let apart = |list: &[f64]| -> Vec<f64> {
+                (0..3).flat_map(|c| list.iter().skip(c).step_by(3)).copied().collect()
+            };
+            let mut wanted = apart(&load);
+            solver.stiffness.hold(&mut wanted, &Team::new(1));
+            let mut found = vec![0.0; load.len()];
+            solver.stiffness.apply(&apart(&solution), &mut found, &Team::new(1));
+            let off = found.iter().zip(&wanted).map(|(f, w)| (f - w).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-8, "{case}: {off}");
+        }
+    }
+
+    #[test]
+    fn the_number_of_threads_changes_no_bit() {
+        let law = Thermoelastic { young: 200.0, poisson: 0.3, expansion: 1e-3 };
+        for order in [1, 2] {
+            let mesh = graded(order, [5, 6, 7], 1.2);
+            let solved = |threads: usize| {
+                let solver = BrickSolver::new(&mesh, &law, clamped_below(&mesh), threads);
+                let mut load = wave(3 * mesh.nodes());
+                solver.solve_in_place(&mut load).unwrap();
+                load
+            };
+            assert_eq!(solved(1), solved(3));
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! Conjugate gradients, preconditioned (M. R. Hestenes and E. Stiefel 1952, doi 10.6028/jres.049.044).
+
+use super::separable::dot;
+
+/// A symmetric positive definite system that is known by what it does to a vector.
+pub trait Operator {
+    /// `out = A x`, zero where nothing is solved for.
+    fn apply(&self, x: &[f64], out: &mut [f64]);
+
+    /// `out ≈ A⁻¹ r` by a symmetric positive definite operator, zero where nothing is solved for.
+    fn precondition(&self, residual: &[f64], out: &mut [f64]);
+}
+
+/// More iterations than a system that suits its preconditioner ever takes.
+pub const MOST_ITERATIONS: usize = 1000;
+
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error(
+    "conjugate gradients left {residual:e} of the load after {iterations} iterations, where {tolerance:e} is wanted"
+)]
+pub struct NotConverged {
+    pub residual: f64,
+    pub iterations: usize,
+    pub tolerance: f64,
+}
+
+/// Solves `A x = load` from zero until `√(rᵀ P r)`, P the preconditioner, is below a part of what it was at first;
+/// the solution and how many iterations it took.
+///
+/// The load is zero where nothing is solved for.
+pub fn solve(
+    operator: &impl Operator,
+    load: &[f64],
+    tolerance: f64,
+) -> Result<(Vec<f64>, usize), NotConverged> {
+    let mut solution = vec![0.0; load.len()];
+    let mut residual = load.to_vec();
+    let mut direction = vec![0.0; load.len()];
+    operator.precondition(&residual, &mut direction);
+    let mut energy = dot(&residual, &direction);
+    let wanted = tolerance * tolerance * energy;
+    let (mut product, mut improved) = (vec![0.0; load.len()], vec![0.0; load.len()]);
+    for iteration in 0..MOST_ITERATIONS {
+        // Not `energy > wanted`, by which a load that is no number would count as solved.
+        if energy <= wanted {
+            return Ok((solution, iteration));
+        }
+        operator.apply(&direction, &mut product);
+        let step = energy / dot(&direction, &product);
+        for (((x, r), d), p) in solution.iter_mut().zip(&mut residual).zip(&direction).zip(&product)
+        {
+            *x += step * d;
+            *r -= step * p;
+        }
+        operator.precondition(&residual, &mut improved);
+        let next = dot(&residual, &improved);
+        let part = next / energy;
+        direction.iter_mut().zip(&improved).for_each(|(d, z)| *d = z + part * *d);
+        energy = next;
+    }
+    let residual = (energy * tolerance * tolerance / wanted).sqrt();
+    Err(NotConverged { residual, iterations: MOST_ITERATIONS, tolerance })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `−u″` on points at equal distances between two that are held, with its diagonal as preconditioner.
+    struct Rod;
+
+    impl Operator for Rod {
+        fn apply(&self, x: &[f64], out: &mut [f64]) {
+            for i in 0..x.len() {
+                let [left, right] = [i.checked_sub(1), Some(i + 1)]
+                    .map(|n| n.and_then(|n| x.get(n)).unwrap_or(&0.0));
+                out[i] = 2.0 * x[i] - left - right;
+            }
+        }
+
+        fn precondition(&self, residual: &[f64], out: &mut [f64]) {
+            out.iter_mut().zip(residual).for_each(|(z, r)| *z = 0.5 * r);
+        }
+    }
+
+    #[test]
+    fn a_loaded_rod_is_a_parabola() {
+        const N: usize = 40;
+        let (solution, iterations) = solve(&Rod, &[1.0; N], 1e-13).unwrap();
+        assert!(iterations <= N);
+        for (i, u) in solution.iter().enumerate() {
+            let wanted = 0.5 * (i as f64 + 1.0) * (N - i) as f64;
+            assert!((u / wanted - 1.0).abs() < 1e-11, "{u} {wanted}");
+        }
+    }
+
+    #[test]
+    fn no_load_is_no_work_and_no_number_is_no_solution() {
+        assert_eq!(solve(&Rod, &[0.0; 5], 1e-10).unwrap(), (vec![0.0; 5], 0));
+        assert!(solve(&Rod, &[0.0, f64::NAN, 1.0], 1e-10).is_err());
+    }
+}
