@@ -142,7 +142,12 @@ impl DropletSph {
     /// Refuses a vector that no run of these droplets leads to, with what is wrong with it.
     pub fn check_state(&self, state: &[f64]) -> Result<(), String> {
         let released = |drops: usize| self.released()[drops];
-        acceptance::check(state, (&self.plan, &self.method, self.cells()), released)
+        acceptance::check(state, (&self.plan, &self.method, self.cells()), released)?;
+        let coldest = self.coldest(&self.cloud(state));
+        if coldest <= 0.0 {
+            return Err(format!("a particle at {coldest} K, which is not above absolute zero"));
+        }
+        Ok(())
     }
 
     /// What there is after none, one, … of the releases.
@@ -219,6 +224,10 @@ impl DropletSph {
                 team = self.team(cloud.len());
             }
         }
+        let (temperature, time) = (self.coldest(&cloud), ledger.time);
+        if temperature <= 0.0 {
+            return Err(Failure::BelowAbsoluteZero { temperature, time });
+        }
         let mut rises = Vec::new();
         if let Some(points) = points {
             (ledger.exchange, rises) = points.settle();
@@ -228,6 +237,12 @@ impl DropletSph {
         }
         flatten(state, &ledger, &cloud, &team);
         Ok(rises)
+    }
+
+    /// Lowest temperature of a particle [K]; without end where there is none.
+    fn coldest(&self, cloud: &Cloud) -> f64 {
+        let coldest = cloud.temperature.iter().copied().fold(f64::INFINITY, f64::min);
+        coldest + self.reference_temperature()
     }
 
     /// The wall under temperatures [K] that are known at the beginning of a step. Where a solid lies below,
