@@ -362,12 +362,21 @@ pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
     scene.wall.iter().filter_map(note).collect()
 }
 
-/// What the model's speed of sound does to the first blow.
+/// Time over D/U over which forces and pressures are means that hardly depend on sound and resolution.
+const WINDOW: f64 = 0.1;
+
+/// What the model's speed of sound does to the first blow, and what does not depend on it.
 fn note_on_first_blow(droplet: &Droplet) -> String {
     let hammer = droplet.fluid.density * droplet.sound_speed() * droplet.impact_velocity;
+    let window = match droplet.impact_velocity {
+        speed if speed > 0.0 => format!(" = {:.1e} s", WINDOW * droplet.diameter / speed),
+        _ => String::new(),
+    };
     format!(
         "that speed of sound is artificial: the pressure of the first blow, ρcU = {hammer:.3e} Pa here, and \
-         `max_pressure` are in proportion to it; what follows after some D/c is not"
+         `max_pressure` are in proportion to it; what follows after some D/c is not. `max_pressure` is the water \
+         hammer in a single particle: it grows as particles get smaller and converges to nothing. Forces \
+         converge as means over {WINDOW} D/U{window} and longer: differences of `impulse_z` over these times"
     )
 }
 
