@@ -188,8 +188,8 @@ pub fn particles_in(state: &[f64], cells: usize) -> Option<usize> {
     (rest % NUMBERS == 0).then_some(rest / NUMBERS)
 }
 
-/// Writes ledger and particles over a flat vector.
-pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team) {
+/// The numbers of a ledger, with which a flat vector begins.
+fn head_of(ledger: &Ledger) -> Vec<f64> {
     let exchange = &ledger.exchange;
     let mut head = Vec::with_capacity(state_len(exchange.heat.len(), 0));
     head.extend([ledger.time, ledger.released as f64, ledger.steps]);
@@ -201,7 +201,19 @@ pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team
     head.extend([ledger.way, ledger.surface_energy, ledger.surrounded]);
     head.extend(&exchange.heat);
     head.extend(exchange.impulse.iter().flatten());
-    state.resize(state_len(exchange.heat.len(), cloud.len()), 0.0);
+    head
+}
+
+/// Writes a ledger over that of a flat vector.
+pub fn write_ledger(state: &mut [f64], ledger: &Ledger) {
+    let head = head_of(ledger);
+    state[..head.len()].copy_from_slice(&head);
+}
+
+/// Writes ledger and particles over a flat vector.
+pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team) {
+    let head = head_of(ledger);
+    state.resize(state_len(ledger.exchange.heat.len(), cloud.len()), 0.0);
     let (first, mut rest) = state.split_at_mut(head.len());
     first.copy_from_slice(&head);
     let mut copies = Vec::new();

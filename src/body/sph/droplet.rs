@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use super::acceptance::{self, Released};
-use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in};
+use super::cloud::{Cloud, Ledger, cloud_of, flatten, ledger_of, particles_in, write_ledger};
 use super::effort::particles_of;
 use super::failure::Failure;
 use super::images::copies;
@@ -266,6 +266,13 @@ impl DropletSph {
     /// What the wall got during the last step; nothing before the first.
     pub fn exchange(&self, state: &[f64]) -> WallExchange {
         ledger_of(state, self.cells()).exchange
+    }
+
+    /// Counts what the wall got before the last step as part of that.
+    pub fn add_exchange(&self, state: &mut [f64], earlier: &WallExchange) {
+        let mut ledger = ledger_of(state, self.cells());
+        ledger.exchange.add(earlier);
+        write_ledger(state, &ledger);
     }
 
     pub fn totals(&self, state: &[f64]) -> DropletTotals {
