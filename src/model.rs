@@ -9,6 +9,7 @@ mod forecast;
 mod interpolation;
 mod loads;
 mod memory;
+mod parts;
 mod reader;
 mod reality;
 mod sharing;
@@ -241,7 +242,17 @@ impl Model {
         cache: &mut Cache,
         dt: f64,
     ) -> Result<(), ModelError> {
-        let allowance = Allowance::of_step(interrupt);
+        self.step_within(&Allowance::of_step(interrupt), state, cache, dt)
+    }
+
+    /// The same, as far as an allowance goes.
+    pub fn step_within(
+        &self,
+        allowance: &Allowance,
+        state: &mut State,
+        cache: &mut Cache,
+        dt: f64,
+    ) -> Result<(), ModelError> {
         self.expect_room_to_step(state)?;
         self.check_inputs(&state.inputs)?;
         let path = InputPath::of(state);
@@ -250,13 +261,13 @@ impl Model {
             cache.meet(self, state);
             for (index, body) in self.bodies.iter().enumerate() {
                 let loads = std::slice::from_ref(cache.loads(index));
-                let advanced = body.solid.advance(&mut bodies[index], loads, dt, &allowance);
+                let advanced = body.solid.advance(&mut bodies[index], loads, dt, allowance);
                 advanced.map_err(|halt| ModelError::Halted { body: body.name.clone(), halt })?;
             }
         } else {
-            self.advance_along(&path, &mut bodies, dt, &allowance)?;
+            self.advance_along(&path, &mut bodies, dt, allowance)?;
         }
-        self.advance_droplets(&path, state, &mut bodies, dt, &allowance)?;
+        self.advance_droplets(&path, state, &mut bodies, dt, allowance)?;
         for (body, unknowns) in self.bodies.iter().zip(&bodies) {
             if !unknowns.iter().all(|value| value.is_finite()) {
                 return Err(ModelError::Overflow { body: body.name.clone() });

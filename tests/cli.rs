@@ -56,6 +56,15 @@ impl Workplace {
         self.0.path().join(name)
     }
 
+    /// The names of the files in a folder.
+    fn files(&self, folder: &str) -> Vec<String> {
+        let entries = fs::read_dir(self.path(folder)).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
     fn call(&self, arguments: &[&str]) -> Called {
         let output = Command::new(env!("CARGO_BIN_EXE_impinge"))
             .args(arguments)
@@ -194,6 +203,32 @@ fn a_run_in_which_nothing_acts_says_so() {
         ["--overwrite", "--set", "spot.heat_flux=0", "--set", "plate.bottom.temperature=310"];
     let said = place.run(&settings).succeeds().stderr();
     assert!(!said.contains("note:"), "{said}");
+}
+
+/// A face of `bed2` at the temperature of `bed` is not at rest.
+#[test]
+fn bodies_whose_names_begin_alike_are_told_apart() {
+    let solid = |name: &str, temperature: f64| {
+        format!(
+            r#"[body.{name}]
+kind = "solid"
+shape = {{ box = [1e-3, 1e-3, 1e-4] }}
+material = {{ model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = 10.0 }}
+initial_temperature = {temperature:?}
+mesh = {{ spacing = 1e-4, order = 1 }}
+[body.{name}.faces]
+bottom = {{ temperature = 300.0 }}
+"#
+        )
+    };
+    let head = "name = \"Beds\"\nstop_time = 1e-6\nstep = 1e-6\n";
+    let place = Workplace::new();
+    for (temperature, is_idle) in [(350.0, false), (300.0, true)] {
+        let scene = format!("{head}{}{}", solid("bed", 300.0), solid("bed2", temperature));
+        fs::write(place.path("scene.toml"), scene).unwrap();
+        let said = place.run(&["--overwrite"]).succeeds().stderr();
+        assert_eq!(said.contains("nothing acts"), is_idle, "{temperature}: {said}");
+    }
 }
 
 #[test]
@@ -379,6 +414,10 @@ fn check_tells_what_decides_a_droplets_results() {
         "contact angle 90°",
         "speed of sound is artificial",
         "ρcU = 4.",
+        "`max_pressure` is the water hammer in a single particle",
+        "converges to nothing",
+        "means over 0.1 D/U = ",
+        "differences of `impulse_z`",
         "neither solidifies, melts nor evaporates",
         "`wall` names no `effusivity`",
         "0.1 Δx²/a = 7.0e-5 s or shorter",
@@ -460,6 +499,42 @@ fn the_files_of_an_earlier_run_are_replaced_only_if_asked() {
     // Fields alone are an earlier run too.
     fs::remove_file(place.path("out/HotSpot/outputs.csv")).unwrap();
     place.run(&["--fields-every", "0"]).fails(1, &["earlier run"]);
+    // A run without fields leaves none that would pass for its own.
+    fs::write(place.path("out/HotSpot/mine.pvd"), "").unwrap();
+    place.run(&["--until", "1e-7", "--fields-every", "0", "--overwrite"]).succeeds();
+    assert_eq!(place.files("out/HotSpot"), ["mine.pvd", "outputs.csv"]);
+}
+
+/// A run that was killed leaves a table and whole fields, which only `--overwrite` replaces, and no lock.
+#[cfg(unix)]
+#[test]
+fn a_killed_run_is_an_earlier_run() {
+    let place = Workplace::new();
+    for fields in ["1", "0"] {
+        let mut running = Command::new(env!("CARGO_BIN_EXE_impinge"))
+            .args(["run", "scene.toml", "--until", "1e-2", "--fields-every", "1", "--overwrite"])
+            .current_dir(place.0.path())
+            .stderr(std::process::Stdio::null())
+            .stdout(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        while !place.path("out/HotSpot/plate_000003.vtr").exists() {
+            assert_eq!(running.try_wait().unwrap(), None);
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        running.kill().unwrap();
+        running.wait().unwrap();
+        // Wherever the end came, a file may be unfinished.
+        fs::write(place.path("out/HotSpot/plate_000009.vtr.part1_2"), "").unwrap();
+        place.run(&["--until", "1e-7"]).fails(1, &["holds the files of an earlier run"]);
+        let settings = ["--until", "1e-7", "--overwrite", "--fields-every", fields];
+        place.run(&settings).succeeds();
+        let table = fs::read_to_string(place.path("out/HotSpot/outputs.csv")).unwrap();
+        assert_eq!(table.lines().count(), 3);
+        let all = ["outputs.csv", "plate.pvd", "plate_000000.vtr", "plate_000001.vtr"];
+        let wanted = if fields == "1" { &all[..] } else { &all[..1] };
+        assert_eq!(place.files("out/HotSpot"), wanted);
+    }
 }
 
 #[test]

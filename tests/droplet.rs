@@ -264,6 +264,17 @@ fn a_flow_faster_than_sound_is_refused_and_changes_nothing() {
     assert!(refused.expect("a refusal").contains("speed of sound"));
 }
 
+#[test]
+fn fluid_below_absolute_zero_is_refused_and_changes_nothing() {
+    let drop = DropletSph::new(impact(10.0), 1);
+    let mut state = run(&drop, 2);
+    let before = state.clone();
+    let failure = drop.advance(&mut state, &[-1e6; RINGS], 0.5e-6).unwrap_err().to_string();
+    assert!(failure.contains("would cool to -") && failure.contains("absolute zero"), "{failure}");
+    assert_eq!(state, before);
+    drop.advance(&mut state, &[COLD; RINGS], 0.5e-6).unwrap();
+}
+
 /// Heat that a resting block of water between insulated sides gives to a wall of constant temperature, over the closed form
 /// `2 k ΔT √(t/(π a))` of a half space.
 fn contact_heat(spacing: f64) -> f64 {

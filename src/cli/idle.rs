@@ -1,18 +1,20 @@
 //! Runs in which nothing happens.
 
-use impinge::scene::{Scene, Solid};
-use impinge::variables::{Quantity, Registry, Slot, Variable};
+use impinge::scene::Scene;
+use impinge::variables::{InputLayout, Quantity, Registry, Slot};
 
 /// What to say where neither an input nor a face nor a droplet acts on anything.
 pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
     if scene.droplets().next().is_some() {
         return None;
     }
+    let layout = InputLayout::of(scene);
     let mut idle = Vec::new();
     for variable in &Registry::of(scene).variables {
         let Slot::Input(at) = variable.slot else { continue };
-        match rest(scene, variable) {
-            Some(rest) if rest.contains(&inputs[at]) => idle.push(variable.family().to_owned()),
+        let Some(quantity) = variable.quantity else { continue };
+        match rest(scene, &layout, (at, quantity)) {
+            Some(rest) if rest == inputs[at] => idle.push(variable.family().to_owned()),
             Some(_) => return None,
             // What moves a footprint or transfers heat does nothing alone.
             None => {}
@@ -28,15 +30,13 @@ pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
     ))
 }
 
-/// Values with which an input does nothing; `None` for inputs that do nothing alone.
-fn rest(scene: &Scene, variable: &Variable) -> Option<Vec<f64>> {
-    match variable.quantity? {
-        Quantity::HeatFlux | Quantity::Stress => Some(vec![0.0]),
+/// The value with which the input at a place does nothing; `None` for inputs that do nothing alone.
+fn rest(scene: &Scene, layout: &InputLayout, (at, quantity): (usize, Quantity)) -> Option<f64> {
+    match quantity {
+        Quantity::HeatFlux | Quantity::Stress => Some(0.0),
         Quantity::Temperature => {
-            let is_own = |name: &str| variable.name.starts_with(name);
-            let own = scene.solids().filter(|(name, _)| is_own(name));
-            let initial = |(_, solid): (&str, &Solid)| solid.initial_temperature;
-            Some(own.map(initial).collect())
+            let face = layout.faces.iter().find(|face| face.index == at)?;
+            Some(scene.solid(&face.body)?.initial_temperature)
         }
         _ => None,
     }

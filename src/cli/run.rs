@@ -102,7 +102,11 @@ impl Run {
         let every = self.fields_every.unwrap_or(run.timeline.count.div_ceil(SNAPSHOTS));
         let table = CsvTable::create(&table, run.model)?;
         let fields = match every {
-            0 => None,
+            0 => {
+                // Fields of another run beside this one's table would be taken for its own.
+                FieldSeries::remove(&folder, run.model)?;
+                None
+            }
             _ => Some(FieldSeries::create(&folder, run.model)?),
         };
         let place = format!("files in {}\n", folder.display());

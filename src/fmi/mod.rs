@@ -9,6 +9,7 @@
 
 mod adjoint;
 mod common;
+mod course;
 mod derivatives;
 mod float_environment;
 mod instance;

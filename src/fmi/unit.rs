@@ -4,9 +4,11 @@ use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::ffi::CString;
 use std::path::Path;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use super::MARK;
+use super::course::Course;
 use super::guid;
 use super::legality::{Function, Phase};
 use super::log::Log;
@@ -59,6 +61,8 @@ pub struct Unit {
     pub(super) series: Option<(FieldSeries, FolderLock)>,
     /// Ends the step under way, from another thread.
     pub(super) interrupt: Interrupt,
+    /// What the host lets a step do besides going to its end.
+    pub(super) course: Rc<Course>,
 }
 
 /// The times that fmi2SetupExperiment tells [s].
@@ -152,6 +156,7 @@ impl Unit {
             said: BTreeSet::new(),
             series: None,
             interrupt: Interrupt::default(),
+            course: Rc::default(),
         }
     }
 
@@ -223,16 +228,17 @@ impl Unit {
     /// are what they have become.
     ///
     /// A step that cannot be completed, though nothing was wrong when it began, is discarded; so is one
-    /// that another thread cancels.
+    /// that another thread cancels. One that may end early then stands where it has come to.
     pub fn step(&mut self, point: f64, step: f64) -> Answer {
         self.check_step(point, step)?;
         let registry = Arc::clone(&self.registry);
         let has_set = self.has_set_derivatives;
-        let interrupt = self.interrupt.clone();
+        let (interrupt, course) = (self.interrupt.clone(), Rc::clone(&self.course));
         let (run, state) = self.run()?;
         let past = if has_set { None } else { Some(std::mem::take(&mut state.derivatives)) };
         let stepping = interrupt.begin();
-        let stepped = run.model.step_unless(&interrupt, state, &mut run.cache, step);
+        let stepped =
+            course.advance((&*run.model, &mut run.cache), state, (point, step), &interrupt);
         drop(stepping);
         if let Err(error) = stepped {
             let is_cancelled = matches!(error, ModelError::Halted { halt: Halt::Interrupted, .. });
@@ -247,7 +253,6 @@ impl Unit {
         }
         run.tangent = None;
         run.checked &= !has_set;
-        state.time = point + step;
         let overflows = run.model.overflows(state);
         self.warn_once(overflows);
         self.has_set_derivatives = false;

@@ -5,6 +5,10 @@ use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 
 /// Updates of unknowns that one communication step may take: hours to a day on one thread.
 pub const MOST_UPDATES: f64 = 1e11;
+/// Updates after which a step that asks for more than that ends early, where its host lets it: minutes.
+pub const EARLY_UPDATES: f64 = 1e9;
+/// Updates after which a host that wants to know of a step under way is told: seconds.
+pub const PART_UPDATES: f64 = 1e7;
 /// What a round of updates costs besides these, in updates: rounds over few unknowns end, too.
 const ROUND: f64 = 1e4;
 
@@ -63,10 +67,26 @@ pub enum Halt {
     TooLong { rounds: f64, what: &'static str, size: usize },
 }
 
+impl Halt {
+    /// Part of a step that was too long which takes some updates, about; nothing where the step ended for
+    /// another reason.
+    pub fn part_within(&self, updates: f64) -> Option<f64> {
+        match *self {
+            Halt::TooLong { rounds, size, .. } => Some((updates / cost(rounds, size)).min(1.0)),
+            Halt::Interrupted => None,
+        }
+    }
+}
+
 impl Allowance {
     /// Of one communication step.
     pub fn of_step(interrupt: &Interrupt) -> Self {
-        Self { interrupt: interrupt.clone(), left: AtomicU64::new(MOST_UPDATES.to_bits()) }
+        Self::of_updates(interrupt, MOST_UPDATES)
+    }
+
+    /// Of so many updates.
+    pub fn of_updates(interrupt: &Interrupt, updates: f64) -> Self {
+        Self { interrupt: interrupt.clone(), left: AtomicU64::new(updates.to_bits()) }
     }
 
     fn left(&self) -> f64 {
@@ -101,7 +121,8 @@ impl Default for Allowance {
     }
 }
 
-fn cost(rounds: f64, size: usize) -> f64 {
+/// Updates that rounds over so many unknowns count for.
+pub fn cost(rounds: f64, size: usize) -> f64 {
     rounds * (size as f64 + ROUND)
 }
 
@@ -121,6 +142,17 @@ mod tests {
             assert!(matches!(halt, Err(Halt::TooLong { .. })), "{rounds} {size}: {halt:?}");
         }
         assert!(allowance.foresee(f64::INFINITY, "rounds", 1).is_err());
+    }
+
+    #[test]
+    fn a_step_that_is_too_long_tells_which_part_of_it_fits() {
+        let allowance = Allowance::of_updates(&Interrupt::default(), EARLY_UPDATES);
+        let halt = allowance.foresee(1e6, "rounds", 0).unwrap_err();
+        assert_eq!(halt.part_within(EARLY_UPDATES), Some(0.1));
+        allowance.foresee(0.99e5, "rounds", 0).unwrap();
+        let halt = allowance.foresee(f64::INFINITY, "rounds", 0).unwrap_err();
+        assert_eq!(halt.part_within(EARLY_UPDATES), Some(0.0));
+        assert_eq!(Halt::Interrupted.part_within(EARLY_UPDATES), None);
     }
 
     #[test]

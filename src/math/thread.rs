@@ -8,7 +8,7 @@
 use std::cell::Cell;
 use std::mem::transmute;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use super::address_space::{self, ARENA, PRODUCTS, SPARE};
 
@@ -22,7 +22,41 @@ pub const SPACE: usize = STACK + ARENA + PRODUCTS;
 static ASIDE: AtomicUsize = AtomicUsize::new(0);
 
 /// How many threads of ours there are.
-static LIVING: AtomicUsize = AtomicUsize::new(0);
+static LIVING: Count = Count(AtomicU64::new(0));
+
+/// How many threads of this process there are of a kind. A forked process begins anew: of its parent's it has
+/// none but the one that forked.
+struct Count(AtomicU64);
+
+impl Count {
+    /// Adds one.
+    fn add(&self) {
+        self.change(std::process::id(), |count| count.saturating_add(1));
+    }
+
+    /// Takes one away.
+    fn take(&self) {
+        self.change(std::process::id(), |count| count.saturating_sub(1));
+    }
+
+    fn get(&self) -> usize {
+        of_process(self.0.load(Ordering::Relaxed), std::process::id()) as usize
+    }
+
+    /// The process is in the upper half of the number, the count in the lower.
+    fn change(&self, process: u32, changed: impl Fn(u32) -> u32) {
+        let next = |number| {
+            let count = changed(of_process(number, process));
+            Some(u64::from(process) << 32 | u64::from(count))
+        };
+        let _ = self.0.fetch_update(Ordering::Relaxed, Ordering::Relaxed, next);
+    }
+}
+
+/// The count of a process; none where the number is another's.
+fn of_process(number: u64, process: u32) -> u32 {
+    if (number >> 32) as u32 == process { number as u32 } else { 0 }
+}
 
 thread_local! {
     static IS_OURS: Cell<bool> = const { Cell::new(false) };
@@ -80,7 +114,7 @@ impl Started {
 /// Starts a thread of ours beside others, if the system has one to give, and address space for all of
 /// them: what one sets aside, others miss. Panics of `work` end with it.
 pub fn start(work: impl FnOnce() + Send + 'static) -> Option<Started> {
-    let all = LIVING.load(Ordering::Relaxed) + 1;
+    let all = LIVING.get() + 1;
     if !address_space::fits(all * SPACE + SPARE) {
         return None;
     }
@@ -92,7 +126,7 @@ fn serve(work: Box<dyn FnOnce() + Send>) {
     IS_OURS.set(true);
     // Whoever wants to know of a panic catches it before.
     let _ = catch_unwind(AssertUnwindSafe(work));
-    LIVING.fetch_sub(1, Ordering::Relaxed);
+    LIVING.take();
 }
 
 #[cfg(unix)]
@@ -100,7 +134,6 @@ mod system {
     use std::ffi::c_void;
     use std::mem::MaybeUninit;
     use std::ptr;
-    use std::sync::atomic::Ordering;
 
     use super::{LIVING, STACK, serve};
 
@@ -139,7 +172,7 @@ mod system {
     }
 
     pub fn start(work: Work) -> Option<Thread> {
-        LIVING.fetch_add(1, Ordering::Relaxed);
+        LIVING.add();
         let work = Box::into_raw(Box::new(work));
         with_faults_alone(|| {
             let mut attributes = MaybeUninit::uninit();
@@ -157,7 +190,7 @@ mod system {
                     libc::pthread_attr_destroy(attributes.as_mut_ptr());
                 }
                 if failed != 0 {
-                    LIVING.fetch_sub(1, Ordering::Relaxed);
+                    LIVING.take();
                     drop(Box::from_raw(work));
                     return None;
                 }
@@ -198,7 +231,6 @@ mod system {
 
 #[cfg(not(unix))]
 mod system {
-    use std::sync::atomic::Ordering;
     use std::thread::{Builder, JoinHandle};
 
     use super::{LIVING, STACK, serve};
@@ -212,11 +244,11 @@ mod system {
     }
 
     pub fn start(work: Box<dyn FnOnce() + Send>) -> Option<Thread> {
-        LIVING.fetch_add(1, Ordering::Relaxed);
+        LIVING.add();
         let builder = Builder::new().name("impinge worker".into()).stack_size(STACK);
         let thread = builder.spawn(|| serve(work)).ok().map(Thread);
         if thread.is_none() {
-            LIVING.fetch_sub(1, Ordering::Relaxed);
+            LIVING.take();
         }
         thread
     }
@@ -235,6 +267,29 @@ mod tests {
             (is_ours(), aside(|| std::thread::current().id()) == here)
         });
         assert_eq!((inner, sum, is_ours()), ((true, true), 1, false));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_forked_process_has_none_of_its_parents_threads() {
+        let (end, ended) = std::sync::mpsc::channel::<()>();
+        let thread = start(move || ended.recv().unwrap_or_default()).unwrap();
+        assert!(LIVING.get() >= 1);
+        // SAFETY: the child looks at a number and ends.
+        let status = unsafe {
+            let child = libc::fork();
+            if child == 0 {
+                let before = LIVING.get();
+                LIVING.add();
+                libc::_exit((before * 8 + LIVING.get()) as i32);
+            }
+            let mut status = 0;
+            assert_eq!(libc::waitpid(child, &mut status, 0), child);
+            status
+        };
+        drop(end);
+        thread.join();
+        assert_eq!((libc::WIFEXITED(status), libc::WEXITSTATUS(status)), (true, 1));
     }
 
     #[test]

@@ -8,7 +8,7 @@ use crate::body::sph::{
     self, Domain, DropletPlan, DropletSph, DropletTotals, Extent, Failure, ParticleFields, Release,
     Surface, WallCells, WallExchange,
 };
-use crate::math::allowance::Allowance;
+use crate::math::allowance::{Allowance, cost};
 use crate::scene::{Droplet, Footprint, Governing, Scene, Wall};
 use crate::variables::{DropletTotal, InputLayout, WallOutput};
 
@@ -121,14 +121,25 @@ impl DropletModel {
     /// Ends a step of `dt` [s] that is known to take the droplet too many time steps.
     pub fn foresee(&self, state: &[f64], dt: f64, allowance: &Allowance) -> Result<(), ModelError> {
         let particles = self.droplet.particles_in(state);
-        let (_, time_step) = DropletSph::forecast(self.droplet.plan());
-        // Fluid at rest takes longer steps than one that arrives.
-        let steps = if particles > 0 { 0.5 * dt / time_step } else { 0.0 };
+        let steps = if particles > 0 { self.expected_steps(dt).0 } else { 0.0 };
         let foreseen = allowance.foresee(steps, "time steps of a droplet", particles);
         foreseen.map_err(|halt| ModelError::Halted { body: self.name.clone(), halt })
     }
 
-    /// The same above the surface of a solid that answers to the droplet's heat; the rises of its cells [K m²].
+    /// Time steps that `dt` [s] take at least, and the particles that there are at last.
+    fn expected_steps(&self, dt: f64) -> (f64, usize) {
+        let (particles, time_step) = DropletSph::forecast(self.droplet.plan());
+        // Fluid at rest takes longer steps than one that arrives.
+        (0.5 * dt / time_step, particles)
+    }
+
+    /// Updates of unknowns that `dt` [s] take, about, once all drops are released.
+    pub fn updates(&self, dt: f64) -> f64 {
+        let (steps, particles) = self.expected_steps(dt);
+        cost(steps, particles)
+    }
+
+    /// Advances above the surface of a solid that answers to the droplet's heat; the rises of its cells [K m²].
     pub fn advance_above(
         &self,
         state: &mut Vec<f64>,
@@ -362,12 +373,21 @@ pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
     scene.wall.iter().filter_map(note).collect()
 }
 
-/// What the model's speed of sound does to the first blow.
+/// Time over D/U over which forces and pressures are means that hardly depend on sound and resolution.
+const WINDOW: f64 = 0.1;
+
+/// What the model's speed of sound does to the first blow, and what does not depend on it.
 fn note_on_first_blow(droplet: &Droplet) -> String {
     let hammer = droplet.fluid.density * droplet.sound_speed() * droplet.impact_velocity;
+    let window = match droplet.impact_velocity {
+        speed if speed > 0.0 => format!(" = {:.1e} s", WINDOW * droplet.diameter / speed),
+        _ => String::new(),
+    };
     format!(
         "that speed of sound is artificial: the pressure of the first blow, ρcU = {hammer:.3e} Pa here, and \
-         `max_pressure` are in proportion to it; what follows after some D/c is not"
+         `max_pressure` are in proportion to it; what follows after some D/c is not. `max_pressure` is the water \
+         hammer in a single particle: it grows as particles get smaller and converges to nothing. Forces \
+         converge as means over {WINDOW} D/U{window} and longer: differences of `impulse_z` over these times"
     )
 }
 

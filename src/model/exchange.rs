@@ -43,8 +43,10 @@ impl Model {
             match &droplet.below {
                 Below::Nothing => droplet.advance(unknowns, &[], dt, allowance)?,
                 Below::Wall(wall) => {
-                    self.check_underway(&path.at(0, dt), dt)?;
+                    // What acts is the middle, which may lie below both ends.
                     let inputs = path.at(0, 0.5 * dt);
+                    self.check_underway(&inputs, 0.5 * dt)?;
+                    self.check_underway(&path.at(0, dt), dt)?;
                     droplet.advance(unknowns, &inputs[wall.inputs.clone()], dt, allowance)?;
                 }
                 Below::Solid(contact) => {

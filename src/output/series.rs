@@ -32,6 +32,16 @@ impl FieldSeries {
     /// these bodies left there.
     pub fn create(directory: &Path, model: &Model) -> Result<Self, OutputError> {
         fs::create_dir_all(directory).map_err(OutputError::at("create the folder", directory))?;
+        let series = Self::of(directory, model);
+        for body in &series.bodies {
+            series.write_list(body)?;
+        }
+        series.remove_unlisted();
+        Ok(series)
+    }
+
+    /// A series without times, of which nothing is written yet.
+    fn of(directory: &Path, model: &Model) -> Self {
         let solids = model.scene().solids().map(|(name, solid)| {
             let kind = match solid.shape {
                 Shape::Box(_) => Kind::Grid,
@@ -41,12 +51,25 @@ impl FieldSeries {
         });
         let droplets = model.scene().droplets().map(|(name, _)| (name.to_owned(), Kind::Particles));
         let bodies = solids.chain(droplets).collect();
-        let series = Self { directory: directory.to_owned(), bodies, times: Vec::new() };
-        for body in &series.bodies {
-            series.write_list(body)?;
+        Self { directory: directory.to_owned(), bodies, times: Vec::new() }
+    }
+
+    /// Removes the series of a model's bodies from a folder, files that were never finished included. What cannot
+    /// be removed is an error: it would pass for fields of a later run.
+    pub fn remove(directory: &Path, model: &Model) -> Result<(), OutputError> {
+        let series = Self::of(directory, model);
+        let Ok(entries) = fs::read_dir(directory) else { return Ok(()) };
+        let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
+        for name in names.filter(|name| series.is_list(name) || series.is_unlisted(name)) {
+            let path = directory.join(name);
+            fs::remove_file(&path).map_err(OutputError::at("remove", &path))?;
         }
-        series.remove_unlisted();
-        Ok(series)
+        Ok(())
+    }
+
+    /// Whether a name is that of a list of the series.
+    fn is_list(&self, name: &str) -> bool {
+        self.bodies.iter().any(|(body, _)| name.strip_suffix(".pvd") == Some(body.as_str()))
     }
 
     /// Whether a folder holds a series of a model's bodies already.

@@ -148,5 +148,12 @@ fn a_wall_that_would_cool_below_absolute_zero_is_discarded_and_may_be_repeated()
     unit.expect_message(DISCARD, &["wall.temperature[2,1]", "absolute zero"]);
     assert_eq!(unit.time(), 0.0);
     assert_eq!(unit.restore(state), OK);
+    // It is as warm at the end as at the beginning, but not between them.
+    let slope = -4.0 * 400.0 / STEP;
+    assert_eq!(unit.set_derivative("wall.temperature[2,1]", 1, slope), OK);
+    assert_eq!(unit.set_derivative("wall.temperature[2,1]", 2, -2.0 * slope / STEP), OK);
+    assert_eq!(unit.step(0.0, STEP), DISCARD);
+    unit.expect_message(DISCARD, &["wall.temperature[2,1]", "absolute zero"]);
+    assert_eq!(unit.restore(state), OK);
     assert_eq!(unit.step(0.0, STEP), OK, "{:?}", unit.messages.take());
 }

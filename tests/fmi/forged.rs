@@ -177,6 +177,17 @@ fn particles_far_above_the_speed_of_sound_are_refused() {
 }
 
 #[test]
+fn particles_at_absolute_zero_and_below_are_refused() {
+    let (unit, state) = stepped();
+    // Temperatures stand above that of the first drop.
+    for rise in [-350.0, -1e6] {
+        let mut state = state.clone();
+        *state.number(2, 3) = rise;
+        refused(&unit, &state, "not above absolute zero");
+    }
+}
+
+#[test]
 fn particles_of_other_numbers_and_masses_are_refused() {
     let (unit, state) = stepped();
     for ratio in [-0.9, 2.5] {

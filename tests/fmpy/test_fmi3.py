@@ -35,7 +35,7 @@ quick_scenes = pytest.mark.parametrize(
 class Unit:
     """One instance of a unit in Step Mode, its variables by name, arrays as numpy arrays."""
 
-    def __init__(self, file, folder, start=None):
+    def __init__(self, file, folder, start=None, update=None):
         description = read_model_description(str(file))
         self.variables = {v.name: v for v in description.modelVariables}
         self.outputs = [v.name for v in description.modelVariables if v.causality == "output"]
@@ -46,7 +46,12 @@ class Unit:
             unzipDirectory=extract(str(file), str(folder)),
             instanceName="unit",
         )
-        self.slave.instantiate(loggingOn=True, logMessage=self._hear)
+        self.slave.instantiate(
+            loggingOn=True,
+            logMessage=self._hear,
+            earlyReturnAllowed=update is not None,
+            intermediateUpdate=update,
+        )
         for name, value in (start or {}).items():
             self[name] = value
         self.slave.enterInitializationMode()
@@ -89,7 +94,9 @@ class Unit:
 def make(pack, tmp_path):
     """Makes instances of a small scene's unit."""
     count = iter(range(100))
-    return lambda scene, start=None: Unit(pack(scene, fmi=3), tmp_path / str(next(count)), start)
+    return lambda scene, start=None, update=None: Unit(
+        pack(scene, fmi=3), tmp_path / str(next(count)), start, update
+    )
 
 
 @every_scene
@@ -102,6 +109,8 @@ def test_fmpy_finds_no_fault(pack, scene):
     assert offers.providesAdjointDerivatives
     droplets = 'kind = "droplet"' in scene.read_text()
     assert offers.maxOutputDerivativeOrder == (0 if droplets else 1)
+    assert offers.providesIntermediateUpdate == droplets
+    assert offers.canReturnEarlyAfterIntermediateUpdate == droplets
 
 
 @every_scene
@@ -316,3 +325,36 @@ def test_instances_of_both_versions_share_a_process(pack, make):
         three.step()
         three.step()
         assert result["centre.temperature"][-1] == three["centre.temperature"]
+
+
+def test_a_master_ends_a_long_step_of_a_droplet(make):
+    told = []
+
+    def update(_environment, time, may_set, may_get, finished, can_return_early, wanted, end):
+        told.append((time, may_set, may_get, finished, can_return_early))
+        if len(told) == 2:
+            wanted[0], end[0] = True, time
+
+    with make("drop", update=update) as unit:
+        size = 1.0
+        event, terminate, early, reached = unit.slave.doStep(0.0, size)
+        assert (event, terminate, early) == (False, False, True)
+        assert 0.0 < told[0][0] < told[1][0] == reached < size
+        assert {tuple(flags) for _, *flags in told} == {(False, False, True, True)}
+        assert unit["time"] == reached
+        # It goes on from there.
+        unit.time = reached
+        unit.step(1e-7)
+        assert np.isfinite(unit["drop.kinetic_energy"])
+        assert len(told) == 2
+
+
+def test_fmpy_simulates_with_early_return_allowed(pack):
+    unit = str(pack("drop", fmi=3))
+    runs = [
+        simulate_fmu(
+            unit, stop_time=2e-7, output=["drop.kinetic_energy"], early_return_allowed=early
+        )
+        for early in (False, True)
+    ]
+    assert np.array_equal(*[run["drop.kinetic_energy"] for run in runs])

@@ -199,8 +199,8 @@ pub fn particles_in(state: &[f64], wall: WallNumbers) -> Option<usize> {
     (rest % NUMBERS == 0).then_some(rest / NUMBERS)
 }
 
-/// Writes ledger and particles over a flat vector.
-pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team) {
+/// The numbers of a ledger, with which a flat vector begins.
+fn head_of(ledger: &Ledger) -> Vec<f64> {
     let exchange = &ledger.exchange;
     let memory = &ledger.memory;
     let mut head = Vec::new();
@@ -215,6 +215,18 @@ pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team
     head.extend(exchange.impulse.iter().flatten());
     head.extend(&memory.given);
     head.extend(&memory.reported);
+    head
+}
+
+/// Writes a ledger over that of a flat vector.
+pub fn write_ledger(state: &mut [f64], ledger: &Ledger) {
+    let head = head_of(ledger);
+    state[..head.len()].copy_from_slice(&head);
+}
+
+/// Writes ledger and particles over a flat vector.
+pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team) {
+    let head = head_of(ledger);
     state.resize(head.len() + NUMBERS * cloud.len(), 0.0);
     let (first, mut rest) = state.split_at_mut(head.len());
     first.copy_from_slice(&head);

@@ -4,7 +4,9 @@ use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use super::acceptance::{self, Released};
-use super::cloud::{Cloud, Ledger, WallNumbers, cloud_of, flatten, ledger_of, particles_in};
+use super::cloud::{
+    Cloud, Ledger, WallNumbers, cloud_of, flatten, ledger_of, particles_in, write_ledger,
+};
 use super::effort::particles_of;
 use super::failure::Failure;
 use super::images::copies;
@@ -141,7 +143,12 @@ impl DropletSph {
     /// Refuses a vector that no run of these droplets leads to, with what is wrong with it.
     pub fn check_state(&self, state: &[f64]) -> Result<(), String> {
         let released = |drops: usize| self.released()[drops];
-        acceptance::check(state, (&self.plan, &self.method, self.wall()), released)
+        acceptance::check(state, (&self.plan, &self.method, self.wall()), released)?;
+        let coldest = self.coldest(&self.cloud(state));
+        if coldest <= 0.0 {
+            return Err(format!("a particle at {coldest} K, which is not above absolute zero"));
+        }
+        Ok(())
     }
 
     /// What there is after none, one, … of the releases.
@@ -218,6 +225,10 @@ impl DropletSph {
                 team = self.team(cloud.len());
             }
         }
+        let (temperature, time) = (self.coldest(&cloud), ledger.time);
+        if temperature <= 0.0 {
+            return Err(Failure::BelowAbsoluteZero { temperature, time });
+        }
         let mut rises = Vec::new();
         if let Some(points) = points {
             (ledger.exchange, rises) = points.settle();
@@ -232,6 +243,12 @@ impl DropletSph {
         Ok(rises)
     }
 
+    /// Lowest temperature of a particle [K]; without end where there is none.
+    fn coldest(&self, cloud: &Cloud) -> f64 {
+        let coldest = cloud.temperature.iter().copied().fold(f64::INFINITY, f64::min);
+        coldest + self.reference_temperature()
+    }
+
     /// The wall under temperatures [K] that are known at the beginning of a step.
     fn surface(&self, state: &[f64], temperature: &[f64]) -> Surface {
         if self.below.is_empty() {
@@ -244,6 +261,13 @@ impl DropletSph {
     /// What the wall got during the last step; nothing before the first.
     pub fn exchange(&self, state: &[f64]) -> WallExchange {
         ledger_of(state, self.wall()).exchange
+    }
+
+    /// Counts what the wall got before the last step as part of that.
+    pub fn add_exchange(&self, state: &mut [f64], earlier: &WallExchange) {
+        let mut ledger = ledger_of(state, self.wall());
+        ledger.exchange.add(earlier);
+        write_ledger(state, &ledger);
     }
 
     pub fn totals(&self, state: &[f64]) -> DropletTotals {

@@ -24,6 +24,10 @@ pub enum Failure {
         "a particle flies at {ratio:.3e} times the speed of sound at t = {time:.6e} s (allowed: less than {FASTEST}): the speed of sound is too low for this flow"
     )]
     TooFast { ratio: f64, time: f64 },
+    #[error(
+        "a particle would cool to {temperature:.6} K at t = {time:.6e} s, not above absolute zero: what lies below takes more heat from it than it holds"
+    )]
+    BelowAbsoluteZero { temperature: f64, time: f64 },
     #[error("{0}")]
     Halted(#[from] Halt),
 }

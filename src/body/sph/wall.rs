@@ -135,6 +135,17 @@ impl Domain {
 }
 
 impl WallExchange {
+    /// Adds what was given during another step.
+    pub fn add(&mut self, other: &Self) {
+        self.duration += other.duration;
+        self.heat_outside += other.heat_outside;
+        self.heat.iter_mut().zip(&other.heat).for_each(|(sum, heat)| *sum += heat);
+        let cells = self.impulse.iter_mut().zip(&other.impulse);
+        for (sum, impulse) in cells.chain([(&mut self.impulse_outside, &other.impulse_outside)]) {
+            sum.iter_mut().zip(impulse).for_each(|(sum, part)| *sum += part);
+        }
+    }
+
     pub fn none(cells: usize) -> Self {
         let heat = vec![0.0; cells];
         Self { heat, impulse: vec![[0.0; 3]; cells], ..Self::default() }

@@ -3,6 +3,7 @@
 use std::ffi::CString;
 use std::path::Path;
 use std::ptr;
+use std::rc::Rc;
 
 use super::legality::Fmi3;
 use super::types::{
@@ -10,6 +11,7 @@ use super::types::{
     Preemption, Reference, Text,
 };
 use crate::fmi::common::{text, texts};
+use crate::fmi::course::{Ask, Course};
 use crate::fmi::float_environment;
 use crate::fmi::instance::{call, hand_out, take_back};
 use crate::fmi::legality::Phase;
@@ -32,13 +34,38 @@ fn to_log_message(callback: LogMessage, environment: Environment) -> Sink {
     })
 }
 
+/// Tells the host of a step under way. No variable takes part in that: none can be set or read then.
+fn to_ask(callback: IntermediateUpdate, environment: Environment) -> Option<Ask> {
+    let callback = callback?;
+    Some(Box::new(move |time, may_end_early| {
+        let (mut wanted, mut end) = (FALSE, time);
+        let can_return_early = Boolean::from(may_end_early);
+        // SAFETY: the callback came with fmi3InstantiateCoSimulation and has this signature; both places
+        // live through the call.
+        float_environment::of_host(|| unsafe {
+            let (wanted, end) = (&raw mut wanted, &raw mut end);
+            callback(
+                environment,
+                time,
+                FALSE,
+                FALSE,
+                Boolean::from(true),
+                can_return_early,
+                wanted,
+                end,
+            );
+        });
+        (wanted != FALSE).then_some(end)
+    }))
+}
+
 #[unsafe(no_mangle)]
 pub extern "C" fn fmi3GetVersion() -> Text {
     c"3.0".as_ptr()
 }
 
-/// Inputs are held over a step: a unit has no intermediate update, so the last callback and the list
-/// for it are not used.
+/// Inputs are held over a step, and no variable is for intermediate updates: these tell how far a step of
+/// droplets has come, and let the master end it there.
 ///
 /// # Safety
 /// Pointers are null or as the standard asks.
@@ -50,14 +77,18 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     _visible: Boolean,
     logging_on: Boolean,
     event_mode_used: Boolean,
-    _early_return_allowed: Boolean,
+    early_return_allowed: Boolean,
     _required_intermediate_variables: *const Reference,
     required_intermediate_variable_count: usize,
     instance_environment: Environment,
     log_message: LogMessage,
-    _intermediate_update: IntermediateUpdate,
+    intermediate_update: IntermediateUpdate,
 ) -> Handle {
     let log = Log::new(to_log_message(log_message, instance_environment), logging_on != FALSE);
+    let course = Course {
+        may_end_early: early_return_allowed != FALSE,
+        ask: to_ask(intermediate_update, instance_environment),
+    };
     let load = || {
         // SAFETY: by contract.
         let (name, token, resources) = unsafe {
@@ -79,7 +110,11 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
         read(Path::new(resources), token).map_err(Refusal::error)
     };
     match panics::caught(load).unwrap_or_else(|panic| Err(Refusal::error(panic))) {
-        Ok(packed) => hand_out::<Fmi3>(Unit::new(packed, log)),
+        Ok(packed) => {
+            let mut unit = Unit::new(packed, log);
+            unit.course = Rc::new(course);
+            hand_out::<Fmi3>(unit)
+        }
         Err(refusal) => no_instance("fmi3InstantiateCoSimulation", &log, refusal),
     }
 }

@@ -7,7 +7,8 @@ use crate::fmi::legality::Phase;
 use crate::fmi::types::Status;
 use crate::fmi::unit::Unit;
 
-/// Inputs are held over the step. It never ends early nor calls for events or the end.
+/// Inputs are held over the step. It never calls for events or the end. It ends early, if it may, where it is too
+/// long for one call, or where the master asked for that in an intermediate update.
 ///
 /// A refused or discarded step leaves the unit as it was: the master may correct inputs or times and
 /// try again. No state is needed but the one that the master asks for, so
@@ -42,9 +43,12 @@ pub unsafe extern "C" fn fmi3DoStep(
             }
             let answer = unit.step(current_communication_point, communication_step_size);
             stay_in_step_mode(unit);
+            let end = current_communication_point + communication_step_size;
+            let is_early = answer.is_ok() && unit.time() < end;
             for (flag, name) in flags {
                 write(flag, &[FALSE], name)?;
             }
+            write(early_return, &[Boolean::from(is_early)], "earlyReturn")?;
             write(last_successful_time, &[unit.time()], "lastSuccessfulTime")?;
             answer
         })

@@ -42,7 +42,8 @@ pub const FALSE: Boolean = 0;
 /// `fmi3LogMessageCallback`: environment, status, category, message.
 pub type LogMessage = Option<unsafe extern "C" fn(Environment, Status, Text, Text)>;
 
-/// `fmi3IntermediateUpdateCallback`, which a unit never calls.
+/// `fmi3IntermediateUpdateCallback`: environment, time, whether variables may be set or read, a step has been
+/// finished and this one may end early; whether and when it should.
 pub type IntermediateUpdate = Option<
     unsafe extern "C" fn(
         Environment,

@@ -12,7 +12,7 @@ use crate::fmi::xml::{
     Attributes, Xml, causality, default_experiment, leaf, log_categories, number, parent, units,
     whole_number,
 };
-use crate::scene::Scene;
+use crate::scene::{HeatMethod, Scene};
 use crate::variables::{
     ArrayRegistry, ArrayVariable, Causality, Content, Quantity, Registry, Value, Variable,
 };
@@ -68,6 +68,10 @@ impl Description<'_> {
     }
 
     fn co_simulation(&self, xml: &mut Xml) -> io::Result<()> {
+        let has_droplets = self.scene.droplets().next().is_some();
+        // Modes of heat take a step of any length in one, and inputs are held.
+        let has_long_steps =
+            has_droplets || self.scene.solids().any(|(_, solid)| solid.heat == HeatMethod::Sph);
         let attributes: Attributes = vec![
             ("modelIdentifier", self.scene.name.clone()),
             ("needsExecutionTool", "false".into()),
@@ -79,9 +83,9 @@ impl Description<'_> {
             ("providesPerElementDependencies", "true".into()),
             ("canHandleVariableCommunicationStepSize", "true".into()),
             ("maxOutputDerivativeOrder", highest_output_derivative(self.scene).to_string()),
-            ("providesIntermediateUpdate", "false".into()),
-            ("mightReturnEarlyFromDoStep", "false".into()),
-            ("canReturnEarlyAfterIntermediateUpdate", "false".into()),
+            ("providesIntermediateUpdate", has_droplets.to_string()),
+            ("mightReturnEarlyFromDoStep", has_long_steps.to_string()),
+            ("canReturnEarlyAfterIntermediateUpdate", has_droplets.to_string()),
             ("hasEventMode", "false".into()),
         ];
         leaf(xml, "CoSimulation", &attributes)

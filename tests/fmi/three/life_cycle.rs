@@ -226,7 +226,7 @@ fn a_discarded_step_leaves_the_unit_in_step_mode() {
 }
 
 #[test]
-fn a_step_tells_its_time_and_never_ends_early() {
+fn a_step_that_fits_tells_its_time_and_does_not_end_early() {
     let unit = Unit::instantiated();
     assert_eq!(unit.enter(1e-6, Some(2e-6)), OK);
     assert_eq!(unit.time(), 1e-6);

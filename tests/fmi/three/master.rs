@@ -35,7 +35,12 @@ pub struct Arguments {
     pub logging_on: bool,
     pub event_mode_used: bool,
     pub intermediate: Vec<u32>,
+    pub early_return_allowed: bool,
+    pub update: Option<IntermediateUpdate>,
 }
+
+pub type IntermediateUpdate =
+    unsafe extern "C" fn(*mut c_void, f64, bool, bool, bool, bool, *mut bool, *mut f64);
 
 impl Arguments {
     pub fn good(folder: &Folder, token: &str) -> Self {
@@ -47,6 +52,8 @@ impl Arguments {
             logging_on: true,
             event_mode_used: false,
             intermediate: Vec::new(),
+            early_return_allowed: true,
+            update: None,
         }
     }
 
@@ -63,7 +70,7 @@ impl Arguments {
             usize,
             *mut c_void,
             Option<LogMessage>,
-            *const c_void,
+            Option<IntermediateUpdate>,
         ) -> Handle;
         let pointer =
             |text: &Option<CString>| text.as_ref().map_or(ptr::null(), |text| text.as_ptr());
@@ -77,12 +84,12 @@ impl Arguments {
                 false,
                 self.logging_on,
                 self.event_mode_used,
-                true,
+                self.early_return_allowed,
                 self.intermediate.as_ptr(),
                 self.intermediate.len(),
                 ptr::from_ref(messages).cast_mut().cast(),
                 Some(listen),
-                ptr::null(),
+                self.update,
             )
         }
     }
@@ -120,12 +127,19 @@ impl Drop for Unit {
 
 impl Unit {
     pub fn of_scene(text: &str) -> Self {
+        Self::instantiated_with(text, |_| ())
+    }
+
+    /// An instance of a scene with other arguments than usual.
+    pub fn instantiated_with(text: &str, change: impl Fn(&mut Arguments)) -> Self {
         let folder = Folder::with_scene("unit", text);
         let messages = Box::<Messages>::default();
         let scene = scene::parse(text, "scene.toml").unwrap();
         let registry = Registry::of(&scene);
         let arrays = ArrayRegistry::of(&scene);
-        let handle = Arguments::good(&folder, &guid::guid(text, &registry)).instantiate(&messages);
+        let mut arguments = Arguments::good(&folder, &guid::guid(text, &registry));
+        change(&mut arguments);
+        let handle = arguments.instantiate(&messages);
         assert!(!handle.is_null(), "{:?}", messages.take());
         Self { handle, messages, registry, arrays, _folder: folder }
     }

@@ -2,6 +2,7 @@
 
 mod arrays;
 mod derivatives;
+mod early_return;
 mod exports;
 mod fuzz;
 mod instantiation;

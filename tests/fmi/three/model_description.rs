@@ -10,6 +10,25 @@ fn xml() -> String {
     model_description(&scene::parse(SCENE, "scene.toml").unwrap(), SCENE)
 }
 
+/// Modes of heat take any step in one; particles, of heat or of droplets, do not.
+#[test]
+fn only_units_whose_steps_can_be_too_long_may_return_early() {
+    let particles = SCENE.replacen("kind = \"solid\"", "kind = \"solid\"\nheat = \"sph\"", 1);
+    for (scene, early, updates) in
+        [(SCENE, false, false), (&particles, true, false), (crate::droplets::WALL, true, true)]
+    {
+        let parsed = scene::parse(scene, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
+        let xml = model_description(&parsed, scene);
+        for (flag, wanted) in [
+            ("mightReturnEarlyFromDoStep", early),
+            ("providesIntermediateUpdate", updates),
+            ("canReturnEarlyAfterIntermediateUpdate", updates),
+        ] {
+            assert!(xml.contains(&format!("{flag}=\"{wanted}\"")), "{flag}: {wanted}");
+        }
+    }
+}
+
 /// The elements of the root in the order of the schema.
 #[test]
 fn elements_stand_in_the_order_of_the_schema() {
