@@ -90,11 +90,10 @@ impl StencilMatrix {
         }
     }
 
-    /// `out = A x`; `x` holds `block[1]` values a node, `out` holds `block[0]`.
-    pub fn multiply(&self, x: &[f64], out: &mut [f64]) {
+    /// `out += A x`; `x` holds `block[1]` values a node, `out` holds `block[0]`.
+    pub fn add_product(&self, x: &[f64], out: &mut [f64]) {
         let [rows, columns] = self.block;
         for (node, result) in out.chunks_exact_mut(rows).enumerate() {
-            result.fill(0.0);
             self.for_each_block(node, |column, block| {
                 let x = &x[column * columns..][..columns];
                 for (r, row) in result.iter_mut().zip(block.chunks_exact(columns)) {
@@ -136,7 +135,7 @@ mod tests {
         let mut x = vec![0.0; 12];
         x[1 + 2 * (1 + 3)] = 2.0;
         let mut out = vec![0.0; 24];
-        matrix.multiply(&x, &mut out);
+        matrix.add_product(&x, &mut out);
         assert_eq!(out[1], 6.0);
         assert_eq!(out.iter().filter(|v| **v != 0.0).count(), 1);
     }

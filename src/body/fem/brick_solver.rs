@@ -43,12 +43,22 @@ impl BrickSolver {
         8.0 * (VECTORS + (order + 1) as f64) * unknowns as f64
     }
 
-    /// Replaces nodal forces by nodal displacements, x, y and z of each node together; how many iterations it took.
-    pub fn solve_in_place(&self, load: &mut [f64]) -> Result<usize, NotConverged> {
+    /// Replaces nodal forces, x, y and z of each node together, by the displacements under these and under
+    /// temperatures above that without stress [K], an empty list for none; how many iterations it took.
+    pub fn solve_in_place(
+        &self,
+        load: &mut [f64],
+        temperature: &[f64],
+    ) -> Result<usize, NotConverged> {
         let nodes = load.len() / 3;
-        let mut apart: Vec<f64> =
-            (0..3).flat_map(|c| load.iter().skip(c).step_by(3)).copied().collect();
         let team = Team::new(self.threads);
+        let mut apart = vec![0.0; load.len()];
+        if !temperature.is_empty() {
+            self.stiffness.thermal_forces(temperature, &mut apart, &team);
+        }
+        for (c, forces) in apart.chunks_exact_mut(nodes).enumerate() {
+            forces.iter_mut().zip(load.iter().skip(c).step_by(3)).for_each(|(sum, f)| *sum += f);
+        }
         self.stiffness.hold(&mut apart, &team);
         let (solution, iterations) = conjugate_gradients::solve(&(self, &team), &apart, TOLERANCE)?;
         for (node, displacement) in load.chunks_exact_mut(3).enumerate() {
@@ -95,13 +105,20 @@ mod tests {
         (0..count).map(|i| (1.7 * (i * i % 1009) as f64).sin()).collect()
     }
 
-    /// Forces by the matrices of single elements.
-    fn assembled(mesh: &Mesh, law: &Thermoelastic, x: &[f64]) -> Vec<f64> {
+    fn assert_close(found: &[f64], wanted: &[f64], order: usize) {
+        let largest = wanted.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        for (f, w) in found.iter().zip(wanted) {
+            assert!((f - w).abs() < 1e-13 * largest, "order {order}: {f}, not {w}");
+        }
+    }
+
+    /// Forces by the matrices of single elements, of displacements or of temperatures.
+    fn assembled(mesh: &Mesh, law: &Thermoelastic, x: &[f64], columns_of: usize) -> Vec<f64> {
         let [nx, ny, nz] = mesh.element_counts();
         let [columns, rows, _] = mesh.node_counts();
         let (order, nodes) = (mesh.order(), mesh.nodes());
         let n = order + 1;
-        let mut out = vec![0.0; x.len()];
+        let mut out = vec![0.0; 3 * nodes];
         for e in 0..nx * ny * nz {
             let element = [e % nx, e / nx % ny, e / (nx * ny)];
             let size = [0, 1, 2].map(|a| {
@@ -116,10 +133,14 @@ mod tests {
             };
             for a in 0..n * n * n {
                 for b in 0..n * n * n {
-                    let block = matrices.stiffness(a, b);
+                    let block: &[f64] = match columns_of {
+                        1 => matrices.thermal(a, b),
+                        _ => matrices.stiffness(a, b),
+                    };
                     for i in 0..3 {
-                        for j in 0..3 {
-                            out[i * nodes + node(a)] += block[3 * i + j] * x[j * nodes + node(b)];
+                        for j in 0..columns_of {
+                            let entry = block[columns_of * i + j];
+                            out[i * nodes + node(a)] += entry * x[j * nodes + node(b)];
                         }
                     }
                 }
@@ -137,12 +158,14 @@ mod tests {
             let x = wave(3 * mesh.nodes());
             let mut found = vec![7.0; x.len()];
             stiffness.apply(&x, &mut found, &Team::new(2));
-            let mut wanted = assembled(&mesh, &law, &x);
+            let mut wanted = assembled(&mesh, &law, &x, 3);
             stiffness.hold(&mut wanted, &Team::new(1));
-            let largest = wanted.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-            for (f, w) in found.iter().zip(&wanted) {
-                assert!((f - w).abs() < 1e-13 * largest, "order {order}: {f}, not {w}");
-            }
+            assert_close(&found, &wanted, order);
+            let heat = wave(mesh.nodes());
+            stiffness.thermal_forces(&heat, &mut found, &Team::new(2));
+            let mut wanted = assembled(&mesh, &law, &heat, 1);
+            stiffness.hold(&mut wanted, &Team::new(1));
+            assert_close(&found, &wanted, order);
         }
     }
 
@@ -163,7 +186,7 @@ mod tests {
             let solver = BrickSolver::new(&mesh, &law, clamped_below(&mesh), 2);
             let load = wave(3 * mesh.nodes());
             let mut solution = load.clone();
-            let iterations = solver.solve_in_place(&mut solution).unwrap();
+            let iterations = solver.solve_in_place(&mut solution, &[]).unwrap();
             let case = format!("order {order}, ν {poisson}, growth {growth}, {counts:?}");
             assert!(iterations <= most, "{case}: {iterations}");
             let apart = |list: &[f64]| -> Vec<f64> {
@@ -186,7 +209,7 @@ mod tests {
             let solved = |threads: usize| {
                 let solver = BrickSolver::new(&mesh, &law, clamped_below(&mesh), threads);
                 let mut load = wave(3 * mesh.nodes());
-                solver.solve_in_place(&mut load).unwrap();
+                solver.solve_in_place(&mut load, &[]).unwrap();
                 load
             };
             assert_eq!(solved(1), solved(3));

@@ -30,6 +30,8 @@ pub struct PolynomialModuli {
     pub lame: f64,
     /// µ_l of the shears xy, yz, xz [Pa].
     pub shear: [f64; 3],
+    /// Normal stress that holds back a degree of heating [Pa/K].
+    pub thermal: f64,
 }
 
 /// The two axes of a shear strain xy, yz, xz.
@@ -55,6 +57,9 @@ pub fn moduli(order: usize, law: &Thermoelastic) -> Vec<PolynomialModuli> {
             norm: degrees.iter().map(|&l| 1.0 / (2 * l + 1) as f64).product(),
             lame,
             shear: SHEARS.map(|pair| if relieved(pair) { 0.0 } else { shear }),
+            // Of linear bricks, those along axes whose strains are free are relieved.
+            thermal: law.expansion
+                * (2.0 * shear + lame * if linear { 3.0 - total as f64 } else { 3.0 }),
         }
     };
     (0..n * n * n).map(of).collect()
@@ -70,6 +75,13 @@ pub fn legendre(order: usize) -> [[f64; 3]; 3] {
             [1.0 / 3.0, -2.0 / 3.0, 1.0 / 3.0],
         ],
     }
+}
+
+/// What acts on the nodes: the stress of strains or of temperatures.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Cause {
+    Displacement,
+    Temperature,
 }
 
 /// The stiffness of a box. Vectors have all displacements along x, then along y, then along z, the x index of nodes
@@ -116,6 +128,18 @@ impl BrickStiffness {
 
     /// `out = K x`, zero where nothing is solved for.
     pub fn apply(&self, x: &[f64], out: &mut [f64], team: &Team) {
+        self.add_forces(Cause::Displacement, x, out, team);
+        self.hold(out, team);
+    }
+
+    /// Nodal forces of heated material that is held back, from temperatures above that without stress [K]; zero
+    /// where nothing is solved for.
+    pub fn thermal_forces(&self, temperature: &[f64], out: &mut [f64], team: &Team) {
+        self.add_forces(Cause::Temperature, temperature, out, team);
+        self.hold(out, team);
+    }
+
+    fn add_forces(&self, cause: Cause, x: &[f64], out: &mut [f64], team: &Team) {
         out.fill(0.0);
         let [columns, rows, _] = self.nodes();
         let plane = columns * rows;
@@ -125,11 +149,10 @@ impl BrickStiffness {
             team.for_pieces(&mut layers, |_, layers| {
                 let mut scratch = Scratch::new(self.order, columns, self.lengths[0].len());
                 for (layer, out) in layers {
-                    self.apply_layer(*layer, x, out, &mut scratch);
+                    self.add_layer(cause, *layer, x, out, &mut scratch);
                 }
             });
         }
-        self.hold(out, team);
     }
 
     /// The planes of nodes of every second layer of elements, of each component.
@@ -153,8 +176,9 @@ impl BrickStiffness {
         layers
     }
 
-    fn apply_layer(
+    fn add_layer(
         &self,
+        cause: Cause,
         layer: usize,
         x: &[f64],
         out: &mut [&mut [f64]; 3],
@@ -164,34 +188,55 @@ impl BrickStiffness {
         {
             if is_x86_feature_detected!("avx512f") {
                 // SAFETY: the processor has what the function asks for.
-                return unsafe { self.layer_avx512(layer, x, out, scratch) };
+                return unsafe { self.layer_avx512(cause, layer, x, out, scratch) };
             }
             if is_x86_feature_detected!("avx2") {
                 // SAFETY: the processor has what the function asks for.
-                return unsafe { self.layer_avx2(layer, x, out, scratch) };
+                return unsafe { self.layer_avx2(cause, layer, x, out, scratch) };
             }
         }
-        self.layer(layer, x, out, scratch);
+        self.layer(cause, layer, x, out, scratch);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f")]
-    fn layer_avx512(&self, n: usize, x: &[f64], out: &mut [&mut [f64]; 3], scratch: &mut Scratch) {
-        self.layer(n, x, out, scratch);
+    fn layer_avx512(
+        &self,
+        cause: Cause,
+        layer: usize,
+        x: &[f64],
+        out: &mut [&mut [f64]; 3],
+        scratch: &mut Scratch,
+    ) {
+        self.layer(cause, layer, x, out, scratch);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn layer_avx2(&self, n: usize, x: &[f64], out: &mut [&mut [f64]; 3], scratch: &mut Scratch) {
-        self.layer(n, x, out, scratch);
+    fn layer_avx2(
+        &self,
+        cause: Cause,
+        layer: usize,
+        x: &[f64],
+        out: &mut [&mut [f64]; 3],
+        scratch: &mut Scratch,
+    ) {
+        self.layer(cause, layer, x, out, scratch);
     }
 
     #[inline(always)]
-    fn layer(&self, layer: usize, x: &[f64], out: &mut [&mut [f64]; 3], scratch: &mut Scratch) {
+    fn layer(
+        &self,
+        cause: Cause,
+        layer: usize,
+        x: &[f64],
+        out: &mut [&mut [f64]; 3],
+        scratch: &mut Scratch,
+    ) {
         for row in 0..self.lengths[1].len() {
             match self.order {
-                1 => self.row::<2>([row, layer], x, out, scratch),
-                _ => self.row::<3>([row, layer], x, out, scratch),
+                1 => self.row::<2>(cause, [row, layer], x, out, scratch),
+                _ => self.row::<3>(cause, [row, layer], x, out, scratch),
             }
         }
     }
@@ -200,16 +245,18 @@ impl BrickStiffness {
     #[inline(always)]
     fn row<const N: usize>(
         &self,
+        cause: Cause,
         [row, layer]: [usize; 2],
         x: &[f64],
         out: &mut [&mut [f64]; 3],
         scratch: &mut Scratch,
     ) {
         let [columns, rows, _] = self.nodes();
-        let (component, plane) = (x.len() / 3, columns * rows);
+        let (component, plane) = (self.nodes().iter().product::<usize>(), columns * rows);
+        let components = x.len() / component;
         let matrix = legendre(N - 1);
         let Scratch { planes, coefficients, forces, strains, volumes } = scratch;
-        for (c, planes) in planes.chunks_exact_mut(N * N * columns).enumerate() {
+        for (c, planes) in planes.chunks_exact_mut(N * N * columns).enumerate().take(components) {
             planes.fill(0.0);
             for d in 0..N {
                 for b in 0..N {
@@ -228,9 +275,8 @@ impl BrickStiffness {
             }
         }
         let elements = self.lengths[0].len();
-        for (plane, coefficients) in
-            planes.chunks_exact(columns).zip(coefficients.chunks_exact_mut(N * elements))
-        {
+        let given = planes.chunks_exact(columns).take(components * N * N);
+        for (plane, coefficients) in given.zip(coefficients.chunks_exact_mut(N * elements)) {
             to_elements::<N>(plane, coefficients, &matrix);
         }
         let across = [self.lengths[1][row], self.lengths[2][layer]];
@@ -239,7 +285,14 @@ impl BrickStiffness {
         }
         forces.fill(0.0);
         for moduli in &self.moduli {
-            self.stresses::<N>(moduli, coefficients, across, strains, volumes);
+            match cause {
+                Cause::Displacement => {
+                    self.stresses::<N>(moduli, coefficients, across, strains, volumes);
+                }
+                Cause::Temperature => {
+                    thermal_stresses::<N>(moduli, coefficients, strains, volumes);
+                }
+            }
             deposit::<N>(moduli, forces, &self.lengths[0], across, strains);
         }
         for (plane, forces) in
@@ -333,6 +386,26 @@ impl Scratch {
             forces: zeros(3 * n * n * n, elements),
             strains: [(); 6].map(|()| zeros(1, elements)),
             volumes: zeros(1, elements),
+        }
+    }
+}
+
+/// Stresses times volume that hold back the expansion of one product of polynomials.
+#[inline(always)]
+fn thermal_stresses<const N: usize>(
+    moduli: &PolynomialModuli,
+    coefficients: &[f64],
+    stresses: &mut [Vec<f64>; 6],
+    volumes: &[f64],
+) {
+    let [x, y, z] = moduli.degrees;
+    let temperatures = &coefficients[(x + N * (y + N * z)) * volumes.len()..][..volumes.len()];
+    let weight = moduli.norm * moduli.thermal;
+    for (component, stresses) in stresses.iter_mut().enumerate() {
+        // It is the same in all directions, without shear.
+        let weight = if component < 3 { weight } else { 0.0 };
+        for ((stress, temperature), volume) in stresses.iter_mut().zip(temperatures).zip(volumes) {
+            *stress = weight * volume * temperature;
         }
     }
 }

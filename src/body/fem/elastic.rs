@@ -153,8 +153,10 @@ impl ElasticProblem {
 
     /// Makes the solver of the even class, so that the first step is no slower than the others.
     pub fn prepare(&self) -> Result<(), SolverError> {
-        self.thermal();
-        self.solver(0).map(|_| ())
+        if let Solver::Factor(_) = self.solver(0)? {
+            self.thermal();
+        }
+        Ok(())
     }
 
     /// Numbers that all solvers made so far keep.
@@ -180,9 +182,6 @@ impl ElasticProblem {
         let degrees = self.degrees();
         address_space::expect(SOLUTION * self.mesh.nodes())?;
         let mut load = vec![0.0; self.mesh.nodes() * degrees];
-        if !temperature.is_empty() {
-            self.thermal().multiply(temperature, &mut load);
-        }
         let plane = self.mesh.axes[0].len() * self.mesh.axes[1].len();
         for (lists, first) in forces.iter().zip([0, self.mesh.nodes() - plane]) {
             for (component, list) in lists.iter().enumerate() {
@@ -191,12 +190,19 @@ impl ElasticProblem {
                 }
             }
         }
-        if load.iter().all(|&v| v == 0.0) {
+        if temperature.iter().chain(&load).all(|&v| v == 0.0) {
             return Ok(Vec::new());
         }
         match self.solver(class)? {
-            Solver::Factor(factor) => factor.solve_in_place(&mut load),
-            Solver::Bricks(solver) => solver.solve_in_place(&mut load).map(|_| ())?,
+            Solver::Factor(factor) => {
+                if !temperature.is_empty() {
+                    self.thermal().add_product(temperature, &mut load);
+                }
+                factor.solve_in_place(&mut load);
+            }
+            Solver::Bricks(solver) => {
+                solver.solve_in_place(&mut load, temperature)?;
+            }
         }
         Ok(load)
     }
