@@ -1,18 +1,12 @@
 //! Surface tension of droplets: balances, and motions that it drives.
 
-#[path = "common/capillary.rs"]
-#[allow(dead_code)]
-mod capillary;
-#[allow(dead_code)]
-mod common;
-
 use std::f64::consts::PI;
 
-use capillary::{
+use crate::capillary::{
     DENSITY, RADIUS, SphericalCap, TENSION, core_pressure, elongation, elongations, fitted,
     found_half_width, half_width, normal_mode, on_wall, period, plan, stretched, viscosity,
 };
-use common::Trial;
+use crate::common::Trial;
 use impinge::body::sph::{DropletPlan, DropletSph};
 
 /// Samples in a period.
