@@ -29,10 +29,18 @@ examples: units $(VENV)/ready ## run every example
 
 test: rust-test python-test ## everything that is fast
 
+# All test programs but that of `make verify`.
+TESTS := $(filter-out verification,$(patsubst tests/%/main.rs,%,$(wildcard tests/*/main.rs))) \
+	$(basename $(notdir $(wildcard tests/*.rs build-fmu/tests/*.rs)))
+
+# Tests within the library compile it once more, for themselves: a lower level of optimisation does that in half the
+# time. All other tests run what is packed.
 rust-test:
 	cargo fmt --all --check
 	cargo clippy --release --workspace --all-targets -- -D warnings
-	cargo test --release --workspace
+	cargo test --release --workspace --bins $(TESTS:%=--test %)
+	cargo test --release --workspace --doc
+	cargo test --release --package impinge --lib --config profile.release.package.impinge.opt-level=1
 
 python-test: build $(VENV)/ready
 	$(BIN)/ruff check $(PY_FILES)

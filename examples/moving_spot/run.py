@@ -26,6 +26,7 @@ PEAK_FLUX, SPOT_RADIUS = 80e6, 200e-6  # W/m², m (1/e²)
 HALF_WIDTH = 0.5e-3  # m, of the path
 TEMPERATURE = plt.get_cmap("inferno", 20)  # steps of colour show isotherms, and pack well
 WIDTH = SPOT_RADIUS / sqrt(2)  # m (1/e)
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(120)
 
 
 def eight() -> tuple[np.ndarray, np.ndarray]:
@@ -57,11 +58,10 @@ def exact_rise(x, y, t: float):
     smooth: q₀W/(k√π) ∫ exp(−|x − p(t − τ)|² cos²φ / W²) dφ.
     """
     end = np.arctan(sqrt(4 * DIFFUSIVITY * t) / WIDTH)
-    nodes, weights = np.polynomial.legendre.leggauss(120)
-    angles = 0.5 * end * (nodes + 1)
+    angles = 0.5 * end * (NODES + 1)
     past_x, past_y = place(t - (WIDTH * np.tan(angles)) ** 2 / (4 * DIFFUSIVITY))
     square = (np.asarray(x)[..., None] - past_x) ** 2 + (np.asarray(y)[..., None] - past_y) ** 2
-    integral = np.exp(-square * (np.cos(angles) / WIDTH) ** 2) @ weights * 0.5 * end
+    integral = np.exp(-square * (np.cos(angles) / WIDTH) ** 2) @ WEIGHTS * 0.5 * end
     return PEAK_FLUX * WIDTH / (CONDUCTIVITY * sqrt(pi)) * integral
 
 
@@ -215,6 +215,10 @@ def animate(result: Result, folder: Path):
         circle.set_data(*circle_around(result.times[i]))
         plot.set_title(f"{result.times[i] * 1e3:.1f} ms", loc="left")
 
+    # All frames have the layout of the first.
+    show(0)
+    figure.canvas.draw()
+    figure.set_layout_engine("none")
     path = folder / f"{NAME}.gif"
     moving = FuncAnimation(figure, show, frames=len(result.times))
     moving.save(path, PillowWriter(fps=15), dpi=80)

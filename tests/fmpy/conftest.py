@@ -1,5 +1,8 @@
 """Builds the release programs once, and units from scenes on demand."""
 
+import fcntl
+import hashlib
+import os
 import re
 import subprocess
 from pathlib import Path
@@ -19,10 +22,18 @@ def programs():
 
 
 @pytest.fixture(scope="session")
-def pack(programs, tmp_path_factory):
+def units(tmp_path_factory):
+    """A folder that all processes of this test run share."""
+    own = tmp_path_factory.getbasetemp()
+    folder = (own.parent if "PYTEST_XDIST_WORKER" in os.environ else own) / "units"
+    folder.mkdir(exist_ok=True)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def pack(programs, units):
     """Makes a unit of a scene, given by the name of a small one or by its path, after some edits
     `{old: new}`, of version `fmi` of the standard; the same unit is made once."""
-    done = {}
 
     def pack(scene, edits=None, fmi=2):
         path = SCENES / f"{scene}.toml" if isinstance(scene, str) else scene
@@ -30,12 +41,18 @@ def pack(programs, tmp_path_factory):
         for old, new in (edits or {}).items():
             assert text.count(old) == 1, f"`{old}` stands {text.count(old)} times in {path}"
             text = text.replace(old, new)
-        if (text, fmi) not in done:
-            folder = tmp_path_factory.mktemp(re.sub(r"\W", "_", path.stem))
-            (folder / "scene.toml").write_text(text)
-            build(programs, folder / "scene.toml", folder / "unit.fmu", "--fmi", str(fmi))
-            done[text, fmi] = folder / "unit.fmu"
-        return done[text, fmi]
+        digest = hashlib.sha256(f"{fmi} {path} {text}".encode()).hexdigest()[:16]
+        name = re.sub(r"\W", "_", path.stem)
+        folder = units / f"{name}_{digest}"
+        folder.mkdir(exist_ok=True)
+        unit = folder / "unit.fmu"
+        # Another process may be making it; a unit that could not be made is not there.
+        with open(folder / "lock", "w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            if not unit.is_file():
+                (folder / "scene.toml").write_text(text)
+                build(programs, folder / "scene.toml", unit, "--fmi", str(fmi))
+        return unit
 
     return pack
 

@@ -1,10 +1,7 @@
 //! Stress on the axis of a disc and on free and loaded faces: what symmetry and the tractions say, and how
 //! fast the rest converges.
 
-#[allow(dead_code)]
-mod common;
-
-use common::Trial;
+use crate::common::Trial;
 
 fn disc(spacing: f64, order: usize, faces: &str, start: &str) -> String {
     let growth = 1.0 + 0.25 * spacing / 4e-5;

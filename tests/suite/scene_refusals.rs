@@ -6,11 +6,11 @@ use std::path::Path;
 use impinge::scene::{Carries, CellValues, FaceName, Grid, Place, Scene, parse, read};
 use serde::Deserialize;
 
-const PLATE: &str = include_str!("scenes/plate.toml");
-const DISC: &str = include_str!("scenes/disc.toml");
-const TILES: &str = include_str!("scenes/tiles.toml");
-const DROP: &str = include_str!("scenes/drop.toml");
-const IMPACT: &str = include_str!("scenes/impact.toml");
+const PLATE: &str = include_str!("../scenes/plate.toml");
+const DISC: &str = include_str!("../scenes/disc.toml");
+const TILES: &str = include_str!("../scenes/tiles.toml");
+const DROP: &str = include_str!("../scenes/drop.toml");
+const IMPACT: &str = include_str!("../scenes/impact.toml");
 const SCENES: [(&str, &str); 5] =
     [("plate", PLATE), ("disc", DISC), ("tiles", TILES), ("drop", DROP), ("impact", IMPACT)];
 
@@ -57,7 +57,7 @@ fn refused(text: &str) -> String {
 
 #[test]
 fn every_refusal_names_file_line_value_and_what_is_allowed() {
-    let table: Refusals = toml::from_str(include_str!("scenes/refusals.toml")).unwrap();
+    let table: Refusals = toml::from_str(include_str!("../scenes/refusals.toml")).unwrap();
     let mut wrong = Vec::new();
     for refusal in table.refused {
         let expected = format!("scene.toml:{}", refusal.says);

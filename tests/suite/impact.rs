@@ -1,11 +1,8 @@
 //! Droplets in scenes: what leaves the fluid arrives, and a step is a function of the state.
 
-#[allow(dead_code)]
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{Trial, off};
+use crate::common::{Trial, off};
 use impinge::model::{Cache, Model, ModelError};
 use impinge::scene;
 

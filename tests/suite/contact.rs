@@ -1,9 +1,6 @@
 //! Drops of many fluids on plates of many materials: temperatures of contact, and none beyond those at first.
 
-#[allow(dead_code)]
-mod common;
-
-use common::{Trial, off};
+use crate::common::{Trial, off};
 
 /// Density, specific heat, conductivity, surface tension, viscosity in SI units.
 const FLUIDS: [(&str, [f64; 5]); 8] = [

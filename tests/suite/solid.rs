@@ -1,9 +1,6 @@
 //! What a solid must do whatever the mesh: patch tests, balances, symmetry, no locking.
 
-#[allow(dead_code)]
-mod common;
-
-use common::{Trial, off};
+use crate::common::{Trial, off};
 use impinge::closed_form::{CircularPlate, DiscPressure, Elastic, SquarePlate};
 
 /// A box of soft numbers with the given mesh, faces and further tables.

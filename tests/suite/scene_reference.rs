@@ -5,9 +5,9 @@ use std::fs;
 
 use impinge::scene::parse;
 
-const PLATE: &str = include_str!("scenes/plate.toml");
-const DROP: &str = include_str!("scenes/drop.toml");
-const IMPACT: &str = include_str!("scenes/impact.toml");
+const PLATE: &str = include_str!("../scenes/plate.toml");
+const DROP: &str = include_str!("../scenes/drop.toml");
+const IMPACT: &str = include_str!("../scenes/impact.toml");
 
 /// A section, a scene with a place in it that takes the section's keys, what stands there, what
 /// stands there with a key that there is not, and keys that choose the section's type.

@@ -1,9 +1,6 @@
 //! What is physically impossible or beyond numbers is refused, in the run too, and changes nothing.
 
-#[allow(dead_code)]
-mod common;
-
-use common::Trial;
+use crate::common::Trial;
 use impinge::model::ModelError;
 
 fn plate(material: &str, faces: &str, rest: &str) -> String {

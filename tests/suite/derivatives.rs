@@ -1,11 +1,8 @@
 //! Inputs that change within a step, and how outputs change with inputs and in time.
 
-#[allow(dead_code)]
-mod common;
-
 use std::f64::consts::PI;
 
-use common::{Trial, off};
+use crate::common::{Trial, off};
 use impinge::closed_form::{Conductor, GaussianFlux};
 use impinge::model::start_rates;
 use impinge::scene;

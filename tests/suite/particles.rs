@@ -1,10 +1,7 @@
 //! What particles must do as the heat of a solid: balance, symmetry, threads, stress, places of
 //! outputs. Their accuracy is measured in `tests/verification/`.
 
-#[allow(dead_code)]
-mod common;
-
-use common::{Trial, off};
+use crate::common::{Trial, off};
 use impinge::closed_form::{Conductor, DiscFlux};
 
 /// A box or disc of soft numbers with the given mesh, settings, faces and further tables.

@@ -1,10 +1,6 @@
 //! The classical flows at coarse resolution; `tests/verification/flows.rs` refines them.
 
-#[allow(dead_code)]
-#[path = "common/classical_flows.rs"]
-mod classical_flows;
-
-use classical_flows::{Column, Flow, Poiseuille, Setup, TaylorGreen, tilted_lattice};
+use crate::classical_flows::{Column, Flow, Poiseuille, Setup, TaylorGreen, tilted_lattice};
 use impinge::body::sph::Extent;
 
 #[test]

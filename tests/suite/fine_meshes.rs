@@ -1,10 +1,7 @@
 //! Meshes are fine where heat enters, on every face and by every kind of condition: those that a scene
 //! asks for and those that are chosen.
 
-#[allow(dead_code)]
-mod common;
-
-use common::{Trial, off};
+use crate::common::{Trial, off};
 use impinge::closed_form::{
     Conductor, ConvectiveSlab, ConvectiveSurface, SuddenSurface, UniformFlux,
 };

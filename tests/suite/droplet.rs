@@ -276,9 +276,9 @@ fn fluid_below_absolute_zero_is_refused_and_changes_nothing() {
 }
 
 /// Heat that a resting block of water between insulated sides gives to a wall of constant temperature, over the closed form
-/// `2 k ΔT √(t/(π a))` of a half space.
+/// `2 k ΔT √(t/(π a))` of a half space. It is the same all over the wall, so a block of twelve particles' width does.
 fn contact_heat(spacing: f64) -> f64 {
-    let (width, height, time) = (4.8e-5, 2.4e-5, 40e-6);
+    let (width, height, time) = (12.0 * spacing, 2.4e-5, 40e-6);
     let mut plan = impact(DIAMETER / spacing);
     plan.fluid.sound_speed = 5.0;
     plan.fluid.viscosity = 1e-2;

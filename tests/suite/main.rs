@@ -1,0 +1,27 @@
+//! What the library and its program do, one subject a file: in one program, so that the tests of all files share the
+//! machine's cores. Tests that measure the process they run in have programs of their own beside this folder.
+
+#[path = "../common/capillary.rs"]
+mod capillary;
+#[path = "../common/classical_flows.rs"]
+mod classical_flows;
+#[path = "../common/mod.rs"]
+mod common;
+
+mod architecture;
+mod cli;
+mod contact;
+mod derivatives;
+mod droplet;
+mod fine_meshes;
+mod flows;
+mod impact;
+mod impossible;
+mod output;
+mod particles;
+mod plausibility;
+mod recovered_stress;
+mod scene_reference;
+mod scene_refusals;
+mod solid;
+mod tension;
