@@ -94,13 +94,16 @@ pub struct Packed {
     warnings: Vec<Warning>,
     registry: Registry,
     guid: String,
+    /// At the start of time.
+    state: State,
 }
 
 impl Packed {
     fn of((scene, warnings): (Scene, Vec<Warning>), text: &str) -> Self {
         let registry = Registry::of(&scene);
         let guid = guid::guid(text, &registry);
-        Self { scene, warnings, registry, guid }
+        let state = start_state(&scene);
+        Self { scene, warnings, registry, guid, state }
     }
 }
 
@@ -136,7 +139,7 @@ fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
 
 impl Unit {
     pub fn new(packed: Packed, log: Log) -> Self {
-        let Packed { scene, warnings, registry, guid } = packed;
+        let Packed { scene, warnings, registry, guid, state } = packed;
         Self {
             log,
             phase: Phase::Instantiated,
@@ -145,7 +148,7 @@ impl Unit {
             registry: Arc::new(registry),
             arrays: OnceCell::new(),
             guid,
-            state: start_state(&scene),
+            state,
             has_set_derivatives: false,
             packed: scene.clone(),
             scene,
@@ -274,7 +277,9 @@ impl Unit {
             return Err(Refusal::error(format!("step size {step:?} s is not positive and finite")));
         }
         let time = self.time();
-        let tolerance = STEP_TOLERANCE * step + TIME_TOLERANCE * time.abs();
+        // A step that is far too long may end early: what it asked for says nothing of how far it goes.
+        let usual = step.min(self.scene.step);
+        let tolerance = STEP_TOLERANCE * usual + TIME_TOLERANCE * time.abs();
         if !point.is_finite() || (point - time).abs() > tolerance {
             let message =
                 format!("communication point {point:?} s is not the unit's time {time:?} s");

@@ -24,6 +24,15 @@ pub struct NotConverged {
     pub tolerance: f64,
 }
 
+/// The power of two next to the largest entry; nothing if one is no number, or all are zero.
+fn scale_of(load: &[f64]) -> Option<f64> {
+    let largest = load.iter().fold(0.0_f64, |largest, value| match value.is_nan() {
+        true => f64::INFINITY,
+        false => largest.max(value.abs()),
+    });
+    (largest.is_finite() && largest > 0.0).then(|| largest.log2().floor().exp2())
+}
+
 /// Solves `A x = load` from zero until `√(rᵀ P r)`, P the preconditioner, is below a part of what it was at first;
 /// the solution and how many iterations it took.
 ///
@@ -34,16 +43,28 @@ pub fn solve(
     tolerance: f64,
 ) -> Result<(Vec<f64>, usize), NotConverged> {
     let mut solution = vec![0.0; load.len()];
-    let mut residual = load.to_vec();
+    let Some(scale) = scale_of(load) else {
+        // Not `all(0)` alone: a load that is no number has no solution.
+        return match load.iter().all(|value| *value == 0.0) {
+            true => Ok((solution, 0)),
+            false => Err(NotConverged { residual: f64::NAN, iterations: 0, tolerance }),
+        };
+    };
+    // Squares of very large and very small loads are beyond what numbers can be.
+    let mut residual: Vec<f64> = load.iter().map(|value| value / scale).collect();
     let mut direction = vec![0.0; load.len()];
     operator.precondition(&residual, &mut direction);
     let mut energy = dot(&residual, &direction);
     let wanted = tolerance * tolerance * energy;
     let (mut product, mut improved) = (vec![0.0; load.len()], vec![0.0; load.len()]);
     for iteration in 0..MOST_ITERATIONS {
-        // Not `energy > wanted`, by which a load that is no number would count as solved.
+        // Not `energy > wanted`, by which what is no number would count as solved.
         if energy <= wanted {
+            solution.iter_mut().for_each(|value| *value *= scale);
             return Ok((solution, iteration));
+        }
+        if !energy.is_finite() {
+            return Err(NotConverged { residual: f64::NAN, iterations: iteration, tolerance });
         }
         operator.apply(&direction, &mut product);
         let step = energy / dot(&direction, &product);
@@ -95,8 +116,22 @@ mod tests {
     }
 
     #[test]
+    fn solutions_are_in_proportion_to_loads_of_any_size() {
+        let (one, _) = solve(&Rod, &[1.0; 9], 1e-13).unwrap();
+        for size in [1e-300, 1e-160, 1e160, 1e300] {
+            let (solution, _) = solve(&Rod, &[size; 9], 1e-13).unwrap();
+            for (u, one) in solution.iter().zip(&one) {
+                assert!((u / one / size - 1.0).abs() < 1e-12, "{size}");
+            }
+        }
+    }
+
+    #[test]
     fn no_load_is_no_work_and_no_number_is_no_solution() {
         assert_eq!(solve(&Rod, &[0.0; 5], 1e-10).unwrap(), (vec![0.0; 5], 0));
-        assert!(solve(&Rod, &[0.0, f64::NAN, 1.0], 1e-10).is_err());
+        for odd in [f64::NAN, f64::INFINITY] {
+            let refused = solve(&Rod, &[0.0, odd, 1.0], 1e-10).unwrap_err();
+            assert_eq!(refused.iterations, 0);
+        }
     }
 }

@@ -5,7 +5,7 @@ use crate::body::fem::{
     Geometry, expected_entries, particle_cost, solver_memory, suits_conjugate_gradients,
 };
 use crate::math::chebyshev::products;
-use crate::scene::{Scene, Solid};
+use crate::scene::{CellValues, Scene, Solid};
 
 /// What a scene will cost, estimated before it is built.
 #[derive(Debug, Clone, PartialEq)]
@@ -78,7 +78,7 @@ pub(super) fn droplet_forecasts(scene: &Scene) -> impl Iterator<Item = DropletFo
 const SOLVE_RATE: f64 = 1.2e9;
 const FACTOR_RATE: f64 = 1.25e10;
 /// Unknowns of bricks that conjugate gradients solve for a second, on each thread.
-const BRICK_RATE: f64 = 3e5;
+const BRICK_RATE: f64 = 7e5;
 /// Products of particles' matrices: entries a second on one thread, and rows built a second.
 pub(super) const PRODUCT_RATE: f64 = 9e8;
 const ROW_RATE: f64 = 2.5e4;
@@ -96,7 +96,10 @@ fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
         Geometry::Box => 10.0 * n * n,
     };
     let solver = plan.law.as_ref().map_or(0.0, |law| solver_memory(&plan.mesh, law));
+    // Of bricks nothing is assembled.
+    let assembly = if by_bricks { 3e-7 } else { 2e-5 };
     let iterations = if by_bricks { n / BRICK_RATE } else { 0.0 };
+    let classes = loaded_classes(scene, name, plan.mesh.mirrored);
     let spacing = plan.mesh.axes.each_ref().map(|axis| {
         let steps = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
         steps.fold([f64::INFINITY, 0.0], |[low, high], step| [low.min(step), high.max(step)])
@@ -122,13 +125,27 @@ fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
         spacing,
         order: plan.mesh.order(),
         particles,
-        memory: solver + 8.0 * (20.0 * unknowns[0] as f64 + modes) + 12.0 * links,
-        build_time: operations / (FACTOR_RATE * threads) + 2e-5 * n + rows / ROW_RATE,
-        step_time: entries / SOLVE_RATE
-            + iterations / threads
-            + 5e-7 * n
+        memory: classes * solver + 8.0 * (20.0 * unknowns[0] as f64 + modes) + 12.0 * links,
+        build_time: classes * operations / (FACTOR_RATE * threads) + assembly * n + rows / ROW_RATE,
+        step_time: classes * (entries / SOLVE_RATE + iterations / threads + 5e-7 * n)
             + 1e-7 * unknowns[0] as f64
             + passes * links / PRODUCT_RATE,
         notes: plan.notes,
     }
+}
+
+/// How many symmetry classes the loads have a part in at the start: each has a solver of its own.
+fn loaded_classes(scene: &Scene, name: &str, mirrored: [bool; 2]) -> f64 {
+    let odd = |axis: usize| {
+        scene.loads_on(name).any(|load| {
+            let start = &load.start;
+            let place = [start.x, start.y][axis].unwrap_or(0.0);
+            let shear = [&start.shear_x, &start.shear_y][axis];
+            let values = [&start.heat_flux, &start.pressure, &start.shear_x, &start.shear_y];
+            let uneven = values.iter().any(|values| matches!(values, Some(CellValues::Tiles(_))));
+            place != 0.0 || shear.is_some() || uneven
+        })
+    };
+    let axes = [0, 1].into_iter().filter(|&axis| mirrored[axis] && odd(axis));
+    axes.fold(1.0, |count, _| 2.0 * count)
 }

@@ -64,10 +64,12 @@ impl Scene {
     /// Whether the mechanics of a body must be modelled: it is given out, or a load carries traction.
     pub fn needs_mechanics(&self, body: &str) -> bool {
         self.gives_mechanics(body)
-            || self.load.iter().any(|load| {
-                split_place(&load.on).is_some_and(|(on, _)| on == body)
-                    && load.carries.iter().any(Carries::is_mechanical)
-            })
+            || self.loads_on(body).any(|load| load.carries.iter().any(Carries::is_mechanical))
+    }
+
+    /// The loads on faces of a body.
+    pub fn loads_on(&self, body: &str) -> impl Iterator<Item = &Load> {
+        self.load.iter().filter(move |load| split_place(&load.on).is_some_and(|(on, _)| on == body))
     }
 
     /// Whether a probe or field gives stresses or displacements of a body.

@@ -225,6 +225,44 @@ fn coarser_meshes_than_the_layer_are_as_inaccurate_as_they_were_asked_to_be() {
     assert!(errors.is_sorted_by(|a, b| a > b), "{errors:?}");
 }
 
+/// A heated top over nodes that the scene sets too far apart below it.
+#[test]
+fn the_time_until_a_named_depth_is_resolved_is_told() {
+    for (name, density, specific_heat, conductivity) in MATERIALS {
+        let body = Conductor { conductivity, heat_capacity: density * specific_heat };
+        let resolved = 0.4 * 1e-10 / body.diffusivity();
+        let heated = |stop: f64, mesh: &str| {
+            let text = format!(
+                r#"
+name = "Depth"
+stop_time = {stop:e}
+step = {stop:e}
+[body.b]
+kind = "solid"
+shape = {BOX}
+material = {{ model = "thermoelastic", density = {density}, specific_heat = {specific_heat}, conductivity = {conductivity} }}
+initial_temperature = 300.0
+faces = {{ top = {{ flux = 1e4 }} }}
+{mesh}
+"#
+            );
+            let mut trial = Trial::new(&text);
+            trial.step(stop);
+            let rise = trial.get("b.max_temperature") - 300.0;
+            let notes = trial.model.notes().join("\n");
+            let told = notes.contains(&format!("is resolved after {resolved:.1e} s"));
+            (rise / UniformFlux { body, flux: 1e4 }.rise(0.0, stop), told)
+        };
+        let depth = "mesh = { depth_spacing = 1e-5 }";
+        let (early, told) = heated(0.05 * resolved, depth);
+        assert!(told && early < 0.8, "{name}: {early}");
+        let (early, told) = heated(0.05 * resolved, "");
+        assert!(!told && off(early, 1.0) < 1e-3, "{name}: {early}");
+        let (late, told) = heated(1.1 * resolved, depth);
+        assert!(!told && off(late, 1.0) < 0.05, "{name}: {late}");
+    }
+}
+
 #[test]
 fn a_long_experiment_read_early_is_right() {
     let text = |stop: f64| {

@@ -16,6 +16,8 @@ const NODES_PER_DIFFUSION_LENGTH: f64 = 5.0;
 const DEFAULT_GROWTH: f64 = 1.2;
 const LAYER_GROWTH: f64 = 1.4;
 const DEFAULT_ORDER: usize = 2;
+/// Time over h²/a after which nodes h apart below a heated face tell its temperature to a few per cent.
+const RESOLVED: f64 = 0.4;
 /// Fewest elements through the thickness.
 const THICKNESS_ELEMENTS: f64 = 6.0;
 /// Finest chosen distance of nodes over the thickness: coordinates still tell nodes apart.
@@ -52,6 +54,7 @@ impl<'a> Fineness<'a> {
         let layer = lateral.min(reach / NODES_PER_DIFFUSION_LENGTH).max(finest);
         let chosen = Self { solid, refinements, lateral, layer, order };
         notes.extend(chosen.notes(reach, shortest));
+        notes.extend(chosen.note_on_depth(constants.diffusivity(), shortest));
         notes.extend(chosen.note_on_edges(constants.diffusivity(), shortest));
         chosen
     }
@@ -68,6 +71,23 @@ impl<'a> Fineness<'a> {
                  within {:.1e} m of it are up to a third of the rise too high or too low (the finer \
                  `mesh.spacing`, the sooner)",
                 2.0 * self.lateral
+            )
+        })
+    }
+
+    /// What a distance of nodes that the scene names does below heated faces while heat has not come as far.
+    fn note_on_depth(&self, diffusivity: f64, shortest: f64) -> Option<String> {
+        let keys = self.keys();
+        let mut heated = self.solid.shape.faces().iter().filter(|face| self.is_heated(**face));
+        let of_face = |face: &FaceName| match face.normal().unwrap_or(0) {
+            2 => keys.depth_spacing.or(keys.spacing),
+            _ => keys.spacing,
+        };
+        let named = heated.by_ref().filter_map(of_face).fold(0.0, f64::max);
+        let resolved = RESOLVED * named.powi(2) / diffusivity;
+        (shortest < resolved).then(|| {
+            format!(
+                "heat through faces is resolved after {resolved:.1e} s, when it has gone further than the nodes are                  apart below them ({named:.1e} m); before, rises of heated surfaces are too low and heat of                  prescribed temperatures and of droplets too high, by several times at first (the finer                  `mesh.depth_spacing`, the sooner; a mesh without `spacing` is as fine as the step asks)"
             )
         })
     }
