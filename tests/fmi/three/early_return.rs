@@ -5,7 +5,7 @@ use std::ffi::c_void;
 
 use super::master::{Stepped, Unit};
 use crate::droplets::{PLATE, WALL};
-use crate::master::{DISCARD, OK};
+use crate::master::{DISCARD, ERROR, OK};
 
 /// A block whose heat particles conduct, so that the work of a step grows with its length.
 const BLOCK: &str = r#"
@@ -119,6 +119,20 @@ fn a_step_too_long_for_one_call_ends_early_where_it_may() {
     for name in ["centre.temperature", "block.heat_stored", "block.heat_in", "block.heat_lost"] {
         let [a, b] = [&unit, &once].map(|unit| unit.get(name)[0]);
         assert!((a - b).abs() <= 1e-9 * b.abs(), "{name}: {a} and {b}");
+    }
+}
+
+/// How much a step asks for says nothing of where it may begin.
+#[test]
+fn a_step_that_ends_early_begins_at_the_units_time() {
+    let unit = plain(BLOCK);
+    assert_eq!(unit.step(0.0, 0.1).0, OK);
+    let before = unit.snapshot();
+    for (point, step) in [(0.0, 1e9), (0.2, 1e9), (-0.5, 1e9), (0.1 + 1e-6, 1e6), (0.0, 1e300)] {
+        let (status, stepped) = unit.step(point, step);
+        assert_eq!((status, stepped.flags), (ERROR, [false; 3]), "{point} {step}");
+        unit.expect_message(ERROR, &["is not the unit's time"]);
+        assert_eq!(unit.snapshot(), before);
     }
 }
 
