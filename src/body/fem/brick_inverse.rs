@@ -1,10 +1,10 @@
 //! The preconditioner of a box: its stiffness without what couples different components of displacement.
 //!
-//! Each diagonal block is a sum of products of matrices of the three axes, nearly `(λ + 2µ) K ⊗ M ⊗ M + µ (M ⊗ K ⊗ M
-//! + M ⊗ M ⊗ K)`. The eigenvectors of K and M along x and y leave one banded system along z for each pair of them (after
-//! R. E. Lynch, J. R. Rice and D. H. Thomas 1964, doi 10.1007/BF01386067), so grading through the depth is met
-//! exactly. Enhanced strains and projected dilatations keep some parts of K and M from some moduli; of these, what
-//! stands on the diagonal between eigenvectors is taken along x and y, which is all on equal elements.
+//! Each diagonal block is a sum of products of matrices of the three axes, nearly `(λ + 2µ) K⊗M⊗M + µ (M⊗K⊗M + M⊗M⊗K)`.
+//! The eigenvectors of K and M along x and y leave one banded system along z for each pair of them (after R. E. Lynch,
+//! J. R. Rice and D. H. Thomas 1964, doi 10.1007/BF01386067), so grading through the depth is met exactly. Enhanced
+//! strains and projected dilatations keep some parts of K and M from some moduli; of these, what stands on the
+//! diagonal between eigenvectors is taken along x and y, which is all on equal elements.
 
 use std::ops::Range;
 
@@ -148,34 +148,29 @@ impl Columns {
             row
         };
         let mut factor = Self { inverse: Vec::new(), lower: vec![Vec::new(); reach] };
-        for node in free.clone() {
-            let n = node - free.start;
-            // `L_{n,n−j} D_{n−j}`, the farthest first.
-            let mut scaled: Vec<Vec<f64>> = vec![vec![0.0; modes]; reach + 1];
-            for j in (1..=reach.min(n)).rev() {
-                let mut row = entry(node, j);
-                for k in j + 1..=reach.min(n) {
-                    let lower = &factor.lower[k - j - 1][(n - j) * modes..][..modes];
-                    let terms = row.iter_mut().zip(&scaled[k]).zip(lower);
-                    terms.for_each(|((entry, s), l)| *entry -= s * l);
+        let Self { inverse, lower } = &mut factor;
+        for (n, node) in free.clone().enumerate() {
+            // `L_{n,n−j} D_{n−j}` for j = 1, 2 …, the farthest first.
+            let mut scaled: Vec<Vec<f64>> = (1..=reach.min(n)).map(|j| entry(node, j)).collect();
+            for j in (0..scaled.len()).rev() {
+                let (near, far) = scaled.split_at_mut(j + 1);
+                for (far, lower) in far.iter().zip(&*lower) {
+                    subtract_product(&mut near[j], far, &lower[(n - j - 1) * modes..]);
                 }
-                scaled[j] = row;
             }
             let mut main = entry(node, 0);
-            for j in 1..=reach {
-                let inverse: &[f64] = match j <= n {
-                    true => &factor.inverse[(n - j) * modes..][..modes],
-                    false => &[],
+            for (j, lower) in lower.iter_mut().enumerate() {
+                let Some(scaled) = scaled.get(j) else {
+                    lower.extend(vec![0.0; modes]);
+                    continue;
                 };
-                let lower: Vec<f64> = match j <= n {
-                    true => scaled[j].iter().zip(inverse).map(|(s, inverse)| s * inverse).collect(),
-                    false => vec![0.0; modes],
-                };
-                let terms = main.iter_mut().zip(&scaled[j]).zip(&lower);
-                terms.for_each(|((main, s), l)| *main -= s * l);
-                factor.lower[j - 1].extend(lower);
+                let before = &inverse[(n - j - 1) * modes..][..modes];
+                let row: Vec<f64> =
+                    scaled.iter().zip(before).map(|(s, inverse)| s * inverse).collect();
+                subtract_product(&mut main, scaled, &row);
+                lower.extend(row);
             }
-            factor.inverse.extend(main.iter().map(|d| d.recip()));
+            inverse.extend(main.iter().map(|d| d.recip()));
         }
         factor
     }
@@ -186,8 +181,7 @@ impl Columns {
         for n in 0..rows.len() {
             let (before, rest) = rows.split_at_mut(n);
             for (j, lower) in self.lower.iter().enumerate().take_while(|(j, _)| *j < n) {
-                let terms = rest[0].iter_mut().zip(&*before[n - j - 1]);
-                terms.zip(&lower[n * modes..]).for_each(|((x, y), l)| *x -= l * y);
+                subtract_product(rest[0], before[n - j - 1], &lower[n * modes..]);
             }
         }
         for n in (0..rows.len()).rev() {
@@ -195,12 +189,15 @@ impl Columns {
             let inverse = &self.inverse[n * modes..][..modes];
             rest[n].iter_mut().zip(inverse).for_each(|(x, inverse)| *x *= inverse);
             for (j, lower) in self.lower.iter().enumerate().take_while(|(j, _)| *j < after.len()) {
-                let terms = rest[n].iter_mut().zip(&*after[j]);
-                let lower = &lower[(n + j + 1) * modes..];
-                terms.zip(lower).for_each(|((x, y), l)| *x -= l * y);
+                subtract_product(rest[n], after[j], &lower[(n + j + 1) * modes..]);
             }
         }
     }
+}
+
+/// `target −= a b`, entry by entry.
+fn subtract_product(target: &mut [f64], a: &[f64], b: &[f64]) {
+    target.iter_mut().zip(a).zip(b).for_each(|((t, a), b)| *t -= a * b);
 }
 
 fn eigenvectors(axis: &Axis, free: &Range<usize>) -> Mat<f64> {

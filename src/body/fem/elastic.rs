@@ -42,8 +42,8 @@ pub struct ElasticProblem {
 
 /// How displacements of one symmetry class are found.
 enum Solver {
-    Factor(Factor),
-    Bricks(BrickSolver),
+    Factor(Box<Factor>),
+    Bricks(Box<BrickSolver>),
 }
 
 /// Factorised stiffness.
@@ -230,9 +230,10 @@ impl ElasticProblem {
         let suits = suits_conjugate_gradients(&self.mesh, &self.law);
         match self.free_nodes(parity).filter(|_| suits) {
             Some(free) => {
-                Ok(Solver::Bricks(BrickSolver::new(&self.mesh, &self.law, free, self.threads)))
+                let solver = BrickSolver::new(&self.mesh, &self.law, free, self.threads);
+                Ok(Solver::Bricks(Box::new(solver)))
             }
-            None => self.make_factor(parity).map(Solver::Factor),
+            None => self.make_factor(parity).map(|factor| Solver::Factor(Box::new(factor))),
         }
     }
 
