@@ -47,7 +47,7 @@ impl Flow {
             particles.velocity.push([u, 0.0, w]);
             particles.mass.push(here * spacing * spacing);
             particles.density.push(here);
-            particles.temperature.push(0.0);
+            particles.temperature.push(300.0);
         }
         let drop = DropletSph::new(setup.plan(), 1);
         let state = drop.state_of(&particles);
@@ -56,7 +56,7 @@ impl Flow {
 
     pub fn advance(&mut self, duration: f64) {
         let cells = self.drop.plan().wall.as_ref().map_or(0, |wall| wall.cells.len());
-        self.drop.advance(&mut self.state, &vec![0.0; cells], duration).unwrap();
+        self.drop.advance(&mut self.state, &vec![300.0; cells], duration).unwrap();
     }
 
     pub fn particles(&self) -> ParticleFields {

@@ -553,10 +553,10 @@ fn a_scene_beyond_the_memory_of_the_machine_is_refused_with_numbers() {
 #[test]
 fn a_limit_of_address_space_is_memory_that_is_not_there() {
     let place = Workplace::new();
-    let large = SCENE.replace("spacing = 2e-5", "spacing = 2e-6");
+    let large = SCENE.replace("spacing = 2e-5", "spacing = 5e-7");
     fs::write(place.path("scene.toml"), large).unwrap();
     let program = env!("CARGO_BIN_EXE_impinge");
-    let limited = format!("ulimit -v 1000000; exec {program} check scene.toml");
+    let limited = format!("ulimit -v 500000; exec {program} check scene.toml");
     let output =
         Command::new("sh").args(["-c", &limited]).current_dir(place.0.path()).output().unwrap();
     Called(output).fails(1, &["MB of address space", "RLIMIT_AS", "larger `mesh.spacing`"]);

@@ -10,6 +10,8 @@ use impinge::body::sph::{
 };
 use impinge::kernel::Kernel;
 
+/// About which temperatures vary by a degree [K].
+const MEAN: f64 = 300.0;
 const FLUID: Fluid = Fluid {
     density: 1000.0,
     viscosity: 3e-4,
@@ -42,7 +44,7 @@ fn plan(spacing: f64, extents: [Extent; 3], placement: Placement) -> DropletPlan
             centre: [0.0; 3],
             diameter: SIZE,
             velocity: [0.0; 3],
-            temperature: 0.0,
+            temperature: MEAN,
         }],
         wall: None,
     }
@@ -55,12 +57,12 @@ fn error_of_rate(
     square: f64,
     mode: impl Fn([f64; 3]) -> f64,
 ) -> f64 {
-    particles.temperature = particles.position.iter().map(|&x| mode(x)).collect();
+    particles.temperature = particles.position.iter().map(|&x| MEAN + mode(x)).collect();
     let drop = DropletSph::new(plan, 2);
     let mut state = drop.state_of(&particles);
     let amplitude = |particles: &ParticleFields| {
         let values = particles.position.iter().zip(&particles.temperature);
-        values.map(|(&x, t)| mode(x) * t).sum::<f64>()
+        values.map(|(&x, t)| mode(x) * (t - MEAN)).sum::<f64>()
             / particles.position.iter().map(|&x| mode(x).powi(2)).sum::<f64>()
     };
     let duration = 0.5 / (DIFFUSIVITY * square);
