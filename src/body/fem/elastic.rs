@@ -1,21 +1,22 @@
-//! Quasi-static thermo-elasticity on a structured mesh: one factorisation serves all time.
+//! Quasi-static thermo-elasticity on a structured mesh: what solves it serves all time.
 
 use std::ops::Range;
 use std::sync::OnceLock;
 
-use super::axis::{Axis, ShapeAt};
+use super::assembly::{Part, assemble, lower_triangle};
+use super::axis::ShapeAt;
 use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
 use super::brick_solver::BrickSolver;
 use super::dilatation::{DilatationProjection, POLYNOMIALS, evaluate};
-use super::hexahedron::HexahedronMatrices;
 use super::mesh::{Geometry, Mesh, MeshFace, Parity};
 use super::recovery::sampling_places;
+use super::solver_choice::{solver_memory, suits_conjugate_gradients};
 use crate::material::Thermoelastic;
 use crate::math::address_space::{self, PRODUCTS};
-use crate::math::cholesky::{LowerTriangle, SolverError, SparseCholesky};
+use crate::math::cholesky::{SolverError, SparseCholesky};
 use crate::math::nested_dissection::nested_dissection;
 use crate::math::parallel;
-use crate::math::stencil_matrix::{Reach, StencilMatrix};
+use crate::math::stencil_matrix::StencilMatrix;
 use crate::math::thread::{STACK, aside};
 
 /// Mechanical condition on an end of an axis; free where nothing is said.
@@ -53,60 +54,8 @@ struct Factor {
     cholesky: SparseCholesky,
 }
 
-/// Entries of the factor of a solid mesh per unknown^(4/3), and of a meridian section per
-/// unknown · log₂(unknowns), measured on the example scenes.
-const ENTRIES_3D: f64 = 21.0;
-const ENTRIES_2D: f64 = 3.1;
-
 /// What a solution and the stress from it take a node, at most [B].
 const SOLUTION: usize = 1 << 10;
-
-/// About how many entries the factor of so many unknowns has.
-pub fn expected_entries(geometry: Geometry, unknowns: usize) -> f64 {
-    let n = unknowns as f64;
-    match geometry {
-        _ if unknowns == 0 => 0.0,
-        Geometry::Axisymmetric => ENTRIES_2D * n * n.log2(),
-        Geometry::Box => ENTRIES_3D * n.powf(4.0 / 3.0),
-    }
-}
-
-/// Memory that it takes to factor so many unknowns, most of which the factor keeps [B].
-pub fn factor_memory(geometry: Geometry, unknowns: usize) -> f64 {
-    8.0 * (1.2 * expected_entries(geometry, unknowns) + 60.0 * unknowns as f64)
-}
-
-/// Unknowns of a box from which on conjugate gradients are faster than a factor, if no more than a stress or
-/// two is read.
-const MANY: usize = 20_000;
-/// Poisson's ratio up to which they need few iterations.
-const MOST_POISSON: f64 = 0.45;
-/// Ratio of lengths along x or y up to which linear bricks, whose enhanced strains the preconditioner knows on
-/// equal lengths only, need few.
-const MOST_GRADED: f64 = 50.0;
-
-/// Whether a body is one for conjugate gradients.
-pub fn suits_conjugate_gradients(mesh: &Mesh, law: &Thermoelastic) -> bool {
-    let is_even = |axis: &Axis| {
-        let lengths = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
-        let [least, most] =
-            lengths.fold([f64::INFINITY, 0.0_f64], |[l, m], h| [l.min(h), m.max(h)]);
-        most <= MOST_GRADED * least
-    };
-    mesh.geometry == Geometry::Box
-        && mesh.nodes().saturating_mul(3) >= MANY
-        && law.poisson <= MOST_POISSON
-        && (mesh.order() > 1 || mesh.axes[..2].iter().all(is_even))
-}
-
-/// Memory that the solver of one symmetry class takes [B].
-pub fn solver_memory(mesh: &Mesh, law: &Thermoelastic) -> f64 {
-    let unknowns = mesh.nodes().saturating_mul(degrees(mesh.geometry));
-    match suits_conjugate_gradients(mesh, law) {
-        true => BrickSolver::memory(mesh.order(), unknowns),
-        false => factor_memory(mesh.geometry, unknowns),
-    }
-}
 
 impl Factor {
     /// Replaces forces by displacements, zero where those are held.
@@ -148,7 +97,7 @@ impl ElasticProblem {
 
     /// Displacements a node: 3 in a box, 2 (r, z) in axisymmetry.
     pub fn degrees(&self) -> usize {
-        degrees(self.mesh.geometry)
+        self.mesh.geometry.degrees()
     }
 
     /// Makes the solver of the even class, so that the first step is no slower than the others.
@@ -481,133 +430,4 @@ fn value_at([x, y, z]: &[ShapeAt; 3], counts: [usize; 3], field: &[f64]) -> f64 
 /// Local coordinate of `x` in `[a, b]`.
 fn local([a, b]: [f64; 2], x: f64) -> f64 {
     (2.0 * x - a - b) / (b - a)
-}
-
-fn degrees(geometry: Geometry) -> usize {
-    match geometry {
-        Geometry::Box => 3,
-        Geometry::Axisymmetric => 2,
-    }
-}
-
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Part {
-    Stiffness,
-    Thermal,
-}
-
-fn assemble(
-    mesh: &Mesh,
-    law: &Thermoelastic,
-    block: [usize; 2],
-    part: Part,
-    threads: usize,
-) -> StencilMatrix {
-    let reach = mesh.axes.each_ref().map(|axis| match axis.elements() {
-        0 => Reach { first: vec![0], last: vec![0] },
-        n => Reach::of_elements(n, axis.order),
-    });
-    let mut matrix = StencilMatrix::zeros(reach, block);
-    match mesh.geometry {
-        Geometry::Box => assemble_box(mesh, law, part, threads, &mut matrix),
-        Geometry::Axisymmetric => assemble_rings(mesh, law, part, &mut matrix),
-    }
-    matrix
-}
-
-fn assemble_box(
-    mesh: &Mesh,
-    law: &Thermoelastic,
-    part: Part,
-    threads: usize,
-    matrix: &mut StencilMatrix,
-) {
-    let [nx, ny, nz] = mesh.element_counts();
-    let order = mesh.order();
-    let length = |axis: usize, e: usize| {
-        let [a, b] = mesh.axes[axis].bounds(e);
-        b - a
-    };
-    let n = order + 1;
-    for ez in 0..nz {
-        // A slab of element matrices at a time: computed in parallel, added in fixed order.
-        let slab = parallel::map(threads, nx * ny, |e| {
-            let size = [length(0, e % nx), length(1, e / nx), length(2, ez)];
-            HexahedronMatrices::new(order, size, law)
-        });
-        for (e, element) in slab.iter().enumerate() {
-            let node = |a: usize| {
-                [e % nx * order + a % n, e / nx * order + a / n % n, ez * order + a / (n * n)]
-            };
-            for a in 0..n * n * n {
-                for b in 0..n * n * n {
-                    let target = matrix.block_mut(node(a), node(b));
-                    match part {
-                        Part::Stiffness => add(target, element.stiffness(a, b)),
-                        Part::Thermal => add(target, element.thermal(a, b)),
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn assemble_rings(mesh: &Mesh, law: &Thermoelastic, part: Part, matrix: &mut StencilMatrix) {
-    let [radii, _, heights] = &mesh.axes;
-    let order = mesh.order();
-    let n = order + 1;
-    for ez in 0..heights.elements() {
-        for er in 0..radii.elements() {
-            let rectangle = Rectangle { r: radii.bounds(er), z: heights.bounds(ez) };
-            let element = QuadrilateralMatrices::new(order, rectangle, law);
-            let node = |a: usize| [er * order + a % n, 0, ez * order + a / n];
-            for a in 0..n * n {
-                for b in 0..n * n {
-                    let target = matrix.block_mut(node(a), node(b));
-                    match part {
-                        Part::Stiffness => {
-                            let k = &element.stiffness;
-                            let at = |i: usize, j: usize| k[(2 * a + i, 2 * b + j)];
-                            add(target, &[at(0, 0), at(0, 1), at(1, 0), at(1, 1)]);
-                        }
-                        Part::Thermal => {
-                            let t = &element.thermal;
-                            add(target, &[t[(2 * a, b)], t[(2 * a + 1, b)]]);
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-fn add(target: &mut [f64], values: &[f64]) {
-    for (t, v) in target.iter_mut().zip(values) {
-        *t += v;
-    }
-}
-
-/// The lower triangle of the free part of a symmetric stencil matrix; by symmetry the columns are
-/// read from the rows.
-fn lower_triangle(matrix: &StencilMatrix, degrees: usize, number: &[usize]) -> LowerTriangle {
-    let mut triangle = LowerTriangle { column_start: vec![0], ..Default::default() };
-    for node in 0..matrix.nodes() {
-        for c in 0..degrees {
-            let column = number[node * degrees + c];
-            if column == usize::MAX {
-                continue;
-            }
-            matrix.for_each_block(node, |other, block| {
-                for d in 0..degrees {
-                    let row = number[other * degrees + d];
-                    if row != usize::MAX && row >= column {
-                        triangle.rows.push(row);
-                        triangle.values.push(block[c * degrees + d]);
-                    }
-                }
-            });
-            triangle.column_start.push(triangle.rows.len());
-        }
-    }
-    triangle
 }

@@ -18,6 +18,16 @@ pub enum Geometry {
     Axisymmetric,
 }
 
+impl Geometry {
+    /// Displacements of a node: 3 in a box, 2 (r, z) in axisymmetry.
+    pub fn degrees(self) -> usize {
+        match self {
+            Geometry::Box => 3,
+            Geometry::Axisymmetric => 2,
+        }
+    }
+}
+
 /// An end of an axis of the mesh, where faces of the body lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MeshFace {

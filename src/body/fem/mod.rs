@@ -1,5 +1,6 @@
 //! A solid on a structured finite-element mesh.
 
+mod assembly;
 mod axis;
 mod axisymmetric;
 mod brick_inverse;
@@ -17,11 +18,12 @@ mod modes;
 mod plan;
 mod recovery;
 mod solid;
+mod solver_choice;
 
 pub use axis::{Axis, Weight};
 pub use conduction::particle_cost;
-pub use elastic::{expected_entries, solver_memory, suits_conjugate_gradients};
 pub use heat::HeatTotals;
 pub use mesh::{Geometry, Mesh, MeshFace, Parity};
 pub use plan::{Mechanics, Plan, Refinement};
 pub use solid::{Deformation, NodalFields, SolidFem, SolidLoads, Temperatures};
+pub use solver_choice::{expected_entries, solver_memory, suits_conjugate_gradients};

@@ -5,6 +5,7 @@ use super::elastic::Support;
 use super::fineness::Fineness;
 use super::heat::ThermalFace;
 use super::mesh::{Geometry, Mesh, MeshFace};
+use super::solver_choice::note_on_solver;
 use crate::material::{Constants, Material, Thermoelastic};
 use crate::scene::{Face, FaceName, Shape, Solid, SphOperator, SphSettings, Symmetry};
 
@@ -46,10 +47,10 @@ pub struct Refinement {
 pub enum Mechanics {
     /// No stress or displacement can be read.
     Absent,
-    /// They can be read but need not be, as of a plate under a droplet: stiffness is factored at the
-    /// first reading.
+    /// They can be read but need not be, as of a plate under a droplet: their solver is made at the first
+    /// reading.
     Offered,
-    /// A probe or field gives them: stiffness is factored when the model is built.
+    /// A probe or field gives them: their solver is made when the model is built.
     Wanted,
 }
 
@@ -61,7 +62,7 @@ impl Mechanics {
                  traction, or the material names no elastic constants",
             ),
             Self::Offered => Some(
-                "no probe or field gives stress or displacement: stiffness is factored when the \
+                "no probe or field gives stress or displacement: what solves for them is made when the \
                  body's highest stress is first read",
             ),
             Self::Wanted => None,
@@ -85,6 +86,7 @@ impl Plan {
         let fineness = Fineness::choose(solid, &constants, refinements, shortest, &mut notes);
         let mesh = build_mesh(&solid.shape, mirrored, &fineness);
         notes.extend(mechanics.note().map(str::to_owned));
+        notes.extend(law.as_ref().and_then(|law| note_on_solver(&mesh, law)));
         if let Some(settings) = solid.sph() {
             notes.push(particle_note(&settings, &mesh));
         }
@@ -108,7 +110,7 @@ impl Plan {
     /// Unknowns of heat and of displacement, symmetry used.
     pub fn unknowns(&self) -> [usize; 2] {
         let nodes = self.mesh.nodes();
-        let degrees = if self.mesh.geometry == Geometry::Box { 3 } else { 2 };
+        let degrees = self.mesh.geometry.degrees();
         [nodes, if self.law.is_some() { nodes.saturating_mul(degrees) } else { 0 }]
     }
 }

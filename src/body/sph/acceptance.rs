@@ -17,11 +17,12 @@ pub struct Released {
 /// Relative rounding of a sum of masses.
 const ROUNDING: f64 = 1e-9;
 
-/// Refuses what the loops over particles could not go on from, or no run leads to. `released` says what
-/// there is after so many releases.
+/// Refuses what the loops over particles could not go on from, or no run leads to. `coldest` tells the
+/// lowest temperature [K], `released` what there is after so many releases.
 pub fn check(
     state: &[f64],
     (plan, method, wall): (&DropletPlan, &Method, WallNumbers),
+    coldest: impl Fn(&Cloud) -> f64,
     released: impl Fn(usize) -> Released,
 ) -> Result<(), String> {
     let Some(count) = particles_in(state, wall) else {
@@ -38,6 +39,10 @@ pub fn check(
     }
     let cloud = cloud_of(state, wall, &Team::new(1));
     check_masses(&cloud, expected)?;
+    let coldest = coldest(&cloud);
+    if coldest <= 0.0 {
+        return Err(format!("a particle at {coldest} K, which is not above absolute zero"));
+    }
     let near_plane = method.images.ends().map(|ends| {
         let Ends::Planes { near, .. } = ends else { return false };
         near

@@ -1,0 +1,77 @@
+//! How displacements are found: by a factor of stiffness or by conjugate gradients, and what that takes.
+
+use super::axis::Axis;
+use super::brick_solver::BrickSolver;
+use super::mesh::{Geometry, Mesh};
+use crate::material::Thermoelastic;
+
+/// Entries of the factor of a solid mesh per unknown^(4/3), and of a meridian section per
+/// unknown · log₂(unknowns), measured on the example scenes.
+const ENTRIES_3D: f64 = 21.0;
+const ENTRIES_2D: f64 = 3.1;
+
+/// About how many entries the factor of so many unknowns has.
+pub fn expected_entries(geometry: Geometry, unknowns: usize) -> f64 {
+    let n = unknowns as f64;
+    match geometry {
+        _ if unknowns == 0 => 0.0,
+        Geometry::Axisymmetric => ENTRIES_2D * n * n.log2(),
+        Geometry::Box => ENTRIES_3D * n.powf(4.0 / 3.0),
+    }
+}
+
+/// Memory that it takes to factor so many unknowns, most of which the factor keeps [B].
+fn factor_memory(geometry: Geometry, unknowns: usize) -> f64 {
+    8.0 * (1.2 * expected_entries(geometry, unknowns) + 60.0 * unknowns as f64)
+}
+
+/// Unknowns of a box from which on conjugate gradients are taken: there a factor takes half a second more to make and a
+/// sixtieth less a reading, and both are slower from twice as many on.
+const MANY: usize = 20_000;
+/// Poisson's ratio up to which they need few iterations.
+const MOST_POISSON: f64 = 0.45;
+/// Ratio of lengths along x or y up to which linear bricks, whose enhanced strains the preconditioner knows on
+/// equal lengths only, need few.
+const MOST_GRADED: f64 = 50.0;
+
+/// Whether a body is one for conjugate gradients.
+pub fn suits_conjugate_gradients(mesh: &Mesh, law: &Thermoelastic) -> bool {
+    is_large_box(mesh) && reason_for_factor(mesh, law).is_none()
+}
+
+/// How the displacements of a large box are found, and why; nothing of other bodies, whose factors take little.
+pub fn note_on_solver(mesh: &Mesh, law: &Thermoelastic) -> Option<String> {
+    is_large_box(mesh).then(|| match reason_for_factor(mesh, law) {
+        None => "displacements follow from conjugate gradients: nothing is factored".into(),
+        Some(reason) => {
+            format!("stiffness is factored: conjugate gradients would take many iterations with {reason}")
+        }
+    })
+}
+
+fn is_large_box(mesh: &Mesh) -> bool {
+    mesh.geometry == Geometry::Box && mesh.nodes().saturating_mul(3) >= MANY
+}
+
+fn reason_for_factor(mesh: &Mesh, law: &Thermoelastic) -> Option<&'static str> {
+    let is_even = |axis: &Axis| {
+        let lengths = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
+        let [least, most] =
+            lengths.fold([f64::INFINITY, 0.0_f64], |[l, m], h| [l.min(h), m.max(h)]);
+        most <= MOST_GRADED * least
+    };
+    if law.poisson > MOST_POISSON {
+        return Some("a Poisson's ratio above 0.45");
+    }
+    let is_graded = mesh.order() == 1 && !mesh.axes[..2].iter().all(is_even);
+    is_graded.then_some("linear elements whose lengths along the surface differ more than 1:50")
+}
+
+/// Memory that the solver of one symmetry class takes [B].
+pub fn solver_memory(mesh: &Mesh, law: &Thermoelastic) -> f64 {
+    let unknowns = mesh.nodes().saturating_mul(mesh.geometry.degrees());
+    match suits_conjugate_gradients(mesh, law) {
+        true => BrickSolver::memory(mesh.order(), unknowns),
+        false => factor_memory(mesh.geometry, unknowns),
+    }
+}
