@@ -5,10 +5,10 @@
 
 use std::time::Instant;
 
-use impinge::body::sph::{
+use impinge::kernel::Kernel;
+use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release,
 };
-use impinge::kernel::Kernel;
 
 const SPACING: f64 = 1e-5;
 const SOUND: f64 = 100.0;

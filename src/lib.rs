@@ -19,7 +19,7 @@ pub mod scene;
 
 pub mod variables;
 
-pub mod body;
+pub mod method;
 
 pub mod coupling;
 

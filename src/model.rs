@@ -36,15 +36,15 @@ pub use start_rates::start_rates;
 pub use tangent::Tangent;
 pub use timeline::Timeline;
 
-pub use crate::body::fem::NodalFields;
-use crate::body::fem::{Geometry, Mechanics, Plan, Refinement, SolidFem};
-pub use crate::body::sph::ParticleFields;
-use crate::body::sph::{DropletSph, Failure};
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::address_space::TooLittle;
 use crate::math::allowance::{Allowance, Halt, Interrupt};
 use crate::math::cholesky::SolverError;
 use crate::math::thread::aside;
+pub use crate::method::fem::NodalFields;
+use crate::method::fem::{Geometry, Mechanics, Plan, Refinement, SolidFem};
+pub use crate::method::sph::ParticleFields;
+use crate::method::sph::{DropletSph, Failure};
 use crate::scene::{Carries, Droplet, FaceName, Footprint, Grid, Load, Scene, SceneError, Solid};
 use crate::variables::{BodyTotal, Component, InputLayout, Output, Registry, Slot};
 

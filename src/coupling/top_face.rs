@@ -2,10 +2,10 @@
 
 use faer::Mat;
 
-use crate::body::fem::{Axis, Geometry, Mesh, Temperatures};
-use crate::body::sph::WallCells;
 use crate::math::gauss::gauss_on;
 use crate::math::separable::{Side, transform};
+use crate::method::fem::{Axis, Geometry, Mesh, Temperatures};
+use crate::method::sph::WallCells;
 
 use super::symmetry::split_load;
 
@@ -165,7 +165,7 @@ fn consistent(axis: &Axis) -> Mat<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::fem::Weight;
+    use crate::method::fem::Weight;
 
     fn mesh(order: usize, mirrored: [bool; 2]) -> Mesh {
         let half = [0.0, 0.1, 0.3, 1.0];

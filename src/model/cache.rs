@@ -1,6 +1,6 @@
 use super::droplets::{Below, DropletCache};
 use super::{Model, ModelError, State};
-use crate::body::fem::{Deformation, SolidFem, SolidLoads, Temperatures};
+use crate::method::fem::{Deformation, SolidFem, SolidLoads, Temperatures};
 
 /// Values derived from one state, computed when first asked for. Clear it when the state changes;
 /// changed inputs are noticed.

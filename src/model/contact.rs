@@ -1,10 +1,10 @@
 //! A droplet on the top of a solid: what the one takes from the other, and how often.
 
 use super::loads::add;
-use crate::body::fem::{Geometry, Plan, Refinement, SolidFem, SolidLoads, Temperatures};
-use crate::body::sph::{Surface, SurfaceResponse, WallCells, WallExchange};
 use crate::coupling::TopFace;
 use crate::math::allowance::{Allowance, Halt};
+use crate::method::fem::{Geometry, Plan, Refinement, SolidFem, SolidLoads, Temperatures};
+use crate::method::sph::{Surface, SurfaceResponse, WallCells, WallExchange};
 use crate::scene::{Arrival, Coupling, Droplet};
 
 /// Least part of a squared element's length over which heat may diffuse along it between two exchanges.

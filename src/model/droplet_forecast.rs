@@ -3,9 +3,9 @@
 use super::contact::Contact;
 use super::forecast::PRODUCT_RATE;
 use super::{PARTICLES_WORTH_THREADS, droplets, plan, resolve_threads};
-use crate::body::fem::{Plan, particle_cost};
-use crate::body::sph::{DropletSph, Effort, Rhythm};
 use crate::math::chebyshev::products;
+use crate::method::fem::{Plan, particle_cost};
+use crate::method::sph::{DropletSph, Effort, Rhythm};
 use crate::scene::{Droplet, Scene};
 
 #[derive(Debug, Clone, PartialEq)]

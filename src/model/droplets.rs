@@ -4,11 +4,11 @@ use std::ops::Range;
 
 use super::ModelError;
 use super::contact::Contact;
-use crate::body::sph::{
+use crate::math::allowance::{Allowance, cost};
+use crate::method::sph::{
     self, Domain, DropletPlan, DropletSph, DropletTotals, Extent, Failure, ParticleFields, Release,
     Surface, WallCells, WallExchange,
 };
-use crate::math::allowance::{Allowance, cost};
 use crate::scene::{Droplet, Footprint, Governing, Scene, Wall};
 use crate::variables::{DropletTotal, InputLayout, WallOutput};
 

@@ -1,10 +1,10 @@
 //! What a scene will cost.
 
 use super::{DropletForecast, NODES_WORTH_THREADS, plan, resolve_threads};
-use crate::body::fem::{
+use crate::math::chebyshev::products;
+use crate::method::fem::{
     Geometry, expected_entries, particle_cost, solver_memory, suits_conjugate_gradients,
 };
-use crate::math::chebyshev::products;
 use crate::scene::{CellValues, Scene, Solid};
 
 /// What a scene will cost, estimated before it is built.

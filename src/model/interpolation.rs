@@ -1,8 +1,8 @@
 //! Steps under inputs that are polynomials in time.
 
 use super::{Model, ModelError, State};
-use crate::body::fem::SolidLoads;
 use crate::math::allowance::Allowance;
+use crate::method::fem::SolidLoads;
 
 /// Highest time derivative of inputs that a step takes into account.
 pub const HIGHEST_INPUT_DERIVATIVE: usize = 2;

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use super::ModelError;
-use crate::body::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
 use crate::coupling::{Pattern, Placement, split_load};
+use crate::method::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
 use crate::scene::{FaceName, Footprint, Load, Scene, Shape};
 use crate::variables::{FaceInputKind, InputLayout, LoadInputs};
 

@@ -2,8 +2,8 @@
 
 use super::droplets::Below;
 use super::{Cache, Model, ModelError, State};
-use crate::body::sph::WallExchange;
 use crate::math::allowance::{Allowance, PART_UPDATES};
+use crate::method::sph::WallExchange;
 
 impl Model {
     /// Into how many parts a step of `dt` [s] is cut for a host that wants to be told of it on its way. Solids

@@ -2,12 +2,12 @@
 
 use std::f64::consts::PI;
 
-use impinge::body::sph::{
+use impinge::closed_form::SwingingDrop;
+use impinge::kernel::Kernel;
+use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
     WallCells,
 };
-use impinge::closed_form::SwingingDrop;
-use impinge::kernel::Kernel;
 use nalgebra::{DMatrix, DVector};
 
 /// Water, radius 1 mm.

@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
-use impinge::body::sph::{
+use impinge::kernel::Kernel;
+use impinge::method::sph::{
     DropletPlan, DropletSph, DropletTotals, Extent, Fluid, ParticleFields, Placement, Precision,
     Wall, WallCells,
 };
-use impinge::kernel::Kernel;
 
 /// A model and its state.
 pub struct Flow {

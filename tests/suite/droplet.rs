@@ -2,11 +2,11 @@
 
 use std::f64::consts::PI;
 
-use impinge::body::sph::{
+use impinge::kernel::Kernel;
+use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
     WallCells,
 };
-use impinge::kernel::Kernel;
 
 const DIAMETER: f64 = 1e-4;
 const SPEED: f64 = 50.0;

@@ -1,7 +1,7 @@
 //! The classical flows at coarse resolution; `tests/verification/flows.rs` refines them.
 
 use crate::classical_flows::{Column, Flow, Poiseuille, Setup, TaylorGreen, tilted_lattice};
-use impinge::body::sph::Extent;
+use impinge::method::sph::Extent;
 
 #[test]
 fn flow_between_plates_becomes_a_parabola_and_drags_at_them() {

@@ -7,7 +7,7 @@ use crate::capillary::{
     found_half_width, half_width, normal_mode, on_wall, period, plan, stretched, viscosity,
 };
 use crate::common::Trial;
-use impinge::body::sph::{DropletPlan, DropletSph};
+use impinge::method::sph::{DropletPlan, DropletSph};
 
 /// Samples in a period.
 const SAMPLES: f64 = 100.0;

@@ -5,10 +5,10 @@
 use std::f64::consts::PI;
 
 use crate::study::Study;
-use impinge::body::sph::{
+use impinge::kernel::Kernel;
+use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release,
 };
-use impinge::kernel::Kernel;
 
 /// About which temperatures vary by a degree [K].
 const MEAN: f64 = 300.0;

@@ -5,12 +5,12 @@ use std::ops::Range;
 
 use crate::common::Trial;
 use crate::study::{Study, alumina, keep, probe, relative_norm};
-use impinge::body::sph::{
+use impinge::closed_form::{Conductor, Contact, SuddenSurface};
+use impinge::kernel::Kernel;
+use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
     WallCells,
 };
-use impinge::closed_form::{Conductor, Contact, SuddenSurface};
-use impinge::kernel::Kernel;
 
 /// The case of Park (2024), §2.4.6.
 const HOT: f64 = 373.15;

@@ -1,7 +1,7 @@
 //! Classical flows of the droplet engine: between plates (Park 2024, §2.4.5.2), Taylor–Green's
 //! vortices, water at rest, a rotating square, and the break of a dam.
 
-use impinge::body::sph::{Extent, ParticleFields, WallCells};
+use impinge::method::sph::{Extent, ParticleFields, WallCells};
 
 use crate::classical_flows::{Column, Flow, Poiseuille, Setup, TaylorGreen, lattice};
 use crate::common::Trial;

@@ -3,13 +3,13 @@
 
 use std::time::Instant;
 
-use impinge::body::particle_heat::operators::{Neighbour, Tensor, corrected, plain};
-use impinge::body::particle_heat::{
-    Condition, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
-};
 use impinge::closed_form::{Conductor, DiscFlux, HeatedSlab, SuddenSurface, UniformFlux};
 use impinge::kernel::Kernel;
 use impinge::math::allowance::Allowance;
+use impinge::method::particle_heat::operators::{Neighbour, Tensor, corrected, plain};
+use impinge::method::particle_heat::{
+    Condition, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
+};
 
 use crate::common::Trial;
 use crate::study::{

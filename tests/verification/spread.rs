@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use impinge::body::sph::{
+use impinge::kernel::Kernel;
+use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, Placement, Precision, Release, Wall, WallCells,
 };
-use impinge::kernel::Kernel;
 
 use crate::study::keep;
 

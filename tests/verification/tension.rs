@@ -7,7 +7,7 @@ use crate::capillary::{
     normal_mode, on_wall, period, plan, stretched, viscosity,
 };
 use crate::study::keep;
-use impinge::body::sph::{DropletPlan, Placement};
+use impinge::method::sph::{DropletPlan, Placement};
 
 /// Samples in a period.
 const SAMPLES: f64 = 100.0;

@@ -3,10 +3,10 @@
 use super::heat::{HeatLoads, HeatProblem, HeatTotals, ThermalFace};
 use super::mesh::{Geometry, Mesh};
 use super::plan::Plan;
-use crate::body::particle_heat::{
+use crate::math::allowance::{Allowance, Halt};
+use crate::method::particle_heat::{
     Condition, Cost, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
 };
-use crate::math::allowance::{Allowance, Halt};
 use crate::scene::{SphOperator, SphSettings};
 
 /// The temperature of a solid and how it advances.

@@ -1,7 +1,7 @@
 use super::*;
-use crate::body::particle_heat::Operator;
 use crate::closed_form::{Conductor, HeatedSlab, SuddenSurface};
 use crate::kernel::Kernel;
+use crate::method::particle_heat::Operator;
 
 const WATER: Conductor = Conductor { conductivity: 0.6, heat_capacity: 4e6 };
 

@@ -82,9 +82,9 @@ impl Operator for (&BrickSolver, &Team) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::fem::axis::{Axis, Weight};
-    use crate::body::fem::hexahedron::HexahedronMatrices;
-    use crate::body::fem::mesh::Geometry;
+    use crate::method::fem::axis::{Axis, Weight};
+    use crate::method::fem::hexahedron::HexahedronMatrices;
+    use crate::method::fem::mesh::Geometry;
 
     fn graded(order: usize, counts: [usize; 3], growth: f64) -> Mesh {
         let axes = counts.map(|count| {

@@ -200,7 +200,7 @@ fn rayleigh_quotient(axis: &Axis, ends: &[EndCondition; 2], shapes: &Mat<f64>, k
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::fem::axis::Weight;
+    use crate::method::fem::axis::Weight;
     use std::f64::consts::PI;
 
     fn line(elements: usize, order: usize) -> Axis {

@@ -207,7 +207,7 @@ impl BlockTree {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::sph::images::{Ends, Images};
+    use crate::method::sph::images::{Ends, Images};
 
     fn points(count: usize) -> Vec<[f64; 3]> {
         let number = |i: usize| (i as f64 * 0.754877666).fract();

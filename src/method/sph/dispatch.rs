@@ -71,9 +71,9 @@ mod tests {
     use std::cell::Cell;
 
     use super::Instructions;
-    use crate::body::sph::{DropletPlan, DropletSph, Extent, Fluid, Placement, Precision};
-    use crate::body::sph::{Release, Wall, WallCells};
     use crate::kernel::Kernel;
+    use crate::method::sph::{DropletPlan, DropletSph, Extent, Fluid, Placement, Precision};
+    use crate::method::sph::{Release, Wall, WallCells};
 
     thread_local! {
         /// What a test lets its thread use.

@@ -123,7 +123,7 @@ fn nearest(points: &[f64], x: f64, count: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::fem::axis::Weight;
+    use crate::method::fem::axis::Weight;
 
     #[test]
     fn quadratics_are_recovered_everywhere() {

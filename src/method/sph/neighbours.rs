@@ -411,8 +411,8 @@ fn select_avx512(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::sph::images::Ends;
-    use crate::body::sph::order::space_order;
+    use crate::method::sph::images::Ends;
+    use crate::method::sph::order::space_order;
 
     /// Two mirrors of which one is a wall; a wall, a lid and a period.
     fn models() -> [Images; 2] {

@@ -6,13 +6,13 @@
 use faer::Mat;
 
 use super::{Deformation, SolidFem, Temperatures, Weights, weighted};
-use crate::body::fem::elastic::{ElasticProblem, Strains, Support};
-use crate::body::fem::mesh::{Geometry, Mesh, MeshFace, Parity};
-use crate::body::fem::plan::Plan;
-use crate::body::fem::recovery::{Beyond, Recovery};
 use crate::material::Thermoelastic;
 use crate::material::stress::from_cylindrical;
 use crate::math::separable::{Side, transform};
+use crate::method::fem::elastic::{ElasticProblem, Strains, Support};
+use crate::method::fem::mesh::{Geometry, Mesh, MeshFace, Parity};
+use crate::method::fem::plan::Plan;
+use crate::method::fem::recovery::{Beyond, Recovery};
 
 /// Tractions on the nodes of the bottom and the top as the stresses zz, yz and xz (zz and rz) there, a list
 /// for each recovered quantity that is one; empty where they are zero.
