@@ -15,13 +15,19 @@ pub mod material;
 
 pub mod kernel;
 
+pub mod quantity;
+
 pub mod scene;
 
-pub mod variables;
+pub mod inputs;
 
 pub mod method;
 
 pub mod coupling;
+
+pub mod body;
+
+pub mod variables;
 
 pub mod model;
 

@@ -1,7 +1,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use impinge::model::ModelError;
+use impinge::model::{BodyError, ModelError};
 use impinge::output::OutputError;
 use impinge::scene::{Scene, SceneError};
 use impinge::variables::{Registry, Slot};
@@ -37,7 +37,7 @@ impl CliError {
     /// Says by name which input the model refuses.
     pub fn from_model(error: ModelError, scene: &Scene) -> Self {
         match error {
-            ModelError::Input { index, message } => {
+            ModelError::Body(BodyError::Input { index, message }) => {
                 Self::Input { name: input_name(scene, index), message }
             }
             other => Self::Model(other),

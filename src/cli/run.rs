@@ -196,8 +196,8 @@ impl Running<'_> {
             summary::balances(self.model, &self.state, &mut self.cache).map_err(named)?;
         let extremes =
             summary::extremes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
-        let overflows = self.model.overflows(&self.state);
-        let strays = self.model.strays(&self.state);
+        let overflows = self.model.warnings(&self.state);
+        let strays = self.model.closing_warnings(&self.state);
         let balances_off = balances.iter().filter_map(summary::Balance::warning);
         for warning in balances_off.chain(overflows).chain(strays) {
             super::complain("warning", &warning);

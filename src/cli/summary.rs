@@ -1,5 +1,6 @@
+use impinge::body::Reading;
 use impinge::model::{Cache, Model, ModelError, State};
-use impinge::variables::{BodyTotal, Output, Quantity, Registry, Slot};
+use impinge::variables::{Quantity, Registry, Slot};
 
 use super::table::table;
 use super::units::{engineering, kelvin};
@@ -59,15 +60,20 @@ pub fn balances(
     cache: &mut Cache,
 ) -> Result<Vec<Balance>, ModelError> {
     let mut list = Vec::new();
+    let registry = Registry::structured(model.scene());
     for (body, solid) in model.scene().solids() {
         let expected = if solid.sph().is_some() { BALANCED_BY_PARTICLES } else { BALANCED };
-        let mut heat =
-            |total| model.output(state, cache, &Output::Body { body: body.to_owned(), total });
+        let mut heat = |key: &str| {
+            let variable = registry.find(&format!("{body}.{key}"));
+            let variable = variable.map(|place| &registry.variables[place].slot);
+            let Some(Slot::Output(output)) = variable else { panic!("every solid has {key}") };
+            model.output(state, cache, output)
+        };
         list.push(Balance {
             body: body.to_owned(),
-            heat_in: heat(BodyTotal::HeatIn)?,
-            stored: heat(BodyTotal::HeatStored)?,
-            lost: heat(BodyTotal::HeatLost)?,
+            heat_in: heat("heat_in")?,
+            stored: heat("heat_stored")?,
+            lost: heat("heat_lost")?,
             expected,
         });
     }
@@ -90,12 +96,11 @@ pub fn extremes_table(
     for variable in Registry::of(model.scene()).variables {
         let Slot::Output(output) = &variable.slot else { continue };
         let Some(quantity) = variable.quantity else { continue };
-        let is_shown = match output {
-            Output::Body { .. } => matches!(quantity, Quantity::Temperature | Quantity::Stress),
-            Output::Droplet { .. } => true,
-            _ => false,
-        };
-        if is_shown {
+        let is_total = matches!(output.reading, Reading::Total(_));
+        let body = model.scene().body.keys().nth(output.body);
+        let is_shown = body.is_none_or(|name| model.scene().solid(name).is_none())
+            || matches!(quantity, Quantity::Temperature | Quantity::Stress);
+        if is_total && is_shown {
             let value = model.output(state, cache, output)?;
             let text = match quantity {
                 Quantity::Temperature => kelvin(value),

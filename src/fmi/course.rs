@@ -35,10 +35,7 @@ impl Course {
         loop {
             let advanced = self.go((model, &mut *cache), state, (point, length), &allowance);
             let Err(error) = advanced else { return Ok(()) };
-            let part = match &error {
-                ModelError::Halted { halt, .. } => halt.part_within(EARLY_UPDATES),
-                _ => None,
-            };
+            let part = error.halt().and_then(|halt| halt.part_within(EARLY_UPDATES));
             // Part by part this comes to what fits, as the work is not always in proportion.
             let shorter = part.map(|part| length * part.clamp(LEAST, 0.5));
             match shorter.filter(|&shorter| self.may_end(state) && point + shorter > point) {
@@ -103,7 +100,7 @@ impl Course {
 }
 
 fn is_too_long(error: &ModelError) -> bool {
-    matches!(error, ModelError::Halted { halt: Halt::TooLong { .. }, .. })
+    matches!(error.halt(), Some(Halt::TooLong { .. }))
 }
 
 #[cfg(test)]
@@ -142,7 +139,7 @@ fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivi
         let advance =
             course.advance((&model, &mut Cache::default()), &mut state, (0.0, 5e-4), &interrupt);
         drop(under_way);
-        assert!(matches!(advance, Err(ModelError::Halted { halt: Halt::Interrupted, .. })));
+        assert_eq!(advance.unwrap_err().halt(), Some(&Halt::Interrupted));
         assert_eq!(state, before);
     }
 }

@@ -18,7 +18,7 @@ use crate::machine::available_memory;
 use crate::math::address_space::{self, PRODUCTS, SPARE};
 use crate::math::allowance::{Halt, Interrupt};
 use crate::math::thread::{STACK, aside};
-use crate::model::{Cache, Model, ModelError, State, Tangent, initial_inputs};
+use crate::model::{BodyError, Cache, Model, ModelError, State, Tangent, initial_inputs};
 use crate::output::{FieldSeries, FolderLock, OutputError};
 use crate::scene::{self, Scene, Warning};
 use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
@@ -244,7 +244,7 @@ impl Unit {
             course.advance((&*run.model, &mut run.cache), state, (point, step), &interrupt);
         drop(stepping);
         if let Err(error) = stepped {
-            let is_cancelled = matches!(error, ModelError::Halted { halt: Halt::Interrupted, .. });
+            let is_cancelled = error.halt() == Some(&Halt::Interrupted);
             if let Some(past) = past {
                 state.derivatives = past;
             }
@@ -256,8 +256,8 @@ impl Unit {
         }
         run.tangent = None;
         run.checked &= !has_set;
-        let overflows = run.model.overflows(state);
-        self.warn_once(overflows);
+        let warnings = run.model.warnings(state);
+        self.warn_once(warnings);
         self.has_set_derivatives = false;
         Ok(self.write_fields())
     }
@@ -432,13 +432,18 @@ pub(super) fn expect_room(bytes: usize) -> Answer<()> {
 pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
     let message = error.to_string();
     let (status, index) = match error {
-        ModelError::Input { index, .. } => (Status::Error, Some(index)),
-        ModelError::Underway { index, .. } => (Status::Discard, Some(index)),
-        ModelError::Overflow { .. }
-        | ModelError::BelowAbsoluteZero { .. }
-        | ModelError::Droplet { .. }
-        | ModelError::NoRoom(_)
-        | ModelError::Halted { .. } => (Status::Discard, None),
+        ModelError::Body(error) => match error {
+            BodyError::Input { index, .. } => (Status::Error, Some(index)),
+            BodyError::Underway { index, .. } => (Status::Discard, Some(index)),
+            BodyError::Overflow { .. }
+            | BodyError::BelowAbsoluteZero { .. }
+            | BodyError::Droplet { .. }
+            | BodyError::NoRoom(_)
+            | BodyError::Halted { .. } => (Status::Discard, None),
+            BodyError::NotFinite(_) | BodyError::Solver(_) | BodyError::NoRate => {
+                (Status::Error, None)
+            }
+        },
         _ => (Status::Error, None),
     };
     let is_at_fault = |v: &&Variable| index.is_some_and(|index| v.slot == Slot::Input(index));

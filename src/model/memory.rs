@@ -83,10 +83,8 @@ pub(super) fn threads_that_fit(scene: &Scene) -> usize {
 impl Model {
     /// Refuses a step for which there is too little address space.
     pub(super) fn expect_room_to_step(&self, state: &State) -> Result<(), TooLittle> {
-        let droplets = match self.droplets.is_empty() {
-            true => 0,
-            false => STACK + SPARE + self.memory_of_droplets,
-        };
+        let deep = self.bodies.iter().any(|body| body.steps_are_deep());
+        let droplets = if deep { STACK + SPARE + self.memory_of_droplets } else { 0 };
         address_space::expect(droplets + self.room(state))
     }
 

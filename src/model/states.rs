@@ -29,25 +29,11 @@ impl Model {
         if !state.time.is_finite() || !numbers.all(|value| value.is_finite()) {
             return refuse("a number that is not finite".into());
         }
-        let bodies = self.bodies.len() + self.droplets.len();
-        if state.bodies.len() != bodies {
-            let (found, wanted) = (state.bodies.len(), bodies);
+        let (found, wanted) = (state.bodies.len(), self.bodies.len());
+        if found != wanted {
             return refuse(format!("unknowns of {found} bodies; the scene has {wanted}"));
         }
-        for (body, unknowns) in self.bodies.iter().zip(&state.bodies) {
-            if unknowns.len() != body.solid.state_len() {
-                return refuse(format!(
-                    "{} unknowns of {}; this body has {}",
-                    unknowns.len(),
-                    body.name,
-                    body.solid.state_len()
-                ));
-            }
-        }
-        for (body, unknowns) in self.droplets.iter().zip(&state.bodies[self.bodies.len()..]) {
-            let checked = body.droplet.check_state(unknowns);
-            checked.or_else(|error| refuse(format!("{}: {error}", body.name)))?;
-        }
-        Ok(())
+        let mut bodies = self.bodies.iter().zip(&state.bodies);
+        bodies.try_for_each(|(body, unknowns)| body.check_state(unknowns).or_else(refuse))
     }
 }

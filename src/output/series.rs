@@ -8,6 +8,7 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 
 use super::{OutputError, vtk};
+use crate::body::Fields;
 use crate::model::{Cache, Model, State};
 use crate::scene::Shape;
 
@@ -161,18 +162,14 @@ impl FieldSeries {
         cache: &mut Cache,
     ) -> Result<(), OutputError> {
         let path = self.directory.join(file_name(body, self.times.len()));
-        match body.1 {
-            Kind::Grid => {
-                let fields = model.nodal_fields(state, cache, &body.0)?;
-                replace(&path, |out| vtk::write_grid(out, state.time, &fields))
+        let time = state.time;
+        match model.fields(state, cache, &body.0)? {
+            Fields::Nodes(fields) if body.1 == Kind::Revolved => {
+                replace(&path, |out| vtk::write_revolved(out, time, &fields))
             }
-            Kind::Revolved => {
-                let fields = model.nodal_fields(state, cache, &body.0)?;
-                replace(&path, |out| vtk::write_revolved(out, state.time, &fields))
-            }
-            Kind::Particles => {
-                let fields = model.particle_fields(state, &body.0);
-                replace(&path, |out| vtk::write_particles(out, state.time, &fields))
+            Fields::Nodes(fields) => replace(&path, |out| vtk::write_grid(out, time, &fields)),
+            Fields::Particles(fields) => {
+                replace(&path, |out| vtk::write_particles(out, time, &fields))
             }
         }
     }

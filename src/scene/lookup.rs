@@ -48,9 +48,9 @@ impl Scene {
         self.coupling.iter().position(|coupling| coupling.from == droplet)
     }
 
-    /// The coupling that acts on a solid.
-    pub fn coupling_to(&self, solid: &str) -> Option<&Coupling> {
-        self.coupling.iter().find(|coupling| coupling.solid() == Some(solid))
+    /// The couplings that act on a solid.
+    pub fn couplings_to(&self, solid: &str) -> impl Iterator<Item = &Coupling> {
+        self.coupling.iter().filter(move |coupling| coupling.solid() == Some(solid))
     }
 
     /// Whether the mechanics of a body is modelled: it must be, or a droplet pushes on a body whose
@@ -58,7 +58,7 @@ impl Scene {
     pub fn asks_mechanics(&self, body: &str) -> bool {
         let is_elastic = || self.solid(body).is_some_and(Solid::is_elastic);
         self.needs_mechanics(body)
-            || self.coupling_to(body).is_some_and(|coupling| coupling.traction) && is_elastic()
+            || self.couplings_to(body).any(|coupling| coupling.traction) && is_elastic()
     }
 
     /// Whether the mechanics of a body must be modelled: it is given out, or a load carries traction.

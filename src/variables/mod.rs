@@ -3,16 +3,18 @@
 //! [`ArrayRegistry`] lists the same variables with each family `name[i,j]` as one array.
 
 mod arrays;
+mod dependencies;
 mod doubt;
-mod droplet;
-mod layout;
+mod droplet_constant;
+mod inputs;
+mod outputs;
 mod parameter;
-mod quantity;
+mod parameters;
 mod registry;
 
+pub use crate::inputs::InputLayout;
+pub use crate::quantity::{DisplayUnit, Quantity};
 pub use arrays::{ArrayRegistry, ArrayVariable, Content};
-pub use droplet::{DropletConstant, DropletTotal, WallOutput};
-pub use layout::{FaceInput, FaceInputKind, InputLayout, LoadInputs};
+pub use droplet_constant::DropletConstant;
 pub use parameter::{MaterialConstant, Parameter};
-pub use quantity::{DisplayUnit, Quantity};
-pub use registry::{BodyTotal, Causality, Component, Output, Registry, Slot, Value, Variable};
+pub use registry::{Causality, Output, Registry, Slot, Value, Variable};

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{Trial, off};
-use impinge::model::{Cache, Model, ModelError};
+use impinge::model::{BodyError, Cache, Model, ModelError};
 use impinge::scene;
 
 /// A coarse drop that falls at 20 m/s, with further keys.
@@ -99,14 +99,14 @@ fn what_lies_beyond_the_edge_is_counted_apart() {
         let [given, taken] = ["drop.heat", "plate.heat_in"].map(|name| trial.get(name));
         assert!(off(taken, given) < 1e-10, "{shape}: {taken} of {given} J");
         assert!(impulse > 0.0, "{shape}");
-        let said = trial.model.overflows(&trial.state);
+        let said = trial.model.warnings(&trial.state);
         assert!(said.len() == 1 && said[0].starts_with("drop: fluid lies beyond"), "{said:?}");
     }
     let wide = drop("") + &plate(BOX, "auto", 10.0, "");
     let mut trial = Trial::new(&wide);
     steps(&mut trial, 20, dt);
     assert_eq!(trial.get("drop.force_outside"), 0.0);
-    assert_eq!(trial.model.overflows(&trial.state), [""; 0]);
+    assert_eq!(trial.model.warnings(&trial.state), [""; 0]);
 }
 
 #[test]
@@ -365,13 +365,13 @@ fn a_step_that_fails_changes_nothing_and_says_where() {
     state.inputs.fill(1e300);
     let before = state.clone();
     let error = model.step(&mut state, &mut cache, 1e-6).unwrap_err();
-    assert!(matches!(error, ModelError::Droplet { .. }), "{error}");
+    assert!(matches!(error, ModelError::Body(BodyError::Droplet { .. })), "{error}");
     assert!(error.to_string().starts_with("drop: ") && error.to_string().contains("t = "));
     assert_eq!(state, before);
 
     state.inputs[2] = 0.0;
     let error = model.step(&mut state, &mut cache, 1e-6).unwrap_err();
-    assert!(matches!(error, ModelError::Input { index: 2, .. }), "{error}");
+    assert!(matches!(error, ModelError::Body(BodyError::Input { index: 2, .. })), "{error}");
 }
 
 /// Time steps fit into communication steps, so that these change how long they are, but little of what comes out.

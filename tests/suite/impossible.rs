@@ -1,7 +1,7 @@
 //! What is physically impossible or beyond numbers is refused, in the run too, and changes nothing.
 
 use crate::common::Trial;
-use impinge::model::ModelError;
+use impinge::model::{BodyError, ModelError};
 
 fn plate(material: &str, faces: &str, rest: &str) -> String {
     format!(
@@ -50,7 +50,7 @@ fn a_step_to_below_absolute_zero_is_refused_and_changes_nothing() {
         trial.set(input, -1e10);
         let error = trial.try_step(1e-4).unwrap_err();
         let text = error.to_string();
-        assert!(matches!(error, ModelError::BelowAbsoluteZero { .. }), "{text}");
+        assert!(matches!(error, ModelError::Body(BodyError::BelowAbsoluteZero { .. })), "{text}");
         assert!(text.contains("plate would cool to -") && text.contains("heat flux"), "{text}");
         trial.set(input, -1e7);
         assert_eq!(trial.state, before);
@@ -66,7 +66,7 @@ fn a_flux_that_turns_negative_within_a_step_is_noticed() {
     trial.set("spot.heat_flux", 1e6);
     trial.set_derivative("spot.heat_flux", 1, -1e14);
     let error = trial.try_step(1e-4).unwrap_err();
-    assert!(matches!(error, ModelError::BelowAbsoluteZero { .. }), "{error}");
+    assert!(matches!(error, ModelError::Body(BodyError::BelowAbsoluteZero { .. })), "{error}");
 }
 
 #[test]
@@ -100,7 +100,9 @@ fn outputs_beyond_numbers_are_errors_and_large_ones_are_right() {
                         usual[names.iter().position(|n| *n == name).unwrap()] / 1e6 * pressure;
                     assert!((value / wanted - 1.0).abs() < 1e-9, "{name}: {value:e}");
                 }
-                Err(error) => assert!(matches!(error, ModelError::NotFinite(_)), "{error}"),
+                Err(error) => {
+                    assert!(matches!(error, ModelError::Body(BodyError::NotFinite(_))), "{error}")
+                }
             }
         }
     }

@@ -39,7 +39,7 @@ fn caught(reviewer: &mut Reviewer, path: &Path, name: &str) {
         return;
     }
     let mut solids = scene.solids().map(|(solid, _)| solid);
-    if let Some(solid) = solids.find(|solid| scene.coupling_to(solid).is_none()) {
+    if let Some(solid) = solids.find(|solid| scene.couplings_to(solid).next().is_none()) {
         let message = format!(
             "the droplet falls through `{solid}`: nothing joins them; did you mean `[[coupling]]` with \
              from = \"{name}\", to = \"{solid}.top\"?"

@@ -1,8 +1,8 @@
 //! What droplets will cost.
 
-use super::contact::Contact;
-use super::forecast::PRODUCT_RATE;
-use super::{PARTICLES_WORTH_THREADS, droplets, plan, resolve_threads};
+use super::{is_large, notes, plan_of};
+use crate::body::solid::{PRODUCT_RATE, plan};
+use crate::body::{link, threads_for};
 use crate::math::chebyshev::products;
 use crate::method::fem::{Plan, particle_cost};
 use crate::method::sph::{DropletSph, Effort, Rhythm};
@@ -33,21 +33,19 @@ const EXCHANGE: f64 = 3.3e-7;
 
 impl DropletForecast {
     /// Estimates without building the droplet.
-    pub(super) fn of(scene: &Scene, name: &str, droplet: &Droplet) -> Self {
-        let sph = droplets::plan_of(droplet, None, None);
+    pub fn of(scene: &Scene, name: &str, droplet: &Droplet) -> Self {
+        let sph = plan_of(droplet, None, None);
         let (particles, time_step) = DropletSph::forecast(&sph);
-        let threads =
-            resolve_threads(scene.solver.threads, particles >= PARTICLES_WORTH_THREADS) as f64;
+        let threads = threads_for(scene.solver.threads, is_large(particles)) as f64;
         let contact = scene.coupling_from(name).and_then(|index| {
             let coupling = &scene.coupling[index];
             let solid = coupling.solid()?;
             let plan = plan(scene, solid, scene.solid(solid)?);
-            let contact = Contact::of(coupling, droplet, (0, &plan), Default::default(), time_step);
-            Some((contact, plan))
+            Some((link::interval(coupling, droplet, &plan), plan))
         });
-        let mut notes = droplets::notes(scene, name, droplet);
-        notes.extend(contact.as_ref().map(|(contact, _)| contact.note()));
-        let parts = contact.as_ref().map_or(1, |(contact, _)| contact.parts(scene.step));
+        let mut notes = notes(scene, name, droplet);
+        notes.extend(contact.as_ref().map(|&(interval, _)| link::note(interval)));
+        let parts = contact.as_ref().map_or(1, |&(interval, _)| link::parts(interval, scene.step));
         let exchange = scene.step / parts as f64;
         let has_wall = contact.is_some() || scene.wall_under(name).is_some();
         let effort = Effort::of(

@@ -84,6 +84,11 @@ impl Quantity {
         }
     }
 
+    /// Whether it is what a plane model has in each metre of depth.
+    pub fn is_per_depth(self) -> bool {
+        Self::ALL.into_iter().any(|other| other != self && other.per_depth() == self)
+    }
+
     /// Name of the FMI type.
     pub fn type_name(self) -> &'static str {
         match self {

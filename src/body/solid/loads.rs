@@ -2,16 +2,16 @@
 
 use std::ops::Range;
 
-use super::ModelError;
+use crate::body::BodyError;
 use crate::coupling::{Pattern, Placement, split_load};
+use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::method::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
 use crate::scene::{FaceName, Footprint, Load, Scene, Shape};
-use crate::variables::{FaceInputKind, InputLayout, LoadInputs};
 
 /// Which inputs act on a body, and where.
 pub struct BodyLoads {
-    /// Index of each load in the scene and the places of its inputs.
-    loads: Vec<(usize, LoadInputs)>,
+    /// Each load and the places of its inputs.
+    loads: Vec<(Load, LoadInputs)>,
     /// For each thermal face of the plan: its axis, and the inputs of the face there and of its
     /// image.
     faces: Vec<(usize, FaceValue, Option<FaceValue>)>,
@@ -33,10 +33,10 @@ impl BodyLoads {
         (body, shape): (&str, Shape),
         plan: &Plan,
     ) -> Self {
-        let loads = scene.load.iter().zip(&layout.loads).enumerate();
+        let loads = scene.load.iter().zip(&layout.loads);
         let loads = loads
-            .filter(|(_, (load, _))| load.body_and_face().0 == body)
-            .map(|(i, (_, inputs))| (i, inputs.clone()))
+            .filter(|(load, _)| load.body_and_face().0 == body)
+            .map(|(load, inputs)| (load.clone(), inputs.clone()))
             .collect();
         let value = |face: FaceName| {
             let own = |name| layout.faces.iter().find(|f| f.body == body && f.face == name);
@@ -55,18 +55,18 @@ impl BodyLoads {
     }
 
     /// Refuses inputs that make no sense for this body.
-    pub fn check(&self, scene: &Scene, inputs: &[f64]) -> Result<(), ModelError> {
+    pub fn check(&self, inputs: &[f64]) -> Result<(), BodyError> {
         for (_, face, image) in &self.faces {
             for value in [Some(face), image.as_ref()].into_iter().flatten() {
                 let given = inputs[value.index];
                 if value.kind != FaceInputKind::Flux && given <= 0.0 {
                     let message = format!("{given} K is not above absolute zero");
-                    return Err(ModelError::Input { index: value.index, message });
+                    return Err(BodyError::Input { index: value.index, message });
                 }
             }
         }
         for (load, places) in &self.loads {
-            self.check_place(&scene.load[*load], places, inputs)?;
+            self.check_place(load, places, inputs)?;
         }
         Ok(())
     }
@@ -86,21 +86,21 @@ impl BodyLoads {
     }
 
     /// What acts on the body under these inputs.
-    pub fn assemble(&self, scene: &Scene, inputs: &[f64], mesh: &Mesh) -> SolidLoads {
+    pub fn assemble(&self, inputs: &[f64], mesh: &Mesh) -> SolidLoads {
         let faces = self.face_values(inputs, self.initial_temperature, mesh);
-        self.sum(scene, mesh, faces, Asked::Value(inputs))
+        self.sum(mesh, faces, Asked::Value(inputs))
     }
 
     /// Rate of what [`assemble`](Self::assemble) gives when the inputs change at `rates`; exact, be
     /// it amounts or places of footprints that change.
-    pub fn change(&self, scene: &Scene, inputs: &[f64], rates: &[f64], mesh: &Mesh) -> SolidLoads {
+    pub fn change(&self, inputs: &[f64], rates: &[f64], mesh: &Mesh) -> SolidLoads {
         let faces = self.face_values(rates, 0.0, mesh);
-        self.sum(scene, mesh, faces, Asked::Change { inputs, rates })
+        self.sum(mesh, faces, Asked::Change { inputs, rates })
     }
 
     /// Over how many of its own sizes any footprint moves or grows in a time `dt` [s]; `path` holds
     /// the inputs and their time derivatives at the beginning.
-    pub fn travel(&self, scene: &Scene, path: &[Vec<f64>], dt: f64) -> f64 {
+    pub fn travel(&self, path: &[Vec<f64>], dt: f64) -> f64 {
         let way = |at: usize| {
             let mut weight = 1.0;
             let parts = path.iter().enumerate().skip(1).map(|(k, list)| {
@@ -109,8 +109,7 @@ impl BodyLoads {
             });
             parts.sum::<f64>()
         };
-        let travel = |(load, places): &(usize, LoadInputs)| {
-            let load = &scene.load[*load];
+        let travel = |(load, places): &(Load, LoadInputs)| {
             let moved = [places.x, places.y, places.radius].into_iter().flatten();
             let radius = placement(load, places, &path[0]).radius;
             let size = match load.footprint {
@@ -126,7 +125,7 @@ impl BodyLoads {
     }
 
     /// Adds the parts of all loads to the values of faces.
-    fn sum(&self, scene: &Scene, mesh: &Mesh, faces: Vec<Vec<f64>>, asked: Asked) -> SolidLoads {
+    fn sum(&self, mesh: &Mesh, faces: Vec<Vec<f64>>, asked: Asked) -> SolidLoads {
         let classes = mesh.parities().len();
         let components = if mesh.geometry == Geometry::Box { 3 } else { 2 };
         let mut out = SolidLoads {
@@ -135,7 +134,6 @@ impl BodyLoads {
             faces,
         };
         for (load, places) in &self.loads {
-            let load = &scene.load[*load];
             let top = usize::from(load.body_and_face().1 == FaceName::Top);
             for part in self.parts(load, places, asked, mesh) {
                 for (class, vector) in part.vectors.into_iter().enumerate() {
@@ -218,7 +216,7 @@ impl BodyLoads {
         load: &Load,
         places: &LoadInputs,
         inputs: &[f64],
-    ) -> Result<(), ModelError> {
+    ) -> Result<(), BodyError> {
         let named = [
             (places.x, load.range.x),
             (places.y, load.range.y),
@@ -235,7 +233,7 @@ impl BodyLoads {
                     "{} m is outside the range of {} (allowed: {low} to {high} m)",
                     inputs[index], load.name
                 );
-                return Err(ModelError::Input { index, message });
+                return Err(BodyError::Input { index, message });
             }
         }
         let place = placement(load, places, inputs);
@@ -243,7 +241,7 @@ impl BodyLoads {
             && place.radius <= 0.0
         {
             let message = format!("a radius of {} m; allowed: above zero", place.radius);
-            return Err(ModelError::Input { index, message });
+            return Err(BodyError::Input { index, message });
         }
         let half = match load.footprint {
             Footprint::Tiles { size, .. } => size.map(|s| s / 2.0),
@@ -264,7 +262,7 @@ impl BodyLoads {
                      (allowed: within ±{} m)",
                     load.name, half[axis], limits[axis]
                 );
-                return Err(ModelError::Input { index, message });
+                return Err(BodyError::Input { index, message });
             }
         }
         Ok(())

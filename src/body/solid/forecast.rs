@@ -1,30 +1,12 @@
-//! What a scene will cost.
+//! What a solid will cost.
 
-use super::{DropletForecast, NODES_WORTH_THREADS, plan, resolve_threads};
+use super::{is_large, plan};
+use crate::body::threads_for;
 use crate::math::chebyshev::products;
 use crate::method::fem::{
     Geometry, expected_entries, particle_cost, solver_memory, suits_conjugate_gradients,
 };
 use crate::scene::{CellValues, Scene, Solid};
-
-/// What a scene will cost, estimated before it is built.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Forecast {
-    /// Of the solids.
-    pub bodies: Vec<BodyForecast>,
-    pub droplets: Vec<DropletForecast>,
-    /// Communication steps of the default experiment.
-    pub steps: f64,
-}
-
-impl Forecast {
-    /// Time to build the model and to run the default experiment, all stresses read in every step [s].
-    pub fn run_time(&self) -> f64 {
-        let of_solid = |body: &BodyForecast| body.build_time + (self.steps + 1.0) * body.step_time;
-        let solids = self.bodies.iter().map(of_solid).sum::<f64>();
-        solids + self.droplets.iter().map(|body| body.run_time).sum::<f64>()
-    }
-}
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyForecast {
@@ -60,19 +42,6 @@ pub struct ParticleForecast {
     pub euler_steps: f64,
 }
 
-/// What a scene will cost, without building it.
-pub fn forecast(scene: &Scene) -> Forecast {
-    let solids = scene.solids().map(|(name, solid)| forecast_body(scene, name, solid));
-    let droplets = droplet_forecasts(scene);
-    let steps = (scene.stop_time / scene.step).ceil();
-    Forecast { bodies: solids.collect(), droplets: droplets.collect(), steps }
-}
-
-/// The same of its droplets alone.
-pub(super) fn droplet_forecasts(scene: &Scene) -> impl Iterator<Item = DropletForecast> {
-    scene.droplets().map(|(name, droplet)| DropletForecast::of(scene, name, droplet))
-}
-
 /// Rates of this kind of machine: entries a second when solving, operations a second when
 /// factoring, the latter on each thread.
 const SOLVE_RATE: f64 = 1.2e9;
@@ -80,10 +49,11 @@ const FACTOR_RATE: f64 = 1.25e10;
 /// Unknowns of bricks that conjugate gradients solve for a second, on each thread.
 const BRICK_RATE: f64 = 7e5;
 /// Products of particles' matrices: entries a second on one thread, and rows built a second.
-pub(super) const PRODUCT_RATE: f64 = 9e8;
+pub const PRODUCT_RATE: f64 = 9e8;
 const ROW_RATE: f64 = 2.5e4;
 
-fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
+/// Estimates without building the solid.
+pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
     let plan = plan(scene, name, solid);
     let unknowns = plan.unknowns();
     let n = unknowns[1] as f64;
@@ -104,8 +74,7 @@ fn forecast_body(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
         let steps = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
         steps.fold([f64::INFINITY, 0.0], |[low, high], step| [low.min(step), high.max(step)])
     });
-    let is_large = plan.mesh.nodes() >= NODES_WORTH_THREADS;
-    let threads = resolve_threads(scene.solver.threads, is_large) as f64;
+    let threads = threads_for(scene.solver.threads, is_large(&plan)) as f64;
     let cost = particle_cost(&plan);
     let particles = cost.map(|cost| {
         let (sub_steps, products) = products(cost.bound, scene.step);

@@ -1,0 +1,18 @@
+use std::any::Any;
+
+use crate::body::Memo;
+use crate::method::sph::{DropletTotals, WallExchange};
+
+/// What is read from a droplet's state, computed when first asked for.
+#[derive(Debug, Default)]
+pub struct DropletMemo {
+    pub totals: Option<DropletTotals>,
+    pub exchange: Option<WallExchange>,
+}
+
+impl DropletMemo {
+    pub fn of_mut(memo: &mut Memo) -> &mut Self {
+        let memo: &mut (dyn Any + Send + Sync) = memo.as_mut();
+        memo.downcast_mut().expect("a memo is that of the body that made it")
+    }
+}

@@ -1,0 +1,311 @@
+//! Droplets of smoothed particles, free or above a wall or another body.
+
+mod forecast;
+mod memo;
+mod notes;
+mod plan;
+mod reader;
+mod totals;
+mod wall;
+
+pub use forecast::DropletForecast;
+pub use notes::{notes, notes_on_walls};
+pub use plan::{plan_of, refinements};
+pub use totals::offered_totals;
+pub use wall::{WallQuantity, wall_quantities};
+
+use std::ops::Range;
+
+use super::{Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, link};
+use crate::inputs::InputLayout;
+use crate::math::allowance::{Allowance, cost};
+use crate::method::sph::{
+    Domain, DropletSph, Failure, ParticleFields, Surface, WallCells, WallExchange,
+};
+use crate::scene::{Droplet, Scene};
+use memo::DropletMemo;
+use plan::cells_of;
+use reader::DropletReader;
+
+/// Drops of a fluid and what lies below them.
+pub struct DropletBody {
+    name: String,
+    droplet: DropletSph,
+    below: Below,
+    /// Images at mirrors for each particle.
+    copies: f64,
+    rest: Rest,
+    notes: Vec<String>,
+    threads: usize,
+}
+
+/// The fluid before anything happens to it.
+struct Rest {
+    /// [kg/m³]
+    density: f64,
+    /// [K]
+    temperature: f64,
+}
+
+/// What a droplet exchanges heat and momentum with.
+enum Below {
+    Nothing,
+    Wall(Wall),
+    /// Another body; whether forces pass.
+    Body {
+        traction: bool,
+    },
+}
+
+/// A wall whose cells have their temperatures from inputs.
+struct Wall {
+    /// Places of the temperatures among the inputs.
+    inputs: Range<usize>,
+    /// Of each cell [m²].
+    areas: Vec<f64>,
+}
+
+/// Droplets with fewer particles than these are quicker on one thread.
+const PARTICLES_WORTH_THREADS: usize = 2_000;
+
+/// Whether more threads than one are worth it.
+pub fn is_large(particles: usize) -> bool {
+    particles >= PARTICLES_WORTH_THREADS
+}
+
+impl DropletBody {
+    /// `on` are the cells of a body below and how the droplet is linked with it.
+    pub fn new(
+        scene: &Scene,
+        layout: &InputLayout,
+        (name, droplet): (&str, &Droplet),
+        on: Option<(WallCells, &Link)>,
+        threads: impl Fn(bool) -> usize,
+    ) -> Self {
+        let wall = scene.wall_under(name).filter(|_| on.is_none());
+        let wall_cells = wall.and_then(|wall| cells_of(&scene.wall[wall].footprint));
+        let mut notes = notes(scene, name, droplet);
+        notes.extend(on.as_ref().map(|(_, link)| link::note(link.interval)));
+        let below = match (&on, wall) {
+            (Some((_, link)), _) => Below::Body { traction: link.traction },
+            (None, Some(wall)) => Below::Wall(Wall {
+                inputs: layout.walls[wall].clone(),
+                areas: wall_cells
+                    .as_ref()
+                    .map_or(Vec::new(), |cells| cells.areas(Domain::whole(droplet.dimension))),
+            }),
+            (None, None) => Below::Nothing,
+        };
+        let effusivity = wall.and_then(|wall| scene.wall[wall].effusivity);
+        let cells = on.map(|(cells, _)| cells).or(wall_cells);
+        let plan = plan_of(droplet, cells, effusivity);
+        let (particles, _) = DropletSph::forecast(&plan);
+        let threads = threads(is_large(particles));
+        Self {
+            name: name.to_owned(),
+            droplet: DropletSph::new(plan, threads),
+            below,
+            copies: droplet.mirrors().iter().map(|&m| if m { 2.0 } else { 1.0 }).product(),
+            rest: Rest { density: droplet.fluid.density, temperature: droplet.initial_temperature },
+            notes,
+            threads,
+        }
+    }
+
+    /// Advances above what lies below, or nothing; the rises of its cells by the heat given [K m²].
+    fn advance_here(
+        &self,
+        state: &mut Vec<f64>,
+        acts: &Acts,
+        allowance: &Allowance,
+    ) -> Result<Vec<f64>, Failure> {
+        let (droplet, dt) = (&self.droplet, acts.duration);
+        if let Some(surface) = acts.below {
+            return droplet.advance_above(state, surface, dt, allowance);
+        }
+        let temperatures = match &self.below {
+            Below::Wall(wall) => acts.path.at(0, 0.5 * dt)[wall.inputs.clone()].to_vec(),
+            Below::Nothing | Below::Body { .. } => Vec::new(),
+        };
+        droplet.advance_within(state, &temperatures, dt, allowance).map(|()| Vec::new())
+    }
+
+    fn error(&self, failure: Failure) -> BodyError {
+        match failure {
+            Failure::Halted(halt) => BodyError::Halted { body: self.name.clone(), halt },
+            failure => BodyError::Droplet { name: self.name.clone(), failure },
+        }
+    }
+
+    /// Time steps that `dt` [s] take at least, and the particles that there are at last.
+    fn expected_steps(&self, dt: f64) -> (f64, usize) {
+        let (particles, time_step) = DropletSph::forecast(self.droplet.plan());
+        // Fluid at rest takes longer steps than one that arrives.
+        (0.5 * dt / time_step, particles)
+    }
+
+    /// All particles, images at mirrors included.
+    fn particles(&self, state: &[f64]) -> ParticleFields {
+        let mut fields = self.droplet.particles(state);
+        let mirrors = self.droplet.plan().mirrors;
+        for axis in (0..2).filter(|&axis| mirrors[axis]) {
+            for i in 0..fields.mass.len() {
+                let image = |mut vector: [f64; 3]| {
+                    vector[axis] = -vector[axis];
+                    vector
+                };
+                fields.position.push(image(fields.position[i]));
+                fields.velocity.push(image(fields.velocity[i]));
+                for values in [
+                    &mut fields.mass,
+                    &mut fields.density,
+                    &mut fields.pressure,
+                    &mut fields.temperature,
+                ] {
+                    values.push(values[i]);
+                }
+            }
+        }
+        fields
+    }
+
+    /// Whether fluid touched what lies beyond the edge of the body below in the last exchange.
+    fn overflows(&self, state: &[f64]) -> bool {
+        let WallExchange { heat_outside, impulse_outside, .. } = self.droplet.exchange(state);
+        matches!(self.below, Below::Body { .. })
+            && (heat_outside != 0.0 || impulse_outside[2] != 0.0)
+    }
+}
+
+impl Body for DropletBody {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn initial_state(&self) -> Vec<f64> {
+        self.droplet.initial_state()
+    }
+
+    fn check_state(&self, state: &[f64]) -> Result<(), String> {
+        let checked = self.droplet.check_state(state);
+        checked.map_err(|error| format!("{}: {error}", self.name))
+    }
+
+    fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        let Below::Wall(wall) = &self.below else { return Ok(()) };
+        match wall.inputs.clone().find(|&index| inputs[index] <= 0.0) {
+            Some(index) => {
+                let message = format!("{} K is not above absolute zero", inputs[index]);
+                Err(BodyError::Input { index, message })
+            }
+            None => Ok(()),
+        }
+    }
+
+    fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
+        Box::new(DropletMemo::default())
+    }
+
+    fn forget_state(&self, memo: &mut Memo) {
+        *memo = Box::new(DropletMemo::default());
+    }
+
+    fn advance(
+        &self,
+        state: &mut Vec<f64>,
+        _: &Memo,
+        acts: &Acts,
+        allowance: &Allowance,
+    ) -> Result<Option<Given>, BodyError> {
+        let rises =
+            self.advance_here(state, acts, allowance).map_err(|failure| self.error(failure))?;
+        let surface = |surface: &Surface| {
+            let mut given = self.given(state)?;
+            given.falling = surface.falling_parts(&given.heat, &rises, acts.duration);
+            Some(given)
+        };
+        Ok(acts.below.and_then(surface))
+    }
+
+    fn foresee(&self, state: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError> {
+        let particles = self.droplet.particles_in(state);
+        let steps = if particles > 0 { self.expected_steps(dt).0 } else { 0.0 };
+        let foreseen = allowance.foresee(steps, "time steps of a droplet", particles);
+        foreseen.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
+    }
+
+    fn updates(&self, dt: f64) -> f64 {
+        let (steps, particles) = self.expected_steps(dt);
+        cost(steps, particles)
+    }
+
+    /// What another body got is told of the last exchange, however long the step.
+    fn join_steps(&self, before: &[f64], state: &mut [f64]) {
+        if !matches!(self.below, Below::Body { .. }) {
+            self.droplet.add_exchange(state, &self.droplet.exchange(before));
+        }
+    }
+
+    fn given(&self, state: &[f64]) -> Option<Given> {
+        let Below::Body { traction } = self.below else { return None };
+        let WallExchange { duration, heat, impulse, .. } = self.droplet.exchange(state);
+        Some(Given {
+            duration,
+            heat,
+            falling: Vec::new(),
+            impulse: if traction { impulse } else { Vec::new() },
+            symmetric: self.droplet.plan().mirrors,
+        })
+    }
+
+    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
+        let mut reader = DropletReader { body: self, state, memo: DropletMemo::of_mut(memo) };
+        Ok(match *reading {
+            Reading::Total(place) => totals::read(&mut reader, place),
+            Reading::Cell { quantity, cell } => {
+                let Below::Wall(wall) = &self.below else {
+                    panic!("cells are registered for what stands on a wall")
+                };
+                wall_quantities()[quantity].read(reader.exchange(), cell, &wall.areas)
+            }
+            Reading::Point { .. } => panic!("points are registered for solids"),
+        })
+    }
+
+    fn is_deep(&self, _: Option<&Memo>, _: &Reading) -> bool {
+        false
+    }
+
+    fn fields(&self, state: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
+        Ok(Fields::Particles(self.particles(state)))
+    }
+
+    fn notes(&self) -> Vec<String> {
+        self.notes.iter().map(|note| format!("{}: {note}", self.name)).collect()
+    }
+
+    fn warning(&self, state: &[f64]) -> Option<String> {
+        self.overflows(state).then(|| notes::on_overflow(&self.name))
+    }
+
+    fn closing_warning(&self, state: &[f64]) -> Option<String> {
+        let totals = self.droplet.totals(state);
+        let part = totals.stray_mass / totals.mass;
+        (part > MUCH_ASTRAY).then(|| notes::on_strays(&self.name, part))
+    }
+
+    fn factor_entries(&self) -> usize {
+        0
+    }
+
+    fn threads(&self) -> usize {
+        self.threads
+    }
+
+    fn steps_are_deep(&self) -> bool {
+        true
+    }
+}
+
+/// Part of the fluid that may come off without a word.
+const MUCH_ASTRAY: f64 = 0.05;

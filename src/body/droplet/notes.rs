@@ -1,0 +1,134 @@
+//! What a user should know of a droplet before it runs.
+
+use crate::scene::{Droplet, Governing, Scene, Wall};
+
+/// What was chosen or left out, and why: a sentence each.
+pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
+    let wall = scene.wall_under(name).map(|wall| &scene.wall[wall]);
+    let stands = wall.is_some() || scene.coupling_from(name).is_some();
+    let mut notes = vec![match droplet.mirrors() {
+        [true, true] => "a quarter of the drop is modelled: it mirrors itself in x = 0 and y = 0",
+        [true, false] => "half of the plane drop is modelled: it mirrors itself in x = 0",
+        _ => "the whole drop is modelled: nothing makes it mirror itself, or the scene asks for it",
+    }
+    .to_owned()];
+    notes.extend(note_on_sound(droplet));
+    notes.extend(stands.then(|| note_on_first_blow(droplet)));
+    if droplet.fluid.surface_tension == 0.0 {
+        notes.push("surface tension is left out: the scene names none".to_owned());
+    } else if !droplet.shifts() && droplet.shifting.is_none() {
+        notes.push("particles are not shifted: surface tension rules this drop".to_owned());
+    }
+    if droplet.fluid.surface_tension > 0.0 && stands {
+        notes.push(format!(
+            "contact angle {}°, which decides how far a slow drop spreads (`fluid.contact_angle` in rad; 90° \
+             where a scene names none)",
+            (10.0 * droplet.fluid.contact_angle.to_degrees()).round() / 10.0
+        ));
+    }
+    if droplet.fluid.conductivity == 0.0 {
+        notes.push("heat is left out: the fluid does not conduct any".to_owned());
+    } else {
+        notes.push(
+            "the fluid neither solidifies, melts nor evaporates, and its constants do not change with temperature"
+                .to_owned(),
+        );
+        notes.extend(wall.and_then(|wall| note_on_held_wall(wall, droplet)));
+    }
+    notes
+}
+
+/// What is to be known of a scene's walls by who couples them: a sentence each.
+pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
+    let note = |wall: &Wall| {
+        let droplet = scene.droplet(&wall.under)?;
+        note_on_held_wall(wall, droplet).filter(|_| droplet.fluid.conductivity > 0.0)
+    };
+    scene.wall.iter().filter_map(note).collect()
+}
+
+/// Time over D/U over which forces and pressures are means that hardly depend on sound and resolution.
+const WINDOW: f64 = 0.1;
+
+/// What the model's speed of sound does to the first blow, and what does not depend on it.
+fn note_on_first_blow(droplet: &Droplet) -> String {
+    let hammer = droplet.fluid.density * droplet.sound_speed() * droplet.impact_velocity;
+    let window = match droplet.impact_velocity {
+        speed if speed > 0.0 => format!(" = {:.1e} s", WINDOW * droplet.diameter / speed),
+        _ => String::new(),
+    };
+    format!(
+        "that speed of sound is artificial: the pressure of the first blow, ρcU = {hammer:.3e} Pa here, and \
+         `max_pressure` are in proportion to it; what follows after some D/c is not. `max_pressure` is the water \
+         hammer in a single particle: it grows as particles get smaller and converges to nothing. Forces \
+         converge as means over {WINDOW} D/U{window} and longer: differences of `impulse_z` over these times"
+    )
+}
+
+/// Part of the time Δx²/a, in which heat goes through a layer of particles, that steps of a master may take.
+const STEP_OF_MASTER: f64 = 0.1;
+
+/// What a wall does whose temperature is held, though a master may couple it.
+fn note_on_held_wall(wall: &Wall, droplet: &Droplet) -> Option<String> {
+    let fluid = &droplet.fluid;
+    let diffusivity = fluid.conductivity / (fluid.density * fluid.specific_heat);
+    let step = STEP_OF_MASTER * droplet.spacing.powi(2) / diffusivity;
+    wall.effusivity.is_none().then(|| {
+        format!(
+            "`{}` names no `effusivity`: its heat flux just after contact is that of a wall held at its \
+             temperature; a master that couples it with the unit of a plate has to name the plate's √(kρc), or to \
+             take steps of 0.1 Δx²/a = {step:.1e} s or shorter",
+            wall.name
+        )
+    })
+}
+
+/// The speed of sound that was chosen, or what one that the scene asks for costs.
+fn note_on_sound(droplet: &Droplet) -> Option<String> {
+    let (sound, (governing, speed)) = (droplet.sound_speed(), droplet.governing_speed());
+    let ratio = sound / speed;
+    if droplet.fluid.sound_speed.is_none() {
+        let what = match governing {
+            Governing::Flow => "the fastest flow expected",
+            Governing::Surface => {
+                "the speed √(2σ/(ρΔx)) that surface tension gives single particles"
+            }
+            Governing::Viscosity => {
+                "the speed √(12µU/(ρD)) of the pressure that stops a viscous drop"
+            }
+        };
+        return Some(format!("speed of sound chosen: {sound:.4} m/s, ten times {what}"));
+    }
+    let compressed = 100.0 / (ratio * ratio);
+    (ratio < 10.0).then(|| match governing {
+        Governing::Surface => format!(
+            "the speed of sound is only {ratio:.2} times √(2σ/(ρΔx)): single particles may come loose from the \
+             surface, none at ten times"
+        ),
+        Governing::Flow => format!(
+            "the speed of sound is only {ratio:.2} times the fastest flow: the fluid is compressed by about \
+             {compressed:.1} %, by 1 % at ten times"
+        ),
+        Governing::Viscosity => format!(
+            "the speed of sound is only {ratio:.2} times √(12µU/(ρD)): where the drop is stopped, the fluid is \
+             compressed by about {compressed:.1} %, by 1 % at ten times"
+        ),
+    })
+}
+
+/// Of fluid beyond the edge of the body below.
+pub fn on_overflow(name: &str) -> String {
+    format!(
+        "{name}: fluid lies beyond the edge of the solid; it gives no heat there, and its force, which \
+         does not act on the solid, is counted apart as force_outside"
+    )
+}
+
+/// Of a part of the fluid that has come off.
+pub fn on_strays(name: &str, part: f64) -> String {
+    format!(
+        "{name}: {:.0} % of the fluid have come off in small lumps (stray_mass): films thinner than some two \
+         particles break up, those of a smaller `spacing` later",
+        100.0 * part
+    )
+}

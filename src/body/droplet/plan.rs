@@ -1,0 +1,73 @@
+//! From a droplet of a scene to what the engine builds.
+
+use crate::method::fem::Refinement;
+use crate::method::sph::{self, DropletPlan, Extent, Release, WallCells};
+use crate::scene::{Arrival, Coupling, Droplet, Footprint};
+
+/// What the engine builds a droplet from, above the cells of a wall or none.
+pub fn plan_of(
+    droplet: &Droplet,
+    cells: Option<WallCells>,
+    effusivity: Option<f64>,
+) -> DropletPlan {
+    let fluid = &droplet.fluid;
+    let releases = droplet.arrivals.iter().map(|arrival| Release {
+        time: arrival.time,
+        centre: [arrival.x, arrival.y, droplet.gap() + 0.5 * droplet.diameter],
+        diameter: droplet.diameter,
+        velocity: [0.0, 0.0, -droplet.impact_velocity],
+        temperature: droplet.initial_temperature,
+    });
+    DropletPlan {
+        dimension: droplet.dimension,
+        spacing: droplet.spacing,
+        support: droplet.support,
+        kernel: droplet.kernel,
+        fluid: sph::Fluid {
+            density: fluid.density,
+            viscosity: fluid.viscosity,
+            specific_heat: fluid.specific_heat,
+            conductivity: fluid.conductivity,
+            surface_tension: fluid.surface_tension,
+            sound_speed: droplet.sound_speed(),
+        },
+        placement: droplet.placement,
+        precision: droplet.precision,
+        density_diffusion: droplet.density_diffusion,
+        corrected_diffusion: droplet.corrected_diffusion,
+        shifting: droplet.shifts(),
+        gravity: [0.0, 0.0, -droplet.gravity],
+        mirrors: droplet.mirrors(),
+        extents: [Extent::Open; 3],
+        releases: releases.collect(),
+        wall: cells.map(|cells| sph::Wall {
+            cells,
+            contact_angle: fluid.contact_angle,
+            effusivity,
+        }),
+    }
+}
+
+/// The cells of a wall's footprint; scenes with other footprints are refused.
+pub fn cells_of(footprint: &Footprint) -> Option<WallCells> {
+    match *footprint {
+        Footprint::Rings { count, radius } => Some(WallCells::Rings { count, radius }),
+        Footprint::Tiles { count, size } => Some(WallCells::Tiles { count, size }),
+        Footprint::Disc { .. } | Footprint::Gaussian { .. } => None,
+    }
+}
+
+/// Where a droplet spreads: as far as it is expected to, but no faster than it arrives.
+pub fn refinements(coupling: &Coupling, droplet: &Droplet, stop_time: f64) -> Vec<Refinement> {
+    let at = |arrival: &Arrival| {
+        let time = (stop_time - arrival.time).max(0.0);
+        let soonest = 0.5 * droplet.diameter + droplet.fastest_flow() * time;
+        let expected = (0.5 * droplet.spread_diameter()).min(soonest);
+        let radius = coupling.radius.unwrap_or(expected);
+        let stretch = |centre: f64| [centre - radius, centre + radius];
+        let feature = 0.5 * droplet.diameter;
+        let [x, y] = [arrival.x, arrival.y].map(stretch);
+        Refinement { x, y, top: true, feature, heats: true }
+    };
+    droplet.arrivals.iter().map(at).collect()
+}

@@ -1,0 +1,229 @@
+//! What is read of a whole droplet.
+
+use super::reader::DropletReader;
+use crate::body::{Descriptor, Direct};
+use crate::method::sph::{DropletTotals, WallExchange};
+use crate::quantity::Quantity;
+use crate::scene::Scene;
+
+/// A scalar of a whole droplet, and how it is read.
+struct Total {
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    of: Offered,
+    read: Read,
+}
+
+/// Which droplets offer a total.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Offered {
+    All,
+    /// Those above a wall or a solid.
+    AboveAWall,
+    /// Those on a solid, which may run over its edge.
+    OnASolid,
+}
+
+enum Read {
+    /// From sums over the fluid.
+    Totals(fn(&DropletTotals) -> f64),
+    /// An amount of the last exchange, as a mean rate.
+    Rate(fn(&WallExchange) -> f64),
+    Reader(fn(&mut DropletReader) -> f64),
+}
+
+const TOTALS: [Total; 28] = [
+    of_all(
+        "height",
+        "height of the body of fluid above the wall, without strays",
+        Quantity::Length,
+        |totals| totals.height,
+    ),
+    of_all("kinetic_energy", "kinetic energy", Quantity::Energy, |totals| totals.kinetic_energy),
+    of_all(
+        "compression_energy",
+        "elastic energy of the weak compression",
+        Quantity::Energy,
+        |totals| totals.compression_energy,
+    ),
+    of_all(
+        "surface_energy",
+        "energy of free and wetted surface, against a dry wall",
+        Quantity::Energy,
+        |totals| totals.surface_energy,
+    ),
+    of_all("mass", "mass released so far", Quantity::Mass, |totals| totals.mass),
+    of_all("momentum_x", "momentum along x", Quantity::Momentum, |totals| totals.momentum[0]),
+    of_all("momentum_y", "momentum along y", Quantity::Momentum, |totals| totals.momentum[1]),
+    of_all("momentum_z", "momentum along z", Quantity::Momentum, |totals| totals.momentum[2]),
+    of_all(
+        "heat_stored",
+        "heat gained since the release, negative when cooled",
+        Quantity::Energy,
+        |totals| totals.heat - totals.heat_released,
+    ),
+    of_all(
+        "heat_drift",
+        "heat stored and given to the wall, together: zero but for rounding",
+        Quantity::Energy,
+        |totals| totals.heat - totals.heat_released + totals.heat_to_wall,
+    ),
+    of_all(
+        "max_pressure",
+        "highest pressure of a single particle, which rings and grows with resolution",
+        Quantity::Stress,
+        |totals| totals.max_pressure,
+    ),
+    of_all("max_speed", "highest speed of a particle", Quantity::Velocity, |totals| {
+        totals.max_speed
+    }),
+    of_reader("min_density", "lowest density of a particle", Quantity::Density, |reader| {
+        reader.totals().density_range[0] * reader.rest_density()
+    }),
+    of_reader("max_density", "highest density of a particle", Quantity::Density, |reader| {
+        reader.totals().density_range[1] * reader.rest_density()
+    }),
+    of_all(
+        "min_temperature",
+        "lowest temperature of a particle",
+        Quantity::Temperature,
+        |totals| totals.temperature_range[0],
+    ),
+    of_all(
+        "max_temperature",
+        "highest temperature of a particle",
+        Quantity::Temperature,
+        |totals| totals.temperature_range[1],
+    ),
+    of_reader(
+        "particles",
+        "number of particles, images at mirrors included",
+        Quantity::Ratio,
+        |reader| reader.copies() * reader.totals().particles,
+    ),
+    of_all("steps", "time steps made inside the unit", Quantity::Ratio, |totals| totals.steps),
+    of_all(
+        "stray_mass",
+        "mass that has come off the body of fluid, in lumps below a tenth of a drop",
+        Quantity::Mass,
+        |totals| totals.stray_mass,
+    ),
+    of_reader(
+        "stray_particles",
+        "number of particles that have come off the body of fluid, images included",
+        Quantity::Ratio,
+        |reader| reader.copies() * reader.totals().stray_particles,
+    ),
+    above_a_wall(
+        "spread_diameter",
+        "diameter of the film on the wall, without holes and spray",
+        Quantity::Length,
+        Read::Totals(|totals| totals.spread_diameter),
+    ),
+    above_a_wall(
+        "heat",
+        "heat given to the wall since time zero",
+        Quantity::Energy,
+        Read::Totals(|totals| totals.heat_to_wall),
+    ),
+    above_a_wall(
+        "heat_flow",
+        "heat flow into the wall, mean over the last exchange",
+        Quantity::HeatFlow,
+        Read::Rate(|exchange| exchange.heat.iter().sum::<f64>() + exchange.heat_outside),
+    ),
+    above_a_wall(
+        "impulse_x",
+        "impulse along x given to the wall since time zero",
+        Quantity::Momentum,
+        Read::Totals(|totals| totals.impulse_to_wall[0]),
+    ),
+    above_a_wall(
+        "impulse_y",
+        "impulse along y given to the wall since time zero",
+        Quantity::Momentum,
+        Read::Totals(|totals| totals.impulse_to_wall[1]),
+    ),
+    above_a_wall(
+        "impulse_z",
+        "impulse along z given to the wall since time zero",
+        Quantity::Momentum,
+        Read::Totals(|totals| totals.impulse_to_wall[2]),
+    ),
+    above_a_wall(
+        "force",
+        "force into the wall, mean over the last exchange, which rings with the fluid's sound",
+        Quantity::Force,
+        Read::Rate(|exchange| {
+            let pushes = exchange.impulse.iter().map(|impulse| -impulse[2]);
+            pushes.sum::<f64>() - exchange.impulse_outside[2]
+        }),
+    ),
+    Total {
+        key: "force_outside",
+        words: "force beyond the edge of the solid, which does not act on it, mean over the last exchange",
+        quantity: Quantity::Force,
+        of: Offered::OnASolid,
+        read: Read::Rate(|exchange| -exchange.impulse_outside[2]),
+    },
+];
+
+const fn of_all(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: fn(&DropletTotals) -> f64,
+) -> Total {
+    Total { key, words, quantity, of: Offered::All, read: Read::Totals(read) }
+}
+
+const fn of_reader(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: fn(&mut DropletReader) -> f64,
+) -> Total {
+    Total { key, words, quantity, of: Offered::All, read: Read::Reader(read) }
+}
+
+const fn above_a_wall(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    read: Read,
+) -> Total {
+    Total { key, words, quantity, of: Offered::AboveAWall, read }
+}
+
+/// The totals that a droplet of a scene offers, each with its place in the table; those of a plane model are amounts
+/// per metre of depth. No input acts at once on what moves.
+pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
+    let coupled = scene.coupling_from(name).is_some();
+    let stands = coupled || scene.wall_under(name).is_some();
+    let is_plane = scene.droplet(name).is_some_and(|droplet| droplet.dimension == 2);
+    let is_offered = |total: &Total| match total.of {
+        Offered::All => true,
+        Offered::AboveAWall => stands,
+        Offered::OnASolid => coupled,
+    };
+    let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));
+    let described = totals.map(|(place, &Total { key, words, quantity, .. })| {
+        let quantity = if is_plane { quantity.per_depth() } else { quantity };
+        (place, Descriptor { key, words, quantity, direct: Direct::Nothing })
+    });
+    described.collect()
+}
+
+pub fn read(reader: &mut DropletReader, place: usize) -> f64 {
+    match TOTALS[place].read {
+        Read::Totals(of) => of(reader.totals()),
+        Read::Rate(of) => rate(of(reader.exchange()), reader.exchange()),
+        Read::Reader(of) => of(reader),
+    }
+}
+
+/// An amount of the last step as a mean rate; nothing before the first step.
+pub fn rate(amount: f64, exchange: &WallExchange) -> f64 {
+    if exchange.duration > 0.0 { amount / exchange.duration } else { 0.0 }
+}

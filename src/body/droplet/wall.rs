@@ -1,0 +1,109 @@
+//! What is read of the wall below a droplet.
+
+use super::totals::rate;
+use crate::body::{Descriptor, Direct};
+use crate::method::sph::WallExchange;
+use crate::quantity::Quantity;
+use crate::scene::{Footprint, Scene, Wall};
+
+/// A scalar of each cell of a wall, or of what lies beyond its cells.
+pub struct WallQuantity {
+    pub descriptor: Descriptor,
+    /// Whether each cell has a value of its own.
+    pub of_cells: bool,
+    of: Offered,
+    /// The amount in the last step, of a cell.
+    amount: fn(&WallExchange, usize) -> f64,
+}
+
+/// Which walls offer it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Offered {
+    All,
+    Rings,
+    Tiles,
+    /// Tiles under a droplet of three dimensions.
+    TilesInSpace,
+}
+
+/// All of them, in the order in which a unit lists them.
+pub fn wall_quantities() -> &'static [WallQuantity] {
+    &QUANTITIES
+}
+
+const QUANTITIES: [WallQuantity; 7] = [
+    of_cells(
+        "heat_flux",
+        "heat flux into the wall",
+        Quantity::HeatFlux,
+        Offered::All,
+        |e, cell| e.heat[cell],
+    ),
+    of_cells("pressure", "pressure on the wall", Quantity::Stress, Offered::All, |e, cell| {
+        -e.impulse[cell][2]
+    }),
+    of_cells(
+        "shear_r",
+        "radial shear on the wall, outward positive",
+        Quantity::Stress,
+        Offered::Rings,
+        |e, cell| e.impulse[cell][0],
+    ),
+    of_cells(
+        "shear_x",
+        "shear on the wall along x",
+        Quantity::Stress,
+        Offered::Tiles,
+        |e, cell| e.impulse[cell][0],
+    ),
+    of_cells(
+        "shear_y",
+        "shear on the wall along y",
+        Quantity::Stress,
+        Offered::TilesInSpace,
+        |e, cell| e.impulse[cell][1],
+    ),
+    beyond("heat_flow_outside", "heat flow", Quantity::HeatFlow, |e, _| e.heat_outside),
+    beyond("force_outside", "force", Quantity::Force, |e, _| -e.impulse_outside[2]),
+];
+
+const fn of_cells(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    of: Offered,
+    amount: fn(&WallExchange, usize) -> f64,
+) -> WallQuantity {
+    let descriptor = Descriptor { key, words, quantity, direct: Direct::Nothing };
+    WallQuantity { descriptor, of_cells: true, of, amount }
+}
+
+const fn beyond(
+    key: &'static str,
+    words: &'static str,
+    quantity: Quantity,
+    amount: fn(&WallExchange, usize) -> f64,
+) -> WallQuantity {
+    let descriptor = Descriptor { key, words, quantity, direct: Direct::Nothing };
+    WallQuantity { descriptor, of_cells: false, of: Offered::All, amount }
+}
+
+impl WallQuantity {
+    /// Whether a wall of a scene offers it.
+    pub fn is_offered(&self, scene: &Scene, wall: &Wall) -> bool {
+        let is_round = matches!(wall.footprint, Footprint::Rings { .. });
+        let in_space = scene.droplet(&wall.under).is_some_and(|droplet| droplet.dimension == 3);
+        match self.of {
+            Offered::All => true,
+            Offered::Rings => is_round,
+            Offered::Tiles => !is_round,
+            Offered::TilesInSpace => !is_round && in_space,
+        }
+    }
+
+    /// The mean over the last step.
+    pub(super) fn read(&self, exchange: &WallExchange, cell: usize, areas: &[f64]) -> f64 {
+        let area = if self.of_cells { areas[cell] } else { 1.0 };
+        rate((self.amount)(exchange, cell), exchange) / area
+    }
+}

@@ -1,0 +1,58 @@
+use crate::math::address_space::TooLittle;
+use crate::math::allowance::Halt;
+use crate::math::cholesky::SolverError;
+use crate::method::sph::Failure;
+
+/// Why a body does not do what it is asked for.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum BodyError {
+    /// An input is out of place; `index` is its place among the inputs.
+    #[error("{message}")]
+    Input { index: usize, message: String },
+    /// An input goes out of place in the course of a step, `after` seconds.
+    #[error("{message}, {after:e} s into the step")]
+    Underway { index: usize, message: String, after: f64 },
+    /// The results of a step are too large for numbers.
+    #[error("the solution of {body} grows beyond what numbers can hold")]
+    Overflow { body: String },
+    /// A step would cool a body below absolute zero.
+    #[error(
+        "{body} would cool to {temperature:.6} K, below absolute zero: a negative heat flux takes more \
+         heat from it than it holds"
+    )]
+    BelowAbsoluteZero { body: String, temperature: f64 },
+    /// An output is too large for numbers.
+    #[error(
+        "the value is {0}, beyond what numbers can hold: an input or constant is far too large"
+    )]
+    NotFinite(f64),
+    #[error("{0}")]
+    Solver(#[from] SolverError),
+    /// A step of a droplet has no physical meaning.
+    #[error("{name}: {failure}")]
+    Droplet { name: String, failure: Failure },
+    /// What is asked for takes more address space than the process may have.
+    #[error(transparent)]
+    NoRoom(#[from] TooLittle),
+    /// A step was ended before it was done.
+    #[error("{body}: {halt}")]
+    Halted { body: String, halt: Halt },
+    /// What a droplet gives has no derivative in time.
+    #[error("what a droplet gives is known step by step: it has no derivative in time")]
+    NoRate,
+}
+
+impl BodyError {
+    /// The same of inputs as they are some time into a step [s].
+    pub fn underway(self, after: f64) -> Self {
+        match self {
+            Self::Input { index, message } => Self::Underway { index, message, after },
+            other => other,
+        }
+    }
+
+    /// Refuses what is no finite number.
+    pub fn unless_finite(value: f64) -> Result<f64, Self> {
+        if value.is_finite() { Ok(value) } else { Err(Self::NotFinite(value)) }
+    }
+}

@@ -1,0 +1,225 @@
+//! The bodies of a scene behind one interface: how they start, advance, meet each other and are read.
+//!
+//! A kind of body is a folder. Only this module and the scene's own know which kinds there are.
+
+mod droplet;
+mod error;
+mod forecast;
+mod link;
+mod read;
+mod solid;
+
+use std::any::Any;
+
+pub use droplet::{WallQuantity, notes_on_walls, wall_quantities};
+pub use error::BodyError;
+pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
+pub use link::Link;
+pub use read::{Descriptor, Direct, Reading, totals};
+pub use solid::{PointQuantity, point_quantities};
+
+use crate::inputs::{InputLayout, InputPath};
+use crate::math::allowance::Allowance;
+use crate::method::fem::NodalFields;
+use crate::method::sph::{ParticleFields, Surface, WallCells};
+use crate::scene::{self, Scene};
+use droplet::DropletBody;
+use solid::SolidBody;
+
+/// A body of a scene: everything known of it before time starts. What changes is a flat vector, its state.
+pub trait Body: Send + Sync {
+    fn name(&self) -> &str;
+
+    /// The state at time zero.
+    fn initial_state(&self) -> Vec<f64>;
+
+    /// Refuses a vector that no run of this body leads to, with what is wrong with it.
+    fn check_state(&self, state: &[f64]) -> Result<(), String>;
+
+    /// Refuses inputs that make no sense for this body.
+    fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError>;
+
+    /// What follows from inputs, held, and from what was received through ports during the last step; filled further
+    /// as the body is read.
+    fn memo(&self, inputs: &[f64], received: &[Received]) -> Memo;
+
+    /// Forgets what follows from the state; what acts stays.
+    fn forget_state(&self, memo: &mut Memo);
+
+    /// Advances a state; what was given through the port below, if there is one. `memo` is that of the inputs at the
+    /// beginning, unless these change. A failure leaves the state as it was, or of no use: the caller has a copy.
+    fn advance(
+        &self,
+        state: &mut Vec<f64>,
+        memo: &Memo,
+        acts: &Acts,
+        allowance: &Allowance,
+    ) -> Result<Option<Given>, BodyError>;
+
+    /// Ends a step of `dt` [s] that is known to take too long.
+    fn foresee(&self, state: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError>;
+
+    /// Updates of unknowns that `dt` [s] take, about; nothing where any step takes the same.
+    fn updates(&self, dt: f64) -> f64;
+
+    /// Counts what is told as of the last step over that from the state `before`, too.
+    fn join_steps(&self, before: &[f64], state: &mut [f64]);
+
+    /// What was given through the port below during the last step.
+    fn given(&self, state: &[f64]) -> Option<Given>;
+
+    /// A value, where the memo is that of what acts and of the state.
+    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError>;
+
+    /// Whether a reading takes more stack than a host's thread need have; nothing is remembered yet without a memo.
+    fn is_deep(&self, memo: Option<&Memo>, reading: &Reading) -> bool;
+
+    /// Values at all nodes or particles.
+    fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError>;
+
+    /// The body as one that is linear between steps, if it is.
+    fn linear(&self) -> Option<&dyn Linear> {
+        None
+    }
+
+    /// The body as one whose faces answer to heat, if they do.
+    fn conductor(&self) -> Option<&dyn Conductor> {
+        None
+    }
+
+    /// What was chosen or left out, and why: a sentence each.
+    fn notes(&self) -> Vec<String>;
+
+    /// What a user should know of a state, quickly found.
+    fn warning(&self, state: &[f64]) -> Option<String>;
+
+    /// What a user should know of the state at the end of a run.
+    fn closing_warning(&self, state: &[f64]) -> Option<String>;
+
+    /// Stored entries of all factorisations made so far.
+    fn factor_entries(&self) -> usize;
+
+    /// Threads that the body may use.
+    fn threads(&self) -> usize;
+
+    /// Whether steps take more stack than a host's thread need have.
+    fn steps_are_deep(&self) -> bool;
+}
+
+/// A body whose faces answer to heat and force that others give.
+pub trait Conductor {
+    /// The cells through which others exchange with a face.
+    fn cells(&self, port: usize) -> WallCells;
+
+    /// Each face over a step if nothing is received, and how it answers to heat.
+    fn surfaces(
+        &self,
+        state: &[f64],
+        memo: &Memo,
+        ports: &[usize],
+        acts: &Acts,
+        allowance: &Allowance,
+    ) -> Result<Vec<Surface>, BodyError>;
+}
+
+/// A body that is linear between steps: unknowns and what acts on it go into its outputs as sums.
+pub trait Linear {
+    /// What acts, as it changes when the inputs change at `rates`: a memo in which all is a change.
+    fn change(&self, inputs: &[f64], rates: &[f64]) -> Memo;
+
+    /// Time derivative of the state under what acts and its change.
+    fn rates(&self, state: &[f64], memo: &Memo, change: &Memo) -> Vec<f64>;
+
+    /// The change of a value. At kinks it is one-sided, in the direction of the change: where stress vanishes or
+    /// principal stresses meet, and for extremes of a body, which follow the node that has the extreme, of several
+    /// the fastest.
+    fn read_rate(
+        &self,
+        now: (&[f64], &mut Memo),
+        change: (&[f64], &mut Memo),
+        reading: &Reading,
+    ) -> Result<f64, BodyError>;
+}
+
+/// What a body remembers of a state, in a form of its own.
+pub type Memo = Box<dyn Any + Send + Sync>;
+
+/// What acts on a body while it advances.
+pub struct Acts<'a> {
+    /// The inputs, from the beginning of the advance on.
+    pub path: &'a InputPath,
+    /// [s]
+    pub duration: f64,
+    /// Through the ports of the body's faces.
+    pub received: &'a [Received<'a>],
+    /// What the body stands on, if that answers to it.
+    pub below: Option<&'a Surface>,
+}
+
+/// What a body gave to another through the cells of a port.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Given {
+    /// Of the advance [s].
+    pub duration: f64,
+    /// Of each cell [J].
+    pub heat: Vec<f64>,
+    /// Flow of heat above its mean at the beginning of the advance, from where it falls evenly to its opposite, of
+    /// each cell [W]; empty if it is even.
+    pub falling: Vec<f64>,
+    /// Of each cell along x, y, z (r, –, z in axisymmetry) [N s]; empty where forces do not pass.
+    pub impulse: Vec<[f64; 3]>,
+    /// Planes x = 0 and y = 0 about which all this is symmetric.
+    pub symmetric: [bool; 2],
+}
+
+/// What comes through a port.
+#[derive(Debug, Clone, Copy)]
+pub struct Received<'a> {
+    pub port: usize,
+    pub given: &'a Given,
+}
+
+/// Values of a whole body.
+pub enum Fields {
+    Nodes(NodalFields),
+    Particles(ParticleFields),
+}
+
+/// The bodies of a scene, in the order of their names, and how they are linked. Of the threads that are wanted, 0 for
+/// as many as are worth it, no more are taken than a second number.
+pub fn build(
+    scene: &Scene,
+    layout: &InputLayout,
+    [wanted, most]: [usize; 2],
+) -> Result<(Vec<Box<dyn Body>>, Vec<Link>), BodyError> {
+    let threads = |is_large| threads_for(wanted, is_large).min(most);
+    let place = |name: &str| scene.body.keys().position(|key| key == name);
+    let mut built: Vec<Option<Box<dyn Body>>> = scene.body.keys().map(|_| None).collect();
+    for (index, (name, body)) in scene.body.iter().enumerate() {
+        if let scene::Body::Solid(solid) = body {
+            built[index] = Some(Box::new(SolidBody::new(scene, layout, (name, solid), &threads)?));
+        }
+    }
+    let links = link::links(scene, place);
+    for (index, (name, body)) in scene.body.iter().enumerate() {
+        if let scene::Body::Droplet(droplet) = body {
+            let link = links.iter().find(|link| link.from == index);
+            let cells = link.and_then(|link| {
+                let below = built[link.to].as_ref()?.conductor()?;
+                Some((below.cells(link.port), link))
+            });
+            let body = DropletBody::new(scene, layout, (name, droplet), cells, &threads);
+            built[index] = Some(Box::new(body));
+        }
+    }
+    Ok((built.into_iter().flatten().collect(), links))
+}
+
+/// Threads for a body; 0 are wanted for as many as are worth it.
+fn threads_for(wanted: usize, is_large: bool) -> usize {
+    match wanted {
+        0 if !is_large => 1,
+        0 => std::thread::available_parallelism().map_or(1, Into::into),
+        threads => threads,
+    }
+}

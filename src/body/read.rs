@@ -1,0 +1,46 @@
+//! What bodies can be asked for: each quantity stands once, in a table beside the body that has it.
+
+use super::{droplet, solid};
+use crate::quantity::Quantity;
+use crate::scene::{Body, Scene};
+
+/// What a quantity is called and measured in, and which inputs it follows without delay.
+#[derive(Debug, Clone, Copy)]
+pub struct Descriptor {
+    /// Last part of a variable's name.
+    pub key: &'static str,
+    pub words: &'static str,
+    pub quantity: Quantity,
+    pub direct: Direct,
+}
+
+/// Which inputs of its body a quantity follows at once. Heat takes time to move; prescribed temperatures and
+/// tractions act immediately.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Direct {
+    /// None: it is summed up over steps, or the mean of the last one.
+    Nothing,
+    Temperatures,
+    TemperaturesAndTractions,
+}
+
+/// A value of one body.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reading {
+    /// Of a point; `quantity` is its place among the [point quantities](super::point_quantities), and `alone`
+    /// whether the point is one of its own rather than of a grid.
+    Point { quantity: usize, at: [f64; 3], alone: bool },
+    /// Of the whole body: its place among the [totals](totals) of the body.
+    Total(usize),
+    /// Of a cell of the wall below, or of what lies beyond its cells; `quantity` is the place among the
+    /// [quantities of walls](super::wall_quantities).
+    Cell { quantity: usize, cell: usize },
+}
+
+/// The totals that a scene's body offers, each with its place in the table of its kind.
+pub fn totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
+    match &scene.body[name] {
+        Body::Solid(solid) => solid::offered_totals(scene, (name, solid)),
+        Body::Droplet(_) => droplet::offered_totals(scene, name),
+    }
+}

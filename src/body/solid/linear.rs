@@ -1,0 +1,63 @@
+//! How what is read of a solid changes: with the inputs at one moment, and in time.
+//!
+//! Between steps a solid is linear in its unknowns and in what acts on it, so a change of these goes through the
+//! functions that give the outputs themselves; only von Mises and principal stresses and the extremes of a body take
+//! the chain rule. Nothing is differenced.
+
+use super::memo::SolidMemo;
+use super::point::point_quantities;
+use super::reader::SolidReader;
+use super::{SolidBody, totals};
+use crate::body::{BodyError, Linear, Memo, Reading};
+
+/// A solid and a change of it.
+pub struct SolidChange<'a> {
+    pub now: SolidReader<'a>,
+    pub change: SolidReader<'a>,
+}
+
+impl SolidChange<'_> {
+    /// [K/s], or per unit of what changes.
+    pub fn max_temperature_rate(&mut self) -> f64 {
+        let Self { now, change } = self;
+        let solid = &now.body.solid;
+        let temperatures = now.memo.heat(solid, now.state);
+        solid.max_temperature_rate(temperatures, change.memo.heat(solid, change.state))
+    }
+
+    /// Of the highest von Mises and the largest principal stress.
+    pub fn max_stress_rate(&mut self) -> Result<[f64; 2], BodyError> {
+        let Self { now, change } = self;
+        let solid = &now.body.solid;
+        let fields = now.memo.solve(solid, now.state)?;
+        Ok(solid.max_stress_rate(fields, change.memo.solve(solid, change.state)?))
+    }
+}
+
+impl Linear for SolidBody {
+    fn change(&self, inputs: &[f64], rates: &[f64]) -> Memo {
+        Box::new(SolidMemo::new(self.loads.change(inputs, rates, self.solid.mesh())))
+    }
+
+    fn rates(&self, state: &[f64], memo: &Memo, change: &Memo) -> Vec<f64> {
+        self.solid.rates(state, SolidMemo::of(memo).loads(), SolidMemo::of(change).loads())
+    }
+
+    fn read_rate(
+        &self,
+        (state, memo): (&[f64], &mut Memo),
+        (rates, change): (&[f64], &mut Memo),
+        reading: &Reading,
+    ) -> Result<f64, BodyError> {
+        let now = SolidReader { body: self, state, memo: SolidMemo::of_mut(memo) };
+        let change = SolidReader { body: self, state: rates, memo: SolidMemo::of_mut(change) };
+        let mut both = SolidChange { now, change };
+        match *reading {
+            Reading::Point { quantity, at, alone } => {
+                point_quantities()[quantity].rate(&mut both, at, alone)
+            }
+            Reading::Total(place) => totals::rate(&mut both, place),
+            Reading::Cell { .. } => panic!("cells are registered for what stands on a wall"),
+        }
+    }
+}

@@ -1,0 +1,218 @@
+//! Solids: heat that is linear and exact in time, thermo-elasticity at every moment.
+
+mod course;
+mod forecast;
+mod linear;
+mod loads;
+mod memo;
+mod plan;
+mod point;
+mod port;
+mod reader;
+mod totals;
+
+pub use forecast::{BodyForecast, PRODUCT_RATE, ParticleForecast, forecast_solid};
+pub use plan::plan;
+pub use point::{PointQuantity, point_quantities};
+pub use port::TOP;
+pub use totals::offered_totals;
+
+use super::{Acts, Body, BodyError, Conductor, Fields, Given, Linear, Memo, Reading, Received};
+use crate::inputs::InputLayout;
+use crate::math::allowance::{Allowance, Halt};
+use crate::method::fem::{Plan, SolidFem};
+use crate::scene::{Scene, Solid};
+use loads::BodyLoads;
+use memo::SolidMemo;
+use port::Port;
+use reader::SolidReader;
+
+/// A solid and what of the scene concerns it.
+pub struct SolidBody {
+    name: String,
+    plan: Plan,
+    solid: SolidFem,
+    loads: BodyLoads,
+    top: Port,
+    threads: usize,
+}
+
+/// Solids with fewer nodes than these are quicker on one thread.
+const NODES_WORTH_THREADS: usize = 20_000;
+
+/// Whether more threads than one are worth it.
+pub fn is_large(plan: &Plan) -> bool {
+    plan.mesh.nodes() >= NODES_WORTH_THREADS
+}
+
+impl SolidBody {
+    pub fn new(
+        scene: &Scene,
+        layout: &InputLayout,
+        (name, solid): (&str, &Solid),
+        threads: impl Fn(bool) -> usize,
+    ) -> Result<Self, BodyError> {
+        let plan = plan(scene, name, solid);
+        let threads = threads(is_large(&plan));
+        let fem = SolidFem::new(&plan, threads)?;
+        let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan);
+        let top = Port::top(&plan, &fem);
+        Ok(Self { name: name.into(), plan, solid: fem, loads, top, threads })
+    }
+
+    fn halted(&self, halt: Halt) -> BodyError {
+        BodyError::Halted { body: self.name.clone(), halt }
+    }
+
+    /// Refuses unknowns that are no numbers, and temperatures that are not above absolute zero. By the maximum
+    /// principle only a flux out of the body leads there, so nothing is computed where none acts.
+    fn check_end(&self, state: &[f64], start: &[f64], end: &[f64]) -> Result<(), BodyError> {
+        if !state.iter().all(|value| value.is_finite()) {
+            return Err(BodyError::Overflow { body: self.name.clone() });
+        }
+        if !self.loads.draws_heat(start) && !self.loads.draws_heat(end) {
+            return Ok(());
+        }
+        let loads = self.loads.of_faces(end, self.solid.mesh());
+        let temperatures = self.solid.temperatures(state, &loads);
+        let temperature = self.solid.min_temperature(&temperatures);
+        match temperature <= 0.0 {
+            true => Err(BodyError::BelowAbsoluteZero { body: self.name.clone(), temperature }),
+            false => Ok(()),
+        }
+    }
+}
+
+impl Body for SolidBody {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn initial_state(&self) -> Vec<f64> {
+        vec![0.0; self.solid.state_len()]
+    }
+
+    fn check_state(&self, state: &[f64]) -> Result<(), String> {
+        match self.solid.state_len() {
+            wanted if wanted == state.len() => Ok(()),
+            wanted => {
+                Err(format!("{} unknowns of {}; this body has {wanted}", state.len(), self.name))
+            }
+        }
+    }
+
+    fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        self.loads.check(inputs)
+    }
+
+    fn memo(&self, inputs: &[f64], received: &[Received]) -> Memo {
+        let outside = self.loads.assemble(inputs, self.solid.mesh());
+        let mut memo = SolidMemo::new(outside);
+        for Received { given, .. } in received {
+            self.top.add(memo.received(), given);
+        }
+        Box::new(memo)
+    }
+
+    fn forget_state(&self, memo: &mut Memo) {
+        SolidMemo::of_mut(memo).forget_state();
+    }
+
+    fn advance(
+        &self,
+        state: &mut Vec<f64>,
+        memo: &Memo,
+        acts: &Acts,
+        allowance: &Allowance,
+    ) -> Result<Option<Given>, BodyError> {
+        self.advance_here(state, SolidMemo::of(memo), acts, allowance)?;
+        let (start, end) = (acts.path.start(), acts.path.at(0, acts.duration));
+        self.check_end(state, start, &end)?;
+        Ok(None)
+    }
+
+    fn foresee(&self, _: &[f64], _: f64, _: &Allowance) -> Result<(), BodyError> {
+        Ok(())
+    }
+
+    fn updates(&self, _: f64) -> f64 {
+        0.0
+    }
+
+    fn join_steps(&self, _: &[f64], _: &mut [f64]) {}
+
+    fn given(&self, _: &[f64]) -> Option<Given> {
+        None
+    }
+
+    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
+        let mut reader = SolidReader { body: self, state, memo: SolidMemo::of_mut(memo) };
+        match *reading {
+            Reading::Point { quantity, at, alone } => {
+                point_quantities()[quantity].read(&mut reader, at, alone)
+            }
+            Reading::Total(place) => totals::read(&mut reader, place),
+            Reading::Cell { .. } => panic!("cells are registered for what stands on a wall"),
+        }
+    }
+
+    fn is_deep(&self, memo: Option<&Memo>, reading: &Reading) -> bool {
+        let memo = memo.map(SolidMemo::of);
+        let solved = memo.is_some_and(SolidMemo::is_solved);
+        match *reading {
+            Reading::Point { quantity, .. } => {
+                !solved && point_quantities()[quantity].is_mechanical()
+            }
+            Reading::Total(place) => {
+                totals::is_mechanical(place) && !memo.is_some_and(SolidMemo::has_max_stress)
+            }
+            Reading::Cell { .. } => false,
+        }
+    }
+
+    fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError> {
+        let memo = SolidMemo::of_mut(memo);
+        let (temperatures, deformation) = memo.solve(&self.solid, state)?;
+        Ok(Fields::Nodes(self.solid.fields(temperatures, deformation)))
+    }
+
+    fn linear(&self) -> Option<&dyn Linear> {
+        Some(self)
+    }
+
+    fn conductor(&self) -> Option<&dyn Conductor> {
+        Some(self)
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let fallback = self.solid.fallback_particles().filter(|&count| count > 0).map(|count| {
+            format!(
+                "{count} of {} particles conduct by the plain operator: their corrected one is near \
+                 singular",
+                self.plan.mesh.nodes()
+            )
+        });
+        let notes = self.plan.notes.iter().cloned().chain(fallback);
+        notes.map(|note| format!("{}: {note}", self.name)).collect()
+    }
+
+    fn warning(&self, _: &[f64]) -> Option<String> {
+        None
+    }
+
+    fn closing_warning(&self, _: &[f64]) -> Option<String> {
+        None
+    }
+
+    fn factor_entries(&self) -> usize {
+        self.solid.factor_entries()
+    }
+
+    fn threads(&self) -> usize {
+        self.threads
+    }
+
+    fn steps_are_deep(&self) -> bool {
+        false
+    }
+}

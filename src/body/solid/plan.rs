@@ -1,0 +1,51 @@
+//! From a solid of a scene to its plan: where its mesh is fine, and what of mechanics is asked for.
+
+use crate::body::droplet;
+use crate::method::fem::{Mechanics, Plan, Refinement};
+use crate::scene::{Carries, FaceName, Footprint, Load, Scene, Solid};
+
+pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
+    let on_body = scene.load.iter().filter(|load| load.body_and_face().0 == name);
+    let mut refinements: Vec<Refinement> = on_body.map(refinement).collect();
+    for coupling in scene.couplings_to(name) {
+        if let Some(droplet) = scene.droplet(&coupling.from) {
+            refinements.extend(droplet::refinements(coupling, droplet, scene.stop_time));
+        }
+    }
+    let shortest = scene.step.min(scene.stop_time);
+    let mechanics = match (scene.asks_mechanics(name), scene.gives_mechanics(name)) {
+        (false, _) => Mechanics::Absent,
+        (true, false) => Mechanics::Offered,
+        (true, true) => Mechanics::Wanted,
+    };
+    Plan::new(solid, mechanics, &refinements, shortest)
+}
+
+/// Where a load may act, wherever its inputs may move it.
+fn refinement(load: &Load) -> Refinement {
+    let start = [load.start.x.unwrap_or(0.0), load.start.y.unwrap_or(0.0)];
+    let range = [load.range.x, load.range.y];
+    let own = load.footprint.radius().unwrap_or(0.0);
+    let [_, radius] = load.range.radius.unwrap_or([0.0, load.start.radius.unwrap_or(own).max(own)]);
+    let half = match load.footprint {
+        Footprint::Disc { .. } | Footprint::Rings { .. } => [radius; 2],
+        Footprint::Gaussian { .. } => [1.5 * radius; 2],
+        Footprint::Tiles { size, .. } => size.map(|s| s / 2.0),
+    };
+    let feature = match load.footprint {
+        Footprint::Disc { .. } | Footprint::Gaussian { .. } => {
+            load.range.radius.map_or(own, |[lowest, _]| lowest)
+        }
+        Footprint::Rings { count, .. } => radius * (5.0 / count as f64).min(1.0),
+        Footprint::Tiles { count, size } => {
+            (0..2).map(|a| size[a] * (5.0 / count[a] as f64).min(1.0)).fold(f64::INFINITY, f64::min)
+        }
+    };
+    let stretch = |a: usize| {
+        let [low, high] = range[a].unwrap_or([start[a]; 2]);
+        [low - half[a], high + half[a]]
+    };
+    let top = load.body_and_face().1 == FaceName::Top;
+    let heats = load.carries.contains(&Carries::HeatFlux);
+    Refinement { x: stretch(0), y: stretch(1), top, feature, heats }
+}

@@ -1,0 +1,124 @@
+//! What is read of a point of a solid.
+
+use super::linear::SolidChange;
+use super::reader::SolidReader;
+use crate::body::{BodyError, Descriptor, Direct};
+use crate::material::stress::{max_principal, von_mises};
+use crate::material::stress_rate::{max_principal_rate, von_mises_rate};
+use crate::quantity::Quantity;
+use crate::scene::Gives;
+
+/// A scalar at a point.
+pub struct PointQuantity {
+    pub descriptor: Descriptor,
+    /// Wishes of a scene that include it.
+    pub given_by: &'static [Gives],
+    measure: Measure,
+}
+
+/// How it follows from the fields.
+enum Measure {
+    Temperature,
+    Displacement(usize),
+    Stress(usize),
+    /// A measure of stress and its rate.
+    OfStress(fn([f64; 6]) -> f64, fn([f64; 6], [f64; 6]) -> f64),
+}
+
+/// All of them, in the order in which a probe lists them.
+pub fn point_quantities() -> &'static [PointQuantity] {
+    &QUANTITIES
+}
+
+const QUANTITIES: [PointQuantity; 12] = [
+    PointQuantity {
+        descriptor: Descriptor {
+            key: "temperature",
+            words: "temperature",
+            quantity: Quantity::Temperature,
+            direct: Direct::Temperatures,
+        },
+        given_by: &[Gives::Temperature],
+        measure: Measure::Temperature,
+    },
+    component("stress_xx", "stress component xx", 0),
+    component("stress_yy", "stress component yy", 1),
+    component("stress_zz", "stress component zz", 2),
+    component("stress_xy", "stress component xy", 3),
+    component("stress_yz", "stress component yz", 4),
+    component("stress_xz", "stress component xz", 5),
+    PointQuantity {
+        descriptor: stress("von_mises", "von Mises stress"),
+        given_by: &[Gives::Stress, Gives::VonMises],
+        measure: Measure::OfStress(von_mises, von_mises_rate),
+    },
+    PointQuantity {
+        descriptor: stress("max_principal", "largest principal stress, tension positive"),
+        given_by: &[Gives::MaxPrincipal],
+        measure: Measure::OfStress(max_principal, max_principal_rate),
+    },
+    displacement("displacement_x", "displacement along x", 0),
+    displacement("displacement_y", "displacement along y", 1),
+    displacement("displacement_z", "displacement along z", 2),
+];
+
+const fn stress(key: &'static str, words: &'static str) -> Descriptor {
+    let direct = Direct::TemperaturesAndTractions;
+    Descriptor { key, words, quantity: Quantity::Stress, direct }
+}
+
+const fn component(key: &'static str, words: &'static str, place: usize) -> PointQuantity {
+    PointQuantity {
+        descriptor: stress(key, words),
+        given_by: &[Gives::Stress],
+        measure: Measure::Stress(place),
+    }
+}
+
+const fn displacement(key: &'static str, words: &'static str, axis: usize) -> PointQuantity {
+    PointQuantity {
+        descriptor: Descriptor {
+            key,
+            words,
+            quantity: Quantity::Displacement,
+            direct: Direct::TemperaturesAndTractions,
+        },
+        given_by: &[Gives::Displacement],
+        measure: Measure::Displacement(axis),
+    }
+}
+
+impl PointQuantity {
+    /// Whether it follows from displacements.
+    pub fn is_mechanical(&self) -> bool {
+        !matches!(self.measure, Measure::Temperature)
+    }
+
+    pub(super) fn read(
+        &self,
+        reader: &mut SolidReader,
+        point: [f64; 3],
+        alone: bool,
+    ) -> Result<f64, BodyError> {
+        Ok(match self.measure {
+            Measure::Temperature => reader.initial_temperature() + reader.rise_at(point, alone),
+            Measure::Displacement(axis) => reader.displacement_at(point)?[axis],
+            Measure::Stress(place) => reader.stress_at(point)?[place],
+            Measure::OfStress(measure, _) => measure(reader.stress_at(point)?),
+        })
+    }
+
+    pub(super) fn rate(
+        &self,
+        SolidChange { now, change }: &mut SolidChange,
+        point: [f64; 3],
+        alone: bool,
+    ) -> Result<f64, BodyError> {
+        Ok(match self.measure {
+            Measure::Temperature => change.rise_at(point, alone),
+            Measure::Displacement(axis) => change.displacement_at(point)?[axis],
+            Measure::Stress(place) => change.stress_at(point)?[place],
+            Measure::OfStress(_, rate) => rate(now.stress_at(point)?, change.stress_at(point)?),
+        })
+    }
+}

@@ -1,0 +1,68 @@
+use super::SolidBody;
+use super::memo::SolidMemo;
+use crate::body::BodyError;
+use crate::method::fem::HeatTotals;
+
+/// A solid in a state, or a change of one: what is linear is read of both alike.
+pub struct SolidReader<'a> {
+    pub body: &'a SolidBody,
+    pub state: &'a [f64],
+    pub memo: &'a mut SolidMemo,
+}
+
+impl SolidReader<'_> {
+    /// Temperature above the initial one [K]. Where the point is `alone` it comes from the modes, which is cheaper
+    /// than the whole field.
+    pub fn rise_at(&mut self, point: [f64; 3], alone: bool) -> f64 {
+        let solid = &self.body.solid;
+        match alone {
+            true => solid.rise_at(self.state, self.memo.loads(), point),
+            false => solid.rise_from(self.memo.heat(solid, self.state), point),
+        }
+    }
+
+    /// [K]
+    pub fn initial_temperature(&self) -> f64 {
+        self.body.solid.initial_temperature()
+    }
+
+    /// [m]
+    pub fn displacement_at(&mut self, point: [f64; 3]) -> Result<[f64; 3], BodyError> {
+        let solid = &self.body.solid;
+        let (_, deformation) = self.memo.solve(solid, self.state)?;
+        Ok(solid.displacement_at(deformation, point))
+    }
+
+    /// xx, yy, zz, xy, yz, xz [Pa]
+    pub fn stress_at(&mut self, point: [f64; 3]) -> Result<[f64; 6], BodyError> {
+        self.memo.stress_at(&self.body.solid, self.state, point)
+    }
+
+    /// [K]
+    pub fn max_temperature(&mut self) -> f64 {
+        self.memo.max_temperature(&self.body.solid, self.state)
+    }
+
+    /// Highest von Mises and largest principal stress [Pa].
+    pub fn max_stress(&mut self) -> Result<[f64; 2], BodyError> {
+        self.memo.max_stress(&self.body.solid, self.state)
+    }
+
+    pub fn heat_totals(&self) -> HeatTotals {
+        self.body.solid.heat_totals(self.state)
+    }
+
+    /// [J]
+    pub fn heat_stored(&self) -> f64 {
+        self.body.solid.heat_stored(self.state)
+    }
+
+    /// [J]
+    pub fn heat_drift(&self) -> f64 {
+        self.body.solid.heat_drift(self.state)
+    }
+
+    pub fn fallback_particles(&self) -> f64 {
+        self.body.solid.fallback_particles().unwrap_or(0) as f64
+    }
+}

@@ -1,0 +1,127 @@
+//! What is read of a whole solid.
+
+use super::linear::SolidChange;
+use super::reader::SolidReader;
+use crate::body::{BodyError, Descriptor, Direct};
+use crate::quantity::Quantity;
+use crate::scene::{Scene, Solid};
+
+/// A scalar of a whole solid, and how it and its change are read.
+struct Total {
+    descriptor: Descriptor,
+    of: Offered,
+    read: fn(&mut SolidReader) -> Result<f64, BodyError>,
+    rate: fn(&mut SolidChange) -> Result<f64, BodyError>,
+}
+
+/// Which solids offer a total.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Offered {
+    All,
+    /// Those whose heat particles conduct.
+    OfParticles,
+    /// Those whose mechanics is modelled.
+    Mechanical,
+}
+
+const TOTALS: [Total; 8] = [
+    Total {
+        descriptor: Descriptor {
+            key: "max_temperature",
+            words: "highest temperature of the body",
+            quantity: Quantity::Temperature,
+            direct: Direct::Temperatures,
+        },
+        of: Offered::All,
+        read: |reader| Ok(reader.max_temperature()),
+        rate: |both| Ok(both.max_temperature_rate()),
+    },
+    Total {
+        descriptor: heat("heat_in", "heat that loads and prescribed fluxes have brought in"),
+        of: Offered::All,
+        read: |reader| Ok(reader.heat_totals().brought_in),
+        rate: |both| Ok(both.change.heat_totals().brought_in),
+    },
+    Total {
+        descriptor: heat("heat_stored", "heat stored since time zero"),
+        of: Offered::All,
+        read: |reader| Ok(reader.heat_stored()),
+        rate: |both| Ok(both.change.heat_stored()),
+    },
+    Total {
+        descriptor: heat(
+            "heat_lost",
+            "heat that has left through convective and prescribed-temperature faces",
+        ),
+        of: Offered::All,
+        read: |reader| Ok(reader.heat_totals().lost),
+        rate: |both| Ok(both.change.heat_totals().lost),
+    },
+    Total {
+        descriptor: heat(
+            "heat_drift",
+            "error of the heat balance: heat stored less what came in and was not lost",
+        ),
+        of: Offered::OfParticles,
+        read: |reader| Ok(reader.heat_drift()),
+        rate: |both| Ok(both.change.heat_drift()),
+    },
+    Total {
+        descriptor: Descriptor {
+            key: "fallback_particles",
+            words: "particles that conduct by the plain operator because the corrected one is near singular",
+            quantity: Quantity::Ratio,
+            direct: Direct::Nothing,
+        },
+        of: Offered::OfParticles,
+        read: |reader| Ok(reader.fallback_particles()),
+        rate: |_| Ok(0.0),
+    },
+    Total {
+        descriptor: stress("max_von_mises", "highest von Mises stress of the body"),
+        of: Offered::Mechanical,
+        read: |reader| Ok(reader.max_stress()?[0]),
+        rate: |both| Ok(both.max_stress_rate()?[0]),
+    },
+    Total {
+        descriptor: stress(
+            "max_principal",
+            "largest principal stress of the body, tension positive",
+        ),
+        of: Offered::Mechanical,
+        read: |reader| Ok(reader.max_stress()?[1]),
+        rate: |both| Ok(both.max_stress_rate()?[1]),
+    },
+];
+
+const fn heat(key: &'static str, words: &'static str) -> Descriptor {
+    Descriptor { key, words, quantity: Quantity::Energy, direct: Direct::Nothing }
+}
+
+const fn stress(key: &'static str, words: &'static str) -> Descriptor {
+    let direct = Direct::TemperaturesAndTractions;
+    Descriptor { key, words, quantity: Quantity::Stress, direct }
+}
+
+/// The totals that a solid of a scene offers, each with its place in the table.
+pub fn offered_totals(scene: &Scene, (name, solid): (&str, &Solid)) -> Vec<(usize, Descriptor)> {
+    let is_offered = |total: &Total| match total.of {
+        Offered::All => true,
+        Offered::OfParticles => solid.sph().is_some(),
+        Offered::Mechanical => scene.asks_mechanics(name),
+    };
+    let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));
+    totals.map(|(place, total)| (place, total.descriptor)).collect()
+}
+
+pub fn is_mechanical(place: usize) -> bool {
+    TOTALS[place].of == Offered::Mechanical
+}
+
+pub fn read(reader: &mut SolidReader, place: usize) -> Result<f64, BodyError> {
+    (TOTALS[place].read)(reader)
+}
+
+pub fn rate(both: &mut SolidChange, place: usize) -> Result<f64, BodyError> {
+    (TOTALS[place].rate)(both)
+}

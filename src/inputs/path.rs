@@ -1,0 +1,85 @@
+/// Highest time derivative of inputs that a step takes into account.
+pub const HIGHEST_INPUT_DERIVATIVE: usize = 2;
+
+/// Inputs over a step: `u(s) = u₀ + u₁ s + u₂ s²/2`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InputPath {
+    /// `u₀`, `u₁`, … of all inputs.
+    derivatives: Vec<Vec<f64>>,
+}
+
+impl InputPath {
+    /// The path through `inputs` with these derivatives; those that are zero are as if they were not given.
+    pub fn new(inputs: &[f64], derivatives: &[Vec<f64>]) -> Self {
+        let last = derivatives.iter().rposition(|list| list.iter().any(|&v| v != 0.0));
+        let higher = &derivatives[..last.map_or(0, |last| last + 1)];
+        let first = std::iter::once(inputs.to_vec());
+        Self { derivatives: first.chain(higher.iter().cloned()).collect() }
+    }
+
+    pub fn is_held(&self) -> bool {
+        self.derivatives.len() == 1
+    }
+
+    /// `u₀`.
+    pub fn start(&self) -> &[f64] {
+        &self.derivatives[0]
+    }
+
+    /// `u₀`, `u₁`, … of all inputs.
+    pub fn derivatives(&self) -> &[Vec<f64>] {
+        &self.derivatives
+    }
+
+    /// Derivatives of this order at `s` [s] into the step, the inputs themselves for 0.
+    pub fn at(&self, order: usize, s: f64) -> Vec<f64> {
+        let from = &self.derivatives[order.min(self.derivatives.len())..];
+        let mut sum = from.first().cloned().unwrap_or_default();
+        let mut weight = 1.0;
+        for (k, list) in from.iter().enumerate().skip(1) {
+            weight *= s / k as f64;
+            for (value, derivative) in sum.iter_mut().zip(list) {
+                *value += weight * derivative;
+            }
+        }
+        sum
+    }
+
+    /// What is left of the path from `s` [s] on.
+    pub fn from(&self, s: f64) -> Self {
+        Self { derivatives: (0..self.derivatives.len()).map(|order| self.at(order, s)).collect() }
+    }
+
+    /// Times in a step of length `dt` at which some input is at an extreme.
+    pub fn turns(&self, dt: f64) -> Vec<f64> {
+        let [_, slopes, bends] = &self.derivatives[..] else { return Vec::new() };
+        let turn = |(slope, bend): (&f64, &f64)| -slope / bend;
+        let times = slopes.iter().zip(bends).map(turn);
+        let mut times: Vec<f64> = times.filter(|&s| s > 0.0 && s < dt).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rest_of_a_path_goes_on_where_the_path_was() {
+        let path = InputPath::new(&[1.0, -2.0], &[vec![3.0, 0.5], vec![-4.0, 2.0]]);
+        let rest = path.from(0.3);
+        for s in [0.0, 0.2, 0.7] {
+            let pairs = rest.at(0, s).into_iter().zip(path.at(0, 0.3 + s));
+            pairs.for_each(|(a, b)| assert!((a - b).abs() < 1e-15));
+        }
+        assert_eq!(path.turns(1.0), [0.75]);
+    }
+
+    #[test]
+    fn derivatives_that_are_zero_leave_inputs_held() {
+        assert!(InputPath::new(&[1.0], &[vec![0.0], vec![0.0]]).is_held());
+        assert!(!InputPath::new(&[1.0], &[vec![0.0], vec![2.0]]).is_held());
+    }
+}

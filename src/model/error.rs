@@ -1,0 +1,46 @@
+use crate::body::BodyError;
+use crate::math::address_space::TooLittle;
+use crate::math::allowance::Halt;
+use crate::scene::SceneError;
+
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ModelError {
+    /// A body does not do what it is asked for.
+    #[error(transparent)]
+    Body(#[from] BodyError),
+    /// A state does not fit the model.
+    #[error("{0}")]
+    State(String),
+    #[error("{0}")]
+    Scene(#[from] SceneError),
+    /// A scene is too large for the machine.
+    #[error(
+        "this needs about {:.3e} MB of memory, most of it for `{body}` with its {size}; this process can \
+         have {:.3e} MB (allowed: a scene that fits, such as with {remedy})",
+        needed / 1e6,
+        available / 1e6
+    )]
+    Memory { needed: f64, available: f64, body: String, size: String, remedy: &'static str },
+    /// A scene is too large for what the process may take of address space.
+    #[error(
+        "{space}, most of it for `{body}` with its {size} (allowed: a scene that fits, such as with {remedy}, or \
+         more address space)"
+    )]
+    Space { space: TooLittle, body: String, size: String, remedy: &'static str },
+}
+
+impl ModelError {
+    /// Why a step was ended, if it was.
+    pub fn halt(&self) -> Option<&Halt> {
+        match self {
+            Self::Body(BodyError::Halted { halt, .. }) => Some(halt),
+            _ => None,
+        }
+    }
+}
+
+impl From<TooLittle> for ModelError {
+    fn from(space: TooLittle) -> Self {
+        BodyError::from(space).into()
+    }
+}

@@ -1,0 +1,99 @@
+//! Which inputs an output follows without delay.
+
+use std::collections::BTreeMap;
+use std::rc::Rc;
+
+use super::registry::{Causality, Output, Registry, Slot};
+use crate::body::{Direct, Reading, point_quantities, totals};
+use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
+use crate::scene::Scene;
+
+impl Registry {
+    /// Value references of the inputs that an output follows without delay.
+    ///
+    /// Heat takes time to move; prescribed temperatures and tractions act at once.
+    pub fn dependencies(&self, scene: &Scene, output: &Output) -> Vec<usize> {
+        let reach = Reach::of(scene, output);
+        self.inputs_within(scene, &InputLayout::of(scene), reach)
+    }
+
+    /// Every output with its [`dependencies`](Self::dependencies); outputs that follow the same
+    /// inputs share one list.
+    pub fn all_dependencies(&self, scene: &Scene) -> Vec<(usize, Rc<[usize]>)> {
+        let layout = InputLayout::of(scene);
+        let mut lists: BTreeMap<Reach, Rc<[usize]>> = BTreeMap::new();
+        let outputs = self.variables.iter().enumerate().filter_map(|(i, variable)| {
+            let Slot::Output(output) = &variable.slot else { return None };
+            let reach = Reach::of(scene, output);
+            let list = lists
+                .entry(reach)
+                .or_insert_with(|| self.inputs_within(scene, &layout, reach).into());
+            Some((i, Rc::clone(list)))
+        });
+        outputs.collect()
+    }
+
+    fn inputs_within(&self, scene: &Scene, layout: &InputLayout, reach: Reach) -> Vec<usize> {
+        let direct = direct_inputs(scene, layout, reach);
+        self.of_causality(Causality::Input)
+            .filter(|&i| matches!(self.variables[i].slot, Slot::Input(at) if direct[at]))
+            .collect()
+    }
+}
+
+/// All that decides which inputs an output follows without delay.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Reach<'a> {
+    body: &'a str,
+    direct: Direct,
+}
+
+impl<'a> Reach<'a> {
+    fn of(scene: &'a Scene, output: &Output) -> Self {
+        let body = scene.body.keys().nth(output.body).expect("registered from a body");
+        let direct = match output.reading {
+            Reading::Point { quantity, .. } => point_quantities()[quantity].descriptor.direct,
+            Reading::Total(place) => {
+                let mut totals = totals(scene, body).into_iter();
+                let found = totals.find(|(other, _)| *other == place);
+                found.map_or(Direct::Nothing, |(_, descriptor)| descriptor.direct)
+            }
+            Reading::Cell { .. } => Direct::Nothing,
+        };
+        Self { body, direct }
+    }
+}
+
+fn direct_inputs(scene: &Scene, layout: &InputLayout, reach: Reach) -> Vec<bool> {
+    let mut direct = vec![false; layout.len];
+    if reach.direct == Direct::Nothing {
+        return direct;
+    }
+    for face in &layout.faces {
+        if face.body == reach.body && face.kind == FaceInputKind::Temperature {
+            direct[face.index] = true;
+        }
+    }
+    if reach.direct == Direct::TemperaturesAndTractions {
+        for (load, inputs) in scene.load.iter().zip(&layout.loads) {
+            if load.body_and_face().0 == reach.body {
+                mark_traction(inputs, &mut direct);
+            }
+        }
+    }
+    direct
+}
+
+fn mark_traction(inputs: &LoadInputs, direct: &mut [bool]) {
+    let tractions = [&inputs.pressure, &inputs.shear_x, &inputs.shear_y, &inputs.shear_r];
+    let mut any = false;
+    for range in tractions.into_iter().flatten() {
+        direct[range.clone()].fill(true);
+        any = true;
+    }
+    if any {
+        for index in [inputs.x, inputs.y, inputs.radius].into_iter().flatten() {
+            direct[index] = true;
+        }
+    }
+}

@@ -1,0 +1,173 @@
+//! Variables that are inputs.
+
+use std::ops::Range;
+
+use super::registry::{Slot, Value, Variable};
+use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
+use crate::quantity::Quantity;
+use crate::scene::{CellShape, CellValues, FaceName, Load, LoadRange, Scene, Solid};
+
+/// What comes from outside.
+pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
+    let layout = InputLayout::of(scene);
+    for (load, places) in scene.load.iter().zip(&layout.loads) {
+        amounts(load, places, list);
+        placement(load, places, list);
+    }
+    for input in &layout.faces {
+        let Some(solid) = scene.solid(&input.body) else { continue };
+        list.push(face_variable(&input.body, solid, input.face, input.kind, input.index));
+    }
+    walls(scene, &layout, list);
+}
+
+fn amounts(load: &Load, places: &LoadInputs, list: &mut Vec<Variable>) {
+    let start = &load.start;
+    type Kind<'a> = (&'a str, &'a str, Quantity, &'a Option<Range<usize>>, &'a Option<CellValues>);
+    let kinds: [Kind; 5] = [
+        (
+            "heat_flux",
+            "heat flux into the body",
+            Quantity::HeatFlux,
+            &places.heat_flux,
+            &start.heat_flux,
+        ),
+        (
+            "pressure",
+            "pressure that acts into the body",
+            Quantity::Stress,
+            &places.pressure,
+            &start.pressure,
+        ),
+        ("shear_x", "shear traction along x", Quantity::Stress, &places.shear_x, &start.shear_x),
+        ("shear_y", "shear traction along y", Quantity::Stress, &places.shear_y, &start.shear_y),
+        (
+            "shear_r",
+            "radial shear traction, outward positive",
+            Quantity::Stress,
+            &places.shear_r,
+            &start.shear_r,
+        ),
+    ];
+    for (key, meaning, quantity, range, start) in kinds {
+        let Some(range) = range else { continue };
+        let cells = cell_labels(load.footprint.cells());
+        for (cell, at) in range.clone().enumerate() {
+            let (label, place) = &cells[cell];
+            list.push(Variable {
+                name: format!("{}.{key}{label}", load.name),
+                description: format!("{meaning}{place}, {} on {}", load.name, load.on),
+                slot: Slot::Input(at),
+                quantity: Some(quantity),
+                start: Some(Value::Real(cell_start(start.as_ref(), load.footprint.cells(), cell))),
+                min: None,
+                max: None,
+            });
+        }
+    }
+}
+
+fn placement(load: &Load, places: &LoadInputs, list: &mut Vec<Variable>) {
+    let LoadRange { x, y, radius } = load.range;
+    let own_radius = load.footprint.radius().unwrap_or_default();
+    let kinds = [
+        ("x", "x of the centre", places.x, load.start.x.unwrap_or(0.0), x),
+        ("y", "y of the centre", places.y, load.start.y.unwrap_or(0.0), y),
+        ("radius", "outer radius", places.radius, load.start.radius.unwrap_or(own_radius), radius),
+    ];
+    for (key, meaning, at, start, range) in kinds {
+        let Some(at) = at else { continue };
+        let lowest = if key == "radius" { Some(0.0) } else { None };
+        list.push(Variable {
+            name: format!("{}.{key}", load.name),
+            description: format!("{meaning} of the footprint of {} on {}", load.name, load.on),
+            slot: Slot::Input(at),
+            quantity: Some(Quantity::Length),
+            start: Some(Value::Real(start)),
+            min: range.map(|r| r[0]).or(lowest),
+            max: range.map(|r| r[1]),
+        });
+    }
+}
+
+/// Index text of each cell in a variable's name, and the words for it.
+pub(super) fn cell_labels(cells: Option<CellShape>) -> Vec<(String, String)> {
+    match cells {
+        None => vec![(String::new(), String::new())],
+        Some(CellShape::Rings(count)) => {
+            (1..=count).map(|i| (format!("[{i}]"), format!(" on ring {i}"))).collect()
+        }
+        Some(CellShape::Tiles([nx, ny])) => (1..=nx)
+            .flat_map(|i| {
+                (1..=ny).map(move |j| (format!("[{i},{j}]"), format!(" on tile {i}, {j}")))
+            })
+            .collect(),
+    }
+}
+
+/// The start value of one cell; zero where none is given.
+pub(super) fn cell_start(start: Option<&CellValues>, cells: Option<CellShape>, cell: usize) -> f64 {
+    match (start, cells) {
+        (Some(CellValues::Uniform(value)), _) => *value,
+        (Some(CellValues::Rings(values)), _) => values[cell],
+        (Some(CellValues::Tiles(rows)), Some(CellShape::Tiles([_, ny]))) => {
+            rows[cell / ny][cell % ny]
+        }
+        _ => 0.0,
+    }
+}
+
+fn face_variable(
+    body: &str,
+    solid: &Solid,
+    face: FaceName,
+    kind: FaceInputKind,
+    index: usize,
+) -> Variable {
+    let condition = solid.faces[&face];
+    let name = face.as_str();
+    let (key, meaning, quantity, start) = match kind {
+        FaceInputKind::Temperature => {
+            ("temperature", "prescribed temperature", Quantity::Temperature, condition.temperature)
+        }
+        FaceInputKind::Ambient => (
+            "ambient",
+            "ambient temperature",
+            Quantity::Temperature,
+            condition.convection.map(|c| c.ambient),
+        ),
+        FaceInputKind::Flux => {
+            ("flux", "heat flux into the body", Quantity::HeatFlux, condition.flux)
+        }
+    };
+    Variable {
+        name: format!("{body}.{name}.{key}"),
+        description: format!("{meaning} at the {name} of {body}"),
+        slot: Slot::Input(index),
+        quantity: Some(quantity),
+        start: start.map(Value::Real),
+        min: (quantity == Quantity::Temperature).then_some(0.0),
+        max: None,
+    }
+}
+
+/// Temperatures of the cells of walls.
+fn walls(scene: &Scene, layout: &InputLayout, list: &mut Vec<Variable>) {
+    for (wall, range) in scene.wall.iter().zip(&layout.walls) {
+        let own = scene.droplet(&wall.under).map(|droplet| droplet.initial_temperature);
+        let shape = wall.footprint.cells();
+        for (cell, (label, place)) in cell_labels(shape).into_iter().enumerate() {
+            let given = wall.start.temperature.as_ref();
+            let start = given.map(|values| cell_start(Some(values), shape, cell)).or(own);
+            list.push(Variable {
+                name: format!("{}.temperature{label}", wall.name),
+                description: format!("temperature of the wall{place}, {}", wall.name),
+                slot: Slot::Input(range.start + cell),
+                quantity: Some(Quantity::Temperature),
+                start: start.map(Value::Real),
+                min: Some(0.0),
+                max: None,
+            });
+        }
+    }
+}

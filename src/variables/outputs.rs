@@ -1,0 +1,126 @@
+//! Variables that are outputs: one for each quantity that a body offers, wherever the scene wants it.
+
+use super::inputs::cell_labels;
+use super::registry::{Output, Slot, Variable};
+use crate::body::{Descriptor, PointQuantity, Reading, point_quantities, totals, wall_quantities};
+use crate::quantity::Quantity;
+use crate::scene::{Field, Gives, Grid, Probe, Scene, Wall};
+
+/// What is computed.
+pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
+    for probe in &scene.probe {
+        of_probe(scene, probe, list);
+    }
+    for field in &scene.field {
+        of_field(scene, field, list);
+    }
+    for name in in_order(scene) {
+        of_body(scene, name, list);
+    }
+    for wall in &scene.wall {
+        of_wall(scene, wall, list);
+    }
+}
+
+/// The bodies: first those that have points.
+fn in_order(scene: &Scene) -> impl Iterator<Item = &str> {
+    let solids = scene.solids().map(|(name, _)| name);
+    solids.chain(scene.droplets().map(|(name, _)| name))
+}
+
+fn place(scene: &Scene, body: &str) -> usize {
+    scene.body.keys().position(|name| name == body).expect("a checked scene has the body")
+}
+
+fn variable(
+    name: String,
+    description: String,
+    quantity: Quantity,
+    (body, reading): (usize, Reading),
+) -> Variable {
+    let slot = Slot::Output(Output { body, reading });
+    let quantity = Some(quantity);
+    Variable { name, description, slot, quantity, start: None, min: None, max: None }
+}
+
+fn of_probe(scene: &Scene, probe: &Probe, list: &mut Vec<Variable>) {
+    let at = probe.at;
+    let [x, y, z] = at;
+    let body = place(scene, &probe.body);
+    for (quantity, PointQuantity { descriptor, .. }) in wanted(&probe.gives) {
+        let reading = Reading::Point { quantity, at, alone: true };
+        let Descriptor { key, words, quantity, .. } = descriptor;
+        let name = format!("{}.{key}", probe.name);
+        let description = format!("{words} at x = {x} m, y = {y} m, z = {z} m of {}", probe.body);
+        list.push(variable(name, description, *quantity, (body, reading)));
+    }
+}
+
+fn of_field(scene: &Scene, field: &Field, list: &mut Vec<Variable>) {
+    let words_of_place = field.on.as_deref().or(field.body.as_deref()).unwrap_or_default();
+    let (name, _) = field.body_and_place();
+    let body = place(scene, name);
+    let grid = Grid::of(field, scene.solid(name).expect("a checked field lies in a solid"));
+    for (quantity, PointQuantity { descriptor, .. }) in wanted(&field.gives) {
+        let Descriptor { key, words, quantity: measured, .. } = descriptor;
+        for i in 0..field.grid[0] {
+            for j in 0..field.grid[1] {
+                let reading = Reading::Point { quantity, at: grid.point(i, j), alone: false };
+                let (i, j) = (i + 1, j + 1);
+                let name = format!("{}.{key}[{i},{j}]", field.name);
+                let description =
+                    format!("{words} at point {i}, {j} of the grid on {words_of_place}");
+                list.push(variable(name, description, *measured, (body, reading)));
+            }
+        }
+    }
+}
+
+/// The quantities that a list of wishes stands for, each once, with its place among all.
+fn wanted(gives: &[Gives]) -> impl Iterator<Item = (usize, &'static PointQuantity)> {
+    let is_wanted =
+        |quantity: &PointQuantity| quantity.given_by.iter().any(|wish| gives.contains(wish));
+    let all = point_quantities().iter().enumerate();
+    all.filter(move |(_, quantity)| is_wanted(quantity))
+}
+
+fn of_body(scene: &Scene, name: &str, list: &mut Vec<Variable>) {
+    let body = place(scene, name);
+    for (total, Descriptor { key, words, quantity, .. }) in totals(scene, name) {
+        let description = format!("{words}{} ({name})", depth(quantity));
+        let reading = Reading::Total(total);
+        list.push(variable(format!("{name}.{key}"), description, quantity, (body, reading)));
+    }
+}
+
+fn of_wall(scene: &Scene, wall: &Wall, list: &mut Vec<Variable>) {
+    let body = place(scene, &wall.under);
+    let is_plane = scene.droplet(&wall.under).is_some_and(|droplet| droplet.dimension == 2);
+    let mean = "mean over the last step";
+    let all = wall_quantities().iter().enumerate();
+    for (quantity, kind) in all.filter(|(_, kind)| kind.is_offered(scene, wall)) {
+        let Descriptor { key, words, quantity: measured, .. } = kind.descriptor;
+        if !kind.of_cells {
+            let measured = if is_plane { measured.per_depth() } else { measured };
+            let depth = depth(measured);
+            let name = format!("{}.{key}", wall.name);
+            let description =
+                format!("{words} into the wall beyond its cells{depth}, {}, {mean}", wall.name);
+            let reading = Reading::Cell { quantity, cell: 0 };
+            list.push(variable(name, description, measured, (body, reading)));
+            continue;
+        }
+        let cells = cell_labels(wall.footprint.cells());
+        for (cell, (label, place)) in cells.into_iter().enumerate() {
+            let name = format!("{}.{key}{label}", wall.name);
+            let description = format!("{words}{place}, {}, {mean}", wall.name);
+            let reading = Reading::Cell { quantity, cell };
+            list.push(variable(name, description, measured, (body, reading)));
+        }
+    }
+}
+
+/// Words for what a plane model gives of a quantity.
+fn depth(quantity: Quantity) -> &'static str {
+    if quantity.is_per_depth() { ", per metre of depth" } else { "" }
+}

@@ -1,0 +1,91 @@
+//! Variables that are constants of the scene.
+
+use super::registry::{Slot, Value, Variable};
+use super::{DropletConstant, MaterialConstant, Parameter};
+use crate::quantity::Quantity;
+use crate::scene::{Droplet, Scene};
+
+/// Constants of the scene that may be set until initialisation ends.
+pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
+    let mut add = |name: String, description: String, parameter: Parameter, quantity, bounds| {
+        let (min, max): (Option<f64>, Option<f64>) = bounds;
+        let start = Some(Value::Real(parameter.get(scene)));
+        let slot = Slot::Parameter(parameter);
+        list.push(Variable { name, description, slot, quantity: Some(quantity), start, min, max });
+    };
+    for (body, solid) in scene.solids() {
+        let given = |constant: &MaterialConstant| constant.is_given(&solid.material);
+        for constant in MaterialConstant::ALL.into_iter().filter(given) {
+            add(
+                format!("{body}.{}", constant.key()),
+                format!("{} of {body}", constant.description()),
+                Parameter::Material { body: body.to_owned(), constant },
+                constant.quantity(),
+                constant.bounds(),
+            );
+        }
+        add(
+            format!("{body}.initial_temperature"),
+            format!("uniform temperature of {body} at time zero, free of thermal stress"),
+            Parameter::InitialTemperature { body: body.to_owned() },
+            Quantity::Temperature,
+            (Some(0.0), None),
+        );
+        for (&face, _) in solid.faces.iter().filter(|(_, c)| c.convection.is_some()) {
+            let name = face.as_str();
+            add(
+                format!("{body}.{name}.coefficient"),
+                format!("heat transfer coefficient of the {name} of {body}"),
+                Parameter::ConvectionCoefficient { body: body.to_owned(), face },
+                Quantity::HeatTransferCoefficient,
+                (Some(0.0), None),
+            );
+        }
+    }
+    for (body, fluid) in scene.droplets() {
+        of_droplet(body, fluid, list);
+    }
+    list.push(Variable {
+        name: "solver.threads".into(),
+        description: "threads this unit may use; 0 lets the program choose".into(),
+        slot: Slot::Threads,
+        quantity: None,
+        start: Some(Value::Integer(scene.solver.threads as i32)),
+        min: Some(0.0),
+        max: Some(1024.0),
+    });
+    list.push(Variable {
+        name: "output.directory".into(),
+        description: "folder for the fields as a ParaView time series; nothing is written if empty"
+            .into(),
+        slot: Slot::OutputDirectory,
+        quantity: None,
+        start: Some(Value::Text(String::new())),
+        min: None,
+        max: None,
+    });
+}
+
+fn of_droplet(body: &str, droplet: &Droplet, list: &mut Vec<Variable>) {
+    let mut copy = droplet.clone();
+    for constant in DropletConstant::ALL {
+        list.push(Variable {
+            name: format!("{body}.{}", constant.key()),
+            description: format!("{} of {body}", constant.description()),
+            slot: Slot::Parameter(Parameter::Droplet { body: body.to_owned(), constant }),
+            quantity: Some(constant.quantity()),
+            start: Some(Value::Real(*constant.place(&mut copy))),
+            min: Some(0.0),
+            max: None,
+        });
+    }
+    list.push(Variable {
+        name: format!("{body}.initial_temperature"),
+        description: format!("uniform temperature of {body} at the release"),
+        slot: Slot::Parameter(Parameter::InitialTemperature { body: body.to_owned() }),
+        quantity: Some(Quantity::Temperature),
+        start: Some(Value::Real(droplet.initial_temperature)),
+        min: Some(0.0),
+        max: None,
+    });
+}
