@@ -17,6 +17,8 @@ pub mod kernel;
 
 pub mod quantity;
 
+pub mod state;
+
 pub mod scene;
 
 pub mod inputs;

@@ -2,6 +2,7 @@
 
 mod cache;
 mod error;
+mod joints;
 mod memory;
 mod parts;
 mod reader;
@@ -20,7 +21,7 @@ pub use start_rates::start_rates;
 pub use tangent::Tangent;
 pub use timeline::Timeline;
 
-use crate::body::{Body, Fields, Link};
+use crate::body::{Assembly, Body, Fields, Joint, Link};
 pub use crate::body::{
     BodyError, BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast, notes_on_walls,
 };
@@ -42,6 +43,7 @@ pub struct Model {
     /// In the order of their names.
     bodies: Vec<Box<dyn Body>>,
     links: Vec<Link>,
+    joints: Vec<Joint>,
     schedule: Vec<Group>,
     /// What a step of the droplets takes, at most [B].
     memory_of_droplets: usize,
@@ -70,9 +72,11 @@ impl Model {
 
     fn build_here(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
         let layout = InputLayout::of(scene);
-        let (bodies, links) =
+        let Assembly { bodies, links, joints } =
             crate::body::build(scene, &layout, [threads, threads_that_fit(scene)])?;
-        let schedule = Group::all(bodies.len(), &links);
+        let pairs: Vec<_> =
+            joints.iter().map(|joint| joint.sides.each_ref().map(|side| side.body)).collect();
+        let schedule = Group::all(bodies.len(), &links, &pairs);
         let droplets = forecast(scene).droplets;
         let memory_of_droplets = droplets.iter().map(|droplet| droplet.memory).sum::<f64>();
         Ok(Self {
@@ -80,6 +84,7 @@ impl Model {
             layout,
             bodies,
             links,
+            joints,
             schedule,
             memory_of_droplets: memory_of_droplets as usize,
         })

@@ -138,6 +138,12 @@ fn wall(wall: &Wall) -> String {
 }
 
 fn coupling(coupling: &Coupling) -> String {
+    if let Some(conductance) = coupling.conductance {
+        return format!(
+            "Heat passes from {} to {} at {conductance} W/(m2 K).",
+            coupling.from, coupling.to
+        );
+    }
     let carried = if coupling.traction { "heat, pressure and shear" } else { "heat" };
     format!("{} gives {carried} to {} and feels its temperature.", coupling.from, coupling.to)
 }

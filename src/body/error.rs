@@ -31,6 +31,14 @@ pub enum BodyError {
     /// A step of a droplet has no physical meaning.
     #[error("{name}: {failure}")]
     Droplet { name: String, failure: Failure },
+    /// The heat between two bodies that touch could not be found.
+    #[error(
+        "the heat between {} and {} could not be found (allowed: shorter communication steps, or a shorter `interval` \
+         of the coupling)",
+        sides[0],
+        sides[1]
+    )]
+    Contact { sides: [String; 2] },
     /// What is asked for takes more address space than the process may have.
     #[error(transparent)]
     NoRoom(#[from] TooLittle),

@@ -1,10 +1,12 @@
 //! Which bodies exchange heat and force, and how often.
 
+use super::Body;
 use super::droplet;
-use super::solid::{TOP, plan};
+use super::solid::plan;
+use crate::coupling::CommonCells;
 use crate::method::fem::Plan;
-use crate::method::sph::DropletSph;
-use crate::scene::{Coupling, Droplet, Scene};
+use crate::method::sph::{DropletSph, WallCells};
+use crate::scene::{Coupling, Droplet, FaceName, Scene};
 
 /// A body that stands on a face of another.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,11 +15,96 @@ pub struct Link {
     pub from: usize,
     pub to: usize,
     /// Of the body below.
-    pub port: usize,
+    pub face: FaceName,
     /// Longest time between two exchanges [s].
     pub interval: f64,
     /// Whether forces pass.
     pub traction: bool,
+}
+
+/// Two faces that touch, between which heat passes in proportion to the difference of their temperatures.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Joint {
+    /// Heat counts from the first to the second.
+    pub sides: [Side; 2],
+    /// h [W/(m² K)]
+    pub conductance: f64,
+    /// Longest part of a step [s].
+    pub interval: f64,
+    pub cells: CommonCells,
+}
+
+/// A face in a joint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Side {
+    /// Place of the body.
+    pub body: usize,
+    pub face: FaceName,
+    /// Cells of the face along x, and all of them.
+    pub counts: [usize; 2],
+}
+
+impl Joint {
+    /// Number of equal parts of a step of `dt` [s].
+    pub fn parts(&self, dt: f64) -> usize {
+        parts(self.interval, dt)
+    }
+
+    /// Temperatures of a side's cells as they are at the common ones.
+    pub fn values(&self, side: usize, own: &[f64]) -> Vec<f64> {
+        self.cells.values(side, own, self.sides[side].counts[0])
+    }
+
+    /// Amounts at the common cells as those of a side's own.
+    pub fn deposit(&self, side: usize, amounts: &[f64]) -> Vec<f64> {
+        self.cells.deposit(side, amounts, self.sides[side].counts)
+    }
+}
+
+/// Faces of a solid that a scene couples.
+pub fn linked_faces(scene: &Scene, name: &str) -> Vec<FaceName> {
+    let ends = scene.coupling.iter().flat_map(|coupling| {
+        let below = coupling.solid().map(|solid| (solid, FaceName::Top));
+        [coupling.upper(), coupling.lower(), below]
+    });
+    let ends = ends.flatten().filter(|(body, _)| *body == name);
+    let mut faces: Vec<FaceName> = ends.map(|(_, face)| face).collect();
+    faces.sort();
+    faces.dedup();
+    faces
+}
+
+/// The joints of a scene; `place` tells that of a body.
+pub fn joints(
+    scene: &Scene,
+    bodies: &[Option<Box<dyn Body>>],
+    place: impl Fn(&str) -> Option<usize>,
+) -> Vec<Joint> {
+    let joint = |coupling: &Coupling| {
+        let ends = [coupling.lower()?, coupling.upper()?];
+        let [from, to] = ends.map(|(name, face)| {
+            let body = place(name)?;
+            let cells = bodies[body].as_ref()?.conductor()?.cells(face);
+            let side = Side { body, face, counts: [width(&cells), cells.len()] };
+            Some((side, cells))
+        });
+        let ((from, from_cells), (to, to_cells)) = (from?, to?);
+        Some(Joint {
+            cells: CommonCells::of([&from_cells, &to_cells])?,
+            sides: [from, to],
+            conductance: coupling.conductance?,
+            interval: coupling.interval.unwrap_or(f64::INFINITY),
+        })
+    };
+    scene.coupling.iter().filter_map(joint).collect()
+}
+
+/// Cells along x.
+fn width(cells: &WallCells) -> usize {
+    match cells {
+        WallCells::Nodes { x, .. } => x.len(),
+        cells => cells.len(),
+    }
 }
 
 /// Least part of a squared element's length over which heat may diffuse along it between two exchanges.
@@ -31,7 +118,7 @@ pub fn links(scene: &Scene, place: impl Fn(&str) -> Option<usize>) -> Vec<Link> 
         Some(Link {
             from: place(&coupling.from)?,
             to: place(solid)?,
-            port: TOP,
+            face: FaceName::Top,
             interval: interval(coupling, droplet, &plan),
             traction: coupling.traction,
         })

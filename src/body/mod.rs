@@ -14,7 +14,7 @@ use std::any::Any;
 pub use droplet::{WallQuantity, notes_on_walls, wall_quantities};
 pub use error::BodyError;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
-pub use link::Link;
+pub use link::{Joint, Link, Side};
 pub use read::{Descriptor, Direct, Reading, totals};
 pub use solid::{PointQuantity, point_quantities};
 
@@ -22,7 +22,8 @@ use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::Allowance;
 use crate::method::fem::NodalFields;
 use crate::method::sph::{ParticleFields, Surface, WallCells};
-use crate::scene::{self, Scene};
+use crate::scene::{self, FaceName, Scene};
+use crate::state::Layout;
 use droplet::DropletBody;
 use solid::SolidBody;
 
@@ -32,6 +33,9 @@ pub trait Body: Send + Sync {
 
     /// The state at time zero.
     fn initial_state(&self) -> Vec<f64>;
+
+    /// The fields of a state; nothing if it has a length that no state of this body has.
+    fn layout(&self, state: &[f64]) -> Option<Layout>;
 
     /// Refuses a vector that no run of this body leads to, with what is wrong with it.
     fn check_state(&self, state: &[f64]) -> Result<(), String>;
@@ -109,17 +113,27 @@ pub trait Body: Send + Sync {
 /// A body whose faces answer to heat and force that others give.
 pub trait Conductor {
     /// The cells through which others exchange with a face.
-    fn cells(&self, port: usize) -> WallCells;
+    fn cells(&self, face: FaceName) -> WallCells;
 
     /// Each face over a step if nothing is received, and how it answers to heat.
     fn surfaces(
         &self,
         state: &[f64],
         memo: &Memo,
-        ports: &[usize],
+        faces: &[FaceName],
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Vec<Surface>, BodyError>;
+
+    /// Temperatures of the cells of faces at the end of what acts [K].
+    fn temperatures_after(
+        &self,
+        state: &[f64],
+        memo: &Memo,
+        faces: &[FaceName],
+        acts: &Acts,
+        allowance: &Allowance,
+    ) -> Result<Vec<Vec<f64>>, BodyError>;
 }
 
 /// A body that is linear between steps: unknowns and what acts on it go into its outputs as sums.
@@ -172,10 +186,10 @@ pub struct Given {
     pub symmetric: [bool; 2],
 }
 
-/// What comes through a port.
+/// What comes through a face.
 #[derive(Debug, Clone, Copy)]
 pub struct Received<'a> {
-    pub port: usize,
+    pub face: FaceName,
     pub given: &'a Given,
 }
 
@@ -185,19 +199,29 @@ pub enum Fields {
     Particles(ParticleFields),
 }
 
-/// The bodies of a scene, in the order of their names, and how they are linked. Of the threads that are wanted, 0 for
-/// as many as are worth it, no more are taken than a second number.
+/// All bodies of a scene.
+pub struct Assembly {
+    /// In the order of their names.
+    pub bodies: Vec<Box<dyn Body>>,
+    pub links: Vec<Link>,
+    pub joints: Vec<Joint>,
+}
+
+/// Builds the bodies of a scene and what joins them. Of the threads that are wanted, 0 for as many as are worth it, no
+/// more are taken than a second number.
 pub fn build(
     scene: &Scene,
     layout: &InputLayout,
     [wanted, most]: [usize; 2],
-) -> Result<(Vec<Box<dyn Body>>, Vec<Link>), BodyError> {
+) -> Result<Assembly, BodyError> {
     let threads = |is_large| threads_for(wanted, is_large).min(most);
     let place = |name: &str| scene.body.keys().position(|key| key == name);
     let mut built: Vec<Option<Box<dyn Body>>> = scene.body.keys().map(|_| None).collect();
     for (index, (name, body)) in scene.body.iter().enumerate() {
         if let scene::Body::Solid(solid) = body {
-            built[index] = Some(Box::new(SolidBody::new(scene, layout, (name, solid), &threads)?));
+            let linked = link::linked_faces(scene, name);
+            let body = SolidBody::new(scene, layout, (name, solid), &linked, threads)?;
+            built[index] = Some(Box::new(body));
         }
     }
     let links = link::links(scene, place);
@@ -206,13 +230,14 @@ pub fn build(
             let link = links.iter().find(|link| link.from == index);
             let cells = link.and_then(|link| {
                 let below = built[link.to].as_ref()?.conductor()?;
-                Some((below.cells(link.port), link))
+                Some((below.cells(link.face), link))
             });
-            let body = DropletBody::new(scene, layout, (name, droplet), cells, &threads);
+            let body = DropletBody::new(scene, layout, (name, droplet), cells, threads);
             built[index] = Some(Box::new(body));
         }
     }
-    Ok((built.into_iter().flatten().collect(), links))
+    let joints = link::joints(scene, &built, place);
+    Ok(Assembly { bodies: built.into_iter().flatten().collect(), links, joints })
 }
 
 /// Threads for a body; 0 are wanted for as many as are worth it.

@@ -7,7 +7,7 @@ use impinge::model::{ParticleForecast, Timeline, check_memory, forecast};
 use impinge::scene::{
     self, Coupling, Face, Field, Footprint, Load, Probe, Scene, Shape, Solid, Wall,
 };
-use impinge::variables::{ArrayRegistry, Causality, Registry, Value, Variable};
+use impinge::variables::{ArrayRegistry, Causality, Quantity, Registry, Value, Variable};
 use serde::Serialize;
 
 use super::CliError;
@@ -183,8 +183,17 @@ fn walls(scene: &Scene) -> String {
 
 fn couplings(scene: &Scene) -> String {
     let row = |coupling: &Coupling| {
-        let carried = if coupling.traction { "heat, pressure, shear" } else { "heat" };
-        [coupling.from.clone(), coupling.to.clone(), carried.to_owned()]
+        let carried = match (coupling.conductance, coupling.traction) {
+            (Some(conductance), _) => {
+                format!(
+                    "heat, {}",
+                    engineering(conductance, Quantity::HeatTransferCoefficient.unit())
+                )
+            }
+            (None, true) => "heat, pressure, shear".to_owned(),
+            (None, false) => "heat".to_owned(),
+        };
+        [coupling.from.clone(), coupling.to.clone(), carried]
     };
     let rows: Vec<_> = scene.coupling.iter().map(row).collect();
     table(["from", "to", "carries"], &rows)

@@ -1,9 +1,11 @@
 //! Transfer to and from faces that keeps integrals: what leaves one side arrives at the other.
 
+mod common_cells;
+mod face_cells;
 mod footprint;
 mod symmetry;
-mod top_face;
 
+pub use common_cells::CommonCells;
+pub use face_cells::FaceCells;
 pub use footprint::{Pattern, Placement};
 pub use symmetry::split_load;
-pub use top_face::TopFace;

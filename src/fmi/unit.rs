@@ -438,6 +438,7 @@ pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
             BodyError::Overflow { .. }
             | BodyError::BelowAbsoluteZero { .. }
             | BodyError::Droplet { .. }
+            | BodyError::Contact { .. }
             | BodyError::NoRoom(_)
             | BodyError::Halted { .. } => (Status::Discard, None),
             BodyError::NotFinite(_) | BodyError::Solver(_) | BodyError::NoRate => {

@@ -3,6 +3,7 @@
 
 pub mod address_space;
 pub mod allowance;
+pub mod anderson;
 pub mod chebyshev;
 pub mod cholesky;
 pub mod conjugate_gradients;

@@ -1,5 +1,6 @@
+use super::schedule::Exchange;
 use super::{Model, State};
-use crate::body::{Given, Memo, Received};
+use crate::body::Memo;
 
 /// Values derived from one state, computed when first asked for. Clear it when the state changes;
 /// changed inputs are noticed.
@@ -32,16 +33,9 @@ impl Cache {
             return;
         }
         self.inputs = state.inputs.to_vec();
-        let given: Vec<Option<Given>> = (model.links.iter())
-            .map(|link| model.bodies[link.from].given(&state.bodies[link.from]))
-            .collect();
-        let memo = |place: usize| {
-            let links = model.links.iter().zip(&given).filter(|(link, _)| link.to == place);
-            let received = links.filter_map(|(link, given)| {
-                Some(Received { port: link.port, given: given.as_ref()? })
-            });
-            model.bodies[place].memo(&self.inputs, &received.collect::<Vec<_>>())
-        };
+        let given = model.through_links(state);
+        let memo =
+            |place: usize| model.bodies[place].memo(&self.inputs, &Exchange::with(&given, place));
         self.memos = (0..model.bodies.len()).map(memo).collect();
     }
 

@@ -1,38 +1,60 @@
 //! In which order bodies advance, and how often those that are linked meet.
 
-use super::{Cache, Model, ModelError};
+use super::{Cache, Model, ModelError, State};
 use crate::body::{Acts, BodyError, Given, Link, Received};
 use crate::inputs::InputPath;
 use crate::math::allowance::Allowance;
 use crate::math::thread::aside;
 use crate::method::sph::Surface;
+use crate::scene::FaceName;
 
 /// Bodies that advance together because links join them, or one alone.
 pub struct Group {
     /// Places of the bodies.
-    bodies: Vec<usize>,
+    pub(super) bodies: Vec<usize>,
     /// Places of the links.
     links: Vec<usize>,
+    /// Places of the joints.
+    pub(super) joints: Vec<usize>,
 }
 
 impl Group {
-    /// Joins so many bodies by links.
-    pub fn all(bodies: usize, links: &[Link]) -> Vec<Self> {
+    /// Joins so many bodies by links and by pairs of bodies.
+    pub fn all(bodies: usize, links: &[Link], joints: &[[usize; 2]]) -> Vec<Self> {
         let mut of: Vec<usize> = (0..bodies).collect();
-        for link in links {
-            let (old, new) = (of[link.from], of[link.to]);
+        for [from, to] in links.iter().map(|link| [link.from, link.to]).chain(joints.to_vec()) {
+            let (old, new) = (of[from], of[to]);
             of.iter_mut().filter(|group| **group == old).for_each(|group| *group = new);
         }
         let group = |number: usize| Self {
             bodies: (0..bodies).filter(|&body| of[body] == number).collect(),
             links: (0..links.len()).filter(|&link| of[links[link].from] == number).collect(),
+            joints: (0..joints.len()).filter(|&joint| of[joints[joint][0]] == number).collect(),
         };
         (0..bodies).map(group).filter(|group| !group.bodies.is_empty()).collect()
     }
 }
 
+/// What a body gets through one of its faces.
+pub(super) struct Exchange {
+    pub body: usize,
+    pub face: FaceName,
+    pub given: Given,
+}
+
+impl Exchange {
+    /// What one body gets.
+    pub fn with<'a>(
+        exchanges: impl IntoIterator<Item = &'a Self>,
+        body: usize,
+    ) -> Vec<Received<'a>> {
+        let own = exchanges.into_iter().filter(|exchange| exchange.body == body);
+        own.map(|exchange| Received { face: exchange.face, given: &exchange.given }).collect()
+    }
+}
+
 /// A part of a step for a group: the inputs from its beginning on, and its length [s].
-type Part<'a> = (&'a InputPath, f64);
+pub(super) type Part<'a> = (&'a InputPath, f64);
 
 impl Model {
     /// Advances all bodies by `dt` [s] under inputs that follow a path.
@@ -60,6 +82,15 @@ impl Model {
         Ok(advanced?)
     }
 
+    /// What passed through all links during the last step.
+    pub(super) fn through_links(&self, state: &State) -> Vec<Exchange> {
+        let given = self.links.iter().filter_map(|link| {
+            let given = self.bodies[link.from].given(&state.bodies[link.from])?;
+            Some(Exchange { body: link.to, face: link.face, given })
+        });
+        given.collect()
+    }
+
     fn advance_group(
         &self,
         group: &Group,
@@ -71,7 +102,9 @@ impl Model {
         for &body in &group.bodies {
             self.bodies[body].foresee(&states[body], dt, allowance)?;
         }
-        let parts = group.links.iter().map(|&link| self.links[link].parts(dt)).max().unwrap_or(1);
+        let of_links = group.links.iter().map(|&link| self.links[link].parts(dt));
+        let of_joints = group.joints.iter().map(|&joint| self.joints[joint].parts(dt));
+        let parts = of_links.chain(of_joints).max().unwrap_or(1);
         self.foresee_exchanges(group, states, parts, allowance)?;
         let part = dt / parts as f64;
         for n in 0..parts {
@@ -95,8 +128,9 @@ impl Model {
         parts: usize,
         allowance: &Allowance,
     ) -> Result<(), BodyError> {
-        for &link in &group.links {
-            let below = self.links[link].to;
+        let of_links = group.links.iter().map(|&link| self.links[link].to);
+        let of_joints = group.joints.iter().map(|&joint| self.joints[joint].sides[1].body);
+        for below in of_links.chain(of_joints) {
             let size = states[below].len();
             let foreseen = allowance.foresee(parts as f64, "exchanges between bodies", size);
             let body = || self.bodies[below].name().to_owned();
@@ -127,20 +161,25 @@ impl Model {
             let gave = self.bodies[body].advance(state, cache.memo(body), &acts, allowance)?;
             given.extend(gave.map(|gave| (body, gave)));
         }
+        let mut exchanges: Vec<Exchange> = (given.into_iter())
+            .filter_map(|(from, given)| {
+                let link = self.links.iter().find(|link| link.from == from)?;
+                Some(Exchange { body: link.to, face: link.face, given })
+            })
+            .collect();
+        let passed =
+            self.settle_joints((group, &surfaces), states, cache, part, &exchanges, allowance)?;
+        exchanges.extend(passed);
         for &body in group.bodies.iter().filter(|body| !is_above(body)) {
-            let received: Vec<Received> = (given.iter())
-                .filter_map(|(from, given)| {
-                    let link = self.links.iter().find(|link| link.from == *from)?;
-                    (link.to == body).then_some(Received { port: link.port, given })
-                })
-                .collect();
+            let received = Exchange::with(&exchanges, body);
             let acts = acts(part, &received, None);
             self.bodies[body].advance(&mut states[body], cache.memo(body), &acts, allowance)?;
         }
         Ok(())
     }
 
-    /// The faces below over a part of a step if nothing is given to them, one for each link of a group.
+    /// The faces below over a part of a step if nothing is given to them: one for each link of a group, and then two
+    /// for each joint.
     fn surfaces(
         &self,
         group: &Group,
@@ -149,24 +188,27 @@ impl Model {
         part: Part,
         allowance: &Allowance,
     ) -> Result<Vec<Surface>, BodyError> {
-        let mut surfaces = vec![Surface::default(); group.links.len()];
+        let of_links = group.links.iter().map(|&link| (self.links[link].to, self.links[link].face));
+        let sides = group.joints.iter().flat_map(|&joint| &self.joints[joint].sides);
+        let faces: Vec<_> = of_links.chain(sides.map(|side| (side.body, side.face))).collect();
+        let mut surfaces = vec![Surface::default(); faces.len()];
         for &body in &group.bodies {
-            let links = group.links.iter().map(|&link| &self.links[link]).enumerate();
-            let on_it: Vec<_> = links.filter(|(_, link)| link.to == body).collect();
+            let on_it: Vec<_> =
+                faces.iter().enumerate().filter(|(_, (other, _))| *other == body).collect();
             let Some(conductor) = self.bodies[body].conductor().filter(|_| !on_it.is_empty())
             else {
                 continue;
             };
-            let ports: Vec<usize> = on_it.iter().map(|(_, link)| link.port).collect();
+            let faces: Vec<FaceName> = on_it.iter().map(|(_, (_, face))| *face).collect();
             let (state, acts) = (&states[body], acts(part, &[], None));
-            let found = conductor.surfaces(state, cache.memo(body), &ports, &acts, allowance)?;
+            let found = conductor.surfaces(state, cache.memo(body), &faces, &acts, allowance)?;
             on_it.iter().zip(found).for_each(|((place, _), surface)| surfaces[*place] = surface);
         }
         Ok(surfaces)
     }
 }
 
-fn acts<'a>(
+pub(super) fn acts<'a>(
     (path, duration): Part<'a>,
     received: &'a [Received<'a>],
     below: Option<&'a Surface>,
@@ -180,10 +222,16 @@ mod tests {
 
     #[test]
     fn links_join_bodies_into_groups() {
-        let link = |from, to| Link { from, to, port: 0, interval: 1.0, traction: true };
-        let groups = Group::all(6, &[link(0, 3), link(5, 3), link(1, 2)]);
+        let face = FaceName::Top;
+        let link = |from, to| Link { from, to, face, interval: 1.0, traction: true };
+        let groups = Group::all(8, &[link(0, 3), link(5, 3), link(1, 2)], &[[3, 6]]);
         let found: Vec<_> = groups.iter().map(|g| (g.bodies.clone(), g.links.clone())).collect();
-        let wanted = [(vec![1, 2], vec![2]), (vec![0, 3, 5], vec![0, 1]), (vec![4], vec![])];
+        let wanted = [
+            (vec![1, 2], vec![2]),
+            (vec![4], vec![]),
+            (vec![0, 3, 5, 6], vec![0, 1]),
+            (vec![7], vec![]),
+        ];
         assert_eq!(found, wanted);
     }
 }

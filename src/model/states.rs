@@ -24,8 +24,7 @@ impl Model {
                 ));
             }
         }
-        let numbers = state.inputs.iter().chain(state.derivatives.iter().flatten());
-        let mut numbers = numbers.chain(state.bodies.iter().flatten());
+        let mut numbers = state.inputs.iter().chain(state.derivatives.iter().flatten());
         if !state.time.is_finite() || !numbers.all(|value| value.is_finite()) {
             return refuse("a number that is not finite".into());
         }
@@ -33,7 +32,14 @@ impl Model {
         if found != wanted {
             return refuse(format!("unknowns of {found} bodies; the scene has {wanted}"));
         }
-        let mut bodies = self.bodies.iter().zip(&state.bodies);
-        bodies.try_for_each(|(body, unknowns)| body.check_state(unknowns).or_else(refuse))
+        for (body, unknowns) in self.bodies.iter().zip(&state.bodies) {
+            if let Some(at) = unknowns.iter().position(|number| !number.is_finite()) {
+                let place = body.layout(unknowns).and_then(|layout| layout.place(at));
+                let place = place.map_or("a number".to_owned(), |place| place.to_string());
+                return refuse(format!("{}: {place} is not finite", body.name()));
+            }
+            body.check_state(unknowns).or_else(refuse)?;
+        }
+        Ok(())
     }
 }

@@ -1,6 +1,8 @@
 //! How outputs change: with the inputs at one moment, and in time.
 
+use super::schedule::Exchange;
 use super::{BodyError, Cache, Model, ModelError, State};
+use crate::inputs::InputPath;
 use crate::variables::Output;
 
 /// A change of unknowns and of what acts, with what follows from it.
@@ -31,11 +33,21 @@ impl Model {
         let mut tangent = self.input_tangent(state, state.derivatives.first().unwrap_or(&held))?;
         tangent.in_time = true;
         cache.meet(self, state);
+        let path = InputPath::new(&state.inputs, &[]);
+        let joints = self.through_joints(&state.bodies, cache, &path)?;
         for (place, body) in self.bodies.iter().enumerate() {
-            if let Some(linear) = body.linear() {
-                let (now, change) = (cache.memo(place), tangent.cache.memo(place));
-                tangent.bodies[place] = linear.rates(&state.bodies[place], now, change);
-            }
+            let Some(linear) = body.linear() else { continue };
+            let change = tangent.cache.memo(place);
+            let through = Exchange::with(&joints, place);
+            tangent.bodies[place] = match through.is_empty() {
+                true => linear.rates(&state.bodies[place], cache.memo(place), change),
+                false => {
+                    let links = self.through_links(state);
+                    let received = [Exchange::with(&links, place), through].concat();
+                    let now = body.memo(&state.inputs, &received);
+                    linear.rates(&state.bodies[place], &now, change)
+                }
+            };
         }
         Ok(tangent)
     }

@@ -160,19 +160,21 @@ pub struct WallStart {
     pub temperature: Option<CellValues>,
 }
 
-/// Exchange of heat and momentum between a droplet and the top of a solid.
+/// Exchange of heat and momentum between a droplet and the top of a solid, or of heat between two solids.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Coupling {
-    /// Name of the droplet.
+    /// Name of the droplet, or `SOLID.top` of the solid below.
     pub from: String,
-    /// `SOLID.top`.
+    /// `SOLID.top` below a droplet, `SOLID.bottom` of the solid above another.
     pub to: String,
+    /// Heat flux between two solids over the difference of their temperatures there [W/(m² K)].
+    pub conductance: Option<f64>,
     /// Whether pressure and shear of the fluid load the solid, too.
     #[serde(default = "yes")]
     pub traction: bool,
     /// Longest time between two exchanges [s]; chosen from the fluid's motion and the contact's
-    /// heat if left out.
+    /// heat if left out, that of a communication step between solids.
     pub interval: Option<f64>,
     /// The solid's mesh is fine out to this distance from each arrival [m]; as far as the drop is
     /// expected to spread if left out.

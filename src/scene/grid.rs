@@ -83,7 +83,7 @@ fn plane_of(face: FaceName, shape: &Shape) -> (usize, f64) {
 }
 
 /// Extents of a body along x and y [m].
-pub(super) fn lateral_extents(shape: &Shape) -> [f64; 2] {
+pub fn lateral_extents(shape: &Shape) -> [f64; 2] {
     match *shape {
         Shape::Box([x, y, _]) => [x, y],
         Shape::Disc(Disc { radius, .. }) => [2.0 * radius; 2],

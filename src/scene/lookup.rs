@@ -201,9 +201,19 @@ impl Load {
 }
 
 impl Coupling {
-    /// The solid at the other end, as far as the coupling says one.
+    /// The solid that a droplet is coupled to, as far as the coupling says one.
     pub fn solid(&self) -> Option<&str> {
-        split_place(&self.to).map(|(body, _)| body)
+        self.upper().is_none().then(|| split_place(&self.to).map(|(body, _)| body))?
+    }
+
+    /// The solid and its face below the contact of two solids; nothing where a droplet is coupled.
+    pub fn lower(&self) -> Option<(&str, FaceName)> {
+        split_place(&self.from)
+    }
+
+    /// The solid and its face above that contact.
+    pub fn upper(&self) -> Option<(&str, FaceName)> {
+        self.lower().and_then(|_| split_place(&self.to))
     }
 }
 

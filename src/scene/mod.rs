@@ -23,7 +23,7 @@ pub use droplet::{
     Precision, Wall, WallStart,
 };
 pub use error::{Problem, SceneError};
-pub use grid::Grid;
+pub use grid::{Grid, lateral_extents};
 pub use lookup::Place;
 pub use plausibility::{Measure, Warning, doubt_of_input};
 pub use types::*;

@@ -38,7 +38,7 @@ fn a_step_that_would_take_a_droplet_for_ever_is_discarded() {
 #[test]
 fn exchanges_without_end_are_discarded() {
     let unit = started(&PLATE.replace("interval = 5e-8", "interval = 1e-25"));
-    discarded(&unit, 1e-7, &[WORDS[0], "exchanges with a droplet"]);
+    discarded(&unit, 1e-7, &[WORDS[0], "exchanges between bodies"]);
 }
 
 #[test]

@@ -167,7 +167,7 @@ fn rod(particles: usize, operator: Operator) -> (Vec<f64>, Vec<f64>) {
         copies: 1.0,
     };
     let heat = ParticleHeat::new(setup, 1);
-    let mut state = vec![0.0; heat.state_len()];
+    let mut state = vec![0.0; heat.layout().len()];
     let faces = [vec![1.0, 0.0]];
     let sources = Sources { surface: &[[vec![], vec![]]], faces: &faces };
     heat.advance(&mut state, &[sources], 0.03, &Allowance::default()).unwrap();

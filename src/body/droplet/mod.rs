@@ -23,6 +23,7 @@ use crate::method::sph::{
     Domain, DropletSph, Failure, ParticleFields, Surface, WallCells, WallExchange,
 };
 use crate::scene::{Droplet, Scene};
+use crate::state::Layout;
 use memo::DropletMemo;
 use plan::cells_of;
 use reader::DropletReader;
@@ -184,6 +185,10 @@ impl Body for DropletBody {
 
     fn initial_state(&self) -> Vec<f64> {
         self.droplet.initial_state()
+    }
+
+    fn layout(&self, state: &[f64]) -> Option<Layout> {
+        self.droplet.layout(state)
     }
 
     fn check_state(&self, state: &[f64]) -> Result<(), String> {

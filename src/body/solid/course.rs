@@ -82,7 +82,7 @@ impl SolidBody {
             all.push(all[0].zero());
         }
         for received in acts.received {
-            self.top.add_over_step(&mut all, received.given);
+            self.port(received.face).add_over_step(&mut all, received.given);
         }
         Some(all)
     }

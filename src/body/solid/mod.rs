@@ -14,14 +14,14 @@ mod totals;
 pub use forecast::{BodyForecast, PRODUCT_RATE, ParticleForecast, forecast_solid};
 pub use plan::plan;
 pub use point::{PointQuantity, point_quantities};
-pub use port::TOP;
 pub use totals::offered_totals;
 
 use super::{Acts, Body, BodyError, Conductor, Fields, Given, Linear, Memo, Reading, Received};
 use crate::inputs::InputLayout;
 use crate::math::allowance::{Allowance, Halt};
 use crate::method::fem::{Plan, SolidFem};
-use crate::scene::{Scene, Solid};
+use crate::scene::{FaceName, Scene, Solid};
+use crate::state::Layout;
 use loads::BodyLoads;
 use memo::SolidMemo;
 use port::Port;
@@ -33,7 +33,7 @@ pub struct SolidBody {
     plan: Plan,
     solid: SolidFem,
     loads: BodyLoads,
-    top: Port,
+    ports: Vec<Port>,
     threads: usize,
 }
 
@@ -50,14 +50,15 @@ impl SolidBody {
         scene: &Scene,
         layout: &InputLayout,
         (name, solid): (&str, &Solid),
+        linked: &[FaceName],
         threads: impl Fn(bool) -> usize,
     ) -> Result<Self, BodyError> {
         let plan = plan(scene, name, solid);
         let threads = threads(is_large(&plan));
         let fem = SolidFem::new(&plan, threads)?;
         let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan);
-        let top = Port::top(&plan, &fem);
-        Ok(Self { name: name.into(), plan, solid: fem, loads, top, threads })
+        let ports = linked.iter().map(|&face| Port::new(face, &plan, &fem)).collect();
+        Ok(Self { name: name.into(), plan, solid: fem, loads, ports, threads })
     }
 
     fn halted(&self, halt: Halt) -> BodyError {
@@ -92,6 +93,10 @@ impl Body for SolidBody {
         vec![0.0; self.solid.state_len()]
     }
 
+    fn layout(&self, state: &[f64]) -> Option<Layout> {
+        Some(self.solid.layout()).filter(|layout| layout.len() == state.len())
+    }
+
     fn check_state(&self, state: &[f64]) -> Result<(), String> {
         match self.solid.state_len() {
             wanted if wanted == state.len() => Ok(()),
@@ -108,8 +113,8 @@ impl Body for SolidBody {
     fn memo(&self, inputs: &[f64], received: &[Received]) -> Memo {
         let outside = self.loads.assemble(inputs, self.solid.mesh());
         let mut memo = SolidMemo::new(outside);
-        for Received { given, .. } in received {
-            self.top.add(memo.received(), given);
+        for Received { face, given } in received {
+            self.port(*face).add(memo.received(), given);
         }
         Box::new(memo)
     }

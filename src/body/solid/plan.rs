@@ -2,7 +2,7 @@
 
 use crate::body::droplet;
 use crate::method::fem::{Mechanics, Plan, Refinement};
-use crate::scene::{Carries, FaceName, Footprint, Load, Scene, Solid};
+use crate::scene::{Carries, Coupling, FaceName, Footprint, Load, Scene, Solid, lateral_extents};
 
 pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     let on_body = scene.load.iter().filter(|load| load.body_and_face().0 == name);
@@ -12,6 +12,7 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
             refinements.extend(droplet::refinements(coupling, droplet, scene.stop_time));
         }
     }
+    refinements.extend(contacts(scene, name, solid));
     let shortest = scene.step.min(scene.stop_time);
     let mechanics = match (scene.asks_mechanics(name), scene.gives_mechanics(name)) {
         (false, _) => Mechanics::Absent,
@@ -20,6 +21,25 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     };
     Plan::new(solid, mechanics, &refinements, shortest)
 }
+
+/// Where another solid touches this one: heat enters over all that both have in common, most of it at once near the
+/// edge of the smaller one.
+fn contacts(scene: &Scene, name: &str, solid: &Solid) -> Vec<Refinement> {
+    let refinement = |coupling: &Coupling| {
+        let (lower, upper) = (coupling.lower()?, coupling.upper()?);
+        let (own, other) = if lower.0 == name { (lower, upper) } else { (upper, lower) };
+        let other = scene.solid(other.0).filter(|_| own.0 == name)?;
+        let [one, two] = [solid, other].map(|solid| lateral_extents(&solid.shape));
+        let half = [0, 1].map(|axis| 0.5 * one[axis].min(two[axis]));
+        let [x, y] = half.map(|half| [-half, half]);
+        let feature = PART_OF_CONTACT * half[0].min(half[1]);
+        Some(Refinement { x, y, top: own.1 == FaceName::Top, feature, heats: true })
+    };
+    scene.coupling.iter().filter_map(refinement).collect()
+}
+
+/// Part of the size of a contact that the mesh is to see.
+const PART_OF_CONTACT: f64 = 0.5;
 
 /// Where a load may act, wherever its inputs may move it.
 fn refinement(load: &Load) -> Refinement {

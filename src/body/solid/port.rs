@@ -4,36 +4,44 @@ use super::SolidBody;
 use super::loads::add;
 use super::memo::SolidMemo;
 use crate::body::{Acts, BodyError, Conductor, Given, Memo};
-use crate::coupling::TopFace;
+use crate::coupling::FaceCells;
+use crate::inputs::InputPath;
 use crate::math::allowance::Allowance;
 use crate::method::fem::{Geometry, Plan, SolidFem, SolidLoads, Temperatures};
 use crate::method::sph::{Surface, SurfaceResponse, WallCells};
-
-/// The number of the top among a solid's ports.
-pub const TOP: usize = 0;
+use crate::scene::FaceName;
 
 /// How a face takes what comes through its cells, and how it answers.
 pub struct Port {
-    face: TopFace,
+    pub face: FaceName,
+    cells: FaceCells,
     response: SurfaceResponse,
     initial_temperature: f64,
     geometry: Geometry,
 }
 
 impl Port {
-    pub fn top(plan: &Plan, solid: &SolidFem) -> Self {
-        let [rates, gains] = solid.top_modes();
+    /// Of the top or the bottom.
+    pub fn new(face: FaceName, plan: &Plan, solid: &SolidFem) -> Self {
+        let high = face == FaceName::Top;
+        let [rates, gains] = solid.end_modes(high);
         Self {
-            face: TopFace::of(&plan.mesh, plan.sph.is_some()),
+            face,
+            cells: FaceCells::of(&plan.mesh, high, plan.sph.is_some()),
             response: SurfaceResponse { rates, gains },
             initial_temperature: plan.initial_temperature,
             geometry: plan.mesh.geometry,
         }
     }
 
+    /// The end of the axis z, as a place in lists.
+    fn side(&self) -> usize {
+        usize::from(self.face == FaceName::Top)
+    }
+
     /// Temperature of each cell [K].
     fn at_cells(&self, temperatures: &Temperatures) -> Vec<f64> {
-        let rise = self.face.rise(temperatures);
+        let rise = self.cells.rise(temperatures);
         rise.into_iter().map(|rise| self.initial_temperature + rise).collect()
     }
 
@@ -49,7 +57,7 @@ impl Port {
     ) -> Surface {
         let response = self.response.clone();
         let count = response.len();
-        let amplitudes = self.face.parts(&solid.top_amplitudes(start), count);
+        let amplitudes = self.cells.parts(&solid.end_amplitudes(start, self.side() == 1), count);
         let rest = |(t, parts): (f64, &[f64])| t - parts.iter().sum::<f64>();
         let cells = self.at_cells(start).into_iter().zip(amplitudes.chunks_exact(count));
         let base = cells.map(rest).collect();
@@ -65,7 +73,7 @@ impl Port {
         if given.duration <= 0.0 {
             return;
         }
-        let rate = 1.0 / given.duration;
+        let (rate, side) = (1.0 / given.duration, self.side());
         self.add_heat(loads, given);
         if given.impulse.is_empty() {
             return;
@@ -73,7 +81,7 @@ impl Port {
         for (component, axis, flips) in self.directions() {
             let force: Vec<f64> = given.impulse.iter().map(|p| p[axis] * rate).collect();
             for (class, vector) in self.parts_of(&force, flips, given) {
-                add(&mut loads.force[class][1][component], &vector, 1.0);
+                add(&mut loads.force[class][side][component], &vector, 1.0);
             }
         }
     }
@@ -84,18 +92,18 @@ impl Port {
             return;
         }
         self.add_heat(&mut derivatives[0], given);
-        let slope = -2.0 / given.duration;
+        let (slope, side) = (-2.0 / given.duration, self.side());
         for (class, vector) in self.parts_of(&given.falling, [false; 2], given) {
-            add(&mut derivatives[0].heat[class][1], &vector, 1.0);
-            add(&mut derivatives[1].heat[class][1], &vector, slope);
+            add(&mut derivatives[0].heat[class][side], &vector, 1.0);
+            add(&mut derivatives[1].heat[class][side], &vector, slope);
         }
     }
 
     fn add_heat(&self, loads: &mut SolidLoads, given: &Given) {
-        let rate = 1.0 / given.duration;
+        let (rate, side) = (1.0 / given.duration, self.side());
         let heat: Vec<f64> = given.heat.iter().map(|heat| heat * rate).collect();
         for (class, vector) in self.parts_of(&heat, [false; 2], given) {
-            add(&mut loads.heat[class][1], &vector, 1.0);
+            add(&mut loads.heat[class][side], &vector, 1.0);
         }
     }
 
@@ -108,7 +116,7 @@ impl Port {
     ) -> impl Iterator<Item = (usize, Vec<f64>)> + use<> {
         let vectors = match amounts.is_empty() {
             true => Vec::new(),
-            false => self.face.nodal(amounts, flips, given.symmetric),
+            false => self.cells.nodal(amounts, flips, given.symmetric),
         };
         vectors.into_iter().enumerate()
     }
@@ -124,30 +132,63 @@ impl Port {
     }
 }
 
+impl SolidBody {
+    /// The port on a face that is linked.
+    pub(super) fn port(&self, face: FaceName) -> &Port {
+        let known = self.ports.iter().find(|port| port.face == face);
+        known.expect("a body has a port on every face that is linked")
+    }
+
+    fn temperatures_at(
+        &self,
+        state: &[f64],
+        memo: &Memo,
+        path: &InputPath,
+        s: f64,
+    ) -> Temperatures {
+        if path.is_held() {
+            return self.solid.temperatures(state, SolidMemo::of(memo).outside());
+        }
+        let loads = self.loads.of_faces(&path.at(0, s), self.solid.mesh());
+        self.solid.temperatures(state, &loads)
+    }
+}
+
 impl Conductor for SolidBody {
-    fn cells(&self, _: usize) -> WallCells {
-        self.top.face.cells()
+    fn cells(&self, face: FaceName) -> WallCells {
+        self.port(face).cells.cells()
     }
 
     fn surfaces(
         &self,
         state: &[f64],
         memo: &Memo,
-        ports: &[usize],
+        faces: &[FaceName],
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Vec<Surface>, BodyError> {
         let mut later = state.to_vec();
         self.advance_here(&mut later, SolidMemo::of(memo), acts, allowance)?;
-        let temperatures = |state: &[f64], s: f64| match acts.path.is_held() {
-            true => self.solid.temperatures(state, SolidMemo::of(memo).outside()),
-            false => {
-                let loads = self.loads.of_faces(&acts.path.at(0, s), self.solid.mesh());
-                self.solid.temperatures(state, &loads)
-            }
-        };
-        let [start, end] = [temperatures(state, 0.0), temperatures(&later, acts.duration)];
-        let surface = |_: &usize| self.top.surface(&self.solid, [&start, &end], acts.duration);
-        Ok(ports.iter().map(surface).collect())
+        let start = self.temperatures_at(state, memo, acts.path, 0.0);
+        let end = self.temperatures_at(&later, memo, acts.path, acts.duration);
+        let surface =
+            |&face: &FaceName| self.port(face).surface(&self.solid, [&start, &end], acts.duration);
+        Ok(faces.iter().map(surface).collect())
+    }
+
+    fn temperatures_after(
+        &self,
+        state: &[f64],
+        memo: &Memo,
+        faces: &[FaceName],
+        acts: &Acts,
+        allowance: &Allowance,
+    ) -> Result<Vec<Vec<f64>>, BodyError> {
+        let mut later = state.to_vec();
+        if acts.duration > 0.0 {
+            self.advance_here(&mut later, SolidMemo::of(memo), acts, allowance)?;
+        }
+        let end = self.temperatures_at(&later, memo, acts.path, acts.duration);
+        Ok(faces.iter().map(|&face| self.port(face).at_cells(&end)).collect())
     }
 }

@@ -8,6 +8,7 @@ use crate::method::particle_heat::{
     Condition, Cost, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
 };
 use crate::scene::{SphOperator, SphSettings};
+use crate::state::Layout;
 
 /// The temperature of a solid and how it advances.
 pub enum Conduction {
@@ -30,11 +31,16 @@ impl Conduction {
         }
     }
 
-    /// Length of the part of a body's state that belongs here.
+    /// Length of a state.
     pub fn state_len(&self) -> usize {
+        self.layout().len()
+    }
+
+    /// The fields of a state.
+    pub fn layout(&self) -> Layout {
         match self {
-            Self::Modes(problem) => problem.state_len(),
-            Self::Particles(problem) => problem.state_len(),
+            Self::Modes(problem) => problem.layout(),
+            Self::Particles(problem) => problem.layout(),
         }
     }
 

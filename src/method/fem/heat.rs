@@ -16,6 +16,7 @@ use super::mesh::{Mesh, MeshFace, Parity};
 use super::modes::{AxisModes, EndCondition};
 use crate::math::exponential;
 use crate::math::separable::{Side, add_product, contract, transform};
+use crate::state::{Field, Layout, Per};
 
 /// Thermal condition on an end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,10 +105,15 @@ impl HeatProblem {
         Self { capacity, conductivity, copies: mesh.copies(), faces, classes }
     }
 
-    /// Length of the part of a body's state that belongs here: modal heat content of each class,
-    /// then the face values of the last step, then the two totals.
-    pub fn state_len(&self) -> usize {
-        self.classes.iter().map(HeatClass::len).sum::<usize>() + self.faces.len() + 2
+    /// The fields of a state: modes class after class, then what the last step had at the faces, then totals.
+    pub fn layout(&self) -> Layout {
+        let field = |name, words, per| Field { name, words, per, width: 1 };
+        let content = field("content", "amplitude of a mode of heat [K m^(3/2)]", Per::Mode);
+        let value =
+            field("face_value", "flux [W/m²] or rise of temperature [K] of a face", Per::Face);
+        let classes = self.classes.iter();
+        let layout = classes.fold(Layout::default(), |all, class| all.with(content, class.len()));
+        layout.with(value, self.faces.len()).then(totals())
     }
 
     /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one
@@ -517,6 +523,13 @@ impl FaceDrive {
         let measure = area_nodal.iter().map(|v| v.iter().sum::<f64>()).product();
         Self { area: project(&area_nodal), boundary, mass, stiffness, area_nodal, measure }
     }
+}
+
+/// The totals with which states of heat end.
+fn totals() -> Layout {
+    let field = |name, words| Field { name, words, per: Per::Body, width: 1 };
+    let brought_in = field("brought_in", "heat brought in since time zero [J]");
+    Layout::default().with(brought_in, 1).with(field("lost", "heat lost since time zero [J]"), 1)
 }
 
 /// Conditions at both ends of an axis.

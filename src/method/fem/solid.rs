@@ -17,6 +17,7 @@ use crate::material::stress::{max_principal, von_mises};
 use crate::math::allowance::{Allowance, Halt};
 use crate::math::cholesky::SolverError;
 use crate::math::separable::{Side, transform};
+use crate::state::Layout;
 use recovered::{FaceStresses, Recoveries};
 
 /// Everything known of a solid before time starts.
@@ -133,6 +134,11 @@ impl SolidFem {
         self.heat.state_len()
     }
 
+    /// The fields of a state.
+    pub fn layout(&self) -> Layout {
+        self.heat.layout()
+    }
+
     /// Stored entries of all factorisations made so far.
     pub fn factor_entries(&self) -> usize {
         self.elastic.as_ref().map_or(0, ElasticProblem::factor_entries)
@@ -188,21 +194,21 @@ impl SolidFem {
         modes.temperature_at(&self.mesh, state, &loads.faces, place, image)
     }
 
-    /// How the top answers to an impulse of heat per area, uniform along it: rates λ [1/s] and gains g
+    /// How the top, or the bottom, answers to an impulse of heat per area, uniform along it: rates λ [1/s] and gains g
     /// [K m²/J] of `Σ g e^{−λt}`.
-    pub fn top_modes(&self) -> [Vec<f64>; 2] {
+    pub fn end_modes(&self, high: bool) -> [Vec<f64>; 2] {
         let capacity = self.thermal.heat_capacity();
-        let top = self.depth.at_node(self.depth.shapes.nrows() - 1);
+        let top = self.depth.at_node(if high { self.depth.shapes.nrows() - 1 } else { 0 });
         let rate = |decay: &f64| self.thermal.conductivity / capacity * decay;
         let rates = self.depth.decay.iter().map(rate).collect();
         [rates, top.iter().map(|value| value * value / capacity).collect()]
     }
 
-    /// What each of these modes adds to the temperature of the top's nodes [K], mode after mode, class by
+    /// What each of these modes adds to the temperature of that end's nodes [K], mode after mode, class by
     /// class; empty for a class that is zero.
-    pub fn top_amplitudes(&self, temperatures: &Temperatures) -> Vec<Vec<f64>> {
+    pub fn end_amplitudes(&self, temperatures: &Temperatures, high: bool) -> Vec<Vec<f64>> {
         let depth = &self.depth;
-        let top = depth.at_node(depth.shapes.nrows() - 1);
+        let top = depth.at_node(if high { depth.shapes.nrows() - 1 } else { 0 });
         let (count, nodes) = (depth.count(), depth.shapes.nrows());
         let part = |m: usize, i: usize, k: usize| depth.shapes[(i, m)] * depth.mass[(i, k)];
         let projected = |m: usize, k: usize| (0..nodes).map(|i| part(m, i, k)).sum::<f64>();

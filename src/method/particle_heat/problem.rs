@@ -11,6 +11,7 @@ use crate::math::parallel;
 use crate::math::separable::dot;
 use crate::math::sparse_rows::SparseRows;
 use crate::math::thread::aside;
+use crate::state::{Field, Layout, Per};
 
 /// What the particles are and what surrounds them; ends of the axes are set by the faces.
 #[derive(Debug, Clone, PartialEq)]
@@ -128,10 +129,15 @@ impl ParticleHeat {
         self.class(0).fallback
     }
 
-    /// Length of the part of a body's state that belongs here: temperatures of each class above the
-    /// initial one, then the two totals.
-    pub fn state_len(&self) -> usize {
-        self.classes.len() * self.particles() + 2
+    /// The fields of a state: temperatures of each class, then totals.
+    pub fn layout(&self) -> Layout {
+        let body = |name, words| Field { name, words, per: Per::Body, width: 1 };
+        let words = "temperature above the initial one [K]";
+        let rise = Field { name: "rise", words, per: Per::Particle, width: 1 };
+        let classes = self.classes.iter();
+        let layout = classes.fold(Layout::default(), |all, _| all.with(rise, self.particles()));
+        let layout = layout.with(body("brought_in", "heat brought in since time zero [J]"), 1);
+        layout.with(body("lost", "heat lost since time zero [J]"), 1)
     }
 
     /// Advances `state` by `dt` [s] under sources that are polynomials in time, without error in

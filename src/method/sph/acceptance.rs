@@ -1,6 +1,6 @@
 //! Whether a vector that comes from elsewhere is a state that these droplets could have come to.
 
-use super::cloud::{Cloud, WallNumbers, cloud_of, ledger_of, particles_in, state_len};
+use super::cloud::{Cloud, WallNumbers, cloud_of, head_len, ledger_of, particles_in};
 use super::images::{Ends, Source};
 use super::kick::{DENSITIES, FARTHEST, FASTEST};
 use super::method::Method;
@@ -28,10 +28,7 @@ pub fn check(
     let Some(count) = particles_in(state, wall) else {
         return Err(format!("{} unknowns, which are no number of particles", state.len()));
     };
-    if let Some(number) = state.iter().find(|number| !number.is_finite()) {
-        return Err(format!("a number that is not finite: {number}"));
-    }
-    let drops = check_head(&state[..state_len(wall, 0)], plan, wall)?;
+    let drops = check_head(&state[..head_len(wall)], plan, wall)?;
     let expected = released(drops);
     if count != expected.particles || count > Source::MOST {
         let expected = expected.particles;

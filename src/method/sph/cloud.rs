@@ -1,8 +1,11 @@
 //! The particles of a model and its ledger: all that changes, and how it lies in a flat vector.
 
+use std::slice::from_mut;
+
 use super::surface::SurfaceMemory;
 use super::wall::WallExchange;
 use crate::math::parallel::Team;
+use crate::state::{Field, Fields, Layout, Per, load, store};
 
 /// Particles, each list with an entry for each. Lengths over H, velocities over c₀, masses over
 /// ρ₀H^d.
@@ -47,8 +50,8 @@ pub struct Part<'a> {
 pub struct Ledger {
     /// [s]
     pub time: f64,
-    /// Droplets released so far.
-    pub released: usize,
+    /// Drops released so far, a whole number.
+    pub released: f64,
     /// Time steps made.
     pub steps: f64,
     /// Heat released with the droplets, above the reference [J].
@@ -79,12 +82,115 @@ pub struct WallNumbers {
     pub exponentials: usize,
 }
 
-/// Numbers of a particle in a flat vector.
-const NUMBERS: usize = 29;
 /// Numbers that a thread copies at once.
 const COPY: usize = 4096;
-/// Numbers of the ledger before those of its cells.
-const HEAD: usize = 19;
+
+impl Fields for Ledger {
+    fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
+        let WallExchange { duration, heat, impulse, heat_outside, impulse_outside } =
+            &mut self.exchange;
+        let count = self.memory.given.len() / heat.len().max(1);
+        let body = |name, words, width| Field { name, words, per: Per::Body, width };
+        let cell = |name, words, width| Field { name, words, per: Per::Cell, width };
+        vec![
+            (body("time", "time since the start [s]", 1), from_mut(&mut self.time)),
+            (body("released", "drops released so far", 1), from_mut(&mut self.released)),
+            (body("steps", "time steps made", 1), from_mut(&mut self.steps)),
+            (
+                body("heat_released", "heat released with drops, above the reference [J]", 1),
+                from_mut(&mut self.heat_released),
+            ),
+            (
+                body("heat_to_wall", "heat given to the wall [J]", 1),
+                from_mut(&mut self.heat_to_wall),
+            ),
+            (
+                body("impulse_to_wall", "impulse given to the wall [N s]", 3),
+                &mut self.impulse_to_wall,
+            ),
+            (
+                body("impulse_of_gravity", "impulse of gravity and of mirrors [N s]", 3),
+                &mut self.impulse_of_gravity,
+            ),
+            (body("duration", "length of the last step [s]", 1), from_mut(duration)),
+            (
+                body("heat_outside", "heat given beyond the cells in the last step [J]", 1),
+                from_mut(heat_outside),
+            ),
+            (
+                body("impulse_outside", "impulse given beyond the cells in the last step [N s]", 3),
+                impulse_outside,
+            ),
+            (
+                body("way", "way that particles went since they were shifted, over H", 1),
+                from_mut(&mut self.way),
+            ),
+            (
+                body("surface_energy", "energy of free and wetted surface [J]", 1),
+                from_mut(&mut self.surface_energy),
+            ),
+            (
+                body("surrounded", "volume about the blocks of particles, over H^d", 1),
+                from_mut(&mut self.surrounded),
+            ),
+            (cell("heat", "heat given in the last step [J]", 1), heat),
+            (
+                cell("impulse", "impulse given in the last step [N s]", 3),
+                impulse.as_flattened_mut(),
+            ),
+            (
+                cell("given", "rise of the solid below by the heat as it was given [K]", count),
+                &mut self.memory.given,
+            ),
+            (
+                cell(
+                    "reported",
+                    "rise of the solid below by the heat as it was reported [K]",
+                    count,
+                ),
+                &mut self.memory.reported,
+            ),
+        ]
+    }
+}
+
+impl Fields for Cloud {
+    fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
+        let of = |name, words, width| Field { name, words, per: Per::Particle, width };
+        vec![
+            (of("position", "place over H", 3), self.position.as_flattened_mut()),
+            (of("velocity", "velocity over c", 3), self.velocity.as_flattened_mut()),
+            (of("mass", "mass over ρH^d", 1), &mut self.mass),
+            (of("density", "density over that at rest, less 1", 1), &mut self.density),
+            (of("temperature", "temperature above the reference [K]", 1), &mut self.temperature),
+            (
+                of("acceleration", "acceleration by fluid and by the wall", 6),
+                self.acceleration.as_flattened_mut().as_flattened_mut(),
+            ),
+            (of("tension", "acceleration by surface tension", 4), self.tension.as_flattened_mut()),
+            (of("potential", "potential of surface tension over ρc²", 1), &mut self.potential),
+            (of("gradient", "gradient of the density", 3), self.gradient.as_flattened_mut()),
+            (of("moment", "moment matrix of the last step", 6), self.moment.as_flattened_mut()),
+        ]
+    }
+}
+
+impl Ledger {
+    /// Of a droplet to which nothing happened yet, above a wall of so many numbers.
+    pub fn none(wall: WallNumbers) -> Self {
+        let zeros = vec![0.0; wall.cells * wall.exponentials];
+        Self {
+            exchange: WallExchange::none(wall.cells),
+            memory: SurfaceMemory { given: zeros.clone(), reported: zeros },
+            ..Self::default()
+        }
+    }
+}
+
+/// The layout of the state of a number of particles above a wall.
+pub fn layout(wall: WallNumbers, particles: usize) -> Layout {
+    Layout::of(&mut Ledger::none(wall)).then(Layout::of(&mut Cloud::of(particles)))
+}
 
 impl Cloud {
     pub fn len(&self) -> usize {
@@ -157,20 +263,20 @@ impl Cloud {
         permute.apply(&mut self.moment);
     }
 
-    /// All numbers, list after list.
-    fn numbers(&self) -> [&[f64]; 10] {
-        [
-            self.position.as_flattened(),
-            self.velocity.as_flattened(),
-            &self.mass,
-            &self.density,
-            &self.temperature,
-            self.acceleration.as_flattened().as_flattened(),
-            self.tension.as_flattened(),
-            &self.potential,
-            self.gradient.as_flattened(),
-            self.moment.as_flattened(),
-        ]
+    /// So many particles of which nothing is known yet.
+    fn of(count: usize) -> Self {
+        Self {
+            position: vec![[0.0; 3]; count],
+            velocity: vec![[0.0; 3]; count],
+            mass: vec![0.0; count],
+            density: vec![0.0; count],
+            temperature: vec![0.0; count],
+            acceleration: vec![[[0.0; 3]; 2]; count],
+            tension: vec![[0.0; 4]; count],
+            potential: vec![0.0; count],
+            gradient: vec![[0.0; 3]; count],
+            moment: vec![[0.0; 6]; count],
+        }
     }
 }
 
@@ -188,50 +294,25 @@ impl Permutation<'_> {
     }
 }
 
-/// Length of the state of a number of particles above a wall.
-pub fn state_len(wall: WallNumbers, particles: usize) -> usize {
-    HEAD + (4 + 2 * wall.exponentials) * wall.cells + NUMBERS * particles
+/// Numbers of a state before those of its particles.
+pub fn head_len(wall: WallNumbers) -> usize {
+    Layout::of(&mut Ledger::none(wall)).len()
 }
 
 /// Number of particles of a state; nothing if its length fits none.
 pub fn particles_in(state: &[f64], wall: WallNumbers) -> Option<usize> {
-    let rest = state.len().checked_sub(state_len(wall, 0))?;
-    (rest % NUMBERS == 0).then_some(rest / NUMBERS)
-}
-
-/// The numbers of a ledger, with which a flat vector begins.
-fn head_of(ledger: &Ledger) -> Vec<f64> {
-    let exchange = &ledger.exchange;
-    let memory = &ledger.memory;
-    let mut head = Vec::new();
-    head.extend([ledger.time, ledger.released as f64, ledger.steps]);
-    head.extend([ledger.heat_released, ledger.heat_to_wall]);
-    head.extend(ledger.impulse_to_wall);
-    head.extend(ledger.impulse_of_gravity);
-    head.extend([exchange.duration, exchange.heat_outside]);
-    head.extend(exchange.impulse_outside);
-    head.extend([ledger.way, ledger.surface_energy, ledger.surrounded]);
-    head.extend(&exchange.heat);
-    head.extend(exchange.impulse.iter().flatten());
-    head.extend(&memory.given);
-    head.extend(&memory.reported);
-    head
-}
-
-/// Writes a ledger over that of a flat vector.
-pub fn write_ledger(state: &mut [f64], ledger: &Ledger) {
-    let head = head_of(ledger);
-    state[..head.len()].copy_from_slice(&head);
+    let rest = state.len().checked_sub(head_len(wall))?;
+    let numbers = Layout::of(&mut Cloud::of(1)).len();
+    (rest % numbers == 0).then_some(rest / numbers)
 }
 
 /// Writes ledger and particles over a flat vector.
-pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team) {
-    let head = head_of(ledger);
-    state.resize(head.len() + NUMBERS * cloud.len(), 0.0);
-    let (first, mut rest) = state.split_at_mut(head.len());
-    first.copy_from_slice(&head);
+pub fn flatten(state: &mut Vec<f64>, ledger: &mut Ledger, cloud: &mut Cloud, team: &Team) {
+    state.resize(Layout::of(ledger).len() + Layout::of(cloud).len(), 0.0);
+    let head = store(ledger, state);
     let mut copies = Vec::new();
-    for numbers in cloud.numbers() {
+    let mut rest = &mut state[head..];
+    for (_, numbers) in cloud.fields() {
         let places = rest.split_off_mut(..numbers.len()).expect("the state has room");
         copies.extend(places.chunks_mut(COPY).zip(numbers.chunks(COPY)));
     }
@@ -240,71 +321,23 @@ pub fn flatten(state: &mut Vec<f64>, ledger: &Ledger, cloud: &Cloud, team: &Team
 
 /// Reads the ledger of a state.
 pub fn ledger_of(state: &[f64], wall: WallNumbers) -> Ledger {
-    let three = |at: usize| [state[at], state[at + 1], state[at + 2]];
-    let cells = wall.cells;
-    let (heat, impulse, given) = (HEAD, HEAD + cells, HEAD + 4 * cells);
-    let reported = given + cells * wall.exponentials;
-    Ledger {
-        time: state[0],
-        released: state[1] as usize,
-        steps: state[2],
-        heat_released: state[3],
-        heat_to_wall: state[4],
-        impulse_to_wall: three(5),
-        impulse_of_gravity: three(8),
-        way: state[16],
-        surface_energy: state[17],
-        surrounded: state[18],
-        exchange: WallExchange {
-            duration: state[11],
-            heat_outside: state[12],
-            impulse_outside: three(13),
-            heat: state[heat..impulse].to_vec(),
-            impulse: (0..cells).map(|cell| three(impulse + 3 * cell)).collect(),
-        },
-        memory: SurfaceMemory {
-            given: state[given..reported].to_vec(),
-            reported: state[reported..state_len(wall, 0)].to_vec(),
-        },
-    }
+    let mut ledger = Ledger::none(wall);
+    load(&mut ledger, state);
+    ledger
 }
 
 /// Reads the particles of a state.
 pub fn cloud_of(state: &[f64], wall: WallNumbers, team: &Team) -> Cloud {
-    let rest = &state[state_len(wall, 0)..];
-    let mut lists = Lists { rest, count: rest.len() / NUMBERS, team };
-    Cloud {
-        position: lists.next(|[numbers]| numbers),
-        velocity: lists.next(|[numbers]| numbers),
-        mass: lists.next(|[[number]]| number),
-        density: lists.next(|[[number]]| number),
-        temperature: lists.next(|[[number]]| number),
-        acceleration: lists.next(|both| both),
-        tension: lists.next(|[numbers]| numbers),
-        potential: lists.next(|[[number]]| number),
-        gradient: lists.next(|[numbers]| numbers),
-        moment: lists.next(|[numbers]| numbers),
+    let mut cloud = Cloud::of(particles_in(state, wall).unwrap_or(0));
+    let mut rest = &state[head_len(wall)..];
+    let mut copies = Vec::new();
+    for (_, numbers) in cloud.fields() {
+        let (own, after) = rest.split_at(numbers.len());
+        rest = after;
+        copies.extend(numbers.chunks_mut(COPY).zip(own.chunks(COPY)));
     }
-}
-
-/// What is left of a state, list after list.
-struct Lists<'a> {
-    rest: &'a [f64],
-    count: usize,
-    team: &'a Team,
-}
-
-impl Lists<'_> {
-    /// The next list, of B times A numbers a particle.
-    fn next<const A: usize, const B: usize, T: Send>(
-        &mut self,
-        entry: impl Fn([[f64; A]; B]) -> T + Sync,
-    ) -> Vec<T> {
-        let (numbers, rest) = self.rest.split_at(self.count * A * B);
-        self.rest = rest;
-        let entries: &[[[f64; A]; B]] = numbers.as_chunks().0.as_chunks().0;
-        self.team.map(self.count, |i| entry(entries[i]))
-    }
+    team.for_each(&mut copies, |_, (numbers, own)| numbers.copy_from_slice(own));
+    cloud
 }
 
 #[cfg(test)]
@@ -329,9 +362,9 @@ mod tests {
         exchange.heat[1] = 7.0;
         exchange.impulse[2] = [1.0, 2.0, 3.0];
         exchange.duration = 0.5;
-        let ledger = Ledger {
+        let mut ledger = Ledger {
             time: 1.5,
-            released: 2,
+            released: 2.0,
             way: 0.25,
             surface_energy: 3.5,
             surrounded: 4.5,
@@ -347,8 +380,8 @@ mod tests {
         let wall = WallNumbers { cells: 3, exponentials: 2 };
         let team = Team::new(2);
         let mut state = vec![7.0; 3];
-        flatten(&mut state, &ledger, &cloud, &team);
-        assert_eq!(state.len(), state_len(wall, 5));
+        flatten(&mut state, &mut ledger, &mut cloud, &team);
+        assert_eq!(state.len(), layout(wall, 5).len());
         assert_eq!(particles_in(&state, wall), Some(5));
         assert_eq!(ledger_of(&state, wall), ledger);
         assert_eq!(cloud_of(&state, wall, &team), cloud);

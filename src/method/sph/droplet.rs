@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use super::acceptance::{self, Released};
 use super::cloud::{
-    Cloud, Ledger, WallNumbers, cloud_of, flatten, ledger_of, particles_in, write_ledger,
+    Cloud, Ledger, WallNumbers, cloud_of, flatten, layout, ledger_of, particles_in,
 };
 use super::effort::particles_of;
 use super::failure::Failure;
@@ -17,12 +17,13 @@ use super::placement::place;
 use super::plan::{DropletPlan, Release};
 use super::spread::spread_diameter;
 use super::stepper::Stepper;
-use super::surface::{Surface, SurfaceMemory, SurfaceResponse};
+use super::surface::{Surface, SurfaceResponse};
 use super::units::{compression_energy, density, pressure};
 use super::wall::WallExchange;
 use super::wall_points::WallPoints;
 use crate::math::allowance::Allowance;
 use crate::math::parallel::Team;
+use crate::state::{Layout, store};
 
 /// Droplets above a wall: everything known before time starts. What changes is a flat vector, whose
 /// length grows when a droplet is released.
@@ -113,7 +114,7 @@ impl DropletSph {
         let (mut ledger, mut cloud) = (self.empty_ledger(), Cloud::default());
         // What stands too close to be listed is listed, and refused, again by the first step.
         let _ = self.release(&mut ledger, &mut cloud);
-        flat(&ledger, &cloud)
+        flat(&mut ledger, &mut cloud)
     }
 
     /// A state at time zero of given particles, in place of the plan's droplets.
@@ -128,11 +129,11 @@ impl DropletSph {
             cloud.push(position, velocity, mass, particles.temperature[i] - reference);
             cloud.density[i] = particles.density[i] / units.density - 1.0;
         }
-        let released = self.plan.releases.len();
+        let released = self.plan.releases.len() as f64;
         let mut ledger = Ledger { released, ..self.empty_ledger() };
         // As above.
         let _ = self.prime(&mut ledger, &mut cloud);
-        flat(&ledger, &cloud)
+        flat(&mut ledger, &mut cloud)
     }
 
     /// Number of particles of a state.
@@ -209,7 +210,8 @@ impl DropletSph {
             cells.map(|cells| WallPoints::new(&method.points, cells, &surface, duration));
         let end = ledger.time + duration;
         while ledger.time < end {
-            let next = self.plan.releases.get(ledger.released).map_or(end, |r| r.time.min(end));
+            let next =
+                self.plan.releases.get(ledger.released as usize).map_or(end, |r| r.time.min(end));
             let rest = next - ledger.time;
             if rest > 0.0 {
                 let points = points.as_mut();
@@ -235,7 +237,7 @@ impl DropletSph {
                 ledger.memory.advance(&self.below, duration, points.warmed());
             }
         }
-        flatten(state, &ledger, &cloud, &team);
+        flatten(state, &mut ledger, &mut cloud, &team);
         Ok(rises)
     }
 
@@ -263,7 +265,7 @@ impl DropletSph {
     pub fn add_exchange(&self, state: &mut [f64], earlier: &WallExchange) {
         let mut ledger = ledger_of(state, self.wall());
         ledger.exchange.add(earlier);
-        write_ledger(state, &ledger);
+        store(&mut ledger, state);
     }
 
     pub fn totals(&self, state: &[f64]) -> DropletTotals {
@@ -309,12 +311,12 @@ impl DropletSph {
     }
 
     fn empty_ledger(&self) -> Ledger {
-        let cells = self.wall().cells;
-        Ledger {
-            exchange: WallExchange::none(cells),
-            memory: SurfaceMemory::none(cells, &self.below),
-            ..Ledger::default()
-        }
+        Ledger::none(self.wall())
+    }
+
+    /// The fields of a state; nothing of a length that fits no number of particles.
+    pub fn layout(&self, state: &[f64]) -> Option<Layout> {
+        particles_in(state, self.wall()).map(|count| layout(self.wall(), count))
     }
 
     /// The zero of the model's temperatures [K].
@@ -330,10 +332,10 @@ impl DropletSph {
     fn release(&self, ledger: &mut Ledger, cloud: &mut Cloud) -> Result<bool, Failure> {
         let before = cloud.len();
         while let Some(release) =
-            self.plan.releases.get(ledger.released).filter(|release| release.time <= ledger.time)
+            self.plan.releases.get(ledger.released as usize).filter(|r| r.time <= ledger.time)
         {
             self.add(release, ledger, cloud);
-            ledger.released += 1;
+            ledger.released += 1.0;
         }
         if cloud.len() > before {
             self.prime(ledger, cloud)?;
@@ -391,7 +393,7 @@ fn response_below(plan: &DropletPlan, method: &Method) -> SurfaceResponse {
     })
 }
 
-fn flat(ledger: &Ledger, cloud: &Cloud) -> Vec<f64> {
+fn flat(ledger: &mut Ledger, cloud: &mut Cloud) -> Vec<f64> {
     let mut state = Vec::new();
     flatten(&mut state, ledger, cloud, &Team::new(1));
     state
@@ -459,7 +461,7 @@ fn totals(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud) -
 fn body(plan: &DropletPlan, ledger: &Ledger, cloud: &Cloud) -> Vec<bool> {
     let places: Vec<_> = cloud.position.iter().map(|x| x.map(|x| x * plan.support)).collect();
     let mass: f64 = cloud.mass.iter().sum();
-    body_of_fluid(&places, &cloud.mass, mass / ledger.released.max(1) as f64)
+    body_of_fluid(&places, &cloud.mass, mass / ledger.released.max(1.0))
 }
 
 /// Height over Δx below which a particle's middle is at the wall: that of its first layer, with as much

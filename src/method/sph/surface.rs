@@ -62,6 +62,12 @@ impl SurfaceResponse {
         self.terms().map(|(rate, gain)| gain * time * of(weights(rate))).sum()
     }
 
+    /// Rise after a time [s] under a flux that grows by 1 W/m² per second from zero [K].
+    pub fn of_growing_flux(&self, time: f64) -> f64 {
+        let weights = |rate: f64| exponential::weights(rate * time);
+        self.terms().map(|(rate, gain)| gain * time * time * weights(rate)[2]).sum()
+    }
+
     fn terms(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         self.rates.iter().copied().zip(self.gains.iter().copied())
     }

@@ -1,4 +1,5 @@
-//! Whether couplings join a droplet with the top of a solid that can take what it gives.
+//! Whether couplings join what goes together: a droplet with the top of a solid that can take what it gives, or the
+//! top of a solid with the bottom of another.
 
 use super::{Checker, LENGTHS, TIMES, fits, number};
 use crate::scene::droplet::{Coupling, Droplet};
@@ -12,24 +13,91 @@ pub fn check(checker: &mut Checker) {
         for (key, value, range, what) in [
             ("interval", coupling.interval, TIMES, "the time between exchanges"),
             ("radius", coupling.radius, LENGTHS, "the radius of the fine mesh"),
+            ("conductance", coupling.conductance, CONDUCTANCES, "the conductance of the contact"),
         ] {
             if let Some(value) = value {
                 checker.positive_within(&path.at(key), value, range, what);
             }
         }
-        let droplet = checker.droplet(&path.at("from"), &coupling.from);
-        let face = checker.face(&path.at("to"), &coupling.to, |_| vec![FaceName::Top]);
-        alone(checker, &path, i, coupling);
-        if let Some((_, solid)) = face {
-            free_face(checker, &path.at("to"), coupling, solid);
-        }
-        if let (Some(droplet), Some((_, solid))) = (droplet, face) {
-            fit(checker, &path.at("from"), droplet, &solid.shape);
+        match coupling.lower().is_some() {
+            true => check_contact(checker, &path, i, coupling),
+            false => check_droplet(checker, &path, i, coupling),
         }
     }
 }
 
-/// A droplet has one thing below it, and droplets of different bodies would not see each other.
+/// [W/(m² K)]
+const CONDUCTANCES: [f64; 2] = [1e-12, 1e15];
+
+fn check_droplet(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupling) {
+    let droplet = checker.droplet(&path.at("from"), &coupling.from);
+    let face = checker.face(&path.at("to"), &coupling.to, |_| vec![FaceName::Top]);
+    alone(checker, path, i, coupling);
+    if coupling.conductance.is_some() {
+        let message = "a droplet touches a solid without resistance";
+        checker.refuse(&path.at("conductance"), message, "no `conductance` for a droplet");
+    }
+    if let Some((_, solid)) = face {
+        free_face(checker, &path.at("to"), coupling, solid);
+        if is_in_contact(checker, i, &coupling.to) {
+            let message = format!("`{}` touches another solid", coupling.to);
+            checker.refuse(&path.at("to"), message, "a face without another coupling");
+        }
+    }
+    if let (Some(droplet), Some((_, solid))) = (droplet, face) {
+        fit(checker, &path.at("from"), droplet, &solid.shape);
+    }
+}
+
+/// A contact of two solids.
+fn check_contact(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupling) {
+    let lower = checker.face(&path.at("from"), &coupling.from, |_| vec![FaceName::Top]);
+    let upper = checker.face(&path.at("to"), &coupling.to, |_| vec![FaceName::Bottom]);
+    if coupling.conductance.is_none() {
+        let message = "a contact of two solids needs its `conductance`";
+        checker.refuse(path, message, "conductance = 5e3, in W/(m2 K), say");
+    }
+    if coupling.radius.is_some() {
+        let message = "a contact of two solids has no fine mesh of its own";
+        checker.refuse(&path.at("radius"), message, "no `radius` between solids; `mesh.spacing`");
+    }
+    for (key, place, found) in [("from", &coupling.from, lower), ("to", &coupling.to, upper)] {
+        let Some((face, solid)) = found else { continue };
+        if !solid.face(face).thermal().is_empty() {
+            let message = "the face has a thermal condition of its own beside the contact";
+            checker.refuse(
+                &path.at(key),
+                message,
+                "a face without `temperature`, `flux` or `convection`",
+            );
+        }
+        if is_in_contact(checker, i, place)
+            || checker.scene.coupling[..i].iter().any(|c| c.to == *place)
+        {
+            let message = format!("`{place}` is coupled already");
+            checker.refuse(&path.at(key), message, "one contact a face");
+        }
+    }
+    if let (Some((_, below)), Some((_, above))) = (lower, upper) {
+        let is_round = |solid: &Solid| matches!(solid.shape, Shape::Disc(_));
+        if is_round(below) != is_round(above) {
+            let message = "a box and a disc do not share symmetries";
+            checker.refuse(&path.at("to"), message, "two boxes, or two discs");
+        }
+        if std::ptr::eq(below, above) {
+            let message = format!("`{}` and `{}` belong to one body", coupling.from, coupling.to);
+            checker.refuse(&path.at("to"), message, "another solid");
+        }
+    }
+}
+
+/// Whether an earlier contact of solids has this face.
+fn is_in_contact(checker: &Checker, i: usize, place: &str) -> bool {
+    let contacts = checker.scene.coupling[..i].iter().filter(|other| other.lower().is_some());
+    contacts.into_iter().any(|other| other.from == *place || other.to == *place)
+}
+
+/// A droplet has one thing below it.
 fn alone(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupling) {
     let scene = checker.scene;
     let from = path.at("from");
@@ -40,15 +108,6 @@ fn alone(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupling) {
     if let Some(first) = scene.coupling_from(&coupling.from).filter(|&first| first != i) {
         let message = format!("`{}` is coupled by coupling[{first}] already", coupling.from);
         checker.refuse(&from, message, "one coupling a droplet");
-        return;
-    }
-    let others = scene.coupling[..i].iter();
-    if let Some(other) = others.clone().position(|other| other.to == coupling.to) {
-        let message = format!(
-            "coupling[{other}] acts on `{}` already, and droplets of two bodies do not meet",
-            coupling.to
-        );
-        checker.refuse(&path.at("to"), message, "one coupling a solid; `arrivals` for more drops");
     }
 }
 

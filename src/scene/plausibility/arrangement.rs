@@ -3,7 +3,7 @@
 
 use super::Reviewer;
 use crate::scene::check::number;
-use crate::scene::droplet::{Coupling, Droplet};
+use crate::scene::droplet::{Arrival, Coupling, Droplet};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::types::{Footprint, Load, Mesh, Solid};
@@ -24,7 +24,9 @@ pub fn review(reviewer: &mut Reviewer) {
     for (i, coupling) in scene.coupling.iter().enumerate() {
         let droplet = scene.droplet(&coupling.from);
         if let Some(droplet) = droplet {
-            width(reviewer, &root.key("coupling").index(i), coupling, droplet);
+            let path = root.key("coupling").index(i);
+            width(reviewer, &path, coupling, droplet);
+            apart(reviewer, &path, i, (coupling, droplet));
         }
     }
     for (i, load) in scene.load.iter().enumerate() {
@@ -103,6 +105,29 @@ fn width(reviewer: &mut Reviewer, path: &Path, coupling: &Coupling, droplet: &Dr
             number(2.0 * reach)
         );
         reviewer.warn(&path.key("from"), message);
+    }
+}
+
+/// Warns of droplets of two bodies that are expected to spread over each other.
+fn apart(
+    reviewer: &mut Reviewer,
+    path: &Path,
+    i: usize,
+    (coupling, droplet): (&Coupling, &Droplet),
+) {
+    let scene = reviewer.scene;
+    for earlier in scene.coupling[..i].iter().filter(|earlier| earlier.to == coupling.to) {
+        let Some(other) = scene.droplet(&earlier.from) else { continue };
+        let reach = 0.5 * (droplet.spread_diameter() + other.spread_diameter());
+        let meet = |a: &Arrival, b: &Arrival| (a.x - b.x).hypot(a.y - b.y) < reach;
+        if droplet.arrivals.iter().any(|a| other.arrivals.iter().any(|b| meet(a, b))) {
+            let message = format!(
+                "`{}` and `{}` are expected to spread over each other, and droplets of two bodies do not see \
+                 each other: did you mean `arrivals` of one?",
+                earlier.from, coupling.from
+            );
+            reviewer.warn(&path.key("from"), message);
+        }
     }
 }
 

@@ -48,7 +48,7 @@ const MIXED: [(usize, bool, Condition); 4] = [
 /// Runs from zero and returns state, problem.
 fn run(setup: Setup, values: &[f64], steps: &[f64]) -> (ParticleHeat, Vec<f64>) {
     let problem = ParticleHeat::new(setup, 1);
-    let mut state = vec![0.0; problem.state_len()];
+    let mut state = vec![0.0; problem.layout().len()];
     let sources = Sources { surface: &[[Vec::new(), Vec::new()]], faces: &[values.to_vec()] };
     steps.iter().for_each(|&dt| {
         problem.advance(&mut state, &[sources], dt, &Allowance::default()).unwrap()
@@ -165,7 +165,7 @@ fn odd_parts_see_an_odd_lattice() {
     setup.classes = vec![[false, false], [true, false]];
     let nodes = setup.axes[0].nodes.clone();
     let problem = ParticleHeat::new(setup, 1);
-    let mut state = vec![0.0; problem.state_len()];
+    let mut state = vec![0.0; problem.layout().len()];
     let nothing = [[Vec::new(), Vec::new()], [Vec::new(), Vec::new()]];
     let faces = [vec![0.0], vec![1.0]];
     problem
@@ -250,7 +250,7 @@ fn nothing_grows_on_lattices_of_any_grading() {
             (setup.capacity, setup.conductivity) = (1e6, 1.0);
             let problem = ParticleHeat::new(setup, 1);
             let mut state: Vec<f64> =
-                (0..problem.state_len()).map(|i| (1.7 * (i * i) as f64).sin()).collect();
+                (0..problem.layout().len()).map(|i| (1.7 * (i * i) as f64).sin()).collect();
             let values = [vec![0.0; faces.len()]];
             let sources = Sources { surface: &[[Vec::new(), Vec::new()]], faces: &values };
             problem.advance(&mut state, &[sources], 10.0, &Allowance::default()).unwrap();

@@ -1,4 +1,4 @@
-//! What a fluid on the top of a solid sees of it, and what the solid gets from the fluid.
+//! What a body at the top or the bottom of a solid sees of it, and what the solid gets from that body.
 
 use faer::Mat;
 
@@ -9,26 +9,28 @@ use crate::method::sph::WallCells;
 
 use super::symmetry::split_load;
 
-/// The whole top of a solid, images at mirrors included, in cells about the ends of elements.
+/// The whole top or bottom of a solid, images at mirrors included, in cells about the ends of elements.
 ///
-/// The fluid gives its heat and force to functions that are linear between the ends of elements; seen
+/// Others give heat and force to functions that are linear between the ends of elements; seen
 /// as densities, these become the nodal vectors of the elements' own shape functions. Both sets of
 /// functions sum to one everywhere, so all that is given arrives, and what is uniform stays so. As the shape
 /// functions can be those densities, the surface takes them without going beyond: it is never warmer than
 /// the fluid that warms it.
-pub struct TopFace {
+pub struct FaceCells {
     mesh: Mesh,
+    high: bool,
     /// `(node, is it the image)` of the ends of elements along x and y, coordinates ascending.
     places: [Vec<(usize, bool)>; 2],
     /// From amounts on the linear functions to nodal vectors, along x and y of the mesh.
     consistent: [Mat<f64>; 2],
 }
 
-impl TopFace {
-    /// `lumped` for particles, each of which has a volume of its own.
-    pub fn of(mesh: &Mesh, lumped: bool) -> Self {
+impl FaceCells {
+    /// Of the top if `high`; `lumped` for particles, each of which has a volume of its own.
+    pub fn of(mesh: &Mesh, high: bool, lumped: bool) -> Self {
         Self {
             mesh: mesh.clone(),
+            high,
             places: [0, 1].map(|axis| {
                 let order = mesh.order();
                 let is_end = |&(node, _): &(usize, bool)| node % order == 0;
@@ -41,7 +43,7 @@ impl TopFace {
         }
     }
 
-    /// The cells through which a fluid exchanges with the face.
+    /// The cells through which others exchange with the face.
     pub fn cells(&self) -> WallCells {
         let [x, y] = [0, 1].map(|a| {
             let signed = |&(node, image): &(usize, bool)| {
@@ -59,7 +61,7 @@ impl TopFace {
     /// Temperature above the initial one at each cell [K].
     pub fn rise(&self, temperatures: &Temperatures) -> Vec<f64> {
         let [.., nz] = self.mesh.node_counts();
-        self.unfolded(temperatures, nz - 1)
+        self.unfolded(temperatures, if self.high { nz - 1 } else { 0 })
     }
 
     /// Parts of the temperature at each cell [K], those of each cell together, from lists of `count` layers of
@@ -185,7 +187,7 @@ mod tests {
     }
 
     /// What a place gives to the cells.
-    fn given(face: &TopFace, x: f64, y: f64, amount: f64) -> Vec<f64> {
+    fn given(face: &FaceCells, x: f64, y: f64, amount: f64) -> Vec<f64> {
         let cells = face.cells();
         let mut out = vec![0.0; cells.len()];
         for (cell, weight) in cells.cover([[x; 2], [y; 2]]).cells {
@@ -197,7 +199,7 @@ mod tests {
     #[test]
     fn all_that_is_given_anywhere_arrives() {
         for mesh in meshes() {
-            let face = TopFace::of(&mesh, false);
+            let face = FaceCells::of(&mesh, true, false);
             for (x, y) in [(0.0, 0.0), (-0.33, 0.2), (0.7, -1.0), (0.05, 0.05)] {
                 let parts = face.nodal(&given(&face, x, y, 3.0), [false; 2], [false; 2]);
                 let total = mesh.copies() * parts[0].iter().sum::<f64>();
@@ -209,7 +211,7 @@ mod tests {
     #[test]
     fn the_parts_of_a_force_give_back_the_force_on_each_side() {
         let mesh = mesh(2, [true, false]);
-        let face = TopFace::of(&mesh, false);
+        let face = FaceCells::of(&mesh, true, false);
         let flips = [true, false]; // A force along x.
         let parts = face.nodal(&given(&face, -0.6, 0.1, 2.0), flips, [false; 2]);
         let side = |image: bool| -> f64 {
@@ -223,7 +225,7 @@ mod tests {
     #[test]
     fn a_uniform_density_becomes_the_load_of_the_shape_functions() {
         let mesh = mesh(2, [false, false]);
-        let face = TopFace::of(&mesh, false);
+        let face = FaceCells::of(&mesh, true, false);
         let [x, y] = [&mesh.axes[0], &mesh.axes[1]];
         let widths = |axis: &Axis| -> Vec<f64> {
             let ends: Vec<f64> = axis.nodes.iter().copied().step_by(2).collect();
@@ -243,7 +245,7 @@ mod tests {
     #[test]
     fn a_symmetric_fluid_makes_no_odd_part() {
         let mesh = mesh(1, [true, true]);
-        let face = TopFace::of(&mesh, false);
+        let face = FaceCells::of(&mesh, true, false);
         let amounts: Vec<f64> = (0..face.cells().len()).map(|i| 1.0 + 1e-16 * i as f64).collect();
         let parts = face.nodal(&amounts, [false; 2], [true; 2]);
         assert!(!parts[0].is_empty() && parts[1..].iter().all(Vec::is_empty));
@@ -252,7 +254,7 @@ mod tests {
     #[test]
     fn temperatures_are_seen_on_both_sides_of_a_mirror() {
         let mesh = mesh(1, [true, false]);
-        let face = TopFace::of(&mesh, false);
+        let face = FaceCells::of(&mesh, true, false);
         let [nx, ny, nz] = mesh.node_counts();
         let field = |f: &dyn Fn(f64) -> f64| -> Vec<f64> {
             (0..nx * ny * nz).map(|node| f(mesh.axes[0].nodes[node % nx])).collect()
@@ -271,7 +273,7 @@ mod tests {
         let z = Axis::from_element_ends(&[-0.2, 0.0], 2, Weight::Uniform);
         let axes = [r, Axis::point(), z];
         let mesh = Mesh { axes, mirrored: [false; 2], geometry: Geometry::Axisymmetric };
-        let face = TopFace::of(&mesh, false);
+        let face = FaceCells::of(&mesh, true, false);
         for x in [0.0, 0.05, 0.6] {
             let parts = face.nodal(&given(&face, x, 0.0, 1.0), [true, false], [true; 2]);
             assert!((parts[0].iter().sum::<f64>() - 1.0).abs() < 1e-14);

@@ -1,0 +1,77 @@
+//! Two half spaces of different temperature brought into contact at time 0, between which heat passes in proportion to
+//! the difference of their surface temperatures.
+//!
+//! Source: each half space obeys the solution for a convective surface (H. S. Carslaw and J. C. Jaeger, *Conduction of
+//! Heat in Solids*, 2nd ed., Oxford 1959, §2.7); with `b = h (1/e₁ + 1/e₂)` the flux is `h ΔT exp(b²t) erfc(b√t)`.
+
+use super::contact::Contact;
+use super::special::erfcx;
+
+/// The contact and its conductance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ResistiveContact {
+    pub bodies: Contact,
+    /// h [W/(m² K)]
+    pub conductance: f64,
+}
+
+impl ResistiveContact {
+    /// Flux from the first into the second body [W/m²].
+    pub fn flux(&self, t: f64) -> f64 {
+        self.conductance * self.difference() * erfcx(self.rate() * t.sqrt())
+    }
+
+    /// Temperatures of both surfaces [K]: each has moved by the part of the difference that its effusivity allows.
+    pub fn surfaces(&self, t: f64) -> [f64; 2] {
+        let Contact { first, second, first_temperature, second_temperature } = self.bodies;
+        let [e1, e2] = [first.effusivity(), second.effusivity()];
+        let moved = self.difference() * (1.0 - erfcx(self.rate() * t.sqrt())) / (e1 + e2);
+        [first_temperature - e2 * moved, second_temperature + e1 * moved]
+    }
+
+    fn difference(&self) -> f64 {
+        self.bodies.first_temperature - self.bodies.second_temperature
+    }
+
+    /// b [1/√s]
+    fn rate(&self) -> f64 {
+        let Contact { first, second, .. } = self.bodies;
+        self.conductance * (1.0 / first.effusivity() + 1.0 / second.effusivity())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::medium::Conductor;
+    use super::*;
+
+    fn contact(conductance: f64) -> ResistiveContact {
+        let bodies = Contact {
+            first: Conductor { conductivity: 10.0, heat_capacity: 3.5e6 },
+            first_temperature: 500.0,
+            second: Conductor { conductivity: 400.0, heat_capacity: 3.4e6 },
+            second_temperature: 300.0,
+        };
+        ResistiveContact { bodies, conductance }
+    }
+
+    #[test]
+    fn the_flux_is_the_law_between_the_surfaces() {
+        for conductance in [1.0, 1e3, 1e6] {
+            let contact = contact(conductance);
+            for t in [1e-6, 1e-3, 1.0, 100.0] {
+                let [first, second] = contact.surfaces(t);
+                let law = conductance * (first - second);
+                assert!((law / contact.flux(t) - 1.0).abs() < 1e-9, "{conductance} {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn without_resistance_it_is_perfect_contact() {
+        let contact = contact(1e12);
+        assert!((contact.flux(1.0) / contact.bodies.flux(1.0) - 1.0).abs() < 1e-12);
+        let middle = contact.bodies.temperature_of_contact();
+        contact.surfaces(1.0).iter().for_each(|t| assert!((t - middle).abs() < 1e-6));
+    }
+}

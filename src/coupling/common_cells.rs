@@ -1,0 +1,174 @@
+//! Two faces that touch: the cells that both have in common.
+
+use crate::method::sph::{Domain, WallCells};
+
+/// Places where two faces touch: wherever either has the end of an element, as far as both reach. Seen from either
+/// face, what is between its own places is linear, so that all that leaves the one enters the other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CommonCells {
+    /// Coordinates along x and y, or radii and none [m].
+    places: [Vec<f64>; 2],
+    /// Of the area that belongs to each place [m²].
+    pub areas: Vec<f64>,
+    /// For each face and axis: where each place lies between the face's own.
+    between: [[Vec<Between>; 2]; 2],
+}
+
+/// Between the places `first` and the next, by this part of their distance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Between {
+    first: usize,
+    part: f64,
+}
+
+/// Relative distance below which two places are one.
+const SAME: f64 = 1e-9;
+
+impl CommonCells {
+    /// Nothing where one face is round and the other is not.
+    pub fn of(faces: [&WallCells; 2]) -> Option<Self> {
+        let axes = match faces {
+            [WallCells::Nodes { x, y }, WallCells::Nodes { x: other_x, y: other_y }] => {
+                [[x, other_x], [y, other_y]].map(|pair| pair.map(Vec::as_slice))
+            }
+            [WallCells::RadialNodes { r }, WallCells::RadialNodes { r: other }] => {
+                [[r.as_slice(), other.as_slice()], [&[0.0], &[0.0]]]
+            }
+            _ => return None,
+        };
+        let places = axes.map(merged);
+        let whole = match faces[0] {
+            WallCells::RadialNodes { .. } => WallCells::RadialNodes { r: places[0].clone() },
+            _ => WallCells::Nodes { x: places[0].clone(), y: places[1].clone() },
+        };
+        let between = [0, 1].map(|face| {
+            [0, 1].map(|axis| {
+                places[axis].iter().map(|&place| Between::of(axes[axis][face], place)).collect()
+            })
+        });
+        Some(Self { areas: whole.areas(Domain::whole(3)), places, between })
+    }
+
+    pub fn len(&self) -> usize {
+        self.areas.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.areas.is_empty()
+    }
+
+    /// Values at the common places from those of a face's own, of which there are `width` along x.
+    pub fn values(&self, face: usize, own: &[f64], width: usize) -> Vec<f64> {
+        let value = |weights: [(usize, f64); 4]| weights.map(|(at, w)| w * own[at]).iter().sum();
+        (0..self.len()).map(|place| value(self.weights(face, place, width))).collect()
+    }
+
+    /// Amounts at a face's own places, of which there are `count`, from those at the common ones.
+    pub fn deposit(&self, face: usize, amounts: &[f64], [width, count]: [usize; 2]) -> Vec<f64> {
+        let mut own = vec![0.0; count];
+        for (place, amount) in amounts.iter().enumerate() {
+            for (at, weight) in self.weights(face, place, width) {
+                own[at] += weight * amount;
+            }
+        }
+        own
+    }
+
+    /// The four own places about a common one and their weights.
+    fn weights(&self, face: usize, place: usize, width: usize) -> [(usize, f64); 4] {
+        let columns = self.places[0].len();
+        let [x, y] = &self.between[face];
+        let (x, y) = (x[place % columns], y[place / columns]);
+        let next = |between: Between| between.first + usize::from(between.part > 0.0);
+        [
+            (x.first + width * y.first, (1.0 - x.part) * (1.0 - y.part)),
+            (next(x) + width * y.first, x.part * (1.0 - y.part)),
+            (x.first + width * next(y), (1.0 - x.part) * y.part),
+            (next(x) + width * next(y), x.part * y.part),
+        ]
+    }
+}
+
+impl Between {
+    fn of(own: &[f64], place: f64) -> Self {
+        if own.len() < 2 {
+            return Self { first: 0, part: 0.0 };
+        }
+        let above = own.partition_point(|&other| other <= place).clamp(1, own.len() - 1);
+        let [low, high] = [own[above - 1], own[above]];
+        let part = ((place - low) / (high - low)).clamp(0.0, 1.0);
+        match part {
+            part if part < SAME => Self { first: above - 1, part: 0.0 },
+            part if part > 1.0 - SAME => Self { first: above, part: 0.0 },
+            part => Self { first: above - 1, part },
+        }
+    }
+}
+
+/// The places of two lists within what both span, ascending, each once.
+fn merged([a, b]: [&[f64]; 2]) -> Vec<f64> {
+    let ends = |list: &[f64]| [list[0], list[list.len() - 1]];
+    let ([a0, a1], [b0, b1]) = (ends(a), ends(b));
+    let (low, high) = (a0.max(b0), a1.min(b1));
+    let slack = SAME * (high - low);
+    let mut all: Vec<f64> = a.iter().chain(b).copied().collect();
+    all.retain(|place| (low..=high).contains(place));
+    all.sort_by(f64::total_cmp);
+    all.dedup_by(|next, kept| *next - *kept <= slack);
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn faces() -> [[WallCells; 2]; 2] {
+        let nodes = |x: &[f64], y: &[f64]| WallCells::Nodes { x: x.to_vec(), y: y.to_vec() };
+        let radial = |r: &[f64]| WallCells::RadialNodes { r: r.to_vec() };
+        [
+            [
+                nodes(&[-2.0, -0.5, 0.0, 2.0], &[-1.0, 0.3, 1.0]),
+                nodes(&[-1.0, -0.5, 0.7, 1.0], &[-3.0, 0.0, 3.0]),
+            ],
+            [radial(&[0.0, 0.2, 1.0, 3.0]), radial(&[0.0, 0.5, 1.5])],
+        ]
+    }
+
+    #[test]
+    fn areas_are_those_of_the_overlap() {
+        let wanted = [2.0 * 2.0, std::f64::consts::PI * 1.5 * 1.5];
+        for ([a, b], wanted) in faces().iter().zip(wanted) {
+            let common = CommonCells::of([a, b]).unwrap();
+            assert!((common.areas.iter().sum::<f64>() - wanted).abs() < 1e-12, "{common:?}");
+        }
+        let [[a, _], [b, _]] = &faces();
+        assert_eq!(CommonCells::of([a, b]), None);
+    }
+
+    #[test]
+    fn all_amounts_arrive_where_they_are() {
+        for pair in faces() {
+            let common = CommonCells::of([&pair[0], &pair[1]]).unwrap();
+            let amounts: Vec<f64> = (0..common.len()).map(|i| (i as f64).sin()).collect();
+            for (face, cells) in pair.iter().enumerate() {
+                let (width, places) = match cells {
+                    WallCells::Nodes { x, y } => (x.len(), [x.clone(), y.clone()]),
+                    WallCells::RadialNodes { r } => (r.len(), [r.clone(), vec![0.0]]),
+                    _ => unreachable!(),
+                };
+                let own = common.deposit(face, &amounts, [width, cells.len()]);
+                assert!((own.iter().sum::<f64>() - amounts.iter().sum::<f64>()).abs() < 1e-12);
+                // Linear functions are the same on both.
+                let linear = |x: f64, y: f64| 1.0 + 2.0 * x - 3.0 * y;
+                let at = |n: usize| linear(places[0][n % width], places[1][n / width]);
+                let values: Vec<f64> = (0..cells.len()).map(at).collect();
+                let columns = common.places[0].len();
+                for (n, value) in common.values(face, &values, width).iter().enumerate() {
+                    let wanted =
+                        linear(common.places[0][n % columns], common.places[1][n / columns]);
+                    assert!((value - wanted).abs() < 1e-12, "{face} {n}");
+                }
+            }
+        }
+    }
+}

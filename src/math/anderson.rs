@@ -1,0 +1,78 @@
+//! Anderson's acceleration of fixed-point iterations (D. G. Anderson 1965, doi 10.1145/321296.321305; H. F. Walker and
+//! P. Ni 2011, doi 10.1137/10078356X). Of linear equations it finds what GMRES finds.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Most earlier iterates that are looked back at.
+const DEPTH: usize = 20;
+/// Singular values below this part of the largest count as zero.
+const SINGULAR: f64 = 1e-12;
+
+/// The iterates so far.
+#[derive(Debug, Default)]
+pub struct Anderson {
+    /// Differences of iterates and of their corrections, the oldest first.
+    steps: Vec<DVector<f64>>,
+    changes: Vec<DVector<f64>>,
+    last: Option<(DVector<f64>, DVector<f64>)>,
+}
+
+impl Anderson {
+    /// The next iterate after `x`, for which the plain iteration would be `x + correction`.
+    pub fn next(&mut self, x: &[f64], correction: &[f64]) -> Vec<f64> {
+        let (x, f) = (DVector::from_column_slice(x), DVector::from_column_slice(correction));
+        if let Some((last_x, last_f)) = &self.last {
+            if self.steps.len() == DEPTH {
+                self.steps.remove(0);
+                self.changes.remove(0);
+            }
+            self.steps.push(&x - last_x);
+            self.changes.push(&f - last_f);
+        }
+        let mut next = &x + &f;
+        if !self.changes.is_empty() {
+            let changes = DMatrix::from_columns(&self.changes);
+            let svd = changes.svd(true, true);
+            let smallest = SINGULAR * svd.singular_values.max();
+            if let Ok(weights) = svd.solve(&f, smallest) {
+                for ((step, change), weight) in self.steps.iter().zip(&self.changes).zip(&weights) {
+                    next -= (step + change) * *weight;
+                }
+            }
+        }
+        self.last = Some((x, f));
+        next.as_slice().to_vec()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn linear_equations_take_no_more_iterations_than_unknowns() {
+        // A iterates that would diverge by themselves: x + (b − A x) with eigenvalues of A up to 6.
+        let a = DMatrix::from_fn(5, 5, |i, j| {
+            if i == j { 2.0 + i as f64 } else { 1.0 / (2.0 + i as f64 + j as f64) }
+        });
+        let b = DVector::from_fn(5, |i, _| 1.0 + i as f64);
+        let mut anderson = Anderson::default();
+        let mut x = vec![0.0; 5];
+        for _ in 0..7 {
+            let correction = &b - &a * DVector::from_column_slice(&x);
+            x = anderson.next(&x, correction.as_slice());
+        }
+        let residual = &b - &a * DVector::from_column_slice(&x);
+        assert!(residual.amax() < 1e-10, "{residual}");
+    }
+
+    #[test]
+    fn a_cosine_has_its_fixed_point() {
+        let mut anderson = Anderson::default();
+        let mut x = vec![1.0];
+        for _ in 0..7 {
+            x = anderson.next(&x, &[x[0].cos() - x[0]]);
+        }
+        assert!((x[0] - 0.739_085_133_215_160_7).abs() < 1e-12, "{x:?}");
+    }
+}
