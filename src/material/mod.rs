@@ -1,11 +1,19 @@
 //! Constitutive laws, one a file. The enum is also the parser of a scene's `material` table.
 
 mod constants;
+mod enthalpy;
+mod melting;
+mod property;
 pub mod stress;
 pub mod stress_rate;
+mod substance;
 mod thermoelastic;
 
 pub use constants::Constants;
+pub use enthalpy::{Enthalpy, EnthalpyPoint};
+pub use melting::{Melting, MeltingError};
+pub use property::{Curve, Property, PropertyError, Table};
+pub use substance::{Substance, SubstanceError};
 pub use thermoelastic::Thermoelastic;
 
 use serde::{Deserialize, Serialize};
