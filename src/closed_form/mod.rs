@@ -64,7 +64,7 @@ pub use heated_disc::{LongCylinder, ThinDisc};
 pub use kirchhoff::LinearConductivity;
 pub use medium::{Conductor, Elastic};
 pub use melting_front::MeltingFront;
-pub use radiating_lump::{RadiatingLump, STEFAN_BOLTZMANN};
+pub use radiating_lump::RadiatingLump;
 pub use slab::HeatedSlab;
 pub use spreading_film::flux_over_rest;
 pub use square_plate::SquarePlate;

@@ -3,7 +3,7 @@
 //! Source: F. P. Incropera et al., *Fundamentals of Heat and Mass Transfer*, 7th ed., Wiley 2011, §5.3.
 
 /// Stefan's and Boltzmann's constant σ [W/(m² K⁴)], CODATA 2018.
-pub const STEFAN_BOLTZMANN: f64 = 5.670374419e-8;
+const STEFAN_BOLTZMANN: f64 = 5.670374419e-8;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RadiatingLump {

@@ -4,6 +4,7 @@ mod constants;
 mod enthalpy;
 mod melting;
 mod property;
+mod radiation;
 pub mod stress;
 pub mod stress_rate;
 mod substance;
@@ -13,6 +14,7 @@ pub use constants::Constants;
 pub use enthalpy::{Enthalpy, EnthalpyPoint};
 pub use melting::{Melting, MeltingError};
 pub use property::{Curve, Property, PropertyError, Table};
+pub use radiation::{radiative_flux, radiative_slope};
 pub use substance::{Substance, SubstanceError};
 pub use thermoelastic::Thermoelastic;
 
