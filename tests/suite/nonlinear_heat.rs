@@ -1,0 +1,551 @@
+//! What nonlinear conduction must do: closed forms with rates, balances, ends of ranges.
+
+use std::f64::consts::TAU;
+
+use impinge::closed_form::{
+    Conductor, Contact as TwoBodies, LinearConductivity, MeltingFront, RadiatingLump,
+};
+use impinge::material::{Melting, Property, Substance, Table};
+use impinge::math::allowance::{Allowance, Interrupt};
+use impinge::method::enthalpy::{
+    Condition, Contact, EnthalpyHeat, Face, Failure, Loads, Setup, SetupError, linear_mesh,
+};
+use impinge::method::fem::{
+    Axis, Geometry, HeatLoads, HeatProblem, Mesh, MeshFace, ThermalFace, Weight,
+};
+
+static NONE: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
+const BOTTOM: MeshFace = MeshFace { axis: 2, high: false };
+const TOP: MeshFace = MeshFace { axis: 2, high: true };
+const RIGHT: MeshFace = MeshFace { axis: 0, high: true };
+
+fn line(length: f64, count: usize) -> Axis {
+    let ends: Vec<f64> = (0..=count).map(|i| length * i as f64 / count as f64).collect();
+    Axis::from_element_ends(&ends, 1, Weight::Uniform)
+}
+
+fn slab(length: f64, count: usize) -> Mesh {
+    let axes = [Axis::point(), Axis::point(), line(length, count)];
+    Mesh { axes, mirrored: [false; 2], geometry: Geometry::Box }
+}
+
+fn block(lengths: [f64; 3], counts: [usize; 3]) -> Mesh {
+    let axes = [0, 1, 2].map(|a| line(lengths[a], counts[a]));
+    Mesh { axes, mirrored: [false; 2], geometry: Geometry::Box }
+}
+
+fn disc(radius: f64, depth: f64, counts: [usize; 2]) -> Mesh {
+    let ends: Vec<f64> = (0..=counts[0]).map(|i| radius * i as f64 / counts[0] as f64).collect();
+    let r = Axis::from_element_ends(&ends, 1, Weight::Radial);
+    let axes = [r, Axis::point(), line(depth, counts[1])];
+    Mesh { axes, mirrored: [false; 2], geometry: Geometry::Axisymmetric }
+}
+
+fn plain(density: f64, specific_heat: f64, conductivity: f64) -> Substance {
+    let (specific_heat, conductivity) = (specific_heat.into(), conductivity.into());
+    Substance { density, specific_heat, conductivity, melting: None }
+}
+
+fn table(temperature: &[f64], value: &[f64]) -> Property {
+    Property::Table(Table { temperature: temperature.to_vec(), value: value.to_vec() })
+}
+
+fn setup(mesh: Mesh, reference: f64, material: Substance, faces: &[(MeshFace, Condition)]) -> Setup {
+    let faces = faces.iter().map(|&(place, condition)| Face { place, condition }).collect();
+    let materials = vec![material];
+    Setup { mesh, reference, materials, layers: Vec::new(), contacts: Vec::new(), faces }
+}
+
+/// A problem and its state.
+struct Run {
+    heat: EnthalpyHeat,
+    state: Vec<f64>,
+}
+
+impl Run {
+    fn new(setup: &Setup) -> Self {
+        let heat = EnthalpyHeat::new(setup).unwrap();
+        let state = heat.initial_state(setup.reference);
+        Self { heat, state }
+    }
+
+    fn advance(&mut self, faces: &[f64], dt: f64, tolerance: f64) {
+        self.load(&[Loads { surface: &NONE, faces }], dt, tolerance);
+    }
+
+    #[track_caller]
+    fn load(&mut self, loads: &[Loads], dt: f64, tolerance: f64) {
+        self.heat.advance(&mut self.state, loads, dt, tolerance, &Allowance::default()).unwrap();
+        assert!(self.imbalance() < 1e-9, "{}", self.imbalance());
+    }
+
+    /// Heat in less heat stored and lost, over what passed.
+    fn imbalance(&self) -> f64 {
+        let (totals, stored) = (self.heat.totals(&self.state), self.heat.stored(&self.state));
+        let moved = totals.brought_in.abs() + totals.lost.abs() + stored.abs();
+        (totals.brought_in - totals.lost - stored).abs() / moved.max(f64::MIN_POSITIVE)
+    }
+
+    fn temperatures(&self) -> Vec<f64> {
+        self.heat.temperatures(&self.state)
+    }
+
+    fn steps(&self) -> f64 {
+        self.heat.steps(&self.state)
+    }
+
+    /// Volume of what is liquid, over the area of a slab: depth [m].
+    fn liquid(&self) -> f64 {
+        let fractions = self.heat.liquid_fractions(&self.state);
+        fractions.iter().zip(self.heat.volumes()).map(|(f, v)| f * v).sum()
+    }
+}
+
+fn rate(coarse: f64, fine: f64) -> f64 {
+    (coarse / fine).log2()
+}
+
+#[test]
+fn constant_constants_give_the_exact_modes_at_second_order() {
+    let (capacity, conductivity, ambient) = (6.0, 5.0, 40.0);
+    let difference = |n: usize| {
+        let mesh = block([1.0, 0.8, 0.5], [2 * n, n, n]);
+        let conditions = [
+            (TOP, ThermalFace::Flux, Condition::Flux, 300.0),
+            (RIGHT, ThermalFace::Prescribed, Condition::Prescribed, -20.0),
+            (BOTTOM, ThermalFace::Convective(8.0), Condition::Convective(8.0), ambient),
+        ];
+        let modal = HeatProblem::new(
+            &mesh,
+            capacity,
+            conductivity,
+            conditions.iter().map(|c| (c.0, c.1)).collect(),
+        );
+        let mut exact = vec![0.0; modal.state_len()];
+        let values = [conditions.iter().map(|c| c.3).collect::<Vec<f64>>()];
+        let loads = HeatLoads { surface: &[NONE.clone()], faces: &values };
+        modal.advance(&mut exact, &[loads], 0.05);
+        let faces: Vec<_> = conditions.iter().map(|c| (c.0, c.2)).collect();
+        let mut run = Run::new(&setup(mesh.clone(), 300.0, plain(2.0, 3.0, conductivity), &faces));
+        run.advance(&[300.0, 280.0, 340.0], 0.05, 1e-5);
+        let middle = n + (2 * n + 1) * (n / 2 + (n + 1) * (n / 2));
+        let point = [0.5, 0.4, 0.25];
+        let wanted = modal.temperature_at(&mesh, &exact, &values, point, [false; 2]);
+        let totals = [modal.totals(&exact).lost, run.heat.totals(&run.state).lost];
+        assert!(wanted.abs() > 1.0 && totals[0].abs() > 1.0);
+        [(run.temperatures()[middle] - 300.0 - wanted).abs(), (totals[1] - totals[0]).abs()]
+    };
+    let (coarse, fine) = (difference(4), difference(8));
+    for (i, what) in ["temperature", "heat lost"].iter().enumerate() {
+        let rate = rate(coarse[i], fine[i]);
+        assert!(rate > 1.5, "{what}: {coarse:?} {fine:?}, rate {rate}");
+    }
+}
+
+/// `k` and `c` that grow linearly from 300 K on by 0.3 % per kelvin.
+fn kirchhoff() -> (LinearConductivity, Substance) {
+    let body = Conductor { conductivity: 5.0, heat_capacity: 6.0 };
+    let grown = |value: f64| table(&[200.0, 900.0], &[0.7 * value, 2.8 * value]);
+    let material = Substance {
+        density: 2.0,
+        specific_heat: grown(3.0),
+        conductivity: grown(5.0),
+        melting: None,
+    };
+    (LinearConductivity { body, slope: 3e-3 }, material)
+}
+
+#[test]
+fn a_half_space_of_changing_conductivity_converges_at_second_order() {
+    let (exact, material) = kirchhoff();
+    let (length, time) = (4.0, 0.1);
+    for (condition, value) in [(Condition::Prescribed, 800.0), (Condition::Flux, 3000.0)] {
+        let error = |n: usize| {
+            let faces = [(BOTTOM, condition)];
+            let mut run = Run::new(&setup(slab(length, n), 300.0, material.clone(), &faces));
+            run.advance(&[value], time, 1e-4);
+            let rise = |z: f64| match condition {
+                Condition::Flux => exact.uniform_flux(value, z, time),
+                _ => exact.sudden_surface(value - 300.0, z, time),
+            };
+            let t = run.temperatures();
+            let off = |i: usize| t[i] - 300.0 - rise(length * i as f64 / n as f64);
+            (0..=n).map(|i| off(i).powi(2) * length / n as f64).sum::<f64>().sqrt()
+        };
+        let errors = [40, 80, 160].map(error);
+        for pair in errors.windows(2) {
+            let rate = rate(pair[0], pair[1]);
+            assert!((rate - 2.0).abs() < 0.15, "{condition:?}: {errors:?}, rate {rate}");
+        }
+    }
+}
+
+#[test]
+fn a_steady_slab_of_changing_conductivity_is_exact_at_the_nodes() {
+    let (exact, material) = kirchhoff();
+    let faces = [(BOTTOM, Condition::Prescribed), (TOP, Condition::Prescribed)];
+    let mut run = Run::new(&setup(slab(2.0, 7), 300.0, material, &faces));
+    run.advance(&[250.0, 850.0], 1e4, 1e-6);
+    for (i, t) in run.temperatures().iter().enumerate() {
+        let wanted = 300.0 + exact.steady_slab([-50.0, 550.0], i as f64 / 7.0);
+        assert!((t - wanted).abs() < 1e-5, "{i}: {t} {wanted}");
+    }
+    // What goes in at the top goes out at the bottom.
+    let before = run.heat.totals(&run.state).lost;
+    run.advance(&[250.0, 850.0], 1.0, 1e-6);
+    assert!((run.heat.totals(&run.state).lost - before).abs() < 1e-3);
+}
+
+/// Ice and water of one density.
+fn water(solidus: f64, liquidus: f64) -> Substance {
+    Substance {
+        density: 1000.0,
+        specific_heat: table(&[273.1, 273.2], &[2050.0, 4200.0]),
+        conductivity: table(&[273.1, 273.2], &[2.2, 0.57]),
+        melting: Some(Melting { solidus, liquidus, latent_heat: 3.34e5 }),
+    }
+}
+
+/// Depth of the front and the temperature beside it of water that freezes or ice that melts from its bottom: relative
+/// error of the depth at several times, and the mean error of temperature [K].
+fn front(surface: f64, initial: f64, n: usize, tolerance: f64) -> ([f64; 3], f64) {
+    let (ice, water_) = (
+        Conductor { conductivity: 2.2, heat_capacity: 2.05e6 },
+        Conductor { conductivity: 0.57, heat_capacity: 4.2e6 },
+    );
+    let freezes = surface < 273.15;
+    let (new, old) = if freezes { (ice, water_) } else { (water_, ice) };
+    let exact = MeltingFront {
+        new,
+        old,
+        latent: 3.34e8,
+        surface: (surface - 273.15).abs(),
+        initial: (initial - 273.15).abs(),
+    };
+    let length = 0.05;
+    // A range of temperatures of no width but that of the table.
+    let material = water(273.15, 273.15);
+    let faces = [(BOTTOM, Condition::Prescribed)];
+    let heat = EnthalpyHeat::new(&setup(slab(length, n), 273.15, material, &faces)).unwrap();
+    let mut state = heat.initial_state(initial);
+    if freezes && initial == 273.15 {
+        let melted = heat.initial_state(273.15 + 1e-9);
+        state.copy_from_slice(&melted);
+    }
+    let mut run = Run { heat, state };
+    let mut errors = [0.0; 3];
+    for (i, error) in errors.iter_mut().enumerate() {
+        run.advance(&[surface], 1000.0, tolerance);
+        let time = 1000.0 * (i + 1) as f64;
+        let liquid = run.liquid();
+        let depth = if freezes { length - liquid } else { liquid };
+        *error = depth / exact.depth(time) - 1.0;
+    }
+    let t = run.temperatures();
+    let sign = if freezes { -1.0 } else { 1.0 };
+    let off = |i: usize| {
+        let rise = exact.rise(length * i as f64 / n as f64, 3000.0);
+        (t[i] - 273.15 - sign * rise).abs()
+    };
+    (errors, (0..=n).map(off).sum::<f64>() / (n + 1) as f64)
+}
+
+#[test]
+fn fronts_go_as_neumann_says_and_do_not_stall() {
+    for (surface, initial) in [(253.15, 273.15), (253.15, 278.15), (303.15, 273.15), (293.15, 263.15)]
+    {
+        let (coarse, fine) = (front(surface, initial, 50, 0.02), front(surface, initial, 200, 0.02));
+        let largest = |errors: [f64; 3]| errors.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
+        let [a, b] = [coarse, fine].map(|(errors, _)| largest(errors));
+        assert!(a < 0.08 && b < 0.02, "{surface} {initial}: {a} {b}");
+        // Two halvings: first order is a factor of four.
+        assert!(0.5 * rate(a, b) > 0.8, "{surface} {initial}: {coarse:?} {fine:?}");
+        assert!(0.5 * rate(coarse.1, fine.1) > 0.8, "{surface} {initial}: {coarse:?} {fine:?}");
+    }
+}
+
+#[test]
+fn a_molten_pool_freezes_and_every_joule_is_accounted_for() {
+    // A hot disc melts a pool, which freezes when the heat is off and the disc radiates.
+    let steel = Substance {
+        density: 7500.0,
+        specific_heat: table(&[300.0, 1000.0, 1050.0, 1800.0], &[450.0, 800.0, 700.0, 830.0]),
+        conductivity: table(&[300.0, 1100.0, 1750.0], &[50.0, 27.0, 34.0]),
+        melting: Some(Melting { solidus: 1720.0, liquidus: 1770.0, latent_heat: 2.6e5 }),
+    };
+    let mesh = disc(4e-3, 2e-3, [16, 12]);
+    let faces = [(TOP, Condition::Radiative(0.8)), (TOP, Condition::Convective(50.0))];
+    let mut run = Run::new(&setup(mesh.clone(), 300.0, steel, &faces));
+    let areas: Vec<f64> = mesh.axes[0].integrals();
+    let spot: Vec<f64> = areas.iter().take(6).map(|area| 4e7 * area).collect();
+    let heat: f64 = spot.iter().sum();
+    let on = [Vec::new(), [spot, vec![0.0; 11]].concat()];
+    let values = [300.0, 300.0];
+    run.load(&[Loads { surface: &on, faces: &values }], 0.25, 0.5);
+    let melted = run.liquid();
+    let hottest = run.temperatures().into_iter().fold(0.0, f64::max);
+    assert!(melted > 1e-10 && hottest > 1800.0, "{melted:e} {hottest}");
+    assert!((run.heat.totals(&run.state).brought_in / (0.25 * heat) - 1.0).abs() < 1e-12);
+    run.advance(&values, 0.05, 0.5);
+    let later = run.liquid();
+    assert!(later < melted, "{later:e} {melted:e}");
+    run.advance(&values, 20.0, 0.5);
+    assert_eq!(run.liquid(), 0.0);
+    run.advance(&values, 1e5, 0.5);
+    assert!(run.temperatures().iter().all(|t| (t - 300.0).abs() < 0.5));
+}
+
+#[test]
+fn a_thin_sheet_radiates_as_the_closed_forms_say_the_better_the_smaller_the_tolerance() {
+    for (initial, ambient) in [(1500.0, 0.0), (1500.0, 400.0), (300.0, 900.0)] {
+        let exact = RadiatingLump { capacity: 1000.0 * 500.0 * 1e-3, emissivity: 0.8, initial, ambient };
+        let error = |tolerance: f64| {
+            let faces = [(TOP, Condition::Radiative(0.8))];
+            let material = plain(1000.0, 500.0, 1e7);
+            let mut run = Run::new(&setup(slab(1e-3, 2), initial, material, &faces));
+            run.advance(&[ambient], 20.0, tolerance);
+            ((run.temperatures()[1] - exact.temperature(20.0)).abs(), run.steps())
+        };
+        let (coarse, fine) = (error(1.0), error(1e-3));
+        assert!(fine.0 < 2e-2, "{coarse:?} {fine:?}");
+        let order = (coarse.0 / fine.0).ln() / (fine.1 / coarse.1).ln();
+        assert!(order > 2.0, "{initial} {ambient}: {coarse:?} {fine:?}, order {order}");
+    }
+}
+
+#[test]
+fn time_is_at_third_order() {
+    let (_, material) = kirchhoff();
+    let faces = [(BOTTOM, Condition::Flux), (TOP, Condition::Radiative(1.0))];
+    let end = |tolerance: f64| {
+        let mut run = Run::new(&setup(slab(1.0, 10), 300.0, material.clone(), &faces));
+        let derivatives = [[0.0, 500.0], [8000.0, 0.0], [-4000.0, 0.0]];
+        let loads = derivatives.each_ref().map(|faces| Loads { surface: &NONE, faces });
+        run.load(&loads, 1.0, tolerance);
+        // The flux is 8000 t − 2000 t².
+        let wanted = 4000.0 - 2000.0 / 3.0;
+        assert!((run.heat.totals(&run.state).brought_in / wanted - 1.0).abs() < 1e-12);
+        (run.temperatures()[0], run.steps())
+    };
+    let (exact, runs) = (end(1e-9), [0.3, 0.03, 0.003, 3e-4].map(end));
+    for pair in runs.windows(2) {
+        let errors = [0, 1].map(|i| (pair[i].0 - exact.0).abs());
+        let order = (errors[0] / errors[1]).ln() / (pair[1].1 / pair[0].1).ln();
+        assert!(order > 2.5, "{runs:?} {exact:?}, order {order}");
+    }
+}
+
+#[test]
+fn flux_and_fluid_come_to_rest_where_they_balance() {
+    let (_, material) = kirchhoff();
+    let faces = [(TOP, Condition::Flux), (TOP, Condition::Convective(40.0))];
+    let mut run = Run::new(&setup(slab(1.0, 10), 300.0, material, &faces));
+    run.advance(&[2000.0, 320.0], 1e4, 1e-4);
+    assert!(run.temperatures().iter().all(|t| (t - 370.0).abs() < 1e-4));
+}
+
+#[test]
+fn layers_with_a_contact_have_the_steady_temperatures_of_resistances_in_series() {
+    let mesh = slab(3e-3, 6);
+    let faces = [(BOTTOM, Condition::Prescribed), (TOP, Condition::Flux)];
+    let mut setup = setup(mesh, 300.0, plain(8900.0, 385.0, 400.0), &faces);
+    setup.materials.push(plain(120.0, 1000.0, 0.02));
+    setup.materials.push(plain(3950.0, 900.0, 20.0));
+    setup.layers = vec![0, 0, 1, 1, 2, 2];
+    setup.contacts = vec![Contact { below: 4, conductance: 500.0 }];
+    let mut run = Run::new(&setup);
+    run.advance(&[300.0, 1e4], 1e6, 1e-6);
+    let rises: Vec<f64> = run.temperatures().iter().map(|t| (t - 300.0) / 1e4).collect();
+    let mut wanted = vec![0.0, 5e-4 / 400.0, 1e-3 / 400.0];
+    wanted.extend([5e-4, 1e-3].map(|z| 1e-3 / 400.0 + z / 0.02));
+    let above = 1e-3 / 400.0 + 1e-3 / 0.02 + 1.0 / 500.0;
+    wanted.extend([0.0, 5e-4, 1e-3].map(|z| above + z / 20.0));
+    assert_eq!(rises.len(), wanted.len());
+    for (rise, wanted) in rises.iter().zip(&wanted) {
+        assert!((rise - wanted).abs() < 1e-8, "{rises:?} {wanted:?}");
+    }
+}
+
+#[test]
+fn two_bodies_in_contact_share_the_temperature_that_their_effusivities_say() {
+    let (first, second) = (plain(2700.0, 900.0, 200.0), plain(1000.0, 4000.0, 0.6));
+    let of = |m: &Substance, c: f64, k: f64| Conductor { heat_capacity: m.density * c, conductivity: k };
+    let exact = TwoBodies {
+        first: of(&first, 900.0, 200.0),
+        first_temperature: 400.0,
+        second: of(&second, 4000.0, 0.6),
+        second_temperature: 300.0,
+    };
+    let error = |n: usize| {
+        // As deep as heat goes, on either side.
+        let mut ends: Vec<f64> = (0..=n).map(|i| 4e-3 * i as f64 / n as f64).collect();
+        ends.extend((1..=n).map(|i| 4e-3 + 3e-4 * i as f64 / n as f64));
+        let mut mesh = slab(1.0, 1);
+        mesh.axes[2] = Axis::from_element_ends(&ends, 1, Weight::Uniform);
+        let mut setup = setup(mesh, 300.0, first.clone(), &[]);
+        setup.materials.push(second.clone());
+        setup.layers = (0..2 * n).map(|e| usize::from(e >= n)).collect();
+        let heat = EnthalpyHeat::new(&setup).unwrap();
+        let start: Vec<f64> = ends.iter().map(|z| if *z < 4e-3 { 400.0 } else { 300.0 }).collect();
+        let state = heat.initial_state_of(&start);
+        let mut run = Run { heat, state };
+        let loads = [Loads { surface: &NONE, faces: &[] }];
+        run.heat.advance(&mut run.state, &loads, 0.005, 1e-4, &Allowance::default()).unwrap();
+        // The first body gave what the second has got.
+        assert!(run.heat.stored(&run.state).abs() < 1e-12 * 2700.0 * 900.0 * 4e-3 * 100.0);
+        let off = |(z, t): (&f64, f64)| (t - exact.temperature(z - 4e-3, 0.005)).powi(2);
+        let sum: f64 = ends.iter().zip(run.temperatures()).map(off).sum();
+        (sum / ends.len() as f64).sqrt()
+    };
+    // The node between them begins with the temperature of one: first order.
+    let errors = [10, 20, 40].map(error);
+    assert!(errors[2] < 1.0, "{errors:?}");
+    for pair in errors.windows(2) {
+        assert!(rate(pair[0], pair[1]) > 0.8, "{errors:?}");
+    }
+}
+
+/// Mercury, ice, aluminium, iron, steel and aerogel, with a temperature at which each is near its change.
+fn materials() -> Vec<(&'static str, f64, Substance)> {
+    let melting = |solidus: f64, liquidus: f64, latent_heat: f64| {
+        Some(Melting { solidus, liquidus, latent_heat })
+    };
+    let of = |density: f64, specific_heat: Property, conductivity: Property, melting| Substance {
+        density,
+        specific_heat,
+        conductivity,
+        melting,
+    };
+    vec![
+        ("mercury", 230.0, of(13600.0, 140.0.into(), table(&[230.0, 240.0], &[28.0, 8.0]), melting(234.32, 234.32, 1.14e4))),
+        ("ice", 270.0, water(273.15, 273.15)),
+        ("aluminium", 900.0, of(2550.0, table(&[300.0, 933.0], &[900.0, 1180.0]), table(&[900.0, 933.0, 934.0], &[212.0, 208.0, 94.0]), melting(933.47, 933.47, 3.97e5))),
+        ("iron", 1750.0, of(7300.0, table(&[300.0, 1000.0, 1042.0, 1100.0, 1811.0], &[450.0, 970.0, 1500.0, 750.0, 820.0]), table(&[300.0, 1184.0], &[80.0, 29.0]), melting(1811.0, 1811.0, 2.47e5))),
+        ("steel", 1700.0, of(7200.0, 700.0.into(), 30.0.into(), melting(1720.0, 1770.0, 2.6e5))),
+        ("aerogel", 300.0, of(100.0, 1000.0.into(), table(&[300.0, 700.0], &[0.015, 0.04]), None)),
+    ]
+}
+
+#[test]
+fn heat_balances_for_all_materials_over_steps_of_any_length_and_loads_that_switch() {
+    let length = 1e-3;
+    for (name, start, material) in materials() {
+        let capacity = material.density * material.specific_heat.value(start);
+        let k = material.conductivity.value(start);
+        let time = length * length * capacity / k;
+        for part in [1e-9_f64, 1e-4, 1e-1, 1e3] {
+            let faces = [
+                (TOP, Condition::Flux),
+                (RIGHT, Condition::Convective(0.3 * k / length)),
+                (BOTTOM, Condition::Radiative(0.9)),
+                (MeshFace { axis: 1, high: false }, Condition::Prescribed),
+            ];
+            let mut run = Run::new(&setup(block([length; 3], [3, 4, 5]), start, material.clone(), &faces));
+            let flux = 400.0 * k / length / (part * 10.0).sqrt().min(1.0);
+            for (flux, moved) in [(flux, 0.0), (0.0, 20.0), (-0.1 * flux, 0.0)] {
+                let rate = [0.0, 0.0, 0.0, moved / (part * time)];
+                let values = [flux, start + 50.0, start, start];
+                let loads = [&values, &rate].map(|faces| Loads { surface: &NONE, faces });
+                run.load(&loads, part * time, 0.1);
+                let t = run.temperatures();
+                assert!(t.iter().all(|t| *t > 0.0 && t.is_finite()), "{name} {part} {t:?}");
+            }
+            assert!(run.steps() < 3000.0, "{name} {part}: {} steps", run.steps());
+        }
+    }
+}
+
+#[test]
+fn a_restored_state_goes_on_to_the_bit_and_a_step_that_halts_changes_nothing() {
+    let faces = [(TOP, Condition::Convective(2e3)), (RIGHT, Condition::Radiative(0.5))];
+    let mut run = Run::new(&setup(disc(5e-3, 3e-3, [6, 8]), 260.0, water(273.0, 273.3), &faces));
+    run.advance(&[350.0, 300.0], 3.0, 0.05);
+    let saved = run.state.clone();
+    run.advance(&[350.0, 300.0], 3.0, 0.05);
+    assert!(run.liquid() > 0.0);
+    let mut other = Run::new(&setup(disc(5e-3, 3e-3, [6, 8]), 260.0, water(273.0, 273.3), &faces));
+    other.state = saved.clone();
+    other.advance(&[350.0, 300.0], 3.0, 0.05);
+    assert!(other.state == run.state);
+
+    other.state.clone_from(&saved);
+    let loads = [Loads { surface: &NONE, faces: &[350.0, 300.0] }];
+    let little = Allowance::of_updates(&Interrupt::default(), 3e5);
+    let halted = other.heat.advance(&mut other.state, &loads, 1e4, 0.05, &little);
+    assert!(matches!(halted, Err(Failure::Halted(_))), "{halted:?}");
+    let bad = [Loads { surface: &NONE, faces: &[f64::NAN, 300.0] }];
+    let allowance = Allowance::default();
+    let mut refused = |loads: &[Loads], dt: f64, tolerance: f64| {
+        other.heat.advance(&mut other.state, loads, dt, tolerance, &allowance).unwrap_err()
+    };
+    assert!(matches!(refused(&bad, 1.0, 0.1), Failure::NotFinite(_)));
+    assert!(matches!(refused(&loads, f64::NAN, 0.1), Failure::Length(_)));
+    assert!(matches!(refused(&loads, 1.0, 0.0), Failure::Tolerance(_)));
+    assert!(other.state == saved);
+}
+
+#[test]
+fn a_mirrored_quarter_is_the_whole_and_a_disc_has_its_area() {
+    let (_, material) = kirchhoff();
+    let whole = block([2.0, 2.0, 0.5], [8, 8, 4]);
+    let mut quarter = block([1.0, 1.0, 0.5], [4, 4, 4]);
+    quarter.mirrored = [true; 2];
+    let faces = [(TOP, Condition::Flux), (RIGHT, Condition::Convective(9.0))];
+    let all = [(MeshFace { axis: 0, high: false }, Condition::Convective(9.0))];
+    let mut part = Run::new(&setup(quarter, 300.0, material.clone(), &faces));
+    let mut body = Run::new(&setup(whole, 300.0, material.clone(), &[&faces[..], &all].concat()));
+    part.advance(&[3000.0, 250.0], 0.2, 1e-4);
+    body.advance(&[3000.0, 250.0, 250.0], 0.2, 1e-4);
+    let totals = [&part, &body].map(|run| run.heat.totals(&run.state));
+    assert!((totals[0].brought_in / 2400.0 - 1.0).abs() < 1e-12);
+    assert!((totals[0].lost / totals[1].lost - 1.0).abs() < 1e-6, "{totals:?}");
+
+    let faces = [(TOP, Condition::Flux), (RIGHT, Condition::Prescribed)];
+    let mut round = Run::new(&setup(disc(2.0, 1.0, [5, 5]), 300.0, material, &faces));
+    round.advance(&[100.0, 300.0], 0.5, 1e-3);
+    let brought_in = round.heat.totals(&round.state).brought_in;
+    assert!((brought_in / (0.5 * 100.0 * 0.5 * TAU * 4.0) - 1.0).abs() < 1e-12, "{brought_in}");
+    assert!((round.heat.volumes().iter().sum::<f64>() / (0.5 * TAU * 4.0) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn mid_nodes_of_quadratic_elements_make_linear_ones() {
+    let (_, material) = kirchhoff();
+    let mut mesh = slab(1.0, 4);
+    mesh.axes[2] = Axis::from_element_ends(&[0.0, 0.5, 1.0], 2, Weight::Uniform);
+    assert!(linear_mesh(&mesh) == slab(1.0, 4));
+    let faces = [(TOP, Condition::Flux)];
+    let mut runs = [mesh, slab(1.0, 4)]
+        .map(|mesh| Run::new(&setup(mesh, 300.0, material.clone(), &faces)));
+    runs.iter_mut().for_each(|run| run.advance(&[2e3], 0.3, 1e-3));
+    assert!(runs[0].state == runs[1].state);
+}
+
+#[test]
+fn what_is_no_body_is_refused() {
+    let refused = |change: &dyn Fn(&mut Setup)| {
+        let mut setup = setup(slab(1.0, 4), 300.0, plain(1.0, 1.0, 1.0), &[]);
+        change(&mut setup);
+        EnthalpyHeat::new(&setup).err().unwrap()
+    };
+    assert_eq!(refused(&|s| s.reference = 0.0), SetupError::Reference(0.0));
+    assert!(matches!(refused(&|s| s.layers = vec![0; 3]), SetupError::Layers { .. }));
+    assert!(matches!(refused(&|s| s.layers = vec![0, 0, 1, 0]), SetupError::NoMaterial { .. }));
+    assert!(matches!(refused(&|s| s.materials.clear()), SetupError::NoMaterial { .. }));
+    for below in [0, 4] {
+        let contact = Contact { below, conductance: 1.0 };
+        let error = refused(&|s| s.contacts = vec![contact]);
+        assert_eq!(error, SetupError::ContactPlace { below, most: 3 });
+    }
+    for (condition, place) in [
+        (Condition::Convective(-1.0), TOP),
+        (Condition::Radiative(1.1), TOP),
+        (Condition::Flux, RIGHT),
+    ] {
+        assert!(
+            !matches!(refused(&|s| s.faces = vec![Face { place, condition }]), SetupError::Nodes)
+        );
+    }
+    let cold = |s: &mut Setup| s.materials[0].conductivity = table(&[300.0, 300.0], &[1.0, 2.0]);
+    assert!(matches!(refused(&cold), SetupError::Material(0, _)));
+}
