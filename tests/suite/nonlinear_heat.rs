@@ -50,7 +50,12 @@ fn table(temperature: &[f64], value: &[f64]) -> Property {
     Property::Table(Table { temperature: temperature.to_vec(), value: value.to_vec() })
 }
 
-fn setup(mesh: Mesh, reference: f64, material: Substance, faces: &[(MeshFace, Condition)]) -> Setup {
+fn setup(
+    mesh: Mesh,
+    reference: f64,
+    material: Substance,
+    faces: &[(MeshFace, Condition)],
+) -> Setup {
     let faces = faces.iter().map(|&(place, condition)| Face { place, condition }).collect();
     let materials = vec![material];
     Setup { mesh, reference, materials, layers: Vec::new(), contacts: Vec::new(), faces }
@@ -200,67 +205,65 @@ fn a_steady_slab_of_changing_conductivity_is_exact_at_the_nodes() {
 fn water(solidus: f64, liquidus: f64) -> Substance {
     Substance {
         density: 1000.0,
-        specific_heat: table(&[273.1, 273.2], &[2050.0, 4200.0]),
-        conductivity: table(&[273.1, 273.2], &[2.2, 0.57]),
+        specific_heat: table(&[273.1499, 273.1501], &[2050.0, 4200.0]),
+        conductivity: table(&[273.1499, 273.1501], &[2.2, 0.57]),
         melting: Some(Melting { solidus, liquidus, latent_heat: 3.34e5 }),
     }
 }
 
-/// Depth of the front and the temperature beside it of water that freezes or ice that melts from its bottom: relative
-/// error of the depth at several times, and the mean error of temperature [K].
-fn front(surface: f64, initial: f64, n: usize, tolerance: f64) -> ([f64; 3], f64) {
-    let (ice, water_) = (
-        Conductor { conductivity: 2.2, heat_capacity: 2.05e6 },
-        Conductor { conductivity: 0.57, heat_capacity: 4.2e6 },
-    );
+/// Errors of water that freezes or ice that melts from its bottom: of the depth of the front, root mean square over
+/// times and relative to the last one; its largest move from time to time, over the first one; and the mean error of
+/// temperature [K].
+fn front(surface: f64, initial: f64, n: usize, tolerance: f64) -> [f64; 3] {
+    let ice = Conductor { conductivity: 2.2, heat_capacity: 2.05e6 };
+    let liquid = Conductor { conductivity: 0.57, heat_capacity: 4.2e6 };
     let freezes = surface < 273.15;
-    let (new, old) = if freezes { (ice, water_) } else { (water_, ice) };
-    let exact = MeltingFront {
-        new,
-        old,
-        latent: 3.34e8,
-        surface: (surface - 273.15).abs(),
-        initial: (initial - 273.15).abs(),
-    };
-    let length = 0.05;
-    // A range of temperatures of no width but that of the table.
-    let material = water(273.15, 273.15);
+    let (new, old) = if freezes { (ice, liquid) } else { (liquid, ice) };
+    let (latent, beyond) = (3.34e8, |t: f64| (t - 273.15).abs());
+    let exact =
+        MeltingFront { new, old, latent, surface: beyond(surface), initial: beyond(initial) };
+    let length = 0.15;
     let faces = [(BOTTOM, Condition::Prescribed)];
-    let heat = EnthalpyHeat::new(&setup(slab(length, n), 273.15, material, &faces)).unwrap();
-    let mut state = heat.initial_state(initial);
-    if freezes && initial == 273.15 {
-        let melted = heat.initial_state(273.15 + 1e-9);
-        state.copy_from_slice(&melted);
-    }
-    let mut run = Run { heat, state };
-    let mut errors = [0.0; 3];
-    for (i, error) in errors.iter_mut().enumerate() {
-        run.advance(&[surface], 1000.0, tolerance);
-        let time = 1000.0 * (i + 1) as f64;
-        let liquid = run.liquid();
-        let depth = if freezes { length - liquid } else { liquid };
-        *error = depth / exact.depth(time) - 1.0;
-    }
-    let t = run.temperatures();
+    let setup = setup(slab(length, n), 273.15, water(273.15, 273.15), &faces);
+    let mut run = Run::new(&setup);
+    // At the temperature of freezing itself a body is solid.
+    let start = if freezes { initial + 1e-9 } else { initial };
+    run.state = run.heat.initial_state(start);
     let sign = if freezes { -1.0 } else { 1.0 };
-    let off = |i: usize| {
-        let rise = exact.rise(length * i as f64 / n as f64, 3000.0);
-        (t[i] - 273.15 - sign * rise).abs()
-    };
-    (errors, (0..=n).map(off).sum::<f64>() / (n + 1) as f64)
+    let (mut sum, mut largest, mut before, mut mean) = (0.0, 0.0_f64, 0.0, 0.0);
+    for number in 1..=TIMES {
+        let time = 30.0 * number as f64;
+        run.advance(&[surface], 30.0, tolerance);
+        let depth = if freezes { length - run.liquid() } else { run.liquid() };
+        sum += (depth - exact.depth(time)).powi(2);
+        largest = largest.max(depth - before);
+        before = depth;
+        for (i, t) in run.temperatures().iter().enumerate() {
+            let rise = exact.rise(length * i as f64 / n as f64, time);
+            mean += (t - 273.15 - sign * rise).abs() / ((n + 1) * TIMES) as f64;
+        }
+    }
+    let first = exact.depth(30.0);
+    [(sum / TIMES as f64).sqrt() / before, largest / first, mean]
 }
+
+/// Times at which fronts are looked at.
+const TIMES: usize = 30;
 
 #[test]
 fn fronts_go_as_neumann_says_and_do_not_stall() {
-    for (surface, initial) in [(253.15, 273.15), (253.15, 278.15), (303.15, 273.15), (293.15, 263.15)]
+    for [surface, initial] in
+        [[253.15, 273.15], [253.15, 278.15], [303.15, 273.15], [293.15, 263.15]]
     {
-        let (coarse, fine) = (front(surface, initial, 50, 0.02), front(surface, initial, 200, 0.02));
-        let largest = |errors: [f64; 3]| errors.iter().fold(0.0_f64, |m, e| m.max(e.abs()));
-        let [a, b] = [coarse, fine].map(|(errors, _)| largest(errors));
-        assert!(a < 0.08 && b < 0.02, "{surface} {initial}: {a} {b}");
-        // Two halvings: first order is a factor of four.
-        assert!(0.5 * rate(a, b) > 0.8, "{surface} {initial}: {coarse:?} {fine:?}");
-        assert!(0.5 * rate(coarse.1, fine.1) > 0.8, "{surface} {initial}: {coarse:?} {fine:?}");
+        let (coarse, fine) = (front(surface, initial, 60, 0.3), front(surface, initial, 240, 0.3));
+        let rates = [0, 2].map(|i| 0.5 * rate(coarse[i], fine[i]));
+        assert!(fine[0] < 0.01, "{surface} {initial}: {fine:?}");
+        // The front goes on by the same share everywhere, nodes or not: it is fastest at first.
+        assert!(fine[1] < 1.2, "{surface} {initial}: {fine:?}");
+        assert!(
+            rates[0] > 0.8 && rates[1] > 0.8,
+            "{surface} {initial}: {coarse:?} {fine:?} {rates:?}"
+        );
     }
 }
 
@@ -277,7 +280,7 @@ fn a_molten_pool_freezes_and_every_joule_is_accounted_for() {
     let faces = [(TOP, Condition::Radiative(0.8)), (TOP, Condition::Convective(50.0))];
     let mut run = Run::new(&setup(mesh.clone(), 300.0, steel, &faces));
     let areas: Vec<f64> = mesh.axes[0].integrals();
-    let spot: Vec<f64> = areas.iter().take(6).map(|area| 4e7 * area).collect();
+    let spot: Vec<f64> = areas.iter().take(6).map(|area| 1e8 * area).collect();
     let heat: f64 = spot.iter().sum();
     let on = [Vec::new(), [spot, vec![0.0; 11]].concat()];
     let values = [300.0, 300.0];
@@ -298,7 +301,8 @@ fn a_molten_pool_freezes_and_every_joule_is_accounted_for() {
 #[test]
 fn a_thin_sheet_radiates_as_the_closed_forms_say_the_better_the_smaller_the_tolerance() {
     for (initial, ambient) in [(1500.0, 0.0), (1500.0, 400.0), (300.0, 900.0)] {
-        let exact = RadiatingLump { capacity: 1000.0 * 500.0 * 1e-3, emissivity: 0.8, initial, ambient };
+        let exact =
+            RadiatingLump { capacity: 1000.0 * 500.0 * 1e-3, emissivity: 0.8, initial, ambient };
         let error = |tolerance: f64| {
             let faces = [(TOP, Condition::Radiative(0.8))];
             let material = plain(1000.0, 500.0, 1e7);
@@ -369,7 +373,8 @@ fn layers_with_a_contact_have_the_steady_temperatures_of_resistances_in_series()
 #[test]
 fn two_bodies_in_contact_share_the_temperature_that_their_effusivities_say() {
     let (first, second) = (plain(2700.0, 900.0, 200.0), plain(1000.0, 4000.0, 0.6));
-    let of = |m: &Substance, c: f64, k: f64| Conductor { heat_capacity: m.density * c, conductivity: k };
+    let of =
+        |m: &Substance, c: f64, k: f64| Conductor { heat_capacity: m.density * c, conductivity: k };
     let exact = TwoBodies {
         first: of(&first, 900.0, 200.0),
         first_temperature: 400.0,
@@ -386,7 +391,7 @@ fn two_bodies_in_contact_share_the_temperature_that_their_effusivities_say() {
         setup.materials.push(second.clone());
         setup.layers = (0..2 * n).map(|e| usize::from(e >= n)).collect();
         let heat = EnthalpyHeat::new(&setup).unwrap();
-        let start: Vec<f64> = ends.iter().map(|z| if *z < 4e-3 { 400.0 } else { 300.0 }).collect();
+        let start: Vec<f64> = ends.iter().map(|z| exact.temperature(z - 4e-3, 1e-12)).collect();
         let state = heat.initial_state_of(&start);
         let mut run = Run { heat, state };
         let loads = [Loads { surface: &NONE, faces: &[] }];
@@ -397,7 +402,6 @@ fn two_bodies_in_contact_share_the_temperature_that_their_effusivities_say() {
         let sum: f64 = ends.iter().zip(run.temperatures()).map(off).sum();
         (sum / ends.len() as f64).sqrt()
     };
-    // The node between them begins with the temperature of one: first order.
     let errors = [10, 20, 40].map(error);
     assert!(errors[2] < 1.0, "{errors:?}");
     for pair in errors.windows(2) {
@@ -417,10 +421,40 @@ fn materials() -> Vec<(&'static str, f64, Substance)> {
         melting,
     };
     vec![
-        ("mercury", 230.0, of(13600.0, 140.0.into(), table(&[230.0, 240.0], &[28.0, 8.0]), melting(234.32, 234.32, 1.14e4))),
+        (
+            "mercury",
+            230.0,
+            of(
+                13600.0,
+                140.0.into(),
+                table(&[230.0, 240.0], &[28.0, 8.0]),
+                melting(234.32, 234.32, 1.14e4),
+            ),
+        ),
         ("ice", 270.0, water(273.15, 273.15)),
-        ("aluminium", 900.0, of(2550.0, table(&[300.0, 933.0], &[900.0, 1180.0]), table(&[900.0, 933.0, 934.0], &[212.0, 208.0, 94.0]), melting(933.47, 933.47, 3.97e5))),
-        ("iron", 1750.0, of(7300.0, table(&[300.0, 1000.0, 1042.0, 1100.0, 1811.0], &[450.0, 970.0, 1500.0, 750.0, 820.0]), table(&[300.0, 1184.0], &[80.0, 29.0]), melting(1811.0, 1811.0, 2.47e5))),
+        (
+            "aluminium",
+            900.0,
+            of(
+                2550.0,
+                table(&[300.0, 933.0], &[900.0, 1180.0]),
+                table(&[900.0, 933.0, 934.0], &[212.0, 208.0, 94.0]),
+                melting(933.47, 933.47, 3.97e5),
+            ),
+        ),
+        (
+            "iron",
+            1750.0,
+            of(
+                7300.0,
+                table(
+                    &[300.0, 1000.0, 1042.0, 1100.0, 1811.0],
+                    &[450.0, 970.0, 1500.0, 750.0, 820.0],
+                ),
+                table(&[300.0, 1184.0], &[80.0, 29.0]),
+                melting(1811.0, 1811.0, 2.47e5),
+            ),
+        ),
         ("steel", 1700.0, of(7200.0, 700.0.into(), 30.0.into(), melting(1720.0, 1770.0, 2.6e5))),
         ("aerogel", 300.0, of(100.0, 1000.0.into(), table(&[300.0, 700.0], &[0.015, 0.04]), None)),
     ]
@@ -440,7 +474,8 @@ fn heat_balances_for_all_materials_over_steps_of_any_length_and_loads_that_switc
                 (BOTTOM, Condition::Radiative(0.9)),
                 (MeshFace { axis: 1, high: false }, Condition::Prescribed),
             ];
-            let mut run = Run::new(&setup(block([length; 3], [3, 4, 5]), start, material.clone(), &faces));
+            let mut run =
+                Run::new(&setup(block([length; 3], [3, 4, 5]), start, material.clone(), &faces));
             let flux = 400.0 * k / length / (part * 10.0).sqrt().min(1.0);
             for (flux, moved) in [(flux, 0.0), (0.0, 20.0), (-0.1 * flux, 0.0)] {
                 let rate = [0.0, 0.0, 0.0, moved / (part * time)];
@@ -453,6 +488,55 @@ fn heat_balances_for_all_materials_over_steps_of_any_length_and_loads_that_switc
             assert!(run.steps() < 3000.0, "{name} {part}: {} steps", run.steps());
         }
     }
+}
+
+#[test]
+fn layers_of_unlike_materials_melt_beside_each_other_under_a_spot() {
+    // Aluminium on aerogel on steel, with a contact: conductivities differ by four orders.
+    let all = materials();
+    let of = |name: &str| all.iter().find(|entry| entry.0 == name).unwrap().2.clone();
+    let mesh = disc(2e-3, 1.2e-3, [8, 12]);
+    let faces = [(TOP, Condition::Radiative(0.5)), (BOTTOM, Condition::Prescribed)];
+    let mut setup = setup(mesh.clone(), 850.0, of("steel"), &faces);
+    setup.materials.extend([of("aerogel"), of("aluminium")]);
+    setup.layers = [vec![0; 4], vec![1; 2], vec![2; 6]].concat();
+    setup.contacts = vec![Contact { below: 6, conductance: 2e4 }];
+    let mut run = Run::new(&setup);
+    assert_eq!(run.heat.node_counts(), [9, 1, 14]);
+    let areas = mesh.axes[0].integrals();
+    let spot: Vec<f64> =
+        areas.iter().enumerate().map(|(i, a)| if i < 3 { 5e7 * a } else { 0.0 }).collect();
+    let on = [Vec::new(), spot];
+    for _ in 0..4 {
+        run.load(&[Loads { surface: &on, faces: &[300.0, 850.0] }], 0.03, 0.5);
+    }
+    let fractions = run.heat.liquid_fractions(&run.state);
+    assert!(run.liquid() > 0.0 && fractions.iter().any(|f| *f < 1.0), "{fractions:?}");
+    run.advance(&[300.0, 300.0], 1e4, 0.5);
+    assert_eq!(run.liquid(), 0.0);
+    assert!(run.temperatures().iter().all(|t| (t - 300.0).abs() < 0.1));
+}
+
+#[test]
+fn bodies_of_which_all_nodes_or_all_but_one_are_held_take_steps_too() {
+    let (_, material) = kirchhoff();
+    for (count, held) in [(1, 2), (1, 1), (2, 2)] {
+        let places = [(TOP, Condition::Prescribed), (BOTTOM, Condition::Prescribed)];
+        let mut run = Run::new(&setup(slab(1.0, count), 300.0, material.clone(), &places[..held]));
+        run.advance(&[400.0, 400.0][..held], 1e3, 1e-3);
+        assert!(run.temperatures().iter().all(|t| (t - 400.0).abs() < 1e-3));
+        run.advance(&[300.0, 300.0][..held], 0.0, 1e-3);
+    }
+    // All sides of a box.
+    let axes =
+        [0, 1, 2].into_iter().flat_map(|axis| [false, true].map(|high| MeshFace { axis, high }));
+    let faces: Vec<_> = axes.map(|place| (place, Condition::Prescribed)).collect();
+    let mut run = Run::new(&setup(block([1.0; 3], [2; 3]), 300.0, material, &faces));
+    let rates = [20.0; 6];
+    let loads = [&[300.0; 6], &rates].map(|faces| Loads { surface: &NONE, faces });
+    run.load(&loads, 10.0, 1e-3);
+    let t = run.temperatures();
+    assert!((t[0] - 500.0).abs() < 1e-9 && t[13] < 500.0 && t[13] > 490.0, "{t:?}");
 }
 
 #[test]
@@ -515,8 +599,8 @@ fn mid_nodes_of_quadratic_elements_make_linear_ones() {
     mesh.axes[2] = Axis::from_element_ends(&[0.0, 0.5, 1.0], 2, Weight::Uniform);
     assert!(linear_mesh(&mesh) == slab(1.0, 4));
     let faces = [(TOP, Condition::Flux)];
-    let mut runs = [mesh, slab(1.0, 4)]
-        .map(|mesh| Run::new(&setup(mesh, 300.0, material.clone(), &faces)));
+    let mut runs =
+        [mesh, slab(1.0, 4)].map(|mesh| Run::new(&setup(mesh, 300.0, material.clone(), &faces)));
     runs.iter_mut().for_each(|run| run.advance(&[2e3], 0.3, 1e-3));
     assert!(runs[0].state == runs[1].state);
 }
@@ -542,9 +626,10 @@ fn what_is_no_body_is_refused() {
         (Condition::Radiative(1.1), TOP),
         (Condition::Flux, RIGHT),
     ] {
-        assert!(
-            !matches!(refused(&|s| s.faces = vec![Face { place, condition }]), SetupError::Nodes)
-        );
+        assert!(!matches!(
+            refused(&|s| s.faces = vec![Face { place, condition }]),
+            SetupError::Nodes
+        ));
     }
     let cold = |s: &mut Setup| s.materials[0].conductivity = table(&[300.0, 300.0], &[1.0, 2.0]);
     assert!(matches!(refused(&cold), SetupError::Material(0, _)));

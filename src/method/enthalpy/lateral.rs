@@ -60,6 +60,10 @@ fn transform(values: &[f64], x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Vec<f64>
     let levels = values.len() / (nx * ny);
     let mut along_x = vec![0.0; mx * ny * levels];
     product(&mut along_x, x, MatRef::from_column_major_slice(values, nx, ny * levels));
+    if let (1, 1) = (ny, my) {
+        along_x.iter_mut().for_each(|value| *value *= y[(0, 0)]);
+        return along_x;
+    }
     let mut out = vec![0.0; mx * my * levels];
     for (source, target) in along_x.chunks_exact(mx * ny).zip(out.chunks_exact_mut(mx * my)) {
         product(target, MatRef::from_column_major_slice(source, mx, ny), y.transpose());
@@ -70,9 +74,8 @@ fn transform(values: &[f64], x: MatRef<'_, f64>, y: MatRef<'_, f64>) -> Vec<f64>
 impl Modes {
     fn new(side: &Side, ends: [End; 2]) -> Self {
         let count = side.mass.len();
-        let held = |i: usize| {
-            (i == 0 && ends[0] == End::Held) || (i + 1 == count && ends[1] == End::Held)
-        };
+        let held =
+            |i: usize| (i == 0 && ends[0] == End::Held) || (i + 1 == count && ends[1] == End::Held);
         let free: Vec<usize> = (0..count).filter(|&i| !held(i)).collect();
         let loss = [0, 1].map(|e| match ends[e] {
             End::Open(ratio) => ratio * side.ends[e],
@@ -106,9 +109,7 @@ impl Modes {
             let inner: f64 = differences
                 .map(|(i, link)| link * (shapes[(i + 1, k)] - shapes[(i, k)]).powi(2))
                 .sum();
-            inner
-                + loss[0] * shapes[(0, k)].powi(2)
-                + loss[1] * shapes[(count - 1, k)].powi(2)
+            inner + loss[0] * shapes[(0, k)].powi(2) + loss[1] * shapes[(count - 1, k)].powi(2)
         };
         let decay = (0..m).map(quotient).collect();
         Self { shapes, decay }

@@ -33,6 +33,8 @@ pub struct System<'a> {
     lateral: &'a Lateral,
     /// Length of an implicit step [s].
     tau: f64,
+    /// Whether conductivities below and above differ anywhere, or there are contacts.
+    has_layers: bool,
     storage: Vec<f64>,
     loss: Vec<f64>,
     ratios: [Vec<f64>; 2],
@@ -56,18 +58,27 @@ struct Bands {
 }
 
 impl<'a> System<'a> {
-    pub fn new(
-        grid: &'a Grid,
-        lateral: &'a Lateral,
-        tau: f64,
-        coefficients: Coefficients,
-    ) -> Self {
+    pub fn new(grid: &'a Grid, lateral: &'a Lateral, tau: f64, coefficients: Coefficients) -> Self {
         let bands = Bands::new(grid, tau, &coefficients);
         let Coefficients { storage, loss, ratios, inverse, .. } = coefficients;
         let pivots = bands.factor(&lateral.decay());
+        let contacts = grid.joints.iter().any(|joint| matches!(joint, Joint::Contact(_)));
+        let has_layers = contacts || grid.levels.iter().any(|level| !level.is_uniform());
         let (own, scale) = (Vec::new(), Vec::new());
-        let mut system =
-            Self { grid, lateral, tau, storage, loss, ratios, inverse, own, scale, bands, pivots };
+        let mut system = Self {
+            grid,
+            lateral,
+            tau,
+            has_layers,
+            storage,
+            loss,
+            ratios,
+            inverse,
+            own,
+            scale,
+            bands,
+            pivots,
+        };
         system.own = system.conducted_diagonal();
         system.scale = system.scales();
         system
@@ -94,7 +105,11 @@ impl<'a> System<'a> {
     /// Change of the heat into each node by conduction under a change x [W].
     pub fn conduct(&self, x: &[f64], out: &mut [f64]) {
         let times = |list: &[f64]| -> Vec<f64> { list.iter().zip(x).map(|(a, b)| a * b).collect() };
-        let [below, above] = self.ratios.each_ref().map(|list| times(list));
+        let below = times(&self.ratios[0]);
+        if !self.has_layers {
+            return self.grid.conduct([&below, &below], &below, out);
+        }
+        let above = times(&self.ratios[1]);
         self.grid.conduct([&below, &above], &times(&self.inverse), out);
     }
 

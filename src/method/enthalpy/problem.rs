@@ -13,10 +13,12 @@ const SHRINK: f64 = 0.1;
 const GROWTH: f64 = 4.0;
 /// Part of its length that a step is given again where its systems could not be solved.
 const RETREAT: f64 = 0.25;
-/// Attempts at one step, each shorter than the one before.
-const MOST_ATTEMPTS: usize = 100;
+/// Part of a communication step below which inner steps are given up: the time would not go on.
+const SHORTEST: f64 = 1e-16;
 /// Change of temperature that a first step is made for, in tolerances.
 const FIRST: f64 = 10.0;
+/// Numbers a node that a problem and a step of it hold at once.
+const VECTORS: f64 = 65.0;
 
 /// Entries of the state after the nodes' enthalpies.
 const STEP: usize = 0;
@@ -52,6 +54,14 @@ pub enum Failure {
 }
 
 impl EnthalpyHeat {
+    /// Memory [bytes] that a problem and a step of it take at most, about, for numbers of nodes along x and y and of
+    /// levels along z.
+    pub fn expected_bytes(counts: [usize; 3]) -> f64 {
+        let [x, y, z] = counts.map(|count| count as f64);
+        // An eigenproblem takes its matrix, its vectors and what they are made in.
+        8.0 * (VECTORS * x * y * z + 4.0 * (x * x + y * y))
+    }
+
     pub fn new(setup: &Setup) -> Result<Self, SetupError> {
         setup.check()?;
         Ok(Self { body: Body::new(setup) })
@@ -79,8 +89,7 @@ impl EnthalpyHeat {
     /// State of a body whose nodes have temperatures [K].
     pub fn initial_state_of(&self, temperatures: &[f64]) -> Vec<f64> {
         let body = &self.body;
-        let content =
-            |(node, t): (usize, &f64)| body.law(node).content(t - body.reference);
+        let content = |(node, t): (usize, &f64)| body.law(node).content(t - body.reference);
         let mut state: Vec<f64> = temperatures.iter().enumerate().map(content).collect();
         let held = self.heat(&state);
         state.extend([0.0, 0.0, held, 0.0, 0.0]);
@@ -103,7 +112,7 @@ impl EnthalpyHeat {
         check(state, loads, dt, tolerance)?;
         let (contents, extra) = state.split_at(self.nodes());
         let (mut contents, mut extra) = (contents.to_vec(), extra.to_vec());
-        if extra[STEP] == 0.0 {
+        if extra[STEP] <= 0.0 {
             extra[STEP] = self.first_step(&contents, loads, dt, tolerance);
         }
         let mut time = 0.0;
@@ -117,15 +126,14 @@ impl EnthalpyHeat {
                 short => short,
             };
             let step = Step { body: &self.body, loads, start: time, length, tolerance, allowance };
-            let (outcome, length) = attempt(step, &contents)?;
-            time = if length == left { dt } else { time + length };
-            let next = length * factor(outcome.error).min(GROWTH);
+            let (outcome, taken) = attempt(step, &contents, SHORTEST * dt)?;
+            time = if taken == left { dt } else { time + taken };
+            // What has just been too long is so again.
+            let growth = if taken < length { 1.0 } else { GROWTH };
+            let next = taken * factor(outcome.error).min(growth);
             // A step that the end has cut short says little about the next one.
-            extra[STEP] = if length < wanted && next < wanted && outcome.error <= 0.5 {
-                wanted
-            } else {
-                next
-            };
+            let is_cut = taken == length && length < wanted && outcome.error <= 0.5;
+            extra[STEP] = if is_cut { next.max(wanted) } else { next };
             extra[COUNT] += 1.0;
             extra[BROUGHT_IN] += self.body.copies * outcome.brought_in;
             extra[LOST] += self.body.copies * outcome.lost;
@@ -150,14 +158,12 @@ impl EnthalpyHeat {
             if body.held[node] { 0.0 } else { (flow.nodes[node] / capacity).abs() }
         };
         let fastest = (0..contents.len()).map(rate).fold(0.0, f64::max);
-        dt.min(FIRST * tolerance / fastest)
+        (FIRST * tolerance / fastest).clamp(SHORTEST * dt, dt)
     }
 
     /// Temperature of every node [K].
     pub fn temperatures(&self, state: &[f64]) -> Vec<f64> {
-        self.each(state, |node, content| {
-            self.body.reference + self.body.law(node).at(content).rise
-        })
+        self.each(state, |node, content| self.body.reference + self.body.law(node).at(content).rise)
     }
 
     /// Part of what melts at a node that is liquid: 0 where nothing melts.
@@ -203,17 +209,20 @@ impl EnthalpyHeat {
 }
 
 /// Takes a step, or a shorter one that can be taken and is accurate enough, and tells its length.
-fn attempt(mut step: Step, contents: &[f64]) -> Result<(Outcome, f64), Failure> {
-    for _ in 0..MOST_ATTEMPTS {
+fn attempt(mut step: Step, contents: &[f64], shortest: f64) -> Result<(Outcome, f64), Failure> {
+    loop {
         step.allowance.spend(1.0, "steps of nonlinear heat", contents.len())?;
-        step.length *= match step.take(contents) {
+        let change = match step.take(contents) {
             Ok(outcome) if outcome.error <= 1.0 => return Ok((outcome, step.length)),
             Ok(outcome) => factor(outcome.error),
             Err(Unsolved::Halted(halt)) => return Err(halt.into()),
             Err(Unsolved::Diverged) => RETREAT,
         };
+        step.length *= change;
+        if step.length < shortest {
+            return Err(Failure::Unsolved(step.length));
+        }
     }
-    Err(Failure::Unsolved(step.length))
 }
 
 /// How long the next step may be over one with an error: the estimate grows as the third power.

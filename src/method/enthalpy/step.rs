@@ -45,6 +45,7 @@ pub struct Outcome {
     pub error: f64,
 }
 
+#[derive(Clone, Copy)]
 pub struct Step<'a> {
     pub body: &'a Body,
     pub loads: &'a [Loads<'a>],
