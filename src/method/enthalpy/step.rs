@@ -66,9 +66,9 @@ impl Step<'_> {
         body.hold(&mut begin, &first);
         let mut flows = vec![body.flow(&body.fields(&begin), &first)];
         let mut ends = vec![begin];
-        for stage in 1..STAGES {
+        for (stage, weights) in WEIGHTS.iter().enumerate().skip(1) {
             let drive = drive(stage);
-            let known = self.gained(contents, &flows, &WEIGHTS[stage]);
+            let known = self.gained(contents, &flows, weights);
             let mut guess = self.guess(stage, &ends);
             body.hold(&mut guess, &drive);
             let tau = GAMMA * self.length;
@@ -140,9 +140,9 @@ mod tests {
         let sum = |row: usize, power: i32| -> f64 {
             (0..STAGES).map(|j| WEIGHTS[row][j] * TIMES[j].powi(power)).sum()
         };
-        for row in 1..STAGES {
-            assert!((sum(row, 0) - TIMES[row]).abs() < 1e-14);
-            assert!((sum(row, 1) - 0.5 * TIMES[row].powi(2)).abs() < 1e-14);
+        for (row, time) in TIMES.iter().enumerate().skip(1) {
+            assert!((sum(row, 0) - time).abs() < 1e-14);
+            assert!((sum(row, 1) - 0.5 * time * time).abs() < 1e-14);
         }
         assert!((sum(3, 2) - 1.0 / 3.0).abs() < 1e-14);
         let nested: f64 = (0..STAGES).map(|j| WEIGHTS[3][j] * sum(j, 1)).sum();
