@@ -126,7 +126,7 @@ fn constant_constants_give_the_exact_modes_at_second_order() {
         );
         let mut exact = vec![0.0; modal.state_len()];
         let values = [conditions.iter().map(|c| c.3).collect::<Vec<f64>>()];
-        let loads = HeatLoads { surface: &[NONE.clone()], faces: &values };
+        let loads = HeatLoads { surface: std::slice::from_ref(&NONE), faces: &values };
         modal.advance(&mut exact, &[loads], 0.05);
         let faces: Vec<_> = conditions.iter().map(|c| (c.0, c.2)).collect();
         let mut run = Run::new(&setup(mesh.clone(), 300.0, plain(2.0, 3.0, conductivity), &faces));

@@ -49,6 +49,8 @@ pub enum Failure {
     Tolerance(f64),
     #[error("step of {0} s (allowed: finite, 0 or above)")]
     Length(f64),
+    #[error("{given} loads on faces or nodes of nonlinear heat (allowed: {allowed})")]
+    Loads { given: usize, allowed: usize },
     #[error("a load or state of nonlinear heat that is no finite number: {0}")]
     NotFinite(f64),
 }
@@ -109,16 +111,18 @@ impl EnthalpyHeat {
         tolerance: f64,
         allowance: &Allowance,
     ) -> Result<(), Failure> {
+        self.check_loads(loads)?;
         check(state, loads, dt, tolerance)?;
         let (contents, extra) = state.split_at(self.nodes());
         let (mut contents, mut extra) = (contents.to_vec(), extra.to_vec());
         if extra[STEP] <= 0.0 {
             extra[STEP] = self.first_step(&contents, loads, dt, tolerance);
         }
+        let shortest = (SHORTEST * dt).max(f64::MIN_POSITIVE);
         let mut time = 0.0;
         while time < dt {
             let left = dt - time;
-            let wanted = extra[STEP];
+            let wanted = extra[STEP].max(shortest);
             let length = match wanted {
                 // No rest that is short beside the steps before it.
                 long if long >= left * (1.0 - 1e-9) => left,
@@ -126,7 +130,7 @@ impl EnthalpyHeat {
                 short => short,
             };
             let step = Step { body: &self.body, loads, start: time, length, tolerance, allowance };
-            let (outcome, taken) = attempt(step, &contents, SHORTEST * dt)?;
+            let (outcome, taken) = attempt(step, &contents, shortest)?;
             time = if taken == left { dt } else { time + taken };
             // What has just been too long is so again.
             let growth = if taken < length { 1.0 } else { GROWTH };
@@ -145,6 +149,24 @@ impl EnthalpyHeat {
         Ok(())
     }
 
+    fn check_loads(&self, loads: &[Loads]) -> Result<(), Failure> {
+        let wrong = |given: usize, allowed: usize| match given == allowed {
+            true => Ok(()),
+            false => Err(Failure::Loads { given, allowed }),
+        };
+        let (faces, plane) = (self.body.faces.len(), self.body.grid.plane());
+        if loads.is_empty() {
+            return wrong(0, faces);
+        }
+        for load in loads {
+            wrong(load.faces.len(), faces)?;
+            for surface in load.surface.iter().filter(|surface| !surface.is_empty()) {
+                wrong(surface.len(), plane)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Time in which what flows at the beginning changes temperatures by some tolerances.
     fn first_step(&self, contents: &[f64], loads: &[Loads], dt: f64, tolerance: f64) -> f64 {
         let body = &self.body;
@@ -158,7 +180,7 @@ impl EnthalpyHeat {
             if body.held[node] { 0.0 } else { (flow.nodes[node] / capacity).abs() }
         };
         let fastest = (0..contents.len()).map(rate).fold(0.0, f64::max);
-        (FIRST * tolerance / fastest).clamp(SHORTEST * dt, dt)
+        dt.min(FIRST * tolerance / fastest)
     }
 
     /// Temperature of every node [K].
@@ -219,7 +241,7 @@ fn attempt(mut step: Step, contents: &[f64], shortest: f64) -> Result<(Outcome, 
             Err(Unsolved::Diverged) => RETREAT,
         };
         step.length *= change;
-        if step.length < shortest {
+        if step.length.is_nan() || step.length < shortest {
             return Err(Failure::Unsolved(step.length));
         }
     }

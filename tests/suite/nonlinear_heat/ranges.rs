@@ -162,6 +162,12 @@ fn a_restored_state_goes_on_to_the_bit_and_a_step_that_halts_changes_nothing() {
     assert!(matches!(refused(&bad, 1.0, 0.1), Failure::NotFinite(_)));
     assert!(matches!(refused(&loads, f64::NAN, 0.1), Failure::Length(_)));
     assert!(matches!(refused(&loads, 1.0, 0.0), Failure::Tolerance(_)));
+    let few = [Loads { surface: &NONE, faces: &[350.0] }];
+    assert!(matches!(refused(&few, 1.0, 0.1), Failure::Loads { .. }));
+    assert!(matches!(refused(&[], 1.0, 0.1), Failure::Loads { .. }));
+    let many = [Vec::new(), vec![0.0; 8]];
+    let many = [Loads { surface: &many, faces: &[350.0, 300.0] }];
+    assert!(matches!(refused(&many, 1.0, 0.1), Failure::Loads { .. }));
     assert!(other.state == saved);
 }
 
