@@ -32,6 +32,9 @@ pub fn solve(
     let mut overlap = first;
     let mut left = first;
     for iteration in 0..MOST_ITERATIONS {
+        if !left.is_finite() {
+            return Err(failure(left, first, iteration, tolerance));
+        }
         if left <= wanted {
             return Ok((solution, iteration));
         }
@@ -47,10 +50,13 @@ pub fn solve(
         }
         residual.iter_mut().zip(&onward).for_each(|(r, t)| *r -= smoothing * t);
         left = dot(&residual, &residual);
+        if left <= wanted {
+            continue;
+        }
         let next = dot(&shadow, &residual);
         let part = next / overlap * (step / smoothing);
         overlap = next;
-        if left > wanted && !part.is_finite() {
+        if !part.is_finite() {
             return Err(failure(left, first, iteration, tolerance));
         }
         for ((d, r), v) in direction.iter_mut().zip(&residual).zip(&along) {
