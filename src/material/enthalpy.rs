@@ -4,8 +4,8 @@ use super::substance::Substance;
 /// melts at one temperature.
 ///
 /// `H(T) = ∫ ρ c dT + ρ L f(T)` [J/m³] from a reference temperature, with f linear between solidus and
-/// liquidus (V. R. Voller and C. R. Swaminathan 1991, doi 10.1080/10407799108944962). At the one temperature of an isothermal melting
-/// the enthalpy of a temperature is that of the solid.
+/// liquidus (V. R. Voller and C. R. Swaminathan 1991, doi 10.1080/10407799108944962). At the one temperature of an
+/// isothermal melting the enthalpy of a temperature is that of the solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Enthalpy {
     /// The first one reaches down without end, the last one up.

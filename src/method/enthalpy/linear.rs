@@ -1,13 +1,14 @@
 //! The linear systems of Newton's method, and what they are preconditioned by.
 //!
-//! The unknown is the temperature in units in which a level conducts as at the reference: `x = κ δT`, κ the conductivity
-//! over that at the reference. So within a material the system is symmetric, `(V ∂H/∂x + τ K) x = −r`, with a constant
-//! K; where materials or contacts lie along z it is not. Where enthalpy changes at one temperature, x is zero.
+//! The unknown is the temperature in units in which a level conducts as at the reference: `x = κ δT`, κ the
+//! conductivity over that at the reference. So within a material the system is symmetric, `(V ∂H/∂x + τ K) x = −r`,
+//! with a constant K; where materials or contacts lie along z it is not. Where enthalpy changes at one temperature,
+//! x is zero.
 //!
-//! The preconditioner takes means over each level but for the diagonal, `S Ā S` with `S² = diag A / diag Ā`: eigenvectors
-//! along x and y leave one system with three diagonals along z for each mode, not symmetric either. It is exact where
-//! constants differ along z alone, whatever the layers, gradings and fronts there are; S makes it good for short steps
-//! too, and for nodes that melt.
+//! The preconditioner takes means over each level but for the diagonal, `S Ā S` with `S² = diag A / diag Ā`:
+//! eigenvectors along x and y leave one system with three diagonals along z for each mode, not symmetric either. It
+//! is exact where constants differ along z alone, whatever the layers, gradings and fronts there are; S makes it
+//! good for short steps too, and for nodes that melt.
 
 use super::grid::{Grid, Joint};
 use super::lateral::Lateral;

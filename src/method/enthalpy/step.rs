@@ -2,8 +2,8 @@
 //! (A. Kværnø 2004, doi 10.1023/B:BITN.0000046811.70614.38, method 3(2)).
 //!
 //! All stages are of second order, so that prescribed temperatures that move cost no order. The last stage is the
-//! step's end and damps fast modes wholly (L-stable); the one before it, which the end is compared with, lets them pass,
-//! so a step over what has just changed is seen to be too long.
+//! step's end and damps fast modes wholly (L-stable); the one before it, which the end is compared with, lets them
+//! pass, so a step over what has just changed is seen to be too long.
 
 use super::body::{Body, Drive, Flow};
 use super::setup::Loads;
