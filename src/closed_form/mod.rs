@@ -11,6 +11,9 @@
 //! | [`swinging_drop`] | viscous drop that swings under surface tension |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
 //! | [`convective_slab`] | slab that meets a fluid, its back insulated |
+//! | [`kirchhoff`] | half space and slab with a conductivity linear in the temperature |
+//! | [`melting_front`] | half space that melts or freezes from its surface |
+//! | [`radiating_lump`] | body of one temperature that radiates |
 //! | [`constrained_layer`] | step heating of a laterally constrained surface |
 //! | [`free_plate`] | free plate, temperature through the thickness |
 //! | [`heated_disc`] | thin free disc and long free cylinder, temperature along the radius |
@@ -33,8 +36,11 @@ pub mod gaussian_flux;
 pub mod half_space_flux;
 pub mod half_space_surface;
 pub mod heated_disc;
+pub mod kirchhoff;
 pub mod medium;
+pub mod melting_front;
 pub mod quadrature;
+pub mod radiating_lump;
 pub mod resistive_contact;
 pub mod slab;
 pub mod special;
@@ -56,7 +62,10 @@ pub use gaussian_flux::GaussianFlux;
 pub use half_space_flux::{DecayingFlux, DiscFlux, UniformFlux};
 pub use half_space_surface::{ConvectiveSurface, SuddenSurface};
 pub use heated_disc::{LongCylinder, ThinDisc};
+pub use kirchhoff::LinearConductivity;
 pub use medium::{Conductor, Elastic};
+pub use melting_front::MeltingFront;
+pub use radiating_lump::RadiatingLump;
 pub use resistive_contact::ResistiveContact;
 pub use slab::HeatedSlab;
 pub use spreading_film::flux_over_rest;

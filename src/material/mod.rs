@@ -1,11 +1,21 @@
 //! Constitutive laws, one a file. The enum is also the parser of a scene's `material` table.
 
 mod constants;
+mod enthalpy;
+mod melting;
+mod property;
+mod radiation;
 pub mod stress;
 pub mod stress_rate;
+mod substance;
 mod thermoelastic;
 
 pub use constants::Constants;
+pub use enthalpy::{Enthalpy, EnthalpyPoint};
+pub use melting::{Melting, MeltingError};
+pub use property::{Curve, Property, PropertyError, Table};
+pub use radiation::{radiative_flux, radiative_slope};
+pub use substance::{Substance, SubstanceError};
 pub use thermoelastic::Thermoelastic;
 
 use serde::{Deserialize, Serialize};

@@ -4,10 +4,12 @@
 pub mod address_space;
 pub mod allowance;
 pub mod anderson;
+pub mod bicgstab;
 pub mod chebyshev;
 pub mod cholesky;
 pub mod conjugate_gradients;
 pub mod disc_rectangle;
+pub mod eigenvectors;
 pub mod exponential;
 pub mod gauss;
 pub mod lagrange;

@@ -1,5 +1,7 @@
 //! Numerical methods, one a folder: they know numbers, not scenes or inputs.
 
+pub mod enthalpy;
+
 pub mod fem;
 
 pub mod particle_heat;

@@ -18,6 +18,7 @@ mod flows;
 mod impact;
 mod impossible;
 mod joints;
+mod nonlinear_heat;
 mod output;
 mod particles;
 mod plausibility;

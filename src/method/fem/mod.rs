@@ -22,7 +22,7 @@ mod solver_choice;
 
 pub use axis::{Axis, Weight};
 pub use conduction::particle_cost;
-pub use heat::HeatTotals;
+pub use heat::{HeatLoads, HeatProblem, HeatTotals, ThermalFace};
 pub use mesh::{Geometry, Mesh, MeshFace, Parity};
 pub use plan::{Mechanics, Plan, Refinement};
 pub use solid::{Deformation, NodalFields, SolidFem, SolidLoads, Temperatures};

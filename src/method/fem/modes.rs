@@ -1,12 +1,8 @@
 //! Eigenmodes of heat conduction along one axis.
 
-use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{
     LltParams, LltRegularization, cholesky_in_place, cholesky_in_place_scratch,
-};
-use faer::linalg::evd::{
-    ComputeEigenvectors, SelfAdjointEvdParams, self_adjoint_evd, self_adjoint_evd_scratch,
 };
 use faer::linalg::triangular_solve::{
     solve_lower_triangular_in_place, solve_upper_triangular_in_place,
@@ -14,6 +10,7 @@ use faer::linalg::triangular_solve::{
 use faer::{Auto, Mat, Par};
 
 use super::axis::Axis;
+use crate::math::eigenvectors::eigenvectors;
 
 /// Condition at an end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -132,29 +129,6 @@ fn cholesky_factor(mut mass: Mat<f64>) -> Mat<f64> {
     )
     .expect("a mass matrix is positive definite");
     Mat::from_fn(m, m, |i, j| if i < j { 0.0 } else { mass[(i, j)] })
-}
-
-/// Eigenvectors of a symmetric matrix by ascending eigenvalue.
-fn eigenvectors(symmetric: &Mat<f64>) -> Mat<f64> {
-    let m = symmetric.nrows();
-    // The divide-and-conquer method that faer takes above 128 rows left residuals of 1e-3 of the
-    // largest eigenvalue on uniform meshes; its QR method stays at rounding.
-    let mut parameters: SelfAdjointEvdParams = Auto::<f64>::auto();
-    parameters.recursion_threshold = usize::MAX;
-    let scratch =
-        self_adjoint_evd_scratch::<f64>(m, ComputeEigenvectors::Yes, Par::Seq, parameters.into());
-    let mut vectors = Mat::zeros(m, m);
-    let mut values = Diag::zeros(m);
-    self_adjoint_evd(
-        symmetric.as_ref(),
-        values.as_mut(),
-        Some(vectors.as_mut()),
-        Par::Seq,
-        MemStack::new(&mut MemBuffer::new(scratch)),
-        parameters.into(),
-    )
-    .expect("the eigenproblem of a finite symmetric matrix converges");
-    vectors
 }
 
 /// Makes the first mode of an insulated axis the constant, to rounding, and the others orthogonal

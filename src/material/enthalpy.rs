@@ -1,0 +1,245 @@
+use super::substance::Substance;
+
+/// Volumetric enthalpy over temperature, and its inverse, exact: pieces of second degree, and jumps where something
+/// melts at one temperature.
+///
+/// `H(T) = ∫ ρ c dT + ρ L f(T)` [J/m³] from a reference temperature, with f linear between solidus and
+/// liquidus (V. R. Voller and C. R. Swaminathan 1991, doi 10.1080/10407799108944962). At the one temperature of an
+/// isothermal melting the enthalpy of a temperature is that of the solid.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Enthalpy {
+    /// The first one reaches down without end, the last one up.
+    pieces: Vec<Piece>,
+    latent: f64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Piece {
+    /// Temperature above the reference [K] and enthalpy [J/m³] at which it begins; at which the first one ends.
+    rise: f64,
+    content: f64,
+    /// `dH/dT` there [J/(m³ K)]; infinite for a jump.
+    capacity: f64,
+    /// `d²H/dT²` [J/(m³ K²)]
+    slope: f64,
+    /// Latent part of the enthalpy there [J/m³], and its derivative over temperature [J/(m³ K)].
+    latent: f64,
+    latent_rate: f64,
+}
+
+/// What belongs to an enthalpy.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct EnthalpyPoint {
+    /// Temperature above the reference [K].
+    pub rise: f64,
+    /// `dT/dH` [m³ K/J]: zero where something melts at one temperature.
+    pub inverse_capacity: f64,
+    /// `ρ c` without what melting takes [J/(m³ K)].
+    pub sensible: f64,
+    /// Latent part of the enthalpy [J/m³].
+    pub latent: f64,
+}
+
+impl Enthalpy {
+    /// Of substances side by side at one temperature, with the part of the volume that each has.
+    pub fn of_mixture(parts: &[(f64, &Substance)], reference: f64) -> Self {
+        let knots = knots(parts, reference);
+        let sensible = |t: f64| -> f64 {
+            parts.iter().map(|(part, s)| part * s.density * s.specific_heat.value(t)).sum()
+        };
+        let capacities: Vec<f64> = knots.iter().map(|rise| sensible(reference + rise)).collect();
+        let below = Piece {
+            rise: knots[0],
+            content: 0.0,
+            capacity: capacities[0],
+            slope: 0.0,
+            latent: 0.0,
+            latent_rate: 0.0,
+        };
+        let mut pieces = vec![below];
+        let (mut content, mut latent, mut base) = (0.0, 0.0, 0.0);
+        for (i, &rise) in knots.iter().enumerate() {
+            if rise == 0.0 {
+                base = content;
+            }
+            let jump = latent_jump(parts, rise, reference);
+            if jump > 0.0 {
+                let capacity = f64::INFINITY;
+                let slope = capacities[i];
+                pieces.push(Piece { rise, content, capacity, slope, latent, latent_rate: 0.0 });
+                content += jump;
+                latent += jump;
+            }
+            let (width, change) = match knots.get(i + 1) {
+                Some(next) => (next - rise, capacities[i + 1] - capacities[i]),
+                None => (1.0, 0.0),
+            };
+            let latent_rate = latent_rate(parts, reference + rise + 0.5 * width);
+            let capacity = capacities[i] + latent_rate;
+            let slope = change / width;
+            pieces.push(Piece { rise, content, capacity, slope, latent, latent_rate });
+            content += width * (capacity + 0.5 * change);
+            latent += width * latent_rate;
+        }
+        pieces.iter_mut().for_each(|piece| piece.content -= base);
+        let melting = |(part, s): &(f64, &Substance)| {
+            s.melting.map_or(0.0, |melting| part * s.density * melting.latent_heat)
+        };
+        Self { pieces, latent: parts.iter().map(melting).sum() }
+    }
+
+    /// Enthalpy [J/m³] at a temperature above the reference [K].
+    pub fn content(&self, rise: f64) -> f64 {
+        // A jump begins where the piece before it ends, which is the solid's enthalpy.
+        let piece = self.pieces[1..].iter().rfind(|piece| piece.rise < rise);
+        let piece = piece.unwrap_or(&self.pieces[0]);
+        let along = rise - piece.rise;
+        piece.content + along * (piece.capacity + 0.5 * piece.slope * along)
+    }
+
+    /// What belongs to an enthalpy [J/m³].
+    pub fn at(&self, content: f64) -> EnthalpyPoint {
+        let number = self.pieces[1..].partition_point(|piece| piece.content <= content);
+        let piece = &self.pieces[number];
+        let above = content - piece.content;
+        if piece.capacity.is_infinite() {
+            let (rise, latent) = (piece.rise, piece.latent + above);
+            return EnthalpyPoint { rise, inverse_capacity: 0.0, sensible: piece.slope, latent };
+        }
+        let capacity = (piece.capacity * piece.capacity + 2.0 * piece.slope * above).sqrt();
+        let along = 2.0 * above / (piece.capacity + capacity);
+        EnthalpyPoint {
+            rise: piece.rise + along,
+            inverse_capacity: 1.0 / capacity,
+            sensible: capacity - piece.latent_rate,
+            latent: piece.latent + piece.latent_rate * along,
+        }
+    }
+
+    /// Enthalpy that all melting takes [J/m³].
+    pub fn latent(&self) -> f64 {
+        self.latent
+    }
+}
+
+/// Where pieces begin, above the reference; the reference is one of them, so that small differences to it keep
+/// all digits.
+fn knots(parts: &[(f64, &Substance)], reference: f64) -> Vec<f64> {
+    let mut knots = vec![0.0];
+    for (_, substance) in parts {
+        knots.extend(substance.specific_heat.knots().iter().map(|t| t - reference));
+        if let Some(melting) = substance.melting {
+            knots.extend([melting.solidus - reference, melting.liquidus - reference]);
+        }
+    }
+    knots.sort_by(f64::total_cmp);
+    knots.dedup();
+    knots
+}
+
+/// What melts at one temperature [J/m³].
+fn latent_jump(parts: &[(f64, &Substance)], rise: f64, reference: f64) -> f64 {
+    let melts = |(part, substance): &(f64, &Substance)| {
+        let melting = substance.melting.filter(|m| m.is_isothermal())?;
+        (melting.solidus - reference == rise)
+            .then_some(part * substance.density * melting.latent_heat)
+    };
+    parts.iter().filter_map(melts).sum()
+}
+
+/// What melts over a range of temperatures around one [J/(m³ K)].
+fn latent_rate(parts: &[(f64, &Substance)], temperature: f64) -> f64 {
+    let melts = |(part, substance): &(f64, &Substance)| {
+        let melting = substance.melting.filter(|m| !m.is_isothermal())?;
+        let range = melting.liquidus - melting.solidus;
+        (melting.solidus < temperature && temperature < melting.liquidus)
+            .then_some(part * substance.density * melting.latent_heat / range)
+    };
+    parts.iter().filter_map(melts).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::melting::Melting;
+    use super::super::property::{Property, Table};
+    use super::*;
+
+    fn alloy(solidus: f64, liquidus: f64) -> Substance {
+        let temperature = vec![300.0, 700.0, 900.0, 1500.0];
+        let value = vec![450.0, 600.0, 900.0, 800.0];
+        Substance {
+            density: 7800.0,
+            specific_heat: Property::Table(Table { temperature, value }),
+            conductivity: 30.0.into(),
+            melting: Some(Melting { solidus, liquidus, latent_heat: 2.6e5 }),
+        }
+    }
+
+    #[test]
+    fn enthalpy_is_the_integral_of_its_parts() {
+        for (solidus, liquidus) in [(800.0, 1000.0), (900.0, 900.0), (250.0, 2000.0)] {
+            let substance = alloy(solidus, liquidus);
+            for reference in [293.15, 900.0, 1234.5] {
+                let law = substance.enthalpy(reference);
+                for t in [20.0, 299.0, 650.0, 850.0, 899.0, 901.0, 1000.0, 3000.0] {
+                    let fraction = |t: f64| match t > liquidus {
+                        true => 1.0,
+                        false => ((t - solidus) / (liquidus - solidus)).clamp(0.0, 1.0),
+                    };
+                    let from = if reference > liquidus { 1.0 } else { 0.0 };
+                    let from = if liquidus > solidus { fraction(reference) } else { from };
+                    let wanted = 7800.0
+                        * (substance.specific_heat.integral(reference, t)
+                            + 2.6e5 * (fraction(t) - from));
+                    let content = law.content(t - reference);
+                    assert!((content - wanted).abs() < 1e-13 * 1e10, "{content} {wanted}");
+                    let point = law.at(content);
+                    assert!((point.rise - (t - reference)).abs() < 1e-10, "{t} {point:?}");
+                    assert!((point.latent / law.latent() - fraction(t)).abs() < 1e-12);
+                    let sensible = 7800.0 * substance.specific_heat.value(t);
+                    assert!((point.sensible / sensible - 1.0).abs() < 1e-12);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_slope_of_the_inverse_is_that_of_its_differences() {
+        let law = alloy(800.0, 1000.0).enthalpy(500.0);
+        for content in [-3e8, 1e8, 9e8, 1.6e9, 2.9e9, 5e9] {
+            let (low, high) = (law.at(content - 1e3), law.at(content + 1e3));
+            let slope = (high.rise - low.rise) / 2e3;
+            assert!((slope / law.at(content).inverse_capacity - 1.0).abs() < 1e-6, "{content}");
+        }
+    }
+
+    #[test]
+    fn temperature_stands_still_while_something_melts_at_one() {
+        let law = alloy(900.0, 900.0).enthalpy(300.0);
+        let solid = law.content(600.0);
+        for part in [0.0, 0.3, 0.999] {
+            let point = law.at(solid + part * law.latent());
+            assert_eq!((point.rise, point.inverse_capacity), (600.0, 0.0));
+            assert!((point.latent / law.latent() - part).abs() < 1e-14);
+        }
+        let liquid = law.at(solid + law.latent() * (1.0 + 1e-9));
+        assert!(liquid.rise > 600.0 && liquid.inverse_capacity > 0.0);
+        // A reference at the melting temperature is solid.
+        assert_eq!(alloy(900.0, 900.0).enthalpy(900.0).at(0.0).latent, 0.0);
+    }
+
+    #[test]
+    fn a_mixture_holds_what_its_parts_hold_at_its_temperature() {
+        let (a, b) = (alloy(900.0, 900.0), alloy(700.0, 1100.0));
+        let mixture = Enthalpy::of_mixture(&[(0.3, &a), (0.7, &b)], 400.0);
+        let laws = [a.enthalpy(400.0), b.enthalpy(400.0)];
+        for content in [-1e8, 1e9, 2.2e9, 3.4e9, 6e9] {
+            let point = mixture.at(content);
+            let jumps = point.inverse_capacity == 0.0;
+            let sum = 0.3 * laws[0].content(point.rise) + 0.7 * laws[1].content(point.rise);
+            let excess = content - sum;
+            let most = if jumps { 0.3 * laws[0].latent() } else { 0.0 };
+            assert!(excess > -1e-3 && excess < most + 1e-3, "{content} {excess}");
+        }
+    }
+}

@@ -1,0 +1,44 @@
+use serde::{Deserialize, Serialize};
+
+/// Melting between two temperatures, or at one.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Melting {
+    /// Temperature at which melting begins [K].
+    pub solidus: f64,
+    /// Temperature at which it is over [K]; it may be the solidus.
+    pub liquidus: f64,
+    /// Heat that it takes, L [J/kg].
+    pub latent_heat: f64,
+}
+
+/// Why there is no such melting.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeltingError {
+    #[error("solidus {0} K (allowed: finite, above 0 K)")]
+    Solidus(f64),
+    #[error("liquidus {liquidus} K (allowed: finite, at or above the solidus, {solidus} K)")]
+    Liquidus { solidus: f64, liquidus: f64 },
+    #[error("latent heat {0} J/kg (allowed: finite, above 0)")]
+    LatentHeat(f64),
+}
+
+impl Melting {
+    pub fn check(&self) -> Result<(), MeltingError> {
+        let Self { solidus, liquidus, latent_heat } = *self;
+        if !(solidus > 0.0 && solidus.is_finite()) {
+            return Err(MeltingError::Solidus(solidus));
+        }
+        if !(liquidus >= solidus && liquidus.is_finite()) {
+            return Err(MeltingError::Liquidus { solidus, liquidus });
+        }
+        match latent_heat > 0.0 && latent_heat.is_finite() {
+            true => Ok(()),
+            false => Err(MeltingError::LatentHeat(latent_heat)),
+        }
+    }
+
+    pub fn is_isothermal(&self) -> bool {
+        self.solidus == self.liquidus
+    }
+}

@@ -1,0 +1,292 @@
+//! A body in numbers: what follows from enthalpies, and the heat that they cause to flow.
+
+use super::grid::Grid;
+use super::lateral::{End, Lateral};
+use super::setup::{Condition, Loads, Setup};
+use crate::material::{Curve, Enthalpy, radiative_flux, radiative_slope};
+
+/// All that is known before time starts.
+pub struct Body {
+    pub reference: f64,
+    pub copies: f64,
+    pub grid: Grid,
+    pub lateral: Lateral,
+    /// Next to each node [m³].
+    pub volumes: Vec<f64>,
+    /// Laws of the levels' volumetric enthalpy, and which one each has.
+    laws: Vec<Enthalpy>,
+    law_of: Vec<usize>,
+    /// Heat conductivity integral of each material.
+    curves: Vec<Curve>,
+    pub faces: Vec<FaceNodes>,
+    /// Whether a node has a prescribed temperature.
+    pub held: Vec<bool>,
+    /// Whether systems are symmetric: one material without contacts.
+    pub is_symmetric: bool,
+}
+
+pub struct FaceNodes {
+    pub condition: Condition,
+    axis: usize,
+    high: bool,
+    /// With their areas [m²]; of a prescribed face those that it holds.
+    pub nodes: Vec<(usize, f64)>,
+    measure: f64,
+}
+
+/// What belongs to the nodes' enthalpies.
+pub struct Fields {
+    /// Temperature above the reference [K].
+    pub rise: Vec<f64>,
+    /// `dT/dH` [m³ K/J]
+    pub inverse_capacity: Vec<f64>,
+    /// `ρc` without what melting takes [J/(m³ K)].
+    pub sensible: Vec<f64>,
+    /// Of the material below and above [W/(m K)], and their integrals from the reference [W/m].
+    pub conductivity: [Vec<f64>; 2],
+    pub integral: [Vec<f64>; 2],
+}
+
+/// Values of loads at a moment.
+pub struct Drive {
+    pub faces: Vec<f64>,
+    pub surface: [Vec<f64>; 2],
+}
+
+/// Heat that flows at a moment [W].
+pub struct Flow {
+    /// Into the nodes.
+    pub nodes: Vec<f64>,
+    pub brought_in: f64,
+    /// Through faces whose temperature matters, but for those of prescribed temperature.
+    pub lost: f64,
+}
+
+impl Body {
+    pub fn new(setup: &Setup) -> Self {
+        let grid = Grid::new(setup);
+        let (laws, law_of) = laws(setup, &grid);
+        let curve = |substance: &crate::material::Substance| substance.kirchhoff(setup.reference);
+        let curves: Vec<Curve> = setup.materials.iter().map(curve).collect();
+        let areas = grid.areas();
+        let volumes = grid.levels.iter().flat_map(|l| areas.iter().map(|area| area * l.height()));
+        let volumes = volumes.collect();
+        let mut held = vec![false; grid.nodes()];
+        let faces = face_nodes(setup, &grid, &mut held);
+        let first = grid.levels[0].materials[0];
+        let is_symmetric = setup.contacts.is_empty()
+            && grid.levels.iter().all(|level| level.materials == [first; 2]);
+        let lateral = Lateral::new(&grid.sides, lateral_ends(&grid, &curves, &faces));
+        Self {
+            reference: setup.reference,
+            copies: setup.mesh.copies(),
+            grid,
+            lateral,
+            volumes,
+            laws,
+            law_of,
+            curves,
+            faces,
+            held,
+            is_symmetric,
+        }
+    }
+
+    pub fn law(&self, node: usize) -> &Enthalpy {
+        &self.laws[self.law_of[node / self.grid.plane()]]
+    }
+
+    pub fn fields(&self, contents: &[f64]) -> Fields {
+        let list = || Vec::with_capacity(contents.len());
+        let mut fields = Fields {
+            rise: list(),
+            inverse_capacity: list(),
+            sensible: list(),
+            conductivity: [list(), list()],
+            integral: [list(), list()],
+        };
+        let plane = self.grid.plane();
+        for (k, level) in self.grid.levels.iter().enumerate() {
+            let law = &self.laws[self.law_of[k]];
+            let curves = level.materials.map(|material| &self.curves[material]);
+            for content in &contents[k * plane..][..plane] {
+                let point = law.at(*content);
+                fields.rise.push(point.rise);
+                fields.inverse_capacity.push(point.inverse_capacity);
+                fields.sensible.push(point.sensible);
+                let below = curves[0].at(point.rise);
+                let above = if level.is_uniform() { below } else { curves[1].at(point.rise) };
+                for (side, (conductivity, integral)) in [below, above].into_iter().enumerate() {
+                    fields.conductivity[side].push(conductivity);
+                    fields.integral[side].push(integral);
+                }
+            }
+        }
+        fields
+    }
+
+    /// Conductivities of the materials next to a level at the reference temperature.
+    pub fn reference_conductivity(&self, level: usize) -> [f64; 2] {
+        self.grid.levels[level].materials.map(|material| self.curves[material].at(0.0).0)
+    }
+
+    pub fn flow(&self, fields: &Fields, drive: &Drive) -> Flow {
+        let mut nodes = vec![0.0; fields.rise.len()];
+        let [below, above] = &fields.integral;
+        self.grid.conduct([below, above], &fields.rise, &mut nodes);
+        let (mut brought_in, mut lost) = (0.0, 0.0);
+        for (face, &value) in self.faces.iter().zip(&drive.faces) {
+            match face.condition {
+                Condition::Prescribed => continue,
+                Condition::Flux => brought_in += face.measure * value,
+                Condition::Convective(_) | Condition::Radiative(_) => {}
+            }
+            for &(node, area) in &face.nodes {
+                let heat = area * self.flux(face.condition, fields.rise[node], value);
+                nodes[node] += heat;
+                if face.condition != Condition::Flux {
+                    lost -= heat;
+                }
+            }
+        }
+        let last = nodes.len() - self.grid.plane();
+        for (start, surface) in [0, last].into_iter().zip(&drive.surface) {
+            brought_in += surface.iter().sum::<f64>();
+            nodes[start..].iter_mut().zip(surface).for_each(|(heat, load)| *heat += load);
+        }
+        Flow { nodes, brought_in, lost }
+    }
+
+    /// Flux into a face [W/m²].
+    fn flux(&self, condition: Condition, rise: f64, value: f64) -> f64 {
+        match condition {
+            Condition::Flux => value,
+            Condition::Convective(coefficient) => coefficient * ((value - self.reference) - rise),
+            Condition::Radiative(emissivity) => {
+                radiative_flux(emissivity, self.reference + rise, value)
+            }
+            Condition::Prescribed => 0.0,
+        }
+    }
+
+    /// `−∂q/∂T` [W/(m² K)].
+    fn flux_slope(&self, condition: Condition, rise: f64) -> f64 {
+        match condition {
+            Condition::Flux | Condition::Prescribed => 0.0,
+            Condition::Convective(coefficient) => coefficient,
+            Condition::Radiative(emissivity) => radiative_slope(emissivity, self.reference + rise),
+        }
+    }
+
+    /// How the heat that nodes lose grows with their temperature [W/K], and its mean over the areas of bottom and top
+    /// [W/(m² K)].
+    pub fn losses(&self, fields: &Fields) -> (Vec<f64>, [f64; 2]) {
+        let mut losses = vec![0.0; fields.rise.len()];
+        let mut ends = [0.0; 2];
+        for face in &self.faces {
+            let mut sum = 0.0;
+            for &(node, area) in &face.nodes {
+                let loss = area * self.flux_slope(face.condition, fields.rise[node]);
+                losses[node] += loss;
+                sum += loss;
+            }
+            if face.axis == 2 {
+                ends[usize::from(face.high)] += sum / face.measure;
+            }
+        }
+        (losses, ends)
+    }
+
+    /// Gives the nodes of prescribed temperature the enthalpy of that.
+    pub fn hold(&self, contents: &mut [f64], drive: &Drive) {
+        for (face, value) in self.faces.iter().zip(&drive.faces) {
+            if face.condition == Condition::Prescribed {
+                for &(node, _) in &face.nodes {
+                    contents[node] = self.law(node).content(value - self.reference);
+                }
+            }
+        }
+    }
+}
+
+impl Drive {
+    /// Loads a time `t` after the beginning of a step, from their values there and their derivatives.
+    pub fn at(loads: &[Loads], t: f64) -> Self {
+        let mut drive = Self { faces: Vec::new(), surface: [Vec::new(), Vec::new()] };
+        let mut weight = 1.0;
+        for (order, load) in loads.iter().enumerate() {
+            add(&mut drive.faces, load.faces, weight);
+            for (sum, list) in drive.surface.iter_mut().zip(load.surface) {
+                add(sum, list, weight);
+            }
+            weight *= t / (order + 1) as f64;
+        }
+        drive
+    }
+}
+
+fn add(sum: &mut Vec<f64>, list: &[f64], weight: f64) {
+    sum.resize(sum.len().max(list.len()), 0.0);
+    sum.iter_mut().zip(list).for_each(|(sum, value)| *sum += weight * value);
+}
+
+/// One law for each pair of materials and their share that a level has.
+fn laws(setup: &Setup, grid: &Grid) -> (Vec<Enthalpy>, Vec<usize>) {
+    let mut kinds: Vec<([usize; 2], f64)> = Vec::new();
+    let mut laws = Vec::new();
+    let number = |level: &super::grid::Level| {
+        let share = match level.is_uniform() {
+            true => 1.0,
+            false => level.heights[0] / level.height(),
+        };
+        let kind = (level.materials, share);
+        kinds.iter().position(|other| *other == kind).unwrap_or_else(|| {
+            let [below, above] = level.materials.map(|material| &setup.materials[material]);
+            laws.push(match level.is_uniform() {
+                true => below.enthalpy(setup.reference),
+                false => {
+                    let parts = [(share, below), (1.0 - share, above)];
+                    Enthalpy::of_mixture(&parts, setup.reference)
+                }
+            });
+            kinds.push(kind);
+            kinds.len() - 1
+        })
+    };
+    let law_of = grid.levels.iter().map(number).collect();
+    (laws, law_of)
+}
+
+fn face_nodes(setup: &Setup, grid: &Grid, held: &mut [bool]) -> Vec<FaceNodes> {
+    let face_nodes = |face: &super::setup::Face| {
+        let (axis, high) = (face.place.axis, face.place.high);
+        let mut nodes = grid.face(axis, high);
+        let measure = nodes.iter().map(|(_, area)| area).sum();
+        if face.condition == Condition::Prescribed {
+            nodes.retain(|&(node, _)| !std::mem::replace(&mut held[node], true));
+        }
+        FaceNodes { condition: face.condition, axis, high, nodes, measure }
+    };
+    setup.faces.iter().map(face_nodes).collect()
+}
+
+/// How the ends along x and y conduct, about: the materials' mean conductivity at the reference.
+fn lateral_ends(grid: &Grid, curves: &[Curve], faces: &[FaceNodes]) -> [[End; 2]; 2] {
+    let (mut sum, mut height) = (0.0, 0.0);
+    for level in &grid.levels {
+        for (own, material) in level.heights.iter().zip(level.materials) {
+            sum += own * curves[material].at(0.0).0;
+            height += own;
+        }
+    }
+    let mut ends = [[End::Open(0.0); 2]; 2];
+    for face in faces.iter().filter(|face| face.axis < 2) {
+        let end = &mut ends[face.axis][usize::from(face.high)];
+        *end = match (face.condition, *end) {
+            (Condition::Prescribed, _) | (_, End::Held) => End::Held,
+            (Condition::Convective(h), End::Open(ratio)) => End::Open(ratio + h * height / sum),
+            (_, other) => other,
+        };
+    }
+    ends
+}
