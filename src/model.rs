@@ -336,10 +336,11 @@ impl Model {
                     // A single temperature is cheaper from the modes than from the whole field.
                     let (unknowns, loads) = (&state.bodies[index], cache.loads(index));
                     let solid = &self.bodies[index].solid;
-                    let rise = solid.rise_at(unknowns, loads, probe.at);
+                    let rise = solid.rise_at(unknowns, loads, self.scene.point_of(probe));
                     return Ok(solid.initial_temperature() + rise);
                 }
-                self.component(&state.bodies, cache, index, *component, probe.at)
+                let point = self.scene.point_of(probe);
+                self.component(&state.bodies, cache, index, *component, point)
             }
             Output::Field { field, component, cell } => {
                 let (body, _) = self.scene.field[*field].body_and_place();

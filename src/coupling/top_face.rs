@@ -58,7 +58,7 @@ impl TopFace {
 
     /// Temperature above the initial one at each cell [K].
     pub fn rise(&self, temperatures: &Temperatures) -> Vec<f64> {
-        let [.., nz] = self.mesh.node_counts();
+        let [.., nz] = self.mesh.sided_counts();
         self.unfolded(temperatures, nz - 1)
     }
 
@@ -165,7 +165,7 @@ fn consistent(axis: &Axis) -> Mat<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::fem::Weight;
+    use crate::method::fem::{Layering, Weight};
 
     fn mesh(order: usize, mirrored: [bool; 2]) -> Mesh {
         let half = [0.0, 0.1, 0.3, 1.0];
@@ -176,7 +176,7 @@ mod tests {
         };
         let depth = Axis::from_element_ends(&[-0.2, 0.0], order, Weight::Uniform);
         let axes = [axis(mirrored[0]), axis(mirrored[1]), depth];
-        Mesh { axes, mirrored, geometry: Geometry::Box }
+        Mesh { axes, mirrored, geometry: Geometry::Box, layering: Layering::default() }
     }
 
     fn meshes() -> Vec<Mesh> {
@@ -270,7 +270,12 @@ mod tests {
         let r = Axis::from_element_ends(&[0.0, 0.2, 1.0], 2, Weight::Radial);
         let z = Axis::from_element_ends(&[-0.2, 0.0], 2, Weight::Uniform);
         let axes = [r, Axis::point(), z];
-        let mesh = Mesh { axes, mirrored: [false; 2], geometry: Geometry::Axisymmetric };
+        let mesh = Mesh {
+            axes,
+            mirrored: [false; 2],
+            geometry: Geometry::Axisymmetric,
+            layering: Layering::default(),
+        };
         let face = TopFace::of(&mesh, false);
         for x in [0.0, 0.05, 0.6] {
             let parts = face.nodal(&given(&face, x, 0.0, 1.0), [true, false], [true; 2]);

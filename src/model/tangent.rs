@@ -73,12 +73,12 @@ impl Model {
             Output::Droplet { .. } | Output::Wall { .. } => Err(ModelError::NoRate),
             Output::Probe { probe, component } => {
                 let probe = &self.scene.probe[*probe];
-                let index = self.place(&probe.body);
+                let (index, point) = (self.place(&probe.body), self.scene.point_of(probe));
                 if *component == Component::Temperature {
                     let (unknowns, loads) = (&tangent.bodies[index], tangent.cache.loads(index));
-                    return Ok(self.bodies[index].solid.rise_at(unknowns, loads, probe.at));
+                    return Ok(self.bodies[index].solid.rise_at(unknowns, loads, point));
                 }
-                self.component_rate(state, cache, tangent, (index, *component, probe.at))
+                self.component_rate(state, cache, tangent, (index, *component, point))
             }
             Output::Field { field, component, cell } => {
                 let (body, _) = self.scene.field[*field].body_and_place();

@@ -4,10 +4,11 @@ use std::rc::Rc;
 
 use super::{
     DropletTotal, FaceInputKind, InputLayout, MaterialConstant, Parameter, Quantity, WallOutput,
-    droplet,
+    droplet, layers,
 };
 use crate::scene::{
-    CellShape, CellValues, FaceName, Field, Gives, Load, LoadRange, Naming, Probe, Scene, Solid,
+    CellShape, CellValues, FaceName, Field, Gives, Load, LoadRange, Naming, Probe, Scene, Side,
+    Solid,
 };
 
 /// All variables of a scene's unit. The value reference of a variable is its place in the list.
@@ -297,7 +298,7 @@ fn list(scene: &Scene) -> Vec<Variable> {
 
 /// `a.b[1,2]` as `a_b_1_2`.
 pub(super) fn flat(name: &str) -> String {
-    name.trim_end_matches(']').replace(['.', '[', ','], "_")
+    name.replace(']', "").replace(['.', '[', ','], "_")
 }
 
 /// All that decides which inputs an output follows without delay.
@@ -364,22 +365,25 @@ fn mark_traction(inputs: &super::LoadInputs, direct: &mut [bool]) {
 
 fn parameters(scene: &Scene, list: &mut Vec<Variable>) {
     let mut add = |name: String, description: String, parameter: Parameter, quantity, bounds| {
-        let (min, max): (Option<f64>, Option<f64>) = bounds;
+        let (min, max): layers::Bounds = bounds;
         let start = Some(Value::Real(parameter.get(scene)));
         let slot = Slot::Parameter(parameter);
         list.push(Variable { name, description, slot, quantity: Some(quantity), start, min, max });
     };
     for (body, solid) in scene.solids() {
-        let given = |constant: &MaterialConstant| constant.is_given(&solid.material);
-        for constant in MaterialConstant::ALL.into_iter().filter(given) {
-            add(
-                format!("{body}.{}", constant.key()),
-                format!("{} of {body}", constant.description()),
-                Parameter::Material { body: body.to_owned(), constant },
-                constant.quantity(),
-                constant.bounds(),
-            );
+        if let Some(choice) = &solid.material {
+            let given = |constant: &MaterialConstant| constant.is_given(choice.constants());
+            for constant in MaterialConstant::ALL.into_iter().filter(given) {
+                add(
+                    format!("{body}.{}", constant.key()),
+                    format!("{} of {body}", constant.description()),
+                    Parameter::Material { body: body.to_owned(), constant },
+                    constant.quantity(),
+                    constant.bounds(),
+                );
+            }
         }
+        layers::parameters((body, solid), &mut add);
         add(
             format!("{body}.initial_temperature"),
             format!("uniform temperature of {body} at time zero, free of thermal stress"),
@@ -598,9 +602,14 @@ fn probe_variables(index: usize, probe: &Probe, list: &mut Vec<Variable>) {
         list.push(Variable {
             name: format!("{}.{}", probe.name, component.key()),
             description: format!(
-                "{} at x = {x} m, y = {y} m, z = {z} m of {}",
+                "{} at x = {x} m, y = {y} m, z = {z} m of {}{}",
                 component.description(),
-                probe.body
+                probe.body,
+                match probe.side {
+                    None => "",
+                    Some(Side::Above) => ", above the interface",
+                    Some(Side::Below) => ", below the interface",
+                }
             ),
             slot: Slot::Output(Output::Probe { probe: index, component }),
             quantity: Some(component.quantity()),

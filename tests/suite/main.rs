@@ -17,6 +17,7 @@ mod fine_meshes;
 mod flows;
 mod impact;
 mod impossible;
+mod layers;
 mod output;
 mod particles;
 mod plausibility;

@@ -23,12 +23,12 @@ impl BrickSolver {
     /// `free` are the nodes along each axis that are solved for, of each component; each must be held somewhere.
     pub fn new(
         mesh: &Mesh,
-        law: &Thermoelastic,
+        laws: &[Thermoelastic],
         free: [[Range<usize>; 3]; 3],
         threads: usize,
     ) -> Self {
-        let inverse = BrickInverse::new(mesh, law, &free, &Team::new(threads));
-        Self { stiffness: BrickStiffness::new(mesh, law, free), inverse, threads }
+        let inverse = BrickInverse::new(mesh, laws, &free, &Team::new(threads));
+        Self { stiffness: BrickStiffness::new(mesh, laws, free), inverse, threads }
     }
 
     /// Numbers that are kept.
@@ -84,6 +84,7 @@ mod tests {
     use super::*;
     use crate::method::fem::axis::{Axis, Weight};
     use crate::method::fem::hexahedron::HexahedronMatrices;
+    use crate::method::fem::layering::Layering;
     use crate::method::fem::mesh::Geometry;
 
     fn graded(order: usize, counts: [usize; 3], growth: f64) -> Mesh {
@@ -94,7 +95,7 @@ mod tests {
             }
             Axis::from_element_ends(&ends, order, Weight::Uniform)
         });
-        Mesh { axes, mirrored: [false; 2], geometry: Geometry::Box }
+        Mesh { axes, mirrored: [false; 2], geometry: Geometry::Box, layering: Layering::default() }
     }
 
     fn clamped_below(mesh: &Mesh) -> [[Range<usize>; 3]; 3] {
@@ -155,7 +156,7 @@ mod tests {
         let law = Thermoelastic { young: 200.0, poisson: 0.3, expansion: 1e-3 };
         for order in [1, 2] {
             let mesh = graded(order, [4, 3, 5], 1.5);
-            let stiffness = BrickStiffness::new(&mesh, &law, clamped_below(&mesh));
+            let stiffness = BrickStiffness::new(&mesh, slice::from_ref(&law), clamped_below(&mesh));
             let x = wave(3 * mesh.nodes());
             let mut found = vec![7.0; x.len()];
             stiffness.apply(&x, &mut found, &Team::new(2));
@@ -184,7 +185,7 @@ mod tests {
         ] {
             let law = Thermoelastic { young: 200.0, poisson, expansion: 1e-3 };
             let mesh = graded(order, counts, growth);
-            let solver = BrickSolver::new(&mesh, &law, clamped_below(&mesh), 2);
+            let solver = BrickSolver::new(&mesh, slice::from_ref(&law), clamped_below(&mesh), 2);
             let load = wave(3 * mesh.nodes());
             let mut solution = load.clone();
             let iterations = solver.solve_in_place(&mut solution, &[]).unwrap();
@@ -208,7 +209,8 @@ mod tests {
         for order in [1, 2] {
             let mesh = graded(order, [5, 6, 7], 1.2);
             let solved = |threads: usize| {
-                let solver = BrickSolver::new(&mesh, &law, clamped_below(&mesh), threads);
+                let solver =
+                    BrickSolver::new(&mesh, slice::from_ref(&law), clamped_below(&mesh), threads);
                 let mut load = wave(3 * mesh.nodes());
                 solver.solve_in_place(&mut load, &[]).unwrap();
                 load

@@ -8,7 +8,10 @@
 //! step of any length costs a few operations a node, is L-stable and has no time error; θ is the
 //! temperature above the initial one.
 
+mod layered;
 mod rates;
+
+pub use layered::{LayeredHeat, depth_ends};
 
 use faer::Mat;
 

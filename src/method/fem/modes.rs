@@ -119,7 +119,7 @@ fn eigenpairs(
 /// The lower triangle L of M = L Lᵀ.
 ///
 /// Like all of this file it works on the thread that calls, whatever number of them a scene allows.
-fn cholesky_factor(mut mass: Mat<f64>) -> Mat<f64> {
+pub(super) fn cholesky_factor(mut mass: Mat<f64>) -> Mat<f64> {
     let m = mass.nrows();
     let parameters: LltParams = Auto::<f64>::auto();
     let scratch = cholesky_in_place_scratch::<f64>(m, Par::Seq, parameters.into());
@@ -135,7 +135,7 @@ fn cholesky_factor(mut mass: Mat<f64>) -> Mat<f64> {
 }
 
 /// Eigenvectors of a symmetric matrix by ascending eigenvalue.
-fn eigenvectors(symmetric: &Mat<f64>) -> Mat<f64> {
+pub(super) fn eigenvectors(symmetric: &Mat<f64>) -> Mat<f64> {
     let m = symmetric.nrows();
     // The divide-and-conquer method that faer takes above 128 rows left residuals of 1e-3 of the
     // largest eigenvalue on uniform meshes; its QR method stays at rounding.
@@ -159,7 +159,7 @@ fn eigenvectors(symmetric: &Mat<f64>) -> Mat<f64> {
 
 /// Makes the first mode of an insulated axis the constant, to rounding, and the others orthogonal
 /// to it, so that conduction neither makes nor loses heat however long a run is.
-fn deflate_constant(vectors: &mut Mat<f64>, lower: &Mat<f64>, m: usize) {
+pub(super) fn deflate_constant(vectors: &mut Mat<f64>, lower: &Mat<f64>, m: usize) {
     let mut constant: Vec<f64> = (0..m).map(|i| (i..m).map(|j| lower[(j, i)]).sum()).collect();
     let norm = constant.iter().map(|v| v * v).sum::<f64>().sqrt();
     constant.iter_mut().for_each(|v| *v /= norm);
