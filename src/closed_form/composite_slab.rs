@@ -52,6 +52,57 @@ struct Mode {
     norm: f64,
 }
 
+/// What happens in the slab.
+pub struct Transient<'a> {
+    slab: &'a CompositeSlab,
+    front: Front,
+    value: f64,
+    modes: Vec<Mode>,
+}
+
+impl Transient<'_> {
+    /// Temperature rise [K] at depth `x` in a layer.
+    pub fn rise(&self, (layer, x): (usize, f64), t: f64) -> f64 {
+        let Self { slab, front, value, modes } = self;
+        let settled = match (front, slab.back) {
+            (Front::Flux, _) => slab.settled_under_flux(layer, x, t),
+            (Front::Temperature, Back::Insulated) => 1.0,
+            (Front::Temperature, Back::Held) => {
+                1.0 - slab.resistance_before(layer, x) / slab.resistance_before(usize::MAX, 0.0)
+            }
+        };
+        let decaying = modes.iter().map(|mode| {
+            let share = (-mode.omega.powi(2) * t).exp() / (mode.norm * mode.omega.powi(2));
+            slab.value(mode, layer, x) * self.drive(mode) * share
+        });
+        value * (settled - decaying.sum::<f64>())
+    }
+
+    /// Heat [J/m²] that has come in by then where the temperature of the front is given.
+    pub fn heat(&self, t: f64) -> f64 {
+        let decaying = self.modes.iter().map(|mode| {
+            let square = mode.omega.powi(2);
+            -self.drive(mode).powi(2) / (mode.norm * square * square) * (-square * t).exp_m1()
+        });
+        let settled = match self.slab.back {
+            Back::Insulated => 0.0,
+            Back::Held => t / self.slab.resistance_before(usize::MAX, 0.0),
+        };
+        self.value * (settled + decaying.sum::<f64>())
+    }
+
+    /// What a unit on the front does to a mode: its value there, or its slope times conductivity.
+    fn drive(&self, mode: &Mode) -> f64 {
+        let (phase, amplitude) = mode.parts[0];
+        match self.front {
+            Front::Flux => amplitude * phase.cos(),
+            Front::Temperature => {
+                -self.slab.layers[0].body.effusivity() * mode.omega * amplitude * phase.sin()
+            }
+        }
+    }
+}
+
 impl SlabLayer {
     /// `√(c/k) L` [√s]
     fn delay(&self) -> f64 {
@@ -70,52 +121,15 @@ impl SlabLayer {
 }
 
 impl CompositeSlab {
-    /// Temperature rise [K] at depth `x` in a layer, a constant flux [W/m²] into the front from time 0 on.
-    pub fn rise_under_flux(&self, flux: f64, (layer, x): (usize, f64), t: f64) -> f64 {
-        let modes = self.modes(Front::Flux);
-        let decaying = modes.iter().map(|mode| {
-            let from = mode.parts[0].1 * mode.parts[0].0.cos();
-            self.value(mode, layer, x) * from * self.share(mode, t)
-        });
-        flux * (self.settled_under_flux(layer, x, t) - decaying.sum::<f64>())
+    /// Under a constant `flux` [W/m²] into the front from time 0 on.
+    pub fn under_flux(&self, flux: f64) -> Transient<'_> {
+        Transient { slab: self, front: Front::Flux, value: flux, modes: self.modes(Front::Flux) }
     }
 
-    /// Temperature rise [K] at depth `x` in a layer, the front at `front` [K] from time 0 on.
-    pub fn rise_under_temperature(&self, front: f64, (layer, x): (usize, f64), t: f64) -> f64 {
-        let modes = self.modes(Front::Temperature);
-        let decaying = modes.iter().map(|mode| {
-            let (phase, amplitude) = mode.parts[0];
-            let slope = -self.layers[0].body.effusivity() * mode.omega * amplitude * phase.sin();
-            self.value(mode, layer, x) * slope * self.share(mode, t)
-        });
-        let settled = match self.back {
-            Back::Insulated => 1.0,
-            Back::Held => {
-                1.0 - self.resistance_before(layer, x) / self.resistance_before(usize::MAX, 0.0)
-            }
-        };
-        front * (settled - decaying.sum::<f64>())
-    }
-
-    /// Heat [J/m²] that has come in by then under that temperature.
-    pub fn heat_under_temperature(&self, front: f64, t: f64) -> f64 {
-        let modes = self.modes(Front::Temperature);
-        // Flux into the front, integrated: what it settles at, and what decays.
-        let decaying = modes.iter().map(|mode| {
-            let (phase, amplitude) = mode.parts[0];
-            let slope = -self.layers[0].body.effusivity() * mode.omega * amplitude * phase.sin();
-            slope * slope / (mode.norm * mode.omega.powi(4)) * -(-mode.omega.powi(2) * t).exp_m1()
-        });
-        let settled = match self.back {
-            Back::Insulated => 0.0,
-            Back::Held => t / self.resistance_before(usize::MAX, 0.0),
-        };
-        front * (settled + decaying.sum::<f64>())
-    }
-
-    /// `e^{−ω²t}/(N ω²)`
-    fn share(&self, mode: &Mode, t: f64) -> f64 {
-        (-mode.omega.powi(2) * t).exp() / (mode.norm * mode.omega.powi(2))
+    /// With the front at `rise` [K] from time 0 on.
+    pub fn under_temperature(&self, rise: f64) -> Transient<'_> {
+        let front = Front::Temperature;
+        Transient { slab: self, front, value: rise, modes: self.modes(front) }
     }
 
     /// Thermal resistance between the front and depth `x` in a layer; of the whole slab for layers beyond [m² K/W].
@@ -277,9 +291,9 @@ mod tests {
         for t in [1e-4, 1e-3, 1e-2] {
             for (part, x) in [(0, 0.0), (0, 0.1e-3), (1, 0.1e-3), (1, 0.13e-3), (2, 0.3e-3)] {
                 let of = |back| CompositeSlab { layers: parts.to_vec(), back };
-                let value = of(Back::Insulated).rise_under_flux(1e6, (part, x), t);
+                let value = of(Back::Insulated).under_flux(1e6).rise((part, x), t);
                 assert_close(value, single.rise_with_insulated_back(x, t), 1e-9);
-                let value = of(Back::Held).rise_under_flux(1e6, (part, x), t);
+                let value = of(Back::Held).under_flux(1e6).rise((part, x), t);
                 assert!((value - single.rise_with_held_back(x, t)).abs() < 1e-9);
             }
         }
@@ -289,11 +303,12 @@ mod tests {
     fn flux_is_continuous_and_temperature_falls_by_the_contacts_share_of_it() {
         for back in [Back::Insulated, Back::Held] {
             let slab = slab(back);
+            let (heated, warm) = (slab.under_flux(1e6), slab.under_temperature(40.0));
             for t in [2e-4, 2e-3, 0.05] {
                 for sudden in [false, true] {
                     let rise = |layer, x| match sudden {
-                        false => slab.rise_under_flux(1e6, (layer, x), t),
-                        true => slab.rise_under_temperature(40.0, (layer, x), t),
+                        false => heated.rise((layer, x), t),
+                        true => warm.rise((layer, x), t),
                     };
                     for (above, x) in [(0, 20e-6), (1, 120e-6)] {
                         let h = 1e-7;
@@ -315,13 +330,14 @@ mod tests {
     fn the_front_has_what_is_put_on_it() {
         for back in [Back::Insulated, Back::Held] {
             let slab = slab(back);
+            let (heated, warm) = (slab.under_flux(1e6), slab.under_temperature(40.0));
             for t in [2e-4, 0.05] {
-                let rise = |x: f64| slab.rise_under_flux(1e6, (0, x), t);
+                let rise = |x: f64| heated.rise((0, x), t);
                 let into = -GLASS.conductivity * derivative_at_left(rise, 0.0, 1e-7);
                 assert_close(into, 1e6, 1e-6);
-                assert!((slab.rise_under_temperature(40.0, (0, 0.0), t) - 40.0).abs() < 1e-9);
+                assert!((warm.rise((0, 0.0), t) - 40.0).abs() < 1e-9);
             }
-            assert!(slab.rise_under_temperature(40.0, (1, 60e-6), 1e-7).abs() < 1e-6);
+            assert!(warm.rise((1, 60e-6), 1e-7).abs() < 1e-6);
         }
     }
 
@@ -329,6 +345,6 @@ mod tests {
     fn heat_that_came_in_is_what_layers_hold_in_the_end() {
         let slab = slab(Back::Insulated);
         let capacity: f64 = slab.layers.iter().map(SlabLayer::capacity).sum();
-        assert_close(slab.heat_under_temperature(40.0, 10.0), 40.0 * capacity, 1e-6);
+        assert_close(slab.under_temperature(40.0).heat(10.0), 40.0 * capacity, 1e-6);
     }
 }

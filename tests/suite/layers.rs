@@ -3,7 +3,6 @@
 use crate::common::{Trial, off};
 use impinge::closed_form::{Back, CompositeSlab, Conductor, SlabLayer};
 use impinge::closed_form::{BondedLayer, BondedPlate};
-use impinge::model::NodalFields;
 
 /// Density, specific heat, conductivity, Young's modulus, Poisson's ratio, expansion.
 type Row = [f64; 6];
@@ -40,7 +39,7 @@ fn thickness(stack: Stack) -> f64 {
     stack.iter().map(|layer| layer.1).sum()
 }
 
-/// A body of these layers that is wider than thick; more keys of the body, faces and tables.
+/// A body of a shape made of something; stop time and step, more keys of the body, faces and tables.
 fn body(
     shape: &str,
     made_of: &str,
@@ -122,43 +121,464 @@ const STACKS: [Stack<'static>; 6] = [
     &[(LEAD, 0.1e-3, 0.0), (LEAD, 0.2e-3, 0.0)],
 ];
 
+/// A disc, whose modes along the surface are few.
+fn disc(thickness: f64) -> String {
+    format!("disc = {{ radius = {:?}, thickness = {thickness:?} }}", 3.0 * thickness)
+}
+
+/// Largest error at the top, at interfaces and in between over the rise of the top, in ten steps until heat has
+/// gone through the stack.
+fn error_against_series(stack: Stack, back: Back, sudden: bool, mesh: &str) -> [f64; 2] {
+    const STEPS: u32 = 10;
+    let top = if sudden { "top = { temperature = 340.0 }" } else { "top = { flux = 1e5 }" };
+    let bottom = if back == Back::Held { "bottom = { temperature = 300.0 }" } else { "" };
+    let (text, list) = places(stack);
+    let times = [passage(stack), passage(stack) / f64::from(STEPS)];
+    let faces = format!("{top}\n{bottom}");
+    let scene = body(&disc(thickness(stack)), &layers(stack), times, mesh, &faces, &text);
+    let mut trial = Trial::new(&scene);
+    let series = slab(stack, back);
+    let series = if sudden { series.under_temperature(40.0) } else { series.under_flux(1e5) };
+    let mut worst = [0.0_f64; 2];
+    for step in 1..=STEPS {
+        trial.step(times[1]);
+        let t = f64::from(step) * times[1];
+        let scale = series.rise((0, 0.0), t);
+        for (name, layer, depth) in &list {
+            let value = trial.get(&format!("{name}.temperature")) - 300.0;
+            let error = (value - series.rise((*layer, *depth), t)).abs() / scale;
+            let place = usize::from(*depth > 0.0);
+            worst[place] = worst[place].max(error);
+        }
+        let residual = trial.heat_residual("plate");
+        assert!(residual < 1e-9, "{stack:?} {back:?} {sudden}: {residual:e}");
+    }
+    worst
+}
+
 #[test]
 fn layers_under_flux_and_sudden_temperature_follow_the_series_of_the_composite_slab() {
     for stack in STACKS {
-        let stop = passage(stack);
-        let steps = 10;
         for back in [Back::Insulated, Back::Held] {
             for sudden in [false, true] {
-                let top =
-                    if sudden { "top = { temperature = 340.0 }" } else { "top = { flux = 1e5 }" };
-                let bottom =
-                    if back == Back::Held { "bottom = { temperature = 300.0 }" } else { "" };
-                let (text, list) = places(stack);
-                let faces = format!("{top}\n{bottom}");
-                let shape = square(4.0 * thickness(stack), thickness(stack));
-                let times = [stop, stop / f64::from(steps)];
-                let mut trial = Trial::new(&body(&shape, &layers(stack), times, "", &faces, &text));
-                let series = slab(stack, back);
-                let rise = |layer: usize, depth: f64, t: f64| match sudden {
-                    false => series.rise_under_flux(1e5, (layer, depth), t),
-                    true => series.rise_under_temperature(40.0, (layer, depth), t),
-                };
-                for step in 1..=steps {
-                    trial.step(times[1]);
-                    let t = f64::from(step) * times[1];
-                    let scale = rise(0, 0.0, t);
-                    for (name, layer, depth) in &list {
-                        let value = trial.get(&format!("{name}.temperature")) - 300.0;
-                        let wanted = rise(*layer, *depth, t);
-                        let error = (value - wanted).abs() / scale;
+                let [top, inside] = error_against_series(stack, back, sudden, "");
+                assert!(
+                    top < 3e-4 && inside < 2e-3,
+                    "{stack:?} {back:?} {sudden}: {top:e} {inside:e}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn temperatures_in_layers_converge_at_the_order_of_the_elements() {
+    // Layers of like delays, so that equal elements resolve them alike.
+    let stack: Stack = &[(LEAD, 0.1e-3, 0.0), (ALUMINA, 0.06e-3, 2e-6), (LEAD, 0.1e-3, 0.0)];
+    for (order, rate) in [(1, 2.0), (2, 4.0)] {
+        for back in [Back::Insulated, Back::Held] {
+            let error = |spacing: f64| {
+                let mesh = format!(
+                    "mesh = {{ depth_spacing = {spacing:?}, growth = 1.0, order = {order} }}"
+                );
+                let errors = error_against_series(stack, back, false, &mesh);
+                errors[0].max(errors[1])
+            };
+            let coarse = if order == 1 { 2.5e-6 } else { 5e-6 };
+            let (first, second) = (error(coarse), error(0.5 * coarse));
+            let observed = (first / second).log2();
+            let wanted = observed > rate - 0.35;
+            assert!(wanted, "order {order} {back:?}: {first:e}, {second:e}, rate {observed}");
+        }
+    }
+}
+
+/// Loads of heat off all planes of symmetry, on faces that have no temperature.
+fn loads(faces: &str) -> String {
+    let held = |face: &str| faces.contains(&format!("{face} = {{ temperature"));
+    let spot = if held("top") { "bottom" } else { "top" };
+    let patch = if held("bottom") { "top" } else { "bottom" };
+    format!(
+        r#"
+[[load]]
+name = "spot"
+on = "plate.{spot}"
+footprint = {{ gaussian = {{ radius = 0.2e-3 }} }}
+carries = ["heat_flux"]
+start = {{ heat_flux = 4e6, x = 0.13e-3, y = -0.08e-3 }}
+[[load]]
+name = "patch"
+on = "plate.{patch}"
+footprint = {{ tiles = {{ count = [2, 1], size = [0.5e-3, 0.4e-3] }} }}
+carries = ["heat_flux"]
+start = {{ heat_flux = [[1e6], [3e6]] }}
+"#
+    )
+}
+
+fn readings(trial: &mut Trial) -> Vec<f64> {
+    let names = trial.outputs();
+    names.iter().map(|name| trial.get(name)).collect()
+}
+
+#[test]
+fn two_layers_of_one_material_are_one_body_of_it() {
+    let probes: String =
+        [[0.11e-3, 0.07e-3, 0.0], [-0.3e-3, 0.2e-3, -0.15e-3], [0.0, -0.1e-3, -0.3e-3]]
+            .iter()
+            .enumerate()
+            .map(|(i, &at)| probe(&format!("p{i}"), at, "", ALL))
+            .collect();
+    for faces in [
+        "sides = { clamped = true }\nbottom = { temperature = 310.0 }",
+        "left = { temperature = 290.0, clamped = true }\nright = { flux = 2e5 }\ntop = { convection = { coefficient = 1e5, ambient = 350.0 } }",
+        "sides = { convection = { coefficient = 4e4, ambient = 320.0 }, clamped = true }\nbottom = { flux = 3e5 }",
+    ] {
+        let rest = format!("{}{probes}", loads(faces));
+        for order in [1, 2] {
+            let mesh = format!(
+                "mesh = {{ spacing = 0.1e-3, depth_spacing = 0.025e-3, growth = 1.0, order = {order} }}"
+            );
+            let trial = |made_of: &str| {
+                Trial::new(&body(
+                    &square(1.2e-3, 0.3e-3),
+                    made_of,
+                    [1e-2, 1e-3],
+                    &mesh,
+                    faces,
+                    &rest,
+                ))
+            };
+            let mut whole = trial(&format!("material = {}", material(ALUMINA)));
+            let mut halves = trial(&layers(&[(ALUMINA, 0.15e-3, 0.0), (ALUMINA, 0.15e-3, 0.0)]));
+            for _ in 0..4 {
+                whole.step(1e-3);
+                halves.step(1e-3);
+                let names = whole.outputs();
+                let (one, two) = (readings(&mut whole), readings(&mut halves));
+                for group in [".temperature", ".displacement", "heat_"] {
+                    let is_in = |name: &str| name.contains(group) && !name.contains("drift");
+                    let members = (0..names.len()).filter(|&i| is_in(&names[i]));
+                    let largest = members.clone().map(|i| one[i].abs()).fold(0.0, f64::max);
+                    for i in members {
+                        let difference = (one[i] - two[i]).abs() / largest;
                         assert!(
-                            error < 3e-4,
-                            "{stack:?} {back:?} {sudden} {name} at {t:e}: {value} {wanted}"
+                            difference <= 1e-10,
+                            "{faces} {order} {}: {difference:e}",
+                            names[i]
                         );
                     }
-                    assert!(trial.heat_residual("plate") < 1e-9);
+                }
+                assert!(halves.heat_residual("plate") < 1e-9);
+            }
+        }
+    }
+}
+
+const ALL: &str = r#""temperature", "stress", "displacement""#;
+
+#[test]
+fn heat_balances_in_layers_under_every_condition() {
+    let stack: Stack =
+        &[(DIAMOND, 5e-6, 0.0), (PTFE, 40e-6, 1e-6), (COPPER, 200e-6, 1e-7), (AEROGEL, 55e-6, 0.0)];
+    for faces in [
+        "",
+        "left = { temperature = 310.0 }\nright = { temperature = 290.0 }\nbottom = { temperature = 320.0 }",
+        "front = { temperature = 305.0 }\nbottom = { convection = { coefficient = 1e4, ambient = 280.0 } }\nleft = { flux = 1e5 }",
+        "top = { temperature = 330.0 }\nsides = { temperature = 300.0 }",
+        "top = { convection = { coefficient = 1e5, ambient = 280.0 } }\nsides = { flux = 3e4 }",
+    ] {
+        let text = body(
+            &square(1.2e-3, 0.3e-3),
+            &layers(stack),
+            [1e-2, 1e-3],
+            "mesh = { spacing = 0.1e-3, depth_spacing = 8e-6 }",
+            faces,
+            &loads(faces),
+        );
+        let mut trial = Trial::new(&text);
+        trial.set_derivative("spot.heat_flux", 1, 1e6);
+        trial.set_derivative("spot.heat_flux", 2, -1e5);
+        for dt in [1e-9, 1e-6, 1e-4, 1e-2, 1.0] {
+            trial.step(dt);
+            let residual = trial.heat_residual("plate");
+            assert!(residual < 1e-9, "{faces:?} after {dt:e}: {residual:e}");
+        }
+    }
+}
+
+#[test]
+fn steps_of_any_length_give_the_same_heat() {
+    let stack: Stack = &[(PTFE, 20e-6, 0.0), (COPPER, 280e-6, 1e-6)];
+    let faces = "bottom = { temperature = 320.0 }";
+    let rest = loads(faces) + &probe("p", [0.1e-3, 0.0, -20e-6], "below", "\"temperature\"");
+    let run = |steps: u32| {
+        let text = body(
+            &square(1.2e-3, 0.3e-3),
+            &layers(stack),
+            [1e-2, 1e-3],
+            "mesh = { spacing = 0.1e-3, depth_spacing = 8e-6 }",
+            faces,
+            &rest,
+        );
+        let mut trial = Trial::new(&text);
+        trial.set_derivative("patch.heat_flux[2,1]", 1, 4e8);
+        for _ in 0..steps {
+            trial.step(3e-3 / f64::from(steps));
+        }
+        [trial.get("p.temperature") - 300.0, trial.get("plate.heat_lost")]
+    };
+    let (one, many) = (run(1), run(30));
+    for (one, many) in one.into_iter().zip(many) {
+        assert!(off(one, many) < 1e-9, "{one} {many}");
+    }
+}
+
+#[test]
+fn rates_in_layers_are_the_limit_of_differences() {
+    let stack: Stack = &[(PTFE, 20e-6, 0.0), (COPPER, 280e-6, 1e-6)];
+    let probes = probe("above", [0.1e-3, 0.0, -20e-6], "above", ALL)
+        + &probe("below", [0.1e-3, 0.0, -20e-6], "below", ALL);
+    let faces = "bottom = { temperature = 320.0, clamped = true }\nleft = { temperature = 295.0 }\ntop = { convection = { coefficient = 1e4, ambient = 350.0 } }";
+    let mesh = "mesh = { spacing = 0.15e-3, depth_spacing = 10e-6 }";
+    let text = body(
+        &square(1.2e-3, 0.3e-3),
+        &layers(stack),
+        [1e-2, 1e-3],
+        mesh,
+        faces,
+        &format!("{}{probes}", loads(faces)),
+    );
+    let mut trial = Trial::new(&text);
+    trial.set_derivative("spot.heat_flux", 1, 1e9);
+    trial.step(1e-3);
+    let names: Vec<String> = trial
+        .outputs()
+        .into_iter()
+        .filter(|name| !name.contains("max") && !name.contains("drift"))
+        .collect();
+    let rates = trial.rates(&names);
+    let start: Vec<f64> = names.iter().map(|name| trial.get(name)).collect();
+    let dt = 1e-7;
+    trial.step(dt);
+    for ((name, rate), start) in names.iter().zip(rates).zip(start) {
+        let difference = (trial.get(name) - start) / dt;
+        let scale = rate.abs().max(1e-9 * start.abs() / dt);
+        assert!((difference - rate).abs() < 1e-3 * scale, "{name}: {rate:e} {difference:e}");
+    }
+}
+
+#[test]
+fn a_contact_keeps_temperatures_apart_and_displacements_together() {
+    let flux = 1e5;
+    for resistance in [1e-7, 1e-5, 1e-2] {
+        let stack: Stack = &[(GLASS, 0.1e-3, 0.0), (COPPER, 0.2e-3, resistance)];
+        let at = [0.0, 0.0, -0.1e-3];
+        let probes = probe("above", at, "above", ALL)
+            + &probe("below", at, "below", ALL)
+            + &probe("plain", at, "", ALL);
+        let faces = format!(
+            "top = {{ flux = {flux:?} }}\nbottom = {{ temperature = 300.0, clamped = true }}"
+        );
+        let mut trial =
+            Trial::new(&body(&disc(0.3e-3), &layers(stack), [1.0, 0.1], "", &faces, &probes));
+        trial.step(1e4);
+        let jump = trial.get("above.temperature") - trial.get("below.temperature");
+        assert!(off(jump, flux * resistance) < 1e-6, "{resistance}: {jump}");
+        assert_eq!(trial.get("plain.temperature"), trial.get("above.temperature"));
+        for i in ["x", "y", "z"] {
+            let of = |side: &str| format!("{side}.displacement_{i}");
+            let difference = trial.get(&of("above")) - trial.get(&of("below"));
+            assert!(
+                difference.abs() <= 1e-12 * trial.get(&of("above")).abs(),
+                "{i}: {difference:e}"
+            );
+        }
+    }
+}
+
+/// A body that has been heated by 10 K.
+fn heated_evenly(stack: Stack, shape: &str, supports: &str, mesh: &str, probes: &str) -> Trial {
+    let faces = format!("top = {{ temperature = 310.0 }}\n{supports}");
+    let mut trial = Trial::new(&body(shape, &layers(stack), [1.0, 0.1], mesh, &faces, probes));
+    trial.step(1e6);
+    trial
+}
+
+#[test]
+fn stress_of_a_film_on_a_thick_plate_is_that_of_the_laminate_and_jumps_at_the_interface() {
+    // A bottom that slides keeps it flat; in the middle of its two planes of symmetry no edge is near.
+    for (film, substrate) in [(DIAMOND, GLASS), (PTFE, COPPER), (COPPER, ALUMINA), (LEAD, DIAMOND)]
+    {
+        for order in [1, 2] {
+            let stack: Stack = &[(film, 0.02, 0.0), (substrate, 0.18, 0.0)];
+            let at = [-2.0, -2.0, -0.02];
+            let probes = probe("film", at, "", "\"stress\"")
+                + &probe("base", at, "below", "\"stress\"")
+                + &probe("top", [-2.0, -2.0, 0.0], "", "\"stress\"");
+            let mesh = format!("mesh = {{ spacing = 0.2, depth_spacing = 0.02, order = {order} }}");
+            let supports = "bottom = { temperature = 310.0, roller = true }\nleft = { roller = true }\nfront = { roller = true }";
+            let mut trial = heated_evenly(stack, "box = [4.0, 4.0, 0.2]", supports, &mesh, &probes);
+            let layer = |[_, _, _, young, poisson, expansion]: Row, thickness| BondedLayer {
+                modulus: young / (1.0 - poisson),
+                free_strain: expansion * 10.0,
+                thickness,
+            };
+            let laminate = BondedPlate { layers: vec![layer(substrate, 0.18), layer(film, 0.02)] };
+            let strain = laminate.flat();
+            let [base, film] = [0, 1].map(|i| laminate.stress(i, strain));
+            for (probe, wanted) in [("film", film), ("top", film), ("base", base)] {
+                for component in ["xx", "yy"] {
+                    let value = trial.get(&format!("{probe}.stress_{component}"));
+                    let error = (value - wanted).abs() / film.abs();
+                    assert!(
+                        error < 2e-3,
+                        "order {order} {probe} {component}: {value:e} {wanted:e}"
+                    );
                 }
             }
         }
     }
+}
+
+#[test]
+fn bimetals_bend_as_timoshenko_and_thin_films_as_stoney_say() {
+    // A strip that is clamped on the left and does not strain across; curvature from three places away from the ends.
+    for (upper, thickness) in [(COPPER, 0.05), (PTFE, 0.03), (DIAMOND, 1e-4), (LEAD, 0.08)] {
+        let stack: Stack = &[(upper, thickness, 0.0), (GLASS, 0.1, 0.0)];
+        let at = |x: f64| [x, 0.0, -0.05 - thickness];
+        let probes: String = [-0.25, 0.0, 0.25]
+            .iter()
+            .enumerate()
+            .map(|(i, &x)| probe(&format!("p{i}"), at(x), "", "\"displacement\""))
+            .collect();
+        let supports = "bottom = { temperature = 310.0 }\nleft = { clamped = true }\nfront = { roller = true }\nback = { roller = true }";
+        let shape = format!("box = [2.0, 0.4, {:?}]", 0.1 + thickness);
+        let mesh = "mesh = { spacing = 0.05, depth_spacing = 0.02 }";
+        let mut trial = heated_evenly(stack, &shape, supports, mesh, &probes);
+        let [left, middle, right] = [0, 1, 2].map(|i| trial.get(&format!("p{i}.displacement_z")));
+        let curvature = -(left - 2.0 * middle + right) / 0.25_f64.powi(2);
+        let layer = |[_, _, _, young, poisson, expansion]: Row, thickness| BondedLayer {
+            modulus: young / (1.0 - poisson * poisson),
+            free_strain: (1.0 + poisson) * expansion * 10.0,
+            thickness,
+        };
+        let pair = [layer(GLASS, 0.1), layer(upper, thickness)];
+        let wanted = BondedPlate::timoshenko(pair);
+        assert!(off(curvature, wanted) < 2e-3, "{upper:?}: {curvature:e} {wanted:e}");
+        if thickness < 0.001 {
+            let laminate = BondedPlate { layers: pair.to_vec() };
+            let stoney =
+                BondedPlate::stoney(pair[0], thickness, laminate.stress(1, pair[0].free_strain));
+            assert!(off(curvature, stoney) < 0.1, "{curvature:e} {stoney:e}");
+        }
+    }
+}
+
+#[test]
+fn fields_hold_both_sides_of_interfaces() {
+    let stack: Stack = &[(GLASS, 0.1e-3, 0.0), (COPPER, 0.2e-3, 1e-5)];
+    let faces = "top = { flux = 1e5 }\nbottom = { temperature = 300.0, clamped = true }";
+    for shape in [disc(0.3e-3), square(0.6e-3, 0.3e-3)] {
+        let at = [0.0, 0.0, -0.1e-3];
+        let probes = probe("above", at, "above", ALL) + &probe("below", at, "below", ALL);
+        let mut trial = Trial::new(&body(&shape, &layers(stack), [1.0, 0.1], "", faces, &probes));
+        trial.step(1e4);
+        let fields = trial.fields("plate");
+        let z = &fields.axes[2];
+        let twice: Vec<usize> = (1..z.len()).filter(|&k| z[k] == z[k - 1]).collect();
+        assert_eq!(twice.len(), 1);
+        let plane = fields.axes[0].len() * fields.axes[1].len();
+        let middle = |axis: &[f64]| axis.iter().position(|&x| x == 0.0).unwrap();
+        let column = middle(&fields.axes[0]) + fields.axes[0].len() * middle(&fields.axes[1]);
+        for (k, side) in [(twice[0] - 1, "below"), (twice[0], "above")] {
+            let node = column + plane * k;
+            let value = trial.get(&format!("{side}.temperature"));
+            assert!((fields.temperature[node] - value).abs() < 1e-9, "{side}");
+            let stress = trial.get(&format!("{side}.stress_xx"));
+            assert!(
+                off(fields.stress[node][0], stress) < 1e-6,
+                "{side}: {} {stress}",
+                fields.stress[node][0]
+            );
+        }
+        let highest = fields
+            .stress
+            .iter()
+            .map(|&s| impinge::material::stress::von_mises(s))
+            .fold(0.0, f64::max);
+        assert!(off(trial.get("plate.max_von_mises"), highest) < 1e-12);
+        assert!(trial.get("plate.max_temperature") >= trial.get("above.temperature"));
+    }
+}
+
+#[test]
+fn large_layered_boxes_give_by_conjugate_gradients_what_discs_of_them_do() {
+    // In the middle of a plate whose sides slide, heated evenly along it, nothing depends on its outline.
+    let stack: Stack = &[(DIAMOND, 0.02e-3, 0.0), (COPPER, 0.2e-3, 1e-6), (GLASS, 0.08e-3, 0.0)];
+    let faces = "top = { flux = 1e6 }\nbottom = { temperature = 300.0, roller = true }\nsides = { roller = true }";
+    let at = [0.0, 0.0, -0.02e-3];
+    let probes = probe("above", at, "above", ALL) + &probe("below", at, "below", ALL);
+    let read = |shape: &str, mesh: &str| {
+        let text = body(shape, &layers(stack), [1e-2, 2e-4], mesh, faces, &probes);
+        let mut trial = Trial::new(&text);
+        trial.step(2e-4);
+        ["temperature", "stress_xx", "displacement_z"]
+            .map(|key| ["above", "below"].map(|side| trial.get(&format!("{side}.{key}"))))
+    };
+    let disc = read("disc = { radius = 1e-3, thickness = 0.3e-3 }", "");
+    let cube = read(&square(2e-3, 0.3e-3), "mesh = { spacing = 4e-5, depth_spacing = 1e-6 }");
+    for (a, b) in disc.as_flattened().iter().zip(cube.as_flattened()) {
+        assert!((a - b).abs() < 2e-3 * a.abs(), "{a:e} {b:e}");
+    }
+}
+
+#[test]
+fn constants_of_layers_are_parameters() {
+    let named = |coating: &str| {
+        format!("[material.coating]\n{coating}\n[material.base]\n{}", table(COPPER))
+    };
+    let made_of = "layers = [ { material = \"coating\", thickness = 20e-6 }, { material = \"base\", thickness = 100e-6, contact_resistance = 1e-6 }, { material = \"coating\", thickness = 20e-6 } ]";
+    let probes = probe("p", [0.0, 0.0, 0.0], "", "\"temperature\"");
+    let text = |coating: &str| {
+        body(
+            &disc(140e-6),
+            made_of,
+            [1e-3, 1e-4],
+            "",
+            "top = { flux = 1e5 }",
+            &format!("{probes}{}", named(coating)),
+        )
+    };
+    let read = |trial: &mut Trial| {
+        trial.step(1e-3);
+        trial.get("p.temperature")
+    };
+    let glass = read(&mut Trial::new(&text(&table(GLASS))));
+    let mut changed = GLASS;
+    changed[2] = 3.0;
+    let wanted = read(&mut Trial::new(&text(&table(changed))));
+    assert!((wanted - glass).abs() > 1e-3);
+    let mut scene = impinge::scene::parse(&text(&table(GLASS)), "scene.toml").unwrap();
+    let registry = impinge::variables::Registry::of(&scene);
+    let set = |scene: &mut impinge::scene::Scene, name: &str, value: f64| {
+        let place = registry.find(name).unwrap_or_else(|| panic!("no {name}"));
+        let impinge::variables::Slot::Parameter(parameter) = &registry.variables[place].slot else {
+            panic!("{name}")
+        };
+        parameter.set(scene, value);
+        assert_eq!(parameter.get(scene), value);
+    };
+    set(&mut scene, "plate.coating.conductivity", 3.0);
+    assert_eq!(read(&mut Trial::of(scene.clone())), wanted);
+    set(&mut scene, "plate.layer[2].contact_resistance", 1e-4);
+    assert!(read(&mut Trial::of(scene)) > wanted + 1e-3);
+    assert!(
+        registry.find("plate.conductivity").is_none()
+            && registry.find("plate.base.young").is_some()
+    );
+}
+
+fn table(row: Row) -> String {
+    material(row).trim_matches(['{', '}', ' ']).replace(", ", "\n")
 }

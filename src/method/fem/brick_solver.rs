@@ -81,6 +81,8 @@ impl Operator for (&BrickSolver, &Team) {
 
 #[cfg(test)]
 mod tests {
+    use std::slice;
+
     use super::*;
     use crate::method::fem::axis::{Axis, Weight};
     use crate::method::fem::hexahedron::HexahedronMatrices;
@@ -96,6 +98,12 @@ mod tests {
             Axis::from_element_ends(&ends, order, Weight::Uniform)
         });
         Mesh { axes, mirrored: [false; 2], geometry: Geometry::Box, layering: Layering::default() }
+    }
+
+    /// With interfaces below these elements.
+    fn layered(mesh: Mesh, starts: &[usize]) -> Mesh {
+        let layering = Layering::new(starts.to_vec(), vec![0.0; starts.len()]);
+        Mesh { layering, ..mesh }
     }
 
     fn clamped_below(mesh: &Mesh) -> [[Range<usize>; 3]; 3] {
@@ -115,7 +123,7 @@ mod tests {
     }
 
     /// Forces by the matrices of single elements, of displacements or of temperatures.
-    fn assembled(mesh: &Mesh, law: &Thermoelastic, x: &[f64], columns_of: usize) -> Vec<f64> {
+    fn assembled(mesh: &Mesh, laws: &[Thermoelastic], x: &[f64], columns_of: usize) -> Vec<f64> {
         let [nx, ny, nz] = mesh.element_counts();
         let [columns, rows, _] = mesh.node_counts();
         let (order, nodes) = (mesh.order(), mesh.nodes());
@@ -127,7 +135,10 @@ mod tests {
                 let [low, high] = mesh.axes[a].bounds(element[a]);
                 high - low
             });
-            let matrices = HexahedronMatrices::new(order, size, law);
+            let layer = mesh.layering.layer_of(element[2]);
+            let matrices = HexahedronMatrices::new(order, size, &laws[layer]);
+            // Of temperatures, nodes on interfaces are there twice.
+            let sided = if columns_of == 1 { layer * columns * rows } else { 0 };
             let node = |a: usize| {
                 let at = [a % n, a / n % n, a / (n * n)];
                 let [i, j, k] = [0, 1, 2].map(|axis| element[axis] * order + at[axis]);
@@ -142,7 +153,7 @@ mod tests {
                     for i in 0..3 {
                         for j in 0..columns_of {
                             let entry = block[columns_of * i + j];
-                            out[i * nodes + node(a)] += entry * x[j * nodes + node(b)];
+                            out[i * nodes + node(a)] += entry * x[j * nodes + node(b) + sided];
                         }
                     }
                 }
@@ -153,19 +164,21 @@ mod tests {
 
     #[test]
     fn forces_are_those_of_the_elements_matrices() {
-        let law = Thermoelastic { young: 200.0, poisson: 0.3, expansion: 1e-3 };
-        for order in [1, 2] {
-            let mesh = graded(order, [4, 3, 5], 1.5);
-            let stiffness = BrickStiffness::new(&mesh, slice::from_ref(&law), clamped_below(&mesh));
+        let law = |young, poisson| Thermoelastic { young, poisson, expansion: 1e-3 };
+        let laws = [law(200.0, 0.3), law(900.0, 0.05), law(10.0, 0.4)];
+        for (order, count) in [(1, 1), (2, 1), (1, 3), (2, 3)] {
+            let laws = &laws[..count];
+            let mesh = layered(graded(order, [4, 3, 5], 1.5), &[2, 4][..count - 1]);
+            let stiffness = BrickStiffness::new(&mesh, laws, clamped_below(&mesh));
             let x = wave(3 * mesh.nodes());
             let mut found = vec![7.0; x.len()];
             stiffness.apply(&x, &mut found, &Team::new(2));
-            let mut wanted = assembled(&mesh, &law, &x, 3);
+            let mut wanted = assembled(&mesh, laws, &x, 3);
             stiffness.hold(&mut wanted, &Team::new(1));
             assert_close(&found, &wanted, order);
-            let heat = wave(mesh.nodes());
+            let heat = wave(mesh.sided_nodes());
             stiffness.thermal_forces(&heat, &mut found, &Team::new(2));
-            let mut wanted = assembled(&mesh, &law, &heat, 1);
+            let mut wanted = assembled(&mesh, laws, &heat, 1);
             stiffness.hold(&mut wanted, &Team::new(1));
             assert_close(&found, &wanted, order);
         }
@@ -200,6 +213,28 @@ mod tests {
             solver.stiffness.apply(&apart(&solution), &mut found, &Team::new(1));
             let off = found.iter().zip(&wanted).map(|(f, w)| (f - w).abs()).fold(0.0, f64::max);
             assert!(off < 1e-8, "{case}: {off}");
+        }
+    }
+
+    #[test]
+    fn layers_of_other_moduli_need_few_more() {
+        for (order, counts) in [(1, [12, 12, 12]), (2, [8, 8, 8]), (2, [12, 12, 8])] {
+            for (young, poisson, start) in [
+                (20.0, 0.3, 6),
+                (2000.0, 0.3, 6),
+                (20_000.0, 0.2, 4),
+                (2.0, 0.2, 4),
+                (2e6, 0.2, 6),
+                (0.02, 0.44, 6),
+            ] {
+                let lower = Thermoelastic { young: 200.0, poisson: 0.3, expansion: 1e-3 };
+                let laws = [lower, Thermoelastic { young, poisson, expansion: 2e-3 }];
+                let mesh = layered(graded(order, counts, 1.3), &[start]);
+                let solver = BrickSolver::new(&mesh, &laws, clamped_below(&mesh), 2);
+                let mut solution = wave(3 * mesh.nodes());
+                let iterations = solver.solve_in_place(&mut solution, &[]);
+                eprintln!("order {order}, {counts:?}, {young}, {poisson}, {start}: {iterations:?}");
+            }
         }
     }
 
