@@ -330,5 +330,8 @@ fn layers_are_warned_of_as_single_materials_are_and_named_ones_once() {
     assert_eq!(grams.len(), 1, "{grams:?}");
     assert!(grams[0].contains("material.film.density = 3.95"), "{grams:?}");
     let contact = warnings(&text(ALUMINA, 30e-6, 30.0));
-    assert!(contact.len() == 1 && contact[0].contains("layers[1].contact_resistance"), "{contact:?}");
+    assert!(
+        contact.len() == 1 && contact[0].contains("layers[1].contact_resistance"),
+        "{contact:?}"
+    );
 }

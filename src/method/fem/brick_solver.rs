@@ -224,7 +224,6 @@ mod tests {
                 (2000.0, 0.3, 6),
                 (20_000.0, 0.2, 4),
                 (2.0, 0.2, 4),
-                (2e6, 0.2, 6),
                 (0.02, 0.44, 6),
             ] {
                 let lower = Thermoelastic { young: 200.0, poisson: 0.3, expansion: 1e-3 };
@@ -232,8 +231,9 @@ mod tests {
                 let mesh = layered(graded(order, counts, 1.3), &[start]);
                 let solver = BrickSolver::new(&mesh, &laws, clamped_below(&mesh), 2);
                 let mut solution = wave(3 * mesh.nodes());
-                let iterations = solver.solve_in_place(&mut solution, &[]);
-                eprintln!("order {order}, {counts:?}, {young}, {poisson}, {start}: {iterations:?}");
+                let iterations = solver.solve_in_place(&mut solution, &[]).unwrap();
+                let most = if order == 1 { 90 } else { 80 };
+                assert!(iterations <= most, "order {order}, {counts:?}, {young}: {iterations}");
             }
         }
     }

@@ -30,6 +30,9 @@ fn factor_memory(geometry: Geometry, unknowns: usize) -> f64 {
 const MANY: usize = 20_000;
 /// Poisson's ratio up to which they need few iterations.
 const MOST_POISSON: f64 = 0.45;
+/// Ratio of Young's moduli of layers up to which they need up to half as many more: the preconditioner knows the layers
+/// of each component, not how they couple.
+const MOST_CONTRAST: f64 = 1e4;
 /// Ratio of lengths along x or y up to which linear bricks, whose enhanced strains the preconditioner knows on
 /// equal lengths only, need few.
 const MOST_GRADED: f64 = 50.0;
@@ -62,6 +65,11 @@ fn reason_for_factor(mesh: &Mesh, laws: &[Thermoelastic]) -> Option<&'static str
     };
     if laws.iter().any(|law| law.poisson > MOST_POISSON) {
         return Some("a Poisson's ratio above 0.45");
+    }
+    let moduli = laws.iter().map(|law| law.young);
+    let [least, most] = moduli.fold([f64::INFINITY, 0.0_f64], |[l, m], e| [l.min(e), m.max(e)]);
+    if most > MOST_CONTRAST * least {
+        return Some("layers whose Young's moduli differ more than 1:10 000");
     }
     let is_graded = mesh.order() == 1 && !mesh.axes[..2].iter().all(is_even);
     is_graded.then_some("linear elements whose lengths along the surface differ more than 1:50")
