@@ -593,3 +593,65 @@ fn constants_of_layers_are_parameters() {
 fn table(row: Row) -> String {
     material(row).trim_matches(['{', '}', ' ']).replace(", ", "\n")
 }
+
+/// A drop of hot water at 2 m/s on a plate.
+fn drop_on(made_of: &str, film: f64) -> Trial {
+    let rest = r#"
+[body.drop]
+kind = "droplet"
+diameter = 1e-4
+impact_velocity = 2.0
+initial_temperature = 360.0
+spacing = 8e-6
+fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6, surface_tension = 0.072 }
+[[coupling]]
+from = "drop"
+to = "plate.top"
+"#
+    .to_owned()
+        + &probe("p", [0.0, 0.0, 0.0], "", "\"temperature\"");
+    let mesh =
+        format!("mesh = {{ spacing = 8e-6, depth_spacing = {:?}, order = 1 }}", film.min(4e-7));
+    let shape = "disc = { radius = 2e-4, thickness = 1e-4 }";
+    Trial::new(&body(shape, made_of, [5e-6, 5e-7], &mesh, "", &rest))
+}
+
+#[test]
+fn a_drop_on_a_coating_gives_what_the_plate_gets_and_leaves_no_range_of_temperatures() {
+    for (film, base, thickness) in [
+        (PTFE, COPPER, 1e-7),
+        (COPPER, AEROGEL, 1e-6),
+        (DIAMOND, GLASS, 2e-6),
+        (GLASS, DIAMOND, 5e-6),
+        (ALUMINA, LEAD, 1e-6),
+        (AEROGEL, COPPER, 3e-6),
+    ] {
+        let stack: Stack = &[(film, thickness, 0.0), (base, 1e-4 - thickness, 1e-8)];
+        let mut trial = drop_on(&layers(stack), thickness);
+        for _ in 0..10 {
+            trial.step(5e-7);
+            let (given, got) = (trial.get("drop.heat"), trial.get("plate.heat_in"));
+            assert!((given - got).abs() <= 1e-12 * given.abs().max(1e-9), "{given:e} {got:e}");
+            let fields = trial.fields("plate");
+            for temperature in fields.temperature {
+                let beyond = (temperature - 360.0).max(300.0 - temperature) / 60.0;
+                assert!(beyond < 5e-3, "{film:?} on {base:?}: {temperature}");
+            }
+        }
+        assert!(trial.get("p.temperature") > 300.0 && trial.heat_residual("plate") < 1e-9);
+    }
+}
+
+#[test]
+fn a_drop_feels_two_layers_of_one_material_as_one() {
+    let mut whole = drop_on(&format!("material = {}", material(GLASS)), 4e-7);
+    let mut halves = drop_on(&layers(&[(GLASS, 5e-5, 0.0), (GLASS, 5e-5, 0.0)]), 4e-7);
+    for _ in 0..4 {
+        whole.step(5e-7);
+        halves.step(5e-7);
+    }
+    for name in ["drop.heat", "p.temperature"] {
+        let (one, two) = (whole.get(name), halves.get(name));
+        assert!(off(two, one) < 1e-3, "{name}: {one:e} {two:e}");
+    }
+}

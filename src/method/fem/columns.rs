@@ -105,31 +105,16 @@ impl DepthProblem {
                 add_square(&mut capacity, &row(at.values, root, false));
             }
         }
-        let mut unknowns = vec![None; nodes];
-        let mut count = 0;
+        let contacts: Vec<_> =
+            (1..constants.len()).map(|layer| contact(mesh, constants, layer - 1)).collect();
+        let (unknowns, count) = numbered(mesh, ends, &contacts);
         let mut first = 0;
-        for layer in 0..mesh.layering.count() {
-            let last = first + mesh.layer_axis(layer).len() - 1;
-            let tied = layer > 0
-                && match contact(mesh, constants, layer - 1) {
-                    None => true,
-                    Some(conductance) => {
-                        let weights = [0.0, conductance.sqrt(), 0.0];
-                        slopes.push(Row { first: first - 1, count: 2, weights, differences: true });
-                        false
-                    }
-                };
-            for node in first..=last {
-                let end = [node == 0, node == nodes - 1];
-                let held = (0..2).any(|i| end[i] && ends[i] == EndCondition::Prescribed);
-                if node == first && tied {
-                    unknowns[node] = unknowns[node - 1];
-                } else if !held {
-                    unknowns[node] = Some(count);
-                    count += 1;
-                }
+        for (layer, contact) in contacts.into_iter().enumerate() {
+            first += mesh.layer_axis(layer).len();
+            if let Some(conductance) = contact {
+                let weights = [0.0, conductance.sqrt(), 0.0];
+                slopes.push(Row { first: first - 1, count: 2, weights, differences: true });
             }
-            first = last + 1;
         }
         for (end, node) in ends.into_iter().zip([0, nodes - 1]) {
             if let EndCondition::Convective(coefficient) = end {
@@ -150,7 +135,7 @@ impl DepthProblem {
             part
         };
         let (stiffness, spread) = (reduced(&stiffness), reduced(&conductance));
-        let whole = Self {
+        Self {
             unknowns,
             count,
             capacity,
@@ -161,8 +146,7 @@ impl DepthProblem {
             stiffness,
             spread,
             insulated,
-        };
-        whole
+        }
     }
 
     /// Nodes, those on interfaces twice.
@@ -226,6 +210,30 @@ impl DepthProblem {
         let values = self.values.iter().map(|row| root * row.of(|node| shapes[(node, k)]));
         slopes.chain(values).collect()
     }
+}
+
+/// The unknown of each node, and how many there are: nodes of a perfect contact share one, prescribed ones
+/// have none.
+fn numbered(
+    mesh: &Mesh,
+    ends: [EndCondition; 2],
+    contacts: &[Option<f64>],
+) -> (Vec<Option<usize>>, usize) {
+    let nodes = mesh.sided_counts()[2];
+    let mut unknowns = Vec::with_capacity(nodes);
+    let mut count = 0;
+    for layer in 0..mesh.layering.count() {
+        for node in 0..mesh.layer_axis(layer).len() {
+            let tied = node == 0 && layer > 0 && contacts[layer - 1].is_none();
+            let place = unknowns.len();
+            let end = [place == 0, place + 1 == nodes];
+            let held = (0..2).any(|i| end[i] && ends[i] == EndCondition::Prescribed);
+            let own = if tied { unknowns[place - 1] } else { (!held).then_some(count) };
+            count += usize::from(!tied && !held);
+            unknowns.push(own);
+        }
+    }
+    (unknowns, count)
 }
 
 /// Conductance of the contact above a layer [W/(m² K)]; none where it is perfect.
@@ -305,4 +313,85 @@ fn restricted(full: &Mat<f64>, unknowns: &[Option<usize>], count: usize) -> Mat<
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     crate::math::separable::dot(a, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::method::fem::axis::{Axis, Weight};
+    use crate::method::fem::layering::Layering;
+    use crate::method::fem::mesh::Geometry;
+
+    fn constants(conductivity: f64, heat_capacity: f64) -> Constants {
+        Constants {
+            density: heat_capacity,
+            specific_heat: 1.0,
+            conductivity,
+            young: None,
+            poisson: None,
+            expansion: None,
+        }
+    }
+
+    /// Ten elements below five much thinner ones.
+    fn mesh(order: usize, resistance: f64) -> Mesh {
+        let mut ends: Vec<f64> = (0..=10).map(|i| 0.1 * f64::from(i)).collect();
+        ends.extend((1..=5).map(|i| 1.0 + 1e-4 * f64::from(i)));
+        let height = Axis::from_element_ends(&ends, order, Weight::Uniform);
+        Mesh {
+            axes: [Axis::point(), Axis::point(), height],
+            mirrored: [false; 2],
+            geometry: Geometry::Box,
+            layering: Layering::new(vec![10], vec![resistance]),
+        }
+    }
+
+    #[test]
+    fn modes_diagonalise_all_matrices_and_slow_ones_to_more_digits_than_the_fastest_leave() {
+        let layers = [constants(2e3, 2.0), constants(0.2, 3.0)];
+        for order in [1, 2] {
+            for resistance in [0.0, 1e-3, 10.0] {
+                for ends in [
+                    [EndCondition::Natural; 2],
+                    [EndCondition::Prescribed, EndCondition::Convective(5.0)],
+                ] {
+                    let depth = DepthProblem::new(&mesh(order, resistance), &layers, ends);
+                    for along in [0.0, 3.0, 1e5] {
+                        let column = depth.column(along, along == 0.0);
+                        let [mass, spread] = [&depth.capacity, &depth.conductance]
+                            .map(|m| column.shapes.transpose() * m * &column.shapes);
+                        for i in 0..depth.count() {
+                            let shape: Vec<f64> =
+                                (0..depth.nodes()).map(|n| column.shapes[(n, i)]).collect();
+                            let stress = depth.stiffness_times(&shape);
+                            for j in 0..depth.count() {
+                                let same = if i == j { 1.0 } else { 0.0 };
+                                assert!((mass[(i, j)] - same).abs() < 1e-11);
+                                let other =
+                                    (0..depth.nodes()).map(|n| column.shapes[(n, j)] * stress[n]);
+                                let energy = other.sum::<f64>() + along * spread[(i, j)];
+                                let scale = (column.decay[i] * column.decay[j]).sqrt();
+                                let off = (energy - same * column.decay[i]).abs();
+                                let most =
+                                    1e-9 * scale + 1e-13 * column.decay[depth.count() - 1].max(1.0);
+                                assert!(
+                                    off < most,
+                                    "{order} {resistance} {along} {i} {j}: {off:e} {scale:e}"
+                                );
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_insulated_keeps_its_heat_for_ever() {
+        let layers = [constants(2e3, 2.0), constants(0.2, 3.0)];
+        let depth = DepthProblem::new(&mesh(2, 1e-3), &layers, [EndCondition::Natural; 2]);
+        let column = depth.column(0.0, true);
+        assert_eq!(column.decay[0], 0.0);
+        assert!(column.decay[1..].iter().all(|&decay| decay > 1e-3));
+    }
 }
