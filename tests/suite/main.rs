@@ -17,6 +17,7 @@ mod fine_meshes;
 mod flows;
 mod impact;
 mod impossible;
+mod layered_mechanics;
 mod layers;
 mod output;
 mod particles;
