@@ -15,6 +15,8 @@ pub enum Quantity {
     Ratio,
     Expansion,
     HeatTransferCoefficient,
+    /// Of a contact, for a unit of area.
+    ThermalResistance,
     Velocity,
     Viscosity,
     SurfaceTension,
@@ -43,7 +45,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 26] = [
+    pub const ALL: [Quantity; 27] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::HeatFlux,
@@ -58,6 +60,7 @@ impl Quantity {
         Quantity::Ratio,
         Quantity::Expansion,
         Quantity::HeatTransferCoefficient,
+        Quantity::ThermalResistance,
         Quantity::Velocity,
         Quantity::Viscosity,
         Quantity::SurfaceTension,
@@ -106,6 +109,7 @@ impl Quantity {
             Quantity::Ratio => "Ratio",
             Quantity::Expansion => "ThermalExpansion",
             Quantity::HeatTransferCoefficient => "HeatTransferCoefficient",
+            Quantity::ThermalResistance => "ThermalInsulance",
             Quantity::Velocity => "Velocity",
             Quantity::Viscosity => "DynamicViscosity",
             Quantity::SurfaceTension => "SurfaceTension",
@@ -136,6 +140,7 @@ impl Quantity {
             Quantity::Ratio => "1",
             Quantity::Expansion => "1/K",
             Quantity::HeatTransferCoefficient => "W/(m2.K)",
+            Quantity::ThermalResistance => "m2.K/W",
             Quantity::Velocity => "m/s",
             Quantity::Viscosity => "Pa.s",
             Quantity::SurfaceTension => "N/m",
@@ -166,6 +171,7 @@ impl Quantity {
             Quantity::Ratio => [0, 0, 0, 0],
             Quantity::Expansion => [0, 0, 0, -1],
             Quantity::HeatTransferCoefficient => [1, 0, -3, -1],
+            Quantity::ThermalResistance => [-1, 0, 3, 1],
             Quantity::Velocity => [0, 1, -1, 0],
             Quantity::Viscosity => [1, -1, -1, 0],
             Quantity::SurfaceTension => [1, 0, -2, 0],
@@ -220,6 +226,7 @@ impl Quantity {
             Quantity::Ratio => 1.0,
             Quantity::Expansion => 1e-5,
             Quantity::HeatTransferCoefficient => 10.0,
+            Quantity::ThermalResistance => 1e-6,
             Quantity::Velocity => 10.0,
             Quantity::Viscosity => 1e-3,
             Quantity::SurfaceTension => 0.1,

@@ -4,6 +4,7 @@ use super::Body;
 use super::droplet;
 use super::solid::plan;
 use crate::coupling::CommonCells;
+use crate::material::Constants;
 use crate::method::fem::Plan;
 use crate::method::sph::{DropletSph, WallCells};
 use crate::scene::{Coupling, Droplet, FaceName, Scene};
@@ -143,19 +144,21 @@ pub fn parts(interval: f64, dt: f64) -> usize {
 /// - the flow goes by a distance of particles, Δx/U, and
 /// - heat that passes along the surface within an exchange, which only the next one finds there, stays small:
 ///   `a Δt/h² ≤ e/(e + e_f)`, but no less than [`LEAST_ALONG`], with the solid's diffusivity a, its shortest
-///   element h, and effusivities e and e_f of solid and fluid. On a good insulator it would else take places
-///   that are as warm as the fluid beyond its temperature;
+///   element h, and effusivities e and e_f of solid and fluid; of layers, the largest a and the least e. On a good
+///   insulator it would else take places that are as warm as the fluid beyond its temperature;
 ///
 /// but no shorter than a time step of the droplet.
 pub fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan) -> f64 {
     let (_, time_step) = DropletSph::forecast(&droplet::plan_of(droplet, None, None));
     let flow = droplet.spacing / droplet.fastest_flow();
     let fluid = &droplet.fluid;
-    let solid = plan.constants.effusivity();
+    let layers = || plan.strata.iter().map(|layer| layer.constants);
+    let solid = layers().map(|c| c.effusivity()).fold(f64::INFINITY, f64::min);
     let of_fluid = (fluid.conductivity * fluid.density * fluid.specific_heat).sqrt();
     let share = (solid / (solid + of_fluid)).max(LEAST_ALONG);
-    let along = share * shortest_element(plan).powi(2) * plan.constants.heat_capacity()
-        / plan.constants.conductivity;
+    let length = shortest_element(plan);
+    let along = |c: Constants| share * length.powi(2) * c.heat_capacity() / c.conductivity;
+    let along = layers().map(along).fold(f64::INFINITY, f64::min);
     coupling.interval.unwrap_or_else(|| flow.min(along).max(time_step))
 }
 

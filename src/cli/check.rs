@@ -5,7 +5,7 @@ use clap::Args;
 use impinge::machine::available_memory;
 use impinge::model::{ParticleForecast, Timeline, check_memory, forecast};
 use impinge::scene::{
-    self, Coupling, Face, Field, Footprint, Load, Probe, Scene, Shape, Solid, Wall,
+    self, Coupling, Face, Field, Footprint, Load, MaterialChoice, Probe, Scene, Shape, Solid, Wall,
 };
 use impinge::variables::{ArrayRegistry, Causality, Quantity, Registry, Value, Variable};
 use serde::Serialize;
@@ -356,11 +356,19 @@ fn metres(value: f64) -> String {
     engineering(value, "m")
 }
 
-/// Name of a body's constitutive law in the scene.
+/// What a body is made of: the name of its material or constitutive law, or its layers.
 fn law(solid: &Solid) -> String {
-    let table = toml::Value::try_from(&solid.material).ok();
+    let layers = solid.layers.iter().flatten();
+    let own = solid.material.iter().map(material);
+    let layers =
+        layers.map(|layer| format!("{} {}", metres(layer.thickness), material(&layer.material)));
+    own.chain(layers).collect::<Vec<_>>().join(" on ")
+}
+
+fn material(choice: &MaterialChoice) -> String {
+    let table = toml::Value::try_from(choice.material()).ok();
     let model = table.as_ref().and_then(|table| table.get("model")?.as_str());
-    model.unwrap_or_default().to_owned()
+    choice.name.clone().unwrap_or_else(|| model.unwrap_or_default().to_owned())
 }
 
 /// The word that stands for a value in the scene.

@@ -10,11 +10,13 @@
 //! | [`spreading_film`] | film of fluid that spreads over a wall |
 //! | [`swinging_drop`] | viscous drop that swings under surface tension |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
+//! | [`composite_slab`] | slab of layers with contacts that resist, under flux or sudden temperature |
 //! | [`convective_slab`] | slab that meets a fluid, its back insulated |
 //! | [`kirchhoff`] | half space and slab with a conductivity linear in the temperature |
 //! | [`melting_front`] | half space that melts or freezes from its surface |
 //! | [`radiating_lump`] | body of one temperature that radiates |
 //! | [`constrained_layer`] | step heating of a laterally constrained surface |
+//! | [`bonded_plate`] | bonded layers that expand differently: bimetals, films |
 //! | [`free_plate`] | free plate, temperature through the thickness |
 //! | [`heated_disc`] | thin free disc and long free cylinder, temperature along the radius |
 //! | [`disc_pressure`] | half space under uniform pressure on a disc |
@@ -25,8 +27,10 @@
 //! [`medium`] holds the constants they share, [`special`] the special functions and
 //! [`quadrature`] the integrals that no closed form is known for.
 
+pub mod bonded_plate;
 pub mod cantilever;
 pub mod circular_plate;
+pub mod composite_slab;
 pub mod constrained_layer;
 pub mod contact;
 pub mod convective_slab;
@@ -52,8 +56,10 @@ pub mod thick_cylinder;
 #[cfg(test)]
 mod checks;
 
+pub use bonded_plate::{BondedLayer, BondedPlate};
 pub use cantilever::Cantilever;
 pub use circular_plate::CircularPlate;
+pub use composite_slab::{Back, CompositeSlab, SlabLayer};
 pub use contact::Contact;
 pub use convective_slab::ConvectiveSlab;
 pub use disc_pressure::DiscPressure;

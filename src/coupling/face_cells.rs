@@ -60,7 +60,7 @@ impl FaceCells {
 
     /// Temperature above the initial one at each cell [K].
     pub fn rise(&self, temperatures: &Temperatures) -> Vec<f64> {
-        let [.., nz] = self.mesh.node_counts();
+        let [.., nz] = self.mesh.sided_counts();
         self.unfolded(temperatures, if self.high { nz - 1 } else { 0 })
     }
 
@@ -167,7 +167,7 @@ fn consistent(axis: &Axis) -> Mat<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::fem::Weight;
+    use crate::method::fem::{Layering, Weight};
 
     fn mesh(order: usize, mirrored: [bool; 2]) -> Mesh {
         let half = [0.0, 0.1, 0.3, 1.0];
@@ -178,7 +178,7 @@ mod tests {
         };
         let depth = Axis::from_element_ends(&[-0.2, 0.0], order, Weight::Uniform);
         let axes = [axis(mirrored[0]), axis(mirrored[1]), depth];
-        Mesh { axes, mirrored, geometry: Geometry::Box }
+        Mesh { axes, mirrored, geometry: Geometry::Box, layering: Layering::default() }
     }
 
     fn meshes() -> Vec<Mesh> {
@@ -272,7 +272,12 @@ mod tests {
         let r = Axis::from_element_ends(&[0.0, 0.2, 1.0], 2, Weight::Radial);
         let z = Axis::from_element_ends(&[-0.2, 0.0], 2, Weight::Uniform);
         let axes = [r, Axis::point(), z];
-        let mesh = Mesh { axes, mirrored: [false; 2], geometry: Geometry::Axisymmetric };
+        let mesh = Mesh {
+            axes,
+            mirrored: [false; 2],
+            geometry: Geometry::Axisymmetric,
+            layering: Layering::default(),
+        };
         let face = FaceCells::of(&mesh, true, false);
         for x in [0.0, 0.05, 0.6] {
             let parts = face.nodal(&given(&face, x, 0.0, 1.0), [true, false], [true; 2]);

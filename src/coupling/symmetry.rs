@@ -35,7 +35,7 @@ pub fn split_load(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::fem::{Axis, Geometry, Weight};
+    use crate::method::fem::{Axis, Geometry, Layering, Weight};
 
     fn quarter() -> Mesh {
         let axis = Axis::from_element_ends(&[0.0, 1.0], 1, Weight::Uniform);
@@ -43,6 +43,7 @@ mod tests {
             axes: [axis.clone(), axis.clone(), axis],
             mirrored: [true; 2],
             geometry: Geometry::Box,
+            layering: Layering::default(),
         }
     }
 

@@ -14,7 +14,7 @@ const STEP: f64 = 0.01;
 
 /// Rates of outputs at time zero, under these inputs, when a parameter of the scene changes.
 ///
-/// Nothing depends on density, specific heat, conductivity and heat transfer coefficients before
+/// Nothing depends on density, specific heat, conductivity, heat transfer coefficients and contacts before
 /// heat has moved. For the others, which the outputs follow smoothly, the model is built at six
 /// values about the present one.
 pub fn start_rates(
@@ -25,17 +25,19 @@ pub fn start_rates(
 ) -> Result<Vec<f64>, ModelError> {
     let value = parameter.get(scene);
     let reach = match parameter {
-        Parameter::ConvectionCoefficient { .. } => None,
+        Parameter::ConvectionCoefficient { .. } | Parameter::ContactResistance { .. } => None,
         Parameter::InitialTemperature { .. } => Some(value),
-        Parameter::Material { constant, .. } => match constant {
-            MaterialConstant::Density
-            | MaterialConstant::SpecificHeat
-            | MaterialConstant::Conductivity => None,
-            MaterialConstant::Young => Some(value),
-            MaterialConstant::Poisson => Some((value + 1.0).min(0.5 - value)),
-            // Outputs are linear in it, so that any step will do; there is no pole.
-            MaterialConstant::Expansion => Some(constant.quantity().nominal()),
-        },
+        Parameter::Material { constant, .. } | Parameter::LayerMaterial { constant, .. } => {
+            match constant {
+                MaterialConstant::Density
+                | MaterialConstant::SpecificHeat
+                | MaterialConstant::Conductivity => None,
+                MaterialConstant::Young => Some(value),
+                MaterialConstant::Poisson => Some((value + 1.0).min(0.5 - value)),
+                // Outputs are linear in it, so that any step will do; there is no pole.
+                MaterialConstant::Expansion => Some(constant.quantity().nominal()),
+            }
+        }
         Parameter::Droplet { constant, .. } => match constant {
             DropletConstant::Diameter | DropletConstant::Density => Some(value),
             // Outputs are polynomials in it; it may be zero.

@@ -30,7 +30,12 @@ impl Grid {
     /// If the scene has not been checked and the field is in no plane of the body.
     pub fn of(field: &Field, solid: &Solid) -> Self {
         let (_, place) = field.body_and_place();
-        Self::at(place, field, &solid.shape)
+        let mut grid = Self::at(place, field, &solid.shape);
+        if grid.normal == 2 {
+            // On an interface between layers, that of the upper one.
+            grid.offset = solid.interface_at(grid.offset).unwrap_or(grid.offset);
+        }
+        grid
     }
 
     /// The grid of a field at a place.

@@ -2,7 +2,6 @@
 
 use super::droplet::{Coupling, Droplet};
 use super::types::*;
-use crate::material::Material;
 
 /// Where a field lies in its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -91,12 +90,6 @@ impl Shape {
 }
 
 impl Solid {
-    /// Whether the material names all constants of elasticity.
-    pub fn is_elastic(&self) -> bool {
-        let Material::Thermoelastic(constants) = &self.material;
-        constants.law().is_some()
-    }
-
     /// How particles conduct heat; `None` where finite elements do.
     pub fn sph(&self) -> Option<SphSettings> {
         (self.heat == HeatMethod::Sph).then(|| self.sph.unwrap_or_default())

@@ -10,6 +10,7 @@ mod error;
 mod grid;
 mod locate;
 mod lookup;
+mod materials;
 mod plausibility;
 mod spelling;
 mod types;
@@ -25,6 +26,7 @@ pub use droplet::{
 pub use error::{Problem, SceneError};
 pub use grid::{Grid, lateral_extents};
 pub use lookup::Place;
+pub use materials::{MaterialChoice, Stratum};
 pub use plausibility::{Measure, Warning, doubt_of_input};
 pub use types::*;
 

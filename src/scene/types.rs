@@ -3,6 +3,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::droplet::{Coupling, Droplet, Wall};
+use super::materials::MaterialChoice;
 use crate::kernel::Kernel;
 use crate::material::Material;
 
@@ -22,6 +23,9 @@ pub struct Scene {
     /// How the unit's variables are named.
     #[serde(default)]
     pub naming: Naming,
+    /// Materials by name, for bodies and their layers.
+    #[serde(default)]
+    pub material: BTreeMap<String, Material>,
     /// The bodies by name.
     pub body: BTreeMap<String, Body>,
     /// Loads on faces; their amounts become FMI inputs.
@@ -83,7 +87,10 @@ pub enum Body {
 #[serde(deny_unknown_fields)]
 pub struct Solid {
     pub shape: Shape,
-    pub material: Material,
+    /// What the body is made of, unless it has layers.
+    pub material: Option<MaterialChoice>,
+    /// From the top; together as thick as the shape.
+    pub layers: Option<Vec<Layer>>,
     /// Uniform temperature at time zero, at which the body is free of thermal stress [K].
     pub initial_temperature: f64,
     /// Discretisation of the heat equation.
@@ -98,6 +105,17 @@ pub struct Solid {
     /// Conditions on faces; a face that is left out is insulated and free.
     #[serde(default)]
     pub faces: BTreeMap<FaceName, Face>,
+}
+
+/// A layer of a body, which covers it from side to side.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Layer {
+    pub material: MaterialChoice,
+    /// [m]
+    pub thickness: f64,
+    /// Thermal resistance of the contact with the layer above [m² K/W]; perfect contact if left out.
+    pub contact_resistance: Option<f64>,
 }
 
 /// The shape of a body. The origin is the centre of its top face; z points out of the body.
@@ -366,7 +384,18 @@ pub struct Probe {
     pub body: String,
     /// Place [m].
     pub at: [f64; 3],
+    /// The side that is read of an interface between layers; above if left out.
+    pub side: Option<Side>,
     pub gives: Vec<Gives>,
+}
+
+/// A side of an interface between layers.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    #[default]
+    Above,
+    Below,
 }
 
 /// Points on a regular grid, in the middle of equal cells, over a face or a plane section.

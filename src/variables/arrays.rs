@@ -130,15 +130,19 @@ impl ArrayVariable {
 /// The places of the variable at `first` and of those behind it with the same name but for indices.
 fn family(registry: &Registry, first: usize) -> Range<usize> {
     let variables = &registry.variables[first..];
-    let Some((stem, _)) = variables[0].name.split_once('[') else { return first..first + 1 };
-    let has_stem =
-        |variable: &&Variable| variable.name.split_once('[').is_some_and(|n| n.0 == stem);
+    let Some((stem, _)) = indexed(&variables[0].name) else { return first..first + 1 };
+    let has_stem = |variable: &&Variable| indexed(&variable.name).is_some_and(|n| n.0 == stem);
     first..first + variables.iter().take_while(has_stem).count()
+}
+
+/// Stem and indices, `3,4]`, of a name that ends with indices; those inside a name are part of it.
+fn indexed(name: &str) -> Option<(&str, &str)> {
+    if name.ends_with(']') { name.rsplit_once('[') } else { None }
 }
 
 fn array(variables: &[Variable], members: Range<usize>) -> ArrayVariable {
     let (first, last) = (&variables[members.start], &variables[members.end - 1]);
-    let (name, dimensions) = match last.name.split_once('[') {
+    let (name, dimensions) = match indexed(&last.name) {
         None => (first.name.clone(), Vec::new()),
         Some((stem, indices)) => (stem.to_owned(), counts(indices)),
     };

@@ -4,7 +4,7 @@ use super::inputs::cell_labels;
 use super::registry::{Output, Slot, Variable};
 use crate::body::{Descriptor, PointQuantity, Reading, point_quantities, totals, wall_quantities};
 use crate::quantity::Quantity;
-use crate::scene::{Field, Gives, Grid, Probe, Scene, Wall};
+use crate::scene::{Field, Gives, Grid, Probe, Scene, Side, Wall};
 
 /// What is computed.
 pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
@@ -44,14 +44,20 @@ fn variable(
 }
 
 fn of_probe(scene: &Scene, probe: &Probe, list: &mut Vec<Variable>) {
-    let at = probe.at;
-    let [x, y, z] = at;
+    let [x, y, z] = probe.at;
+    let at = scene.point_of(probe);
+    let side = match probe.side {
+        None => "",
+        Some(Side::Above) => ", above the interface",
+        Some(Side::Below) => ", below the interface",
+    };
     let body = place(scene, &probe.body);
     for (quantity, PointQuantity { descriptor, .. }) in wanted(&probe.gives) {
         let reading = Reading::Point { quantity, at, alone: true };
         let Descriptor { key, words, quantity, .. } = descriptor;
         let name = format!("{}.{key}", probe.name);
-        let description = format!("{words} at x = {x} m, y = {y} m, z = {z} m of {}", probe.body);
+        let description =
+            format!("{words} at x = {x} m, y = {y} m, z = {z} m of {}{side}", probe.body);
         list.push(variable(name, description, *quantity, (body, reading)));
     }
 }

@@ -1,14 +1,54 @@
 use super::{DropletConstant, Quantity};
-use crate::material::Material;
-use crate::scene::{Body, FaceName, Scene};
+use crate::material::Constants;
+use crate::scene::{Body, FaceName, Layer, Scene};
 
 /// A constant of the scene that may be set until initialisation ends.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Parameter {
-    Material { body: String, constant: MaterialConstant },
-    InitialTemperature { body: String },
-    ConvectionCoefficient { body: String, face: FaceName },
-    Droplet { body: String, constant: DropletConstant },
+    Material {
+        body: String,
+        constant: MaterialConstant,
+    },
+    /// Of what some layers of a body are made of.
+    LayerMaterial {
+        body: String,
+        layers: LayersOf,
+        constant: MaterialConstant,
+    },
+    /// Of a layer, counted from 0, with the one above.
+    ContactResistance {
+        body: String,
+        layer: usize,
+    },
+    InitialTemperature {
+        body: String,
+    },
+    ConvectionCoefficient {
+        body: String,
+        face: FaceName,
+    },
+    Droplet {
+        body: String,
+        constant: DropletConstant,
+    },
+}
+
+/// The layers of a body that share a material.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum LayersOf {
+    /// All of a named one.
+    Named(String),
+    /// The one of this number, counted from 0, whose material has no name.
+    Single(usize),
+}
+
+impl LayersOf {
+    fn contains(&self, index: usize, layer: &Layer) -> bool {
+        match self {
+            Self::Named(name) => layer.material.name.as_ref() == Some(name),
+            Self::Single(single) => *single == index,
+        }
+    }
 }
 
 /// A constant of the thermo-elastic law.
@@ -45,7 +85,7 @@ impl MaterialConstant {
     }
 
     /// Whether a material names the constant.
-    pub fn is_given(self, Material::Thermoelastic(constants): &Material) -> bool {
+    pub fn is_given(self, constants: &Constants) -> bool {
         match self {
             MaterialConstant::Young => constants.young.is_some(),
             MaterialConstant::Poisson => constants.poisson.is_some(),
@@ -91,52 +131,72 @@ impl Parameter {
     pub fn get(&self, scene: &Scene) -> f64 {
         // Reading goes through the same place as writing, on a copy that is small.
         let mut copy = scene.body[self.body()].clone();
-        *self.place(&mut copy)
+        let places = self.places(&mut copy);
+        places.first().map_or(f64::NAN, |place| **place)
     }
 
     /// Puts a value into `scene`; whether it makes sense is for the scene's check to say.
     pub fn set(&self, scene: &mut Scene, value: f64) {
         if let Some(body) = scene.body.get_mut(self.body()) {
-            *self.place(body) = value;
+            self.places(body).into_iter().for_each(|place| *place = value);
         }
     }
 
     fn body(&self) -> &str {
         match self {
             Parameter::Material { body, .. }
+            | Parameter::LayerMaterial { body, .. }
+            | Parameter::ContactResistance { body, .. }
             | Parameter::InitialTemperature { body }
             | Parameter::ConvectionCoefficient { body, .. }
             | Parameter::Droplet { body, .. } => body,
         }
     }
 
-    fn place<'a>(&self, body: &'a mut Body) -> &'a mut f64 {
+    /// Where the value stands in its body: once, or in each of some layers.
+    fn places<'a>(&self, body: &'a mut Body) -> Vec<&'a mut f64> {
         match (self, body) {
             (Parameter::InitialTemperature { .. }, Body::Solid(solid)) => {
-                &mut solid.initial_temperature
+                vec![&mut solid.initial_temperature]
             }
             (Parameter::InitialTemperature { .. }, Body::Droplet(droplet)) => {
-                &mut droplet.initial_temperature
+                vec![&mut droplet.initial_temperature]
             }
             (Parameter::ConvectionCoefficient { face, .. }, Body::Solid(solid)) => {
                 let face = solid.faces.get_mut(face).expect("registered from this very face");
-                &mut face.convection.as_mut().expect("registered as convective").coefficient
+                vec![&mut face.convection.as_mut().expect("registered as convective").coefficient]
             }
             (Parameter::Material { constant, .. }, Body::Solid(solid)) => {
-                let Material::Thermoelastic(law) = &mut solid.material;
-                match constant {
-                    MaterialConstant::Density => &mut law.density,
-                    MaterialConstant::SpecificHeat => &mut law.specific_heat,
-                    MaterialConstant::Conductivity => &mut law.conductivity,
-                    MaterialConstant::Young => given(&mut law.young),
-                    MaterialConstant::Poisson => given(&mut law.poisson),
-                    MaterialConstant::Expansion => given(&mut law.expansion),
-                }
+                let own = solid.material.iter_mut();
+                own.map(|choice| constant.place(choice.constants_mut())).collect()
+            }
+            (Parameter::LayerMaterial { layers, constant, .. }, Body::Solid(solid)) => {
+                let all = solid.layers.iter_mut().flatten().enumerate();
+                all.filter(|(i, layer)| layers.contains(*i, layer))
+                    .map(|(_, layer)| constant.place(layer.material.constants_mut()))
+                    .collect()
+            }
+            (Parameter::ContactResistance { layer, .. }, Body::Solid(solid)) => {
+                let layer = solid.layers.iter_mut().flatten().nth(*layer);
+                layer.and_then(|layer| layer.contact_resistance.as_mut()).into_iter().collect()
             }
             (Parameter::Droplet { constant, .. }, Body::Droplet(droplet)) => {
-                constant.place(droplet)
+                vec![constant.place(droplet)]
             }
             _ => panic!("a parameter is registered from a body of its kind"),
+        }
+    }
+}
+
+impl MaterialConstant {
+    fn place(self, law: &mut Constants) -> &mut f64 {
+        match self {
+            MaterialConstant::Density => &mut law.density,
+            MaterialConstant::SpecificHeat => &mut law.specific_heat,
+            MaterialConstant::Conductivity => &mut law.conductivity,
+            MaterialConstant::Young => given(&mut law.young),
+            MaterialConstant::Poisson => given(&mut law.poisson),
+            MaterialConstant::Expansion => given(&mut law.expansion),
         }
     }
 }

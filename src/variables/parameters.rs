@@ -1,29 +1,32 @@
 //! Variables that are constants of the scene.
 
 use super::registry::{Slot, Value, Variable};
-use super::{DropletConstant, MaterialConstant, Parameter};
+use super::{DropletConstant, MaterialConstant, Parameter, layers};
 use crate::quantity::Quantity;
 use crate::scene::{Droplet, Scene};
 
 /// Constants of the scene that may be set until initialisation ends.
 pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     let mut add = |name: String, description: String, parameter: Parameter, quantity, bounds| {
-        let (min, max): (Option<f64>, Option<f64>) = bounds;
+        let (min, max): layers::Bounds = bounds;
         let start = Some(Value::Real(parameter.get(scene)));
         let slot = Slot::Parameter(parameter);
         list.push(Variable { name, description, slot, quantity: Some(quantity), start, min, max });
     };
     for (body, solid) in scene.solids() {
-        let given = |constant: &MaterialConstant| constant.is_given(&solid.material);
-        for constant in MaterialConstant::ALL.into_iter().filter(given) {
-            add(
-                format!("{body}.{}", constant.key()),
-                format!("{} of {body}", constant.description()),
-                Parameter::Material { body: body.to_owned(), constant },
-                constant.quantity(),
-                constant.bounds(),
-            );
+        if let Some(choice) = &solid.material {
+            let given = |constant: &MaterialConstant| constant.is_given(choice.constants());
+            for constant in MaterialConstant::ALL.into_iter().filter(given) {
+                add(
+                    format!("{body}.{}", constant.key()),
+                    format!("{} of {body}", constant.description()),
+                    Parameter::Material { body: body.to_owned(), constant },
+                    constant.quantity(),
+                    constant.bounds(),
+                );
+            }
         }
+        layers::parameters((body, solid), &mut add);
         add(
             format!("{body}.initial_temperature"),
             format!("uniform temperature of {body} at time zero, free of thermal stress"),

@@ -122,5 +122,5 @@ fn list(scene: &Scene) -> Vec<Variable> {
 
 /// `a.b[1,2]` as `a_b_1_2`.
 pub(super) fn flat(name: &str) -> String {
-    name.trim_end_matches(']').replace(['.', '[', ','], "_")
+    name.replace(']', "").replace(['.', '[', ','], "_")
 }

@@ -1,6 +1,6 @@
 //! A scene that runs, for tests: set, step, read by name.
 
-use impinge::model::{Cache, Model, ModelError, State, Tangent};
+use impinge::model::{Cache, Model, ModelError, NodalFields, State, Tangent};
 use impinge::scene::{self, Scene};
 use impinge::variables::{Causality, Output, Registry, Slot};
 
@@ -18,10 +18,18 @@ impl Trial {
     }
 
     pub fn on_threads(text: &str, threads: usize) -> Self {
-        let scene: Scene = scene::parse(text, "scene").unwrap_or_else(|e| panic!("{e}\n{text}"));
-        let model = Model::build(&scene, threads).unwrap();
+        let scene = scene::parse(text, "scene").unwrap_or_else(|e| panic!("{e}\n{text}"));
+        Self::with_scene(&scene, threads)
+    }
+
+    pub fn of(scene: Scene) -> Self {
+        Self::with_scene(&scene, 1)
+    }
+
+    fn with_scene(scene: &Scene, threads: usize) -> Self {
+        let model = Model::build(scene, threads).unwrap();
         let state = model.initial_state();
-        Self { model, state, registry: Registry::of(&scene), cache: Cache::default() }
+        Self { model, state, registry: Registry::of(scene), cache: Cache::default() }
     }
 
     pub fn set(&mut self, name: &str, value: f64) {
@@ -44,6 +52,11 @@ impl Trial {
 
     pub fn try_step(&mut self, dt: f64) -> Result<(), ModelError> {
         self.model.step(&mut self.state, &mut self.cache, dt)
+    }
+
+    /// Values at all nodes of a body.
+    pub fn fields(&mut self, body: &str) -> NodalFields {
+        self.model.nodal_fields(&self.state, &mut self.cache, body).unwrap()
     }
 
     /// Puts a saved state back.

@@ -18,6 +18,8 @@ mod flows;
 mod impact;
 mod impossible;
 mod joints;
+mod layered_mechanics;
+mod layers;
 mod nonlinear_heat;
 mod output;
 mod particles;

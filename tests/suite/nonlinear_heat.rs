@@ -9,7 +9,7 @@ use impinge::material::{Melting, Property, Substance, Table};
 use impinge::math::allowance::Allowance;
 use impinge::method::enthalpy::{Condition, Contact, EnthalpyHeat, Face, Loads, Setup};
 use impinge::method::fem::{
-    Axis, Geometry, HeatLoads, HeatProblem, Mesh, MeshFace, ThermalFace, Weight,
+    Axis, Geometry, HeatLoads, HeatProblem, Layering, Mesh, MeshFace, ThermalFace, Weight,
 };
 
 static NONE: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
@@ -24,19 +24,24 @@ fn line(length: f64, count: usize) -> Axis {
 
 fn slab(length: f64, count: usize) -> Mesh {
     let axes = [Axis::point(), Axis::point(), line(length, count)];
-    Mesh { axes, mirrored: [false; 2], geometry: Geometry::Box }
+    Mesh { axes, mirrored: [false; 2], geometry: Geometry::Box, layering: Layering::default() }
 }
 
 fn block(lengths: [f64; 3], counts: [usize; 3]) -> Mesh {
     let axes = [0, 1, 2].map(|a| line(lengths[a], counts[a]));
-    Mesh { axes, mirrored: [false; 2], geometry: Geometry::Box }
+    Mesh { axes, mirrored: [false; 2], geometry: Geometry::Box, layering: Layering::default() }
 }
 
 fn disc(radius: f64, depth: f64, counts: [usize; 2]) -> Mesh {
     let ends: Vec<f64> = (0..=counts[0]).map(|i| radius * i as f64 / counts[0] as f64).collect();
     let r = Axis::from_element_ends(&ends, 1, Weight::Radial);
     let axes = [r, Axis::point(), line(depth, counts[1])];
-    Mesh { axes, mirrored: [false; 2], geometry: Geometry::Axisymmetric }
+    Mesh {
+        axes,
+        mirrored: [false; 2],
+        geometry: Geometry::Axisymmetric,
+        layering: Layering::default(),
+    }
 }
 
 fn plain(density: f64, specific_heat: f64, conductivity: f64) -> Substance {

@@ -300,3 +300,38 @@ fn a_drop_that_does_not_arrive_in_time_is_warned_of() {
     let late = edited(&text, "spacing = 5e-5", "spacing = 5e-5\narrivals = [{ time = 2e-5 }]");
     assert_eq!(warnings(&late).len(), 1);
 }
+
+#[test]
+fn layers_are_warned_of_as_single_materials_are_and_named_ones_once() {
+    let row = |(_, density, specific_heat, conductivity, young, poisson, expansion): SolidRow| {
+        format!(
+            "model = \"thermoelastic\"\ndensity = {density:?}\nspecific_heat = {specific_heat:?}\n\
+             conductivity = {conductivity:?}\nyoung = {young:?}\npoisson = {poisson:?}\nexpansion = {expansion:?}\n"
+        )
+    };
+    let text = |film: SolidRow, thickness: f64, contact: f64| {
+        let whole = plate(ALUMINA);
+        let whole = edited(&whole, "0.26e-3] }", &format!("{:?}] }}", 2.0 * thickness + 0.2e-3));
+        let (start, rest) = whole.split_once("material = ").unwrap();
+        let (_, rest) = rest.split_once('\n').unwrap();
+        format!(
+            "{start}layers = [{{ material = \"film\", thickness = {thickness:?} }}, {{ material = \"base\", \
+             thickness = 0.2e-3, contact_resistance = {contact:?} }}, {{ material = \"film\", thickness = {thickness:?} }}]\n\
+             {rest}[material.film]\n{}[material.base]\n{}",
+            row(film),
+            row(ALUMINA)
+        )
+    };
+    for film in SOLIDS {
+        assert_eq!(warnings(&text(film, 30e-6, 1e-6)), [""; 0], "{}", film.0);
+    }
+    let (name, _, heat, k, young, poisson, expansion) = ALUMINA;
+    let grams = warnings(&text((name, 3.95, heat, k, young, poisson, expansion), 30e-6, 1e-6));
+    assert_eq!(grams.len(), 1, "{grams:?}");
+    assert!(grams[0].contains("material.film.density = 3.95"), "{grams:?}");
+    let contact = warnings(&text(ALUMINA, 30e-6, 30.0));
+    assert!(
+        contact.len() == 1 && contact[0].contains("layers[1].contact_resistance"),
+        "{contact:?}"
+    );
+}

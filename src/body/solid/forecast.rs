@@ -51,6 +51,8 @@ const BRICK_RATE: f64 = 7e5;
 /// Products of particles' matrices: entries a second on one thread, and rows built a second.
 pub const PRODUCT_RATE: f64 = 9e8;
 const ROW_RATE: f64 = 2.5e4;
+/// Modes through layers: cubed numbers of nodes along z a second, on each thread.
+const COLUMN_RATE: f64 = 1e8;
 
 /// Estimates without building the solid.
 pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast {
@@ -86,6 +88,7 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     // Of each axis a full matrix, and what it is found from.
     let modes = plan.mesh.axes.iter().map(|axis| 3.0 * (axis.len() as f64).powi(2));
     let modes: f64 = if particles.is_none() { modes.sum() } else { 0.0 };
+    let columns = classes * plan.entries_of_columns();
     let rows = if particles.is_some() { unknowns[0] as f64 } else { 0.0 };
     BodyForecast {
         name: name.into(),
@@ -94,10 +97,16 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         spacing,
         order: plan.mesh.order(),
         particles,
-        memory: classes * solver + 8.0 * (20.0 * unknowns[0] as f64 + modes) + 12.0 * links,
-        build_time: classes * operations / (FACTOR_RATE * threads) + assembly * n + rows / ROW_RATE,
+        memory: classes * solver
+            + 8.0 * (20.0 * unknowns[0] as f64 + modes + columns)
+            + 12.0 * links,
+        build_time: classes * operations / (FACTOR_RATE * threads)
+            + assembly * n
+            + rows / ROW_RATE
+            + columns * plan.mesh.sided_counts()[2] as f64 / (COLUMN_RATE * threads),
         step_time: classes * (entries / SOLVE_RATE + iterations / threads + 5e-7 * n)
             + 1e-7 * unknowns[0] as f64
+            + columns / SOLVE_RATE
             + passes * links / PRODUCT_RATE,
         notes: plan.notes,
     }

@@ -17,10 +17,11 @@ pub enum Part {
     Thermal,
 }
 
-/// The matrix of a mesh, with blocks of so many rows and columns a pair of nodes.
+/// The matrix of a mesh whose layers have these laws from the lowest on, with blocks of so many rows and columns a
+/// pair of nodes.
 pub fn assemble(
     mesh: &Mesh,
-    law: &Thermoelastic,
+    laws: &[Thermoelastic],
     block: [usize; 2],
     part: Part,
     threads: usize,
@@ -31,15 +32,15 @@ pub fn assemble(
     });
     let mut matrix = StencilMatrix::zeros(reach, block);
     match mesh.geometry {
-        Geometry::Box => assemble_box(mesh, law, part, threads, &mut matrix),
-        Geometry::Axisymmetric => assemble_rings(mesh, law, part, &mut matrix),
+        Geometry::Box => assemble_box(mesh, laws, part, threads, &mut matrix),
+        Geometry::Axisymmetric => assemble_rings(mesh, laws, part, &mut matrix),
     }
     matrix
 }
 
 fn assemble_box(
     mesh: &Mesh,
-    law: &Thermoelastic,
+    laws: &[Thermoelastic],
     part: Part,
     threads: usize,
     matrix: &mut StencilMatrix,
@@ -52,6 +53,7 @@ fn assemble_box(
     };
     let n = order + 1;
     for ez in 0..nz {
+        let law = &laws[mesh.layering.layer_of(ez)];
         // A slab of element matrices at a time: computed in parallel, added in fixed order.
         let slab = parallel::map(threads, nx * ny, |e| {
             let size = [length(0, e % nx), length(1, e / nx), length(2, ez)];
@@ -74,11 +76,12 @@ fn assemble_box(
     }
 }
 
-fn assemble_rings(mesh: &Mesh, law: &Thermoelastic, part: Part, matrix: &mut StencilMatrix) {
+fn assemble_rings(mesh: &Mesh, laws: &[Thermoelastic], part: Part, matrix: &mut StencilMatrix) {
     let [radii, _, heights] = &mesh.axes;
     let order = mesh.order();
     let n = order + 1;
     for ez in 0..heights.elements() {
+        let law = &laws[mesh.layering.layer_of(ez)];
         for er in 0..radii.elements() {
             let rectangle = Rectangle { r: radii.bounds(er), z: heights.bounds(ez) };
             let element = QuadrilateralMatrices::new(order, rectangle, law);

@@ -52,20 +52,30 @@ type Band = Vec<Vec<f64>>;
 impl BrickInverse {
     pub fn new(
         mesh: &Mesh,
-        law: &Thermoelastic,
+        laws: &[Thermoelastic],
         free: &[[Range<usize>; 3]; 3],
         team: &Team,
     ) -> Self {
-        let moduli = moduli(mesh.order(), law);
-        let two_shear = 2.0 * law.shear_modulus();
-        let depth = bands(&mesh.axes[2]);
+        let layers: Vec<_> = laws
+            .iter()
+            .enumerate()
+            .map(|(layer, law)| {
+                let depth = bands(&mesh.axes[2], mesh.layer_elements(layer));
+                (moduli(mesh.order(), law), 2.0 * law.shear_modulus(), depth)
+            })
+            .collect();
         let blocks = [0, 1, 2].map(|component| {
             let [x, y, z] = &free[component];
             let shapes = [eigenvectors(&mesh.axes[0], x), eigenvectors(&mesh.axes[1], y)];
             let lateral = [0, 1].map(|axis| rayleigh(&mesh.axes[axis], &shapes[axis]));
             let columns = team.map(shapes[1].ncols(), |q| {
-                let weights = weights(component, &lateral, q, &moduli, two_shear);
-                Columns::factor(&depth, &weights, z)
+                let terms: Vec<_> = layers
+                    .iter()
+                    .map(|(moduli, two_shear, depth)| {
+                        (weights(component, &lateral, q, moduli, *two_shear), depth)
+                    })
+                    .collect();
+                Columns::factor(&terms, z)
             });
             Block { shapes, free: z.clone(), columns }
         });
@@ -131,12 +141,15 @@ impl Block {
 }
 
 impl Columns {
-    /// Factors `Σ_t w_t A_t` between the free nodes, for weights of every mode along x.
-    fn factor(depth: &Parts<Band>, weights: &Parts<Vec<f64>>, free: &Range<usize>) -> Self {
+    /// Factors `Σ_t w_t A_t` between the free nodes, for weights of every mode along x, of all layers.
+    fn factor(layers: &[(Parts<Vec<f64>>, &Parts<Band>)], free: &Range<usize>) -> Self {
         let pairs = || {
-            let values = weights.values.iter().zip(&depth.values);
-            values.chain(weights.slopes.iter().zip(&depth.slopes))
+            layers.iter().flat_map(|(weights, depth)| {
+                let values = weights.values.iter().zip(&depth.values);
+                values.chain(weights.slopes.iter().zip(&depth.slopes))
+            })
         };
+        let (weights, depth) = &layers[0];
         let (modes, reach) = (weights.values[0].len(), depth.values[0].len() - 1);
         // Row of a node and one `below` nodes before it.
         let entry = |node: usize, below: usize| {
@@ -267,11 +280,11 @@ fn rayleigh(axis: &Axis, shapes: &Mat<f64>) -> Parts<Vec<f64>> {
     sums
 }
 
-/// The integrals between nodes of an axis.
-fn bands(axis: &Axis) -> Parts<Band> {
+/// The integrals between nodes of an axis over some of its elements.
+fn bands(axis: &Axis, elements: Range<usize>) -> Parts<Band> {
     let zeros = || vec![vec![vec![0.0; axis.len()]; axis.order + 1]; axis.order + 1];
     let mut sums = Parts { values: zeros(), slopes: zeros() };
-    for element in 0..axis.elements() {
+    for element in elements {
         let parts = element_parts(axis.order, axis.bounds(element));
         let add = |sums: &mut Vec<Band>, parts: &[[f64; 3]]| {
             for (band, part) in sums.iter_mut().zip(parts) {

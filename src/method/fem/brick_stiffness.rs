@@ -15,6 +15,7 @@
 
 use std::ops::Range;
 
+use super::layering::Layering;
 use super::mesh::Mesh;
 use crate::material::Thermoelastic;
 use crate::math::parallel::Team;
@@ -90,8 +91,9 @@ pub struct BrickStiffness {
     order: usize,
     /// Lengths of elements along each axis [m].
     lengths: [Vec<f64>; 3],
-    moduli: Vec<PolynomialModuli>,
-    two_shear: f64,
+    layering: Layering,
+    /// Moduli and 2µ of each layer, from the lowest on.
+    moduli: Vec<(Vec<PolynomialModuli>, f64)>,
     /// Nodes along each axis that are solved for, of each component.
     free: [[Range<usize>; 3]; 3],
 }
@@ -109,7 +111,8 @@ struct Scratch {
 }
 
 impl BrickStiffness {
-    pub fn new(mesh: &Mesh, law: &Thermoelastic, free: [[Range<usize>; 3]; 3]) -> Self {
+    /// `laws` of the layers, from the lowest on.
+    pub fn new(mesh: &Mesh, laws: &[Thermoelastic], free: [[Range<usize>; 3]; 3]) -> Self {
         let lengths = mesh.axes.each_ref().map(|axis| {
             let length = |e| {
                 let [a, b] = axis.bounds(e);
@@ -118,8 +121,8 @@ impl BrickStiffness {
             (0..axis.elements()).map(length).collect()
         });
         let order = mesh.order();
-        let two_shear = 2.0 * law.shear_modulus();
-        Self { order, lengths, moduli: moduli(order, law), two_shear, free }
+        let moduli = laws.iter().map(|law| (moduli(order, law), 2.0 * law.shear_modulus()));
+        Self { order, lengths, layering: mesh.layering.clone(), moduli: moduli.collect(), free }
     }
 
     fn nodes(&self) -> [usize; 3] {
@@ -132,8 +135,8 @@ impl BrickStiffness {
         self.hold(out, team);
     }
 
-    /// Nodal forces of heated material that is held back, from temperatures above that without stress [K]; zero
-    /// where nothing is solved for.
+    /// Nodal forces of heated material that is held back, from temperatures above that without stress [K], on
+    /// interfaces those of both layers; zero where nothing is solved for.
     pub fn thermal_forces(&self, temperature: &[f64], out: &mut [f64], team: &Team) {
         self.add_forces(Cause::Temperature, temperature, out, team);
         self.hold(out, team);
@@ -253,7 +256,12 @@ impl BrickStiffness {
     ) {
         let [columns, rows, _] = self.nodes();
         let (component, plane) = (self.nodes().iter().product::<usize>(), columns * rows);
-        let components = x.len() / component;
+        let below = self.layering.layer_of(layer);
+        // Of temperatures, nodes on interfaces are there twice.
+        let (components, doubled) = match cause {
+            Cause::Displacement => (3, 0),
+            Cause::Temperature => (1, below),
+        };
         let matrix = legendre(N - 1);
         let Scratch { planes, coefficients, forces, strains, volumes } = scratch;
         for (c, planes) in planes.chunks_exact_mut(N * N * columns).enumerate().take(components) {
@@ -261,7 +269,7 @@ impl BrickStiffness {
             for d in 0..N {
                 for b in 0..N {
                     let from = c * component
-                        + (layer * (N - 1) + d) * plane
+                        + (layer * (N - 1) + d + doubled) * plane
                         + (row * (N - 1) + b) * columns;
                     let nodes = &x[from..from + columns];
                     for lz in 0..N {
@@ -284,10 +292,17 @@ impl BrickStiffness {
             *volume = length * across[0] * across[1];
         }
         forces.fill(0.0);
-        for moduli in &self.moduli {
+        let (moduli, two_shear) = &self.moduli[below];
+        for moduli in moduli {
             match cause {
                 Cause::Displacement => {
-                    self.stresses::<N>(moduli, coefficients, across, strains, volumes);
+                    self.stresses::<N>(
+                        (moduli, *two_shear),
+                        coefficients,
+                        across,
+                        strains,
+                        volumes,
+                    );
                 }
                 Cause::Temperature => {
                     thermal_stresses::<N>(moduli, coefficients, strains, volumes);
@@ -320,7 +335,7 @@ impl BrickStiffness {
     #[inline(always)]
     fn stresses<const N: usize>(
         &self,
-        moduli: &PolynomialModuli,
+        (moduli, two_shear): (&PolynomialModuli, f64),
         coefficients: &[f64],
         across: [f64; 2],
         strains: &mut [Vec<f64>; 6],
@@ -339,7 +354,7 @@ impl BrickStiffness {
             }
         }
         let [xx, yy, zz, shears @ ..] = strains;
-        let (two_shear, lame, norm) = (self.two_shear, moduli.lame, moduli.norm);
+        let (lame, norm) = (moduli.lame, moduli.norm);
         for (((xx, yy), zz), volume) in xx.iter_mut().zip(yy).zip(zz).zip(volumes) {
             let pressure = lame * (*xx + *yy + *zz);
             let weight = norm * volume;

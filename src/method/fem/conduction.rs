@@ -1,6 +1,6 @@
 //! The heat of a solid by the method that its scene names.
 
-use super::heat::{HeatLoads, HeatProblem, HeatTotals, ThermalFace};
+use super::heat::{HeatLoads, HeatProblem, HeatTotals, LayeredHeat, ThermalFace};
 use super::mesh::{Geometry, Mesh};
 use super::plan::Plan;
 use crate::math::allowance::{Allowance, Halt};
@@ -14,6 +14,8 @@ use crate::state::Layout;
 pub enum Conduction {
     /// Finite elements, exact in time by their modes.
     Modes(Box<HeatProblem>),
+    /// The same through layers of several materials.
+    Layers(Box<LayeredHeat>),
     /// Smoothed particles on the nodes.
     Particles(Box<ParticleHeat>),
 }
@@ -22,6 +24,12 @@ impl Conduction {
     pub fn new(plan: &Plan, threads: usize) -> Self {
         match particle_setup(plan) {
             Some(setup) => Self::Particles(Box::new(ParticleHeat::new(setup, threads))),
+            None if plan.strata.len() > 1 => Self::Layers(Box::new(LayeredHeat::new(
+                &plan.mesh,
+                &plan.constants_of_layers(),
+                plan.thermal_faces.clone(),
+                threads,
+            ))),
             None => Self::Modes(Box::new(HeatProblem::new(
                 &plan.mesh,
                 plan.constants.heat_capacity(),
@@ -40,6 +48,7 @@ impl Conduction {
     pub fn layout(&self) -> Layout {
         match self {
             Self::Modes(problem) => problem.layout(),
+            Self::Layers(problem) => problem.layout(),
             Self::Particles(problem) => problem.layout(),
         }
     }
@@ -61,6 +70,11 @@ impl Conduction {
                 problem.advance(state, loads, dt);
                 Ok(())
             }
+            Self::Layers(problem) => {
+                allowance.spend(1.0, "steps", state.len())?;
+                problem.advance(state, loads, dt);
+                Ok(())
+            }
             Self::Particles(problem) => {
                 let sources: Vec<Sources> = loads.iter().map(sources).collect();
                 problem.advance(state, &sources, dt, allowance)
@@ -73,6 +87,7 @@ impl Conduction {
     pub fn rates(&self, state: &[f64], loads: &HeatLoads, rates: &HeatLoads) -> Vec<f64> {
         match self {
             Self::Modes(problem) => problem.rates(state, loads, rates),
+            Self::Layers(problem) => problem.rates(state, loads, rates),
             Self::Particles(problem) => problem.rates(state, &sources(loads), &sources(rates)),
         }
     }
@@ -81,6 +96,7 @@ impl Conduction {
     pub fn stored(&self, state: &[f64]) -> f64 {
         match self {
             Self::Modes(problem) => problem.stored(state),
+            Self::Layers(problem) => problem.stored(state),
             Self::Particles(problem) => problem.stored(state),
         }
     }
@@ -88,6 +104,7 @@ impl Conduction {
     pub fn totals(&self, state: &[f64]) -> HeatTotals {
         match self {
             Self::Modes(problem) => problem.totals(state),
+            Self::Layers(problem) => problem.totals(state),
             Self::Particles(problem) => {
                 let totals = problem.totals(state);
                 HeatTotals { brought_in: totals.brought_in, lost: totals.lost }
@@ -95,11 +112,28 @@ impl Conduction {
         }
     }
 
-    /// Temperature above the initial one at all nodes, class by class [K]; empty for a class that
-    /// is zero.
+    /// Temperature above the initial one at a point of the mesh and its `image` [K] without that of all nodes,
+    /// where modes give it; `faces` holds the present face values of each class.
+    pub fn at(
+        &self,
+        mesh: &Mesh,
+        state: &[f64],
+        faces: &[Vec<f64>],
+        (point, image): ([f64; 3], [bool; 2]),
+    ) -> Option<f64> {
+        match self {
+            Self::Modes(problem) => Some(problem.temperature_at(mesh, state, faces, point, image)),
+            Self::Layers(problem) => Some(problem.temperature_at(mesh, state, faces, point, image)),
+            Self::Particles(_) => None,
+        }
+    }
+
+    /// Temperature above the initial one at all nodes, those on interfaces between layers twice, class by class
+    /// [K]; empty for a class that is zero.
     pub fn nodal(&self, state: &[f64], faces: &[Vec<f64>]) -> Vec<Vec<f64>> {
         match self {
             Self::Modes(problem) => problem.nodal(state, faces),
+            Self::Layers(problem) => problem.nodal(state, faces),
             Self::Particles(problem) => problem.temperatures(state, faces),
         }
     }
@@ -107,7 +141,7 @@ impl Conduction {
     /// Number of particles without a corrected operator of their own; `None` for finite elements.
     pub fn fallback(&self) -> Option<usize> {
         match self {
-            Self::Modes(_) => None,
+            Self::Modes(_) | Self::Layers(_) => None,
             Self::Particles(problem) => Some(problem.fallback()),
         }
     }

@@ -33,11 +33,12 @@ pub enum Support {
 /// The solver of a symmetry class is made when that class is first loaded.
 pub struct ElasticProblem {
     mesh: Mesh,
-    law: Thermoelastic,
+    /// Of the layers, from the lowest on.
+    laws: Vec<Thermoelastic>,
     threads: usize,
     supports: Vec<(MeshFace, Support)>,
-    /// Nodal force per nodal degree, made when first needed.
-    thermal: OnceLock<StencilMatrix>,
+    /// Nodal force per nodal degree of each layer, made when first needed.
+    thermal: OnceLock<Vec<StencilMatrix>>,
     classes: Vec<(Parity, OnceLock<Result<Solver, SolverError>>)>,
 }
 
@@ -76,23 +77,39 @@ pub type Strains = Vec<f64>;
 impl ElasticProblem {
     pub fn new(
         mesh: &Mesh,
-        law: &Thermoelastic,
+        laws: &[Thermoelastic],
         supports: Vec<(MeshFace, Support)>,
         threads: usize,
     ) -> Self {
         let thermal = OnceLock::new();
         let classes = mesh.parities().into_iter().map(|p| (p, OnceLock::new())).collect();
-        Self { mesh: mesh.clone(), law: law.clone(), threads, supports, thermal, classes }
+        Self { mesh: mesh.clone(), laws: laws.to_vec(), threads, supports, thermal, classes }
     }
 
-    pub fn law(&self) -> &Thermoelastic {
-        &self.law
+    /// That of a layer, counted from the lowest.
+    pub fn law(&self, layer: usize) -> &Thermoelastic {
+        &self.laws[layer]
     }
 
-    fn thermal(&self) -> &StencilMatrix {
-        let make =
-            || assemble(&self.mesh, &self.law, [self.degrees(), 1], Part::Thermal, self.threads);
-        self.thermal.get_or_init(make)
+    fn thermal(&self) -> &[StencilMatrix] {
+        let of_layer = |(layer, law): (usize, &Thermoelastic)| {
+            let (mesh, law) = (self.mesh.layer_mesh(layer), std::slice::from_ref(law));
+            assemble(&mesh, law, [self.degrees(), 1], Part::Thermal, self.threads)
+        };
+        self.thermal.get_or_init(|| self.laws.iter().enumerate().map(of_layer).collect())
+    }
+
+    /// Adds the forces of heated material that is held back. Each layer has temperatures of its own on interfaces.
+    fn add_thermal_forces(&self, temperature: &[f64], load: &mut [f64]) {
+        let [nx, ny, _] = self.mesh.node_counts();
+        let mut rest = temperature;
+        for (layer, matrix) in self.thermal().iter().enumerate() {
+            let (own, above) = rest.split_at(matrix.nodes());
+            rest = above;
+            let first = self.mesh.layer_elements(layer).start * self.mesh.order() * nx * ny;
+            let degrees = self.degrees();
+            matrix.add_product(own, &mut load[degrees * first..][..degrees * own.len()]);
+        }
     }
 
     /// Displacements a node: 3 in a box, 2 (r, z) in axisymmetry.
@@ -120,7 +137,7 @@ impl ElasticProblem {
 
     /// Nodal displacements of a class [m], empty if nothing drives it.
     ///
-    /// `temperature` is the nodal temperature above the stress-free one [K], `forces` the nodal
+    /// `temperature` is the nodal temperature above the stress-free one [K], on interfaces that of both layers, `forces` the nodal
     /// forces on the bottom and the top of the mesh [N], a list for each displacement component.
     pub fn displacement(
         &self,
@@ -145,7 +162,7 @@ impl ElasticProblem {
         match self.solver(class)? {
             Solver::Factor(factor) => {
                 if !temperature.is_empty() {
-                    self.thermal().add_product(temperature, &mut load);
+                    self.add_thermal_forces(temperature, &mut load);
                 }
                 factor.solve_in_place(&mut load);
             }
@@ -169,17 +186,17 @@ impl ElasticProblem {
     fn solver(&self, class: usize) -> Result<&Solver, SolverError> {
         let (parity, lock) = &self.classes[class];
         if lock.get().is_none() {
-            let memory = solver_memory(&self.mesh, &self.law);
+            let memory = solver_memory(&self.mesh, &self.laws);
             address_space::expect(memory as usize + PRODUCTS + STACK)?;
         }
         lock.get_or_init(|| aside(|| self.make_solver(*parity))).as_ref().map_err(Clone::clone)
     }
 
     fn make_solver(&self, parity: Parity) -> Result<Solver, SolverError> {
-        let suits = suits_conjugate_gradients(&self.mesh, &self.law);
+        let suits = suits_conjugate_gradients(&self.mesh, &self.laws);
         match self.free_nodes(parity).filter(|_| suits) {
             Some(free) => {
-                let solver = BrickSolver::new(&self.mesh, &self.law, free, self.threads);
+                let solver = BrickSolver::new(&self.mesh, &self.laws, free, self.threads);
                 Ok(Solver::Bricks(Box::new(solver)))
             }
             None => self.make_factor(parity).map(|factor| Solver::Factor(Box::new(factor))),
@@ -215,7 +232,7 @@ impl ElasticProblem {
     fn make_factor(&self, parity: Parity) -> Result<Factor, SolverError> {
         let degrees = self.degrees();
         let stiffness =
-            assemble(&self.mesh, &self.law, [degrees; 2], Part::Stiffness, self.threads);
+            assemble(&self.mesh, &self.laws, [degrees; 2], Part::Stiffness, self.threads);
         let held = self.held(parity);
         let free: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
         let mut number = vec![usize::MAX; held.len()];
@@ -277,12 +294,13 @@ impl ElasticProblem {
     fn box_strains(&self, displacement: &[f64], temperature: &[f64]) -> Strains {
         let places = self.mesh.axes.each_ref().map(sampling_places);
         let counts = self.mesh.node_counts();
-        let expansion = 3.0 * self.law.expansion;
-        let layer = self.law.layer_strain();
         let dilatations =
             (self.mesh.order() > 1).then(|| self.projected_dilatations(displacement, temperature));
         let [nx, ny, _] = self.mesh.element_counts();
         let slabs = parallel::map(self.threads, places[2].len(), |k| {
+            let (element_z, z) = places[2][k];
+            let law = self.law_of(element_z);
+            let (expansion, layer) = (3.0 * law.expansion, law.layer_strain());
             let mut slab = Vec::with_capacity(places[0].len() * places[1].len() * 6);
             for &y in &places[1] {
                 for &x in &places[0] {
@@ -290,7 +308,9 @@ impl ElasticProblem {
                     let shapes =
                         [0, 1, 2].map(|a| self.mesh.axes[a].shape_in(place[a].0, place[a].1));
                     let mut strain = strain_at(&shapes, counts, displacement);
-                    let rise = value_at(&shapes, counts, temperature);
+                    let [along_x, along_y, _] = shapes;
+                    let sided = [along_x, along_y, self.mesh.sided_shape_in(element_z, z)];
+                    let rise = value_at(&sided, counts, temperature);
                     if let Some(dilatations) = &dilatations {
                         let element = place[0].0 + nx * (place[1].0 + ny * place[2].0);
                         let at = [0, 1, 2]
@@ -320,6 +340,7 @@ impl ElasticProblem {
         let n = order + 1;
         parallel::map(self.threads, nx * ny * nz, |e| {
             let element = [e % nx, e / nx % ny, e / (nx * ny)];
+            let layer = self.mesh.layering.layer_of(element[2]);
             let size = [0, 1, 2].map(|a| {
                 let [low, high] = self.mesh.axes[a].bounds(element[a]);
                 high - low
@@ -329,8 +350,9 @@ impl ElasticProblem {
                 let [i, j, k] = [0, 1, 2].map(|axis| element[axis] * order + at[axis]);
                 let node = i + columns * (j + rows * k);
                 let u = &displacement[3 * node..][..3];
-                let rise = temperature.get(node).copied().unwrap_or(0.0);
-                ([u[0], u[1], u[2]], 3.0 * self.law.expansion * rise)
+                let sided = node + layer * columns * rows;
+                let rise = temperature.get(sided).copied().unwrap_or(0.0);
+                ([u[0], u[1], u[2]], 3.0 * self.laws[layer].expansion * rise)
             });
             DilatationProjection::new(order, size).coefficients(nodes)
         })
@@ -341,9 +363,10 @@ impl ElasticProblem {
         let (places_r, places_z) = (sampling_places(radii), sampling_places(heights));
         let per_element = places_r.len() / radii.elements();
         let counts = self.mesh.node_counts();
-        let layer = self.law.layer_strain();
         let mut out = vec![0.0; places_r.len() * places_z.len() * 4];
         for ez in 0..heights.elements() {
+            let layer = self.law_of(ez).layer_strain();
+            let planes_below = self.mesh.layering.layer_of(ez) * radii.len();
             for er in 0..radii.elements() {
                 let element = self.ring(er, ez);
                 let nodes = self.ring_nodes(er, ez);
@@ -351,7 +374,7 @@ impl ElasticProblem {
                     .iter()
                     .flat_map(|&n| [displacement[2 * n], displacement[2 * n + 1]])
                     .collect();
-                let value = |&n: &usize| temperature.get(n).copied().unwrap_or(0.0);
+                let value = |&n: &usize| temperature.get(n + planes_below).copied().unwrap_or(0.0);
                 let t: Vec<f64> = nodes.iter().map(value).collect();
                 for jz in per_element * ez..per_element * (ez + 1) {
                     for jr in per_element * er..per_element * (er + 1) {
@@ -360,7 +383,7 @@ impl ElasticProblem {
                         let shapes = [
                             radii.shape_in(er, places_r[jr].1),
                             self.mesh.axes[1].shape_at(0.0),
-                            heights.shape_in(ez, places_z[jz].1),
+                            self.mesh.sided_shape_in(ez, places_z[jz].1),
                         ];
                         let mut strain = element.strain(xi, eta, &u, &t);
                         strain[2] -= layer * value_at(&shapes, counts, temperature);
@@ -372,10 +395,14 @@ impl ElasticProblem {
         out
     }
 
+    fn law_of(&self, element_z: usize) -> &Thermoelastic {
+        self.law(self.mesh.layering.layer_of(element_z))
+    }
+
     fn ring(&self, er: usize, ez: usize) -> QuadrilateralMatrices {
         let [radii, _, heights] = &self.mesh.axes;
         let rectangle = Rectangle { r: radii.bounds(er), z: heights.bounds(ez) };
-        QuadrilateralMatrices::new(self.mesh.order(), rectangle, &self.law)
+        QuadrilateralMatrices::new(self.mesh.order(), rectangle, self.law_of(ez))
     }
 
     fn ring_nodes(&self, er: usize, ez: usize) -> Vec<usize> {

@@ -1,9 +1,11 @@
 //! How fine the mesh of a solid is, and where: below the faces that heat passes, and under loads.
 
+mod layers;
+
 use super::grading::{Fine, graded_ends};
+use super::layering::Layering;
 use super::plan::Refinement;
-use crate::material::Constants;
-use crate::scene::{Face, FaceName, HeatMethod, Mesh as MeshKeys, Shape, Solid};
+use crate::scene::{Face, FaceName, HeatMethod, Mesh as MeshKeys, Shape, Solid, Stratum};
 
 /// Nodes across a feature of a load, where the scene names no spacing.
 const NODES_PER_FEATURE: f64 = 10.0;
@@ -26,19 +28,23 @@ const FINEST: f64 = 1e-6;
 /// Distances of nodes and growth of elements.
 pub struct Fineness<'a> {
     solid: &'a Solid,
+    /// From the lowest on.
+    strata: &'a [Stratum],
     refinements: &'a [Refinement],
     /// Along the surface, at loads [m].
     lateral: f64,
     /// Along the normal of faces that heat passes, where the scene names no spacing [m].
     layer: f64,
     pub order: usize,
+    /// Shortest time of interest [s].
+    shortest: f64,
 }
 
 impl<'a> Fineness<'a> {
     /// Chooses what the scene leaves open; `shortest` is the shortest time of interest [s].
     pub fn choose(
         solid: &'a Solid,
-        constants: &Constants,
+        strata: &'a [Stratum],
         refinements: &'a [Refinement],
         shortest: f64,
         notes: &mut Vec<String>,
@@ -49,13 +55,16 @@ impl<'a> Fineness<'a> {
         let width = lateral_extents(&solid.shape).into_iter().fold(f64::INFINITY, f64::min);
         let feature = refinements.iter().map(|r| r.feature).fold(width, f64::min);
         let lateral = given.spacing.unwrap_or(feature / NODES_PER_FEATURE);
-        let reach = (constants.diffusivity() * shortest).sqrt();
+        // Of layers, the one that heat goes slowest in.
+        let diffusivities = strata.iter().map(|layer| layer.constants.diffusivity());
+        let diffusivity = diffusivities.fold(f64::INFINITY, f64::min);
+        let reach = (diffusivity * shortest).sqrt();
         let finest = FINEST * solid.shape.thickness();
         let layer = lateral.min(reach / NODES_PER_DIFFUSION_LENGTH).max(finest);
-        let chosen = Self { solid, refinements, lateral, layer, order };
+        let chosen = Self { solid, strata, refinements, lateral, layer, order, shortest };
         notes.extend(chosen.notes(reach, shortest));
-        notes.extend(chosen.note_on_depth(constants.diffusivity(), shortest));
-        notes.extend(chosen.note_on_edges(constants.diffusivity(), shortest));
+        notes.extend(chosen.note_on_depth(diffusivity, shortest));
+        notes.extend(chosen.note_on_edges(diffusivity, shortest));
         chosen
     }
 
@@ -142,8 +151,16 @@ impl<'a> Fineness<'a> {
         graded_ends(start, end, &fine, self.coarsest(end / MeshKeys::LATERAL_ELEMENTS, size))
     }
 
-    /// Ends of the elements along z.
-    pub fn depth_ends(&self) -> Vec<f64> {
+    /// Ends of the elements along z, and where layers meet.
+    pub fn depth(&self) -> (Vec<f64>, Layering) {
+        match self.strata {
+            [_] => (self.depth_ends(), Layering::default()),
+            strata => self.ends_in_layers(strata),
+        }
+    }
+
+    /// Ends of the elements along z in a body of one material.
+    fn depth_ends(&self) -> Vec<f64> {
         let thickness = self.solid.shape.thickness();
         let keys = self.keys();
         let named = keys.depth_spacing.or(keys.spacing);

@@ -8,7 +8,10 @@
 //! step of any length costs a few operations a node, is L-stable and has no time error; θ is the
 //! temperature above the initial one.
 
+mod layered;
 mod rates;
+
+pub use layered::{LayeredHeat, depth_ends};
 
 use faer::Mat;
 
@@ -107,13 +110,7 @@ impl HeatProblem {
 
     /// The fields of a state: modes class after class, then what the last step had at the faces, then totals.
     pub fn layout(&self) -> Layout {
-        let field = |name, words, per| Field { name, words, per, width: 1 };
-        let content = field("content", "amplitude of a mode of heat [K m^(3/2)]", Per::Mode);
-        let value =
-            field("face_value", "flux [W/m²] or rise of temperature [K] of a face", Per::Face);
-        let classes = self.classes.iter();
-        let layout = classes.fold(Layout::default(), |all, class| all.with(content, class.len()));
-        layout.with(value, self.faces.len()).then(totals())
+        state_layout(self.classes.iter().map(HeatClass::len), self.faces.len())
     }
 
     /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one
@@ -525,11 +522,15 @@ impl FaceDrive {
     }
 }
 
-/// The totals with which states of heat end.
-fn totals() -> Layout {
-    let field = |name, words| Field { name, words, per: Per::Body, width: 1 };
-    let brought_in = field("brought_in", "heat brought in since time zero [J]");
-    Layout::default().with(brought_in, 1).with(field("lost", "heat lost since time zero [J]"), 1)
+/// The fields of a state with so many modes in each class, and so many faces.
+fn state_layout(classes: impl Iterator<Item = usize>, faces: usize) -> Layout {
+    let field = |name, words, per| Field { name, words, per, width: 1 };
+    let content = field("content", "amplitude of a mode of heat [K m^(3/2)]", Per::Mode);
+    let value = field("face_value", "flux [W/m²] or rise of temperature [K] of a face", Per::Face);
+    let brought_in = field("brought_in", "heat brought in since time zero [J]", Per::Body);
+    let lost = field("lost", "heat lost since time zero [J]", Per::Body);
+    let layout = classes.fold(Layout::default(), |all, modes| all.with(content, modes));
+    layout.with(value, faces).with(brought_in, 1).with(lost, 1)
 }
 
 /// Conditions at both ends of an axis.

@@ -1,15 +1,21 @@
-use super::axis::Axis;
+use std::ops::Range;
+
+use super::axis::{Axis, ShapeAt, Weight};
+use super::layering::Layering;
 use crate::scene::FaceName;
 
 /// A structured mesh as the product of three axes; the x index of a node runs fastest.
 ///
 /// In axisymmetry the axes are the radius, a point and z. Where an axis is `mirrored`, the mesh
-/// covers the half from its symmetry plane at 0 to the high end of the body.
+/// covers the half from its symmetry plane at 0 to the high end of the body. Displacements belong to nodes;
+/// temperatures and stresses to nodes of which those on interfaces between layers are there twice, first
+/// for the layer below.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     pub axes: [Axis; 3],
     pub mirrored: [bool; 2],
     pub geometry: Geometry,
+    pub layering: Layering,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,6 +57,60 @@ impl Mesh {
 
     pub fn nodes(&self) -> usize {
         self.node_counts().into_iter().fold(1, usize::saturating_mul)
+    }
+
+    /// Nodes along each axis, those on interfaces twice.
+    pub fn sided_counts(&self) -> [usize; 3] {
+        let [nx, ny, nz] = self.node_counts();
+        [nx, ny, nz + self.layering.interfaces()]
+    }
+
+    /// Nodes, those on interfaces twice.
+    pub fn sided_nodes(&self) -> usize {
+        self.sided_counts().into_iter().fold(1, usize::saturating_mul)
+    }
+
+    /// Node along z of each of those that are there twice on interfaces, ascending.
+    pub fn nodes_of_sided(&self) -> Vec<usize> {
+        let order = self.order();
+        let of_layer = |layer: usize| {
+            let elements = self.layer_elements(layer);
+            elements.start * order..elements.end * order + 1
+        };
+        (0..self.layering.count()).flat_map(of_layer).collect()
+    }
+
+    /// Elements along z of a layer, counted from the lowest.
+    pub fn layer_elements(&self, layer: usize) -> Range<usize> {
+        self.layering.elements(layer, self.axes[2].elements())
+    }
+
+    /// The axis along z within a layer.
+    pub fn layer_axis(&self, layer: usize) -> Axis {
+        let Range { start, end } = self.layer_elements(layer);
+        let order = self.order();
+        let nodes = self.axes[2].nodes[start * order..=end * order].to_vec();
+        Axis { nodes, order, weight: Weight::Uniform }
+    }
+
+    /// The mesh of a layer alone.
+    pub fn layer_mesh(&self, layer: usize) -> Self {
+        let [x, y, _] = self.axes.clone();
+        let axes = [x, y, self.layer_axis(layer)];
+        Self { axes, layering: Layering::default(), ..*self }
+    }
+
+    /// Shape functions along z of the nodes that are there twice on interfaces, in one element.
+    pub fn sided_shape_in(&self, element: usize, z: f64) -> ShapeAt {
+        let shape = self.axes[2].shape_in(element, z);
+        ShapeAt { first: shape.first + self.layering.layer_of(element), ..shape }
+    }
+
+    /// The same at a place; on an interface those of the layer above.
+    pub fn sided_shape_at(&self, z: f64) -> ShapeAt {
+        let shape = self.axes[2].shape_at(z);
+        let element = shape.first / self.axes[2].order;
+        ShapeAt { first: shape.first + self.layering.layer_of(element), ..shape }
     }
 
     pub fn element_counts(&self) -> [usize; 3] {

@@ -116,7 +116,7 @@ fn eigenpairs(
 /// The lower triangle L of M = L Lᵀ.
 ///
 /// Like all of this file it works on the thread that calls, whatever number of them a scene allows.
-fn cholesky_factor(mut mass: Mat<f64>) -> Mat<f64> {
+pub(super) fn cholesky_factor(mut mass: Mat<f64>) -> Mat<f64> {
     let m = mass.nrows();
     let parameters: LltParams = Auto::<f64>::auto();
     let scratch = cholesky_in_place_scratch::<f64>(m, Par::Seq, parameters.into());
@@ -133,7 +133,7 @@ fn cholesky_factor(mut mass: Mat<f64>) -> Mat<f64> {
 
 /// Makes the first mode of an insulated axis the constant, to rounding, and the others orthogonal
 /// to it, so that conduction neither makes nor loses heat however long a run is.
-fn deflate_constant(vectors: &mut Mat<f64>, lower: &Mat<f64>, m: usize) {
+pub(super) fn deflate_constant(vectors: &mut Mat<f64>, lower: &Mat<f64>, m: usize) {
     let mut constant: Vec<f64> = (0..m).map(|i| (i..m).map(|j| lower[(j, i)]).sum()).collect();
     let norm = constant.iter().map(|v| v * v).sum::<f64>().sqrt();
     constant.iter_mut().for_each(|v| *v /= norm);

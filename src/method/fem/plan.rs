@@ -6,16 +6,19 @@ use super::fineness::Fineness;
 use super::heat::ThermalFace;
 use super::mesh::{Geometry, Mesh, MeshFace};
 use super::solver_choice::note_on_solver;
-use crate::material::{Constants, Material, Thermoelastic};
-use crate::scene::{Face, FaceName, Shape, Solid, SphOperator, SphSettings, Symmetry};
+use crate::material::{Constants, Thermoelastic};
+use crate::scene::{Face, FaceName, Shape, Solid, SphOperator, SphSettings, Stratum, Symmetry};
 
 /// Everything that a solid's model is built from.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
     pub mesh: Mesh,
+    /// The layers, from the lowest on; one of a body of one material.
+    pub strata: Vec<Stratum>,
+    /// Of the top layer.
     pub constants: Constants,
-    /// The law of deformation; none where mechanics is not modelled.
-    pub law: Option<Thermoelastic>,
+    /// The law of deformation of each layer, from the lowest on; none where mechanics is not modelled.
+    pub law: Option<Vec<Thermoelastic>>,
     pub initial_temperature: f64,
     /// How particles conduct the heat; `None` where finite elements do.
     pub sph: Option<SphSettings>,
@@ -79,12 +82,16 @@ impl Plan {
         refinements: &[Refinement],
         shortest: f64,
     ) -> Self {
-        let Material::Thermoelastic(constants) = solid.material;
-        let law = constants.law().filter(|_| mechanics != Mechanics::Absent);
+        let mut strata = solid.strata();
+        strata.reverse();
+        let constants = strata[strata.len() - 1].constants;
+        let laws: Option<Vec<_>> = strata.iter().map(|layer| layer.constants.law()).collect();
+        let law = laws.filter(|_| mechanics != Mechanics::Absent);
         let mut notes = Vec::new();
         let mirrored = mirrored(solid, &mut notes);
-        let fineness = Fineness::choose(solid, &constants, refinements, shortest, &mut notes);
+        let fineness = Fineness::choose(solid, &strata, refinements, shortest, &mut notes);
         let mesh = build_mesh(&solid.shape, mirrored, &fineness);
+        notes.extend((strata.len() > 1).then(|| note_on_layers(&mesh)));
         notes.extend(mechanics.note().map(str::to_owned));
         notes.extend(law.as_ref().and_then(|law| note_on_solver(&mesh, law)));
         if let Some(settings) = solid.sph() {
@@ -95,6 +102,7 @@ impl Plan {
         let initial_temperature = solid.initial_temperature;
         Self {
             mesh,
+            strata,
             constants,
             law,
             initial_temperature,
@@ -107,12 +115,37 @@ impl Plan {
         }
     }
 
+    /// The constants of the layers, from the lowest on.
+    pub fn constants_of_layers(&self) -> Vec<Constants> {
+        self.strata.iter().map(|layer| layer.constants).collect()
+    }
+
+    /// Numbers that the modes along z of one symmetry class are, at most: through layers each pair of modes
+    /// along the surface has its own.
+    pub fn entries_of_columns(&self) -> f64 {
+        let [nx, ny, nz] = self.mesh.sided_counts().map(|count| count as f64);
+        if self.strata.len() > 1 { nx * ny * nz * (nz + 1.0) } else { 0.0 }
+    }
+
     /// Unknowns of heat and of displacement, symmetry used.
     pub fn unknowns(&self) -> [usize; 2] {
         let nodes = self.mesh.nodes();
         let degrees = self.mesh.geometry.degrees();
-        [nodes, if self.law.is_some() { nodes.saturating_mul(degrees) } else { 0 }]
+        [
+            self.mesh.sided_nodes(),
+            if self.law.is_some() { nodes.saturating_mul(degrees) } else { 0 },
+        ]
     }
+}
+
+fn note_on_layers(mesh: &Mesh) -> String {
+    let elements = (0..mesh.layering.count()).rev().map(|layer| mesh.layer_elements(layer).len());
+    let elements: Vec<String> = elements.map(|count| count.to_string()).collect();
+    format!(
+        "layers of {} elements from the top; heat passes them exactly in time, by modes through the depth for \
+         each pair of modes along the surface",
+        elements.join(", ")
+    )
 }
 
 fn particle_note(settings: &SphSettings, mesh: &Mesh) -> String {
@@ -174,7 +207,8 @@ fn alike(a: &Face, b: &Face) -> bool {
 fn build_mesh(shape: &Shape, mirrored: [bool; 2], fineness: &Fineness) -> Mesh {
     let order = fineness.order;
     let uniform = |ends: Vec<f64>| Axis::from_element_ends(&ends, order, Weight::Uniform);
-    let height = uniform(fineness.depth_ends());
+    let (ends, layering) = fineness.depth();
+    let height = uniform(ends);
     match *shape {
         Shape::Box([lx, ly, _]) => {
             let along = |axis: usize, half: f64| {
@@ -182,13 +216,13 @@ fn build_mesh(shape: &Shape, mirrored: [bool; 2], fineness: &Fineness) -> Mesh {
                 uniform(fineness.lateral_ends(axis, [start, half]))
             };
             let axes = [along(0, lx / 2.0), along(1, ly / 2.0), height];
-            Mesh { axes, mirrored, geometry: Geometry::Box }
+            Mesh { axes, mirrored, geometry: Geometry::Box, layering }
         }
         Shape::Disc(disc) => {
             let ends = fineness.lateral_ends(0, [0.0, disc.radius]);
             let radii = Axis::from_element_ends(&ends, order, Weight::Radial);
             let geometry = Geometry::Axisymmetric;
-            Mesh { axes: [radii, Axis::point(), height], mirrored, geometry }
+            Mesh { axes: [radii, Axis::point(), height], mirrored, geometry, layering }
         }
     }
 }

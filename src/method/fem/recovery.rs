@@ -19,6 +19,7 @@
 use faer::Mat;
 
 use super::axis::Axis;
+use super::mesh::Mesh;
 use crate::math::gauss::gauss_legendre;
 use crate::math::lagrange::interpolation_weights;
 
@@ -93,6 +94,36 @@ impl Recovery {
             }
         }
         Self { samples, ends }
+    }
+}
+
+impl Recovery {
+    /// Along z, from the samples of each layer to its own nodes: those on interfaces are there twice. Strains
+    /// along interfaces and stresses on them are continuous, but their slopes are not.
+    pub fn of_layers(mesh: &Mesh, known: [bool; 2]) -> Self {
+        let count = mesh.layering.count();
+        let [.., nodes] = mesh.sided_counts();
+        let mut whole = Self {
+            samples: Mat::zeros(nodes, sampling_places(&mesh.axes[2]).len()),
+            ends: known.map(|known| vec![0.0; if known { nodes } else { 0 }]),
+        };
+        let (mut row, mut column) = (0, 0);
+        for layer in 0..count {
+            let axis = mesh.layer_axis(layer);
+            let outer = [known[0] && layer == 0, known[1] && layer + 1 == count];
+            let Self { samples, ends } = Self::new(&axis, Beyond::Nothing, outer);
+            for i in 0..samples.nrows() {
+                for j in 0..samples.ncols() {
+                    whole.samples[(row + i, column + j)] = samples[(i, j)];
+                }
+            }
+            for (all, own) in whole.ends.iter_mut().zip(ends) {
+                all.iter_mut().skip(row).zip(own).for_each(|(all, own)| *all = own);
+            }
+            row += samples.nrows();
+            column += samples.ncols();
+        }
+        whole
     }
 }
 

@@ -3,31 +3,28 @@
 mod recovered;
 mod tangent;
 
-use faer::Mat;
-
 use super::axis::Axis;
 use super::conduction::Conduction;
 use super::elastic::{ElasticProblem, Strains};
-use super::heat::{HeatLoads, HeatTotals, end_conditions};
+use super::end_response::EndResponse;
+use super::heat::{HeatLoads, HeatTotals};
 use super::mesh::{Geometry, Mesh, Parity};
-use super::modes::AxisModes;
 use super::plan::Plan;
-use crate::material::Constants;
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::allowance::{Allowance, Halt};
 use crate::math::cholesky::SolverError;
-use crate::math::separable::{Side, transform};
 use crate::state::Layout;
 use recovered::{FaceStresses, Recoveries};
 
 /// Everything known of a solid before time starts.
 pub struct SolidFem {
     mesh: Mesh,
-    thermal: Constants,
     initial_temperature: f64,
     heat: Conduction,
-    /// Modes of heat along z.
-    depth: AxisModes,
+    /// Of the bottom and the top.
+    ends: [EndResponse; 2],
+    /// Node along z of each of those that are there twice on interfaces.
+    nodes_of_sided: Vec<usize>,
     elastic: Option<ElasticProblem>,
     recoveries: Recoveries,
     parities: Vec<Parity>,
@@ -45,7 +42,8 @@ pub struct SolidLoads {
     pub faces: Vec<Vec<f64>>,
 }
 
-/// Nodal temperature above the initial one [K], class by class; empty where a class is zero.
+/// Nodal temperature above the initial one [K], class by class; empty where a class is zero. Nodes on
+/// interfaces between layers are there twice, first for the layer below.
 pub type Temperatures = Vec<Vec<f64>>;
 
 /// Displacements [m] and what stress is recovered from, class by class; empty where a class is zero.
@@ -61,7 +59,7 @@ pub struct Deformation {
 #[derive(Debug, Clone, Default)]
 pub struct NodalFields {
     /// Coordinates along x, y, z [m]; the x index runs fastest. In axisymmetry x is the radius and
-    /// y the single value 0.
+    /// y the single value 0. Interfaces between layers stand twice along z, first for the layer below.
     pub axes: [Vec<f64>; 3],
     /// [K]
     pub temperature: Vec<f64>,
@@ -108,10 +106,7 @@ impl SolidFem {
     pub fn new(plan: &Plan, threads: usize) -> Result<Self, SolverError> {
         let mesh = plan.mesh.clone();
         let heat = Conduction::new(plan, threads);
-        let depth = AxisModes::of(
-            &mesh.axes[2],
-            end_conditions(&plan.thermal_faces, 2, plan.constants.conductivity),
-        );
+        let ends = [false, true].map(|high| EndResponse::of(plan, high));
         let elastic = plan
             .law
             .as_ref()
@@ -122,8 +117,17 @@ impl SolidFem {
         let recoveries = Recoveries::of(plan);
         let parities = mesh.parities();
         let initial_temperature = plan.initial_temperature;
-        let thermal = plan.constants;
-        Ok(Self { mesh, thermal, initial_temperature, heat, depth, elastic, recoveries, parities })
+        let nodes_of_sided = mesh.nodes_of_sided();
+        Ok(Self {
+            mesh,
+            initial_temperature,
+            heat,
+            ends,
+            nodes_of_sided,
+            elastic,
+            recoveries,
+            parities,
+        })
     }
 
     pub fn mesh(&self) -> &Mesh {
@@ -187,39 +191,24 @@ impl SolidFem {
     /// Temperature above the initial one at one point [K], without computing the whole field where
     /// the modes give it.
     pub fn rise_at(&self, state: &[f64], loads: &SolidLoads, point: [f64; 3]) -> f64 {
-        let Conduction::Modes(modes) = &self.heat else {
-            return self.rise_from(&self.temperatures(state, loads), point);
-        };
-        let (place, image) = self.mesh.locate(point);
-        modes.temperature_at(&self.mesh, state, &loads.faces, place, image)
+        let place = self.mesh.locate(point);
+        let found = self.heat.at(&self.mesh, state, &loads.faces, place);
+        found.unwrap_or_else(|| self.rise_from(&self.temperatures(state, loads), point))
     }
 
     /// How the top, or the bottom, answers to an impulse of heat per area, uniform along it: rates λ [1/s] and gains g
     /// [K m²/J] of `Σ g e^{−λt}`.
     pub fn end_modes(&self, high: bool) -> [Vec<f64>; 2] {
-        let capacity = self.thermal.heat_capacity();
-        let top = self.depth.at_node(if high { self.depth.shapes.nrows() - 1 } else { 0 });
-        let rate = |decay: &f64| self.thermal.conductivity / capacity * decay;
-        let rates = self.depth.decay.iter().map(rate).collect();
-        [rates, top.iter().map(|value| value * value / capacity).collect()]
+        let end = &self.ends[usize::from(high)];
+        [end.rates.clone(), end.gains.clone()]
     }
 
     /// What each of these modes adds to the temperature of that end's nodes [K], mode after mode, class by
     /// class; empty for a class that is zero.
     pub fn end_amplitudes(&self, temperatures: &Temperatures, high: bool) -> Vec<Vec<f64>> {
-        let depth = &self.depth;
-        let top = depth.at_node(if high { depth.shapes.nrows() - 1 } else { 0 });
-        let (count, nodes) = (depth.count(), depth.shapes.nrows());
-        let part = |m: usize, i: usize, k: usize| depth.shapes[(i, m)] * depth.mass[(i, k)];
-        let projected = |m: usize, k: usize| (0..nodes).map(|i| part(m, i, k)).sum::<f64>();
-        let projection = Mat::from_fn(count, nodes, |m, k| top[m] * projected(m, k));
+        let end = &self.ends[usize::from(high)];
         let [nx, ny, _] = self.mesh.node_counts();
-        let [x, y] = [nx, ny].map(|n| Mat::<f64>::identity(n, n));
-        let of_class = |part: &Vec<f64>| match part.is_empty() {
-            true => Vec::new(),
-            false => transform(part, [&x, &y, &projection], Side::Direct),
-        };
-        temperatures.iter().map(of_class).collect()
+        temperatures.iter().map(|part| end.amplitudes(part, [nx, ny])).collect()
     }
 
     pub fn temperatures(&self, state: &[f64], loads: &SolidLoads) -> Temperatures {
@@ -250,8 +239,8 @@ impl SolidFem {
     /// Temperature above the initial one at a point from nodal values [K].
     pub fn rise_from(&self, temperatures: &Temperatures, point: [f64; 3]) -> f64 {
         let (place, image) = self.mesh.locate(point);
-        let weights = self.node_weights(place);
-        let counts = self.mesh.node_counts();
+        let weights = self.sided_weights(place);
+        let counts = self.mesh.sided_counts();
         let value = |field: &Vec<f64>| weighted(field, weights.each_ref(), counts, (0, 1));
         let parts = self.parities.iter().zip(temperatures);
         parts.map(|(parity, field)| parity.sign(image) * value(field)).sum()
@@ -334,7 +323,11 @@ impl SolidFem {
             places.iter().map(signed).collect::<Vec<f64>>()
         };
         let mut fields = NodalFields {
-            axes: [coordinates(x, &columns), coordinates(y, &rows), z.nodes.clone()],
+            axes: [
+                coordinates(x, &columns),
+                coordinates(y, &rows),
+                self.nodes_of_sided.iter().map(|&node| z.nodes[node]).collect(),
+            ],
             ..Default::default()
         };
         let nodal = self.nodal_strains(deformation);
@@ -343,15 +336,16 @@ impl SolidFem {
             let wanted = (!image[0] || mirror_x) && (!image[1] || mirror_y);
             wanted.then(|| self.image_fields(temperatures, deformation, &nodal, image))
         });
-        for k in 0..z.len() {
+        for (k, &layer) in self.nodes_of_sided.iter().enumerate() {
             for &(j, image_y) in &rows {
                 for &(i, image_x) in &columns {
                     let part = &parts[usize::from(image_x) + 2 * usize::from(image_y)];
                     let Some(part) = part else { continue };
-                    let node = i + x.len() * (j + y.len() * k);
+                    let node_of = |k: usize| i + x.len() * (j + y.len() * k);
+                    let node = node_of(k);
                     fields.temperature.push(self.initial_temperature + part.temperature[node]);
                     if !part.stress.is_empty() {
-                        fields.displacement.push(part.displacement[node]);
+                        fields.displacement.push(part.displacement[node_of(layer)]);
                         fields.stress.push(part.stress[node]);
                     }
                 }
@@ -405,7 +399,7 @@ impl SolidFem {
     }
 
     fn rise_of_image(&self, temperatures: &Temperatures, image: [bool; 2]) -> Vec<f64> {
-        let mut rise = vec![0.0; self.mesh.nodes()];
+        let mut rise = vec![0.0; self.mesh.sided_nodes()];
         for (parity, part) in self.parities.iter().zip(temperatures) {
             let sign = parity.sign(image);
             for (r, t) in rise.iter_mut().zip(part) {
@@ -415,6 +409,14 @@ impl SolidFem {
         rise
     }
 
+    /// The same of the nodes that are there twice on interfaces.
+    fn sided_weights(&self, place: [f64; 3]) -> [Weights; 3] {
+        let [x, y, _] = self.node_weights(place);
+        let shape = self.mesh.sided_shape_at(place[2]);
+        [x, y, Weights { first: shape.first, values: shape.values[..shape.count].to_vec() }]
+    }
+
+    /// Weights of the nodes around a place.
     fn node_weights(&self, place: [f64; 3]) -> [Weights; 3] {
         [0, 1, 2].map(|a| {
             let shape = self.mesh.axes[a].shape_at(place[a]);

@@ -30,18 +30,21 @@ fn factor_memory(geometry: Geometry, unknowns: usize) -> f64 {
 const MANY: usize = 20_000;
 /// Poisson's ratio up to which they need few iterations.
 const MOST_POISSON: f64 = 0.45;
+/// Ratio of Young's moduli of layers up to which they need up to half as many more: the preconditioner knows the layers
+/// of each component, not how they couple.
+const MOST_CONTRAST: f64 = 1e4;
 /// Ratio of lengths along x or y up to which linear bricks, whose enhanced strains the preconditioner knows on
 /// equal lengths only, need few.
 const MOST_GRADED: f64 = 50.0;
 
 /// Whether a body is one for conjugate gradients.
-pub fn suits_conjugate_gradients(mesh: &Mesh, law: &Thermoelastic) -> bool {
-    is_large_box(mesh) && reason_for_factor(mesh, law).is_none()
+pub fn suits_conjugate_gradients(mesh: &Mesh, laws: &[Thermoelastic]) -> bool {
+    is_large_box(mesh) && reason_for_factor(mesh, laws).is_none()
 }
 
 /// How the displacements of a large box are found, and why; nothing of other bodies, whose factors take little.
-pub fn note_on_solver(mesh: &Mesh, law: &Thermoelastic) -> Option<String> {
-    is_large_box(mesh).then(|| match reason_for_factor(mesh, law) {
+pub fn note_on_solver(mesh: &Mesh, laws: &[Thermoelastic]) -> Option<String> {
+    is_large_box(mesh).then(|| match reason_for_factor(mesh, laws) {
         None => "displacements follow from conjugate gradients: nothing is factored".into(),
         Some(reason) => {
             format!("stiffness is factored: conjugate gradients would take many iterations with {reason}")
@@ -53,24 +56,29 @@ fn is_large_box(mesh: &Mesh) -> bool {
     mesh.geometry == Geometry::Box && mesh.nodes().saturating_mul(3) >= MANY
 }
 
-fn reason_for_factor(mesh: &Mesh, law: &Thermoelastic) -> Option<&'static str> {
+fn reason_for_factor(mesh: &Mesh, laws: &[Thermoelastic]) -> Option<&'static str> {
     let is_even = |axis: &Axis| {
         let lengths = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
         let [least, most] =
             lengths.fold([f64::INFINITY, 0.0_f64], |[l, m], h| [l.min(h), m.max(h)]);
         most <= MOST_GRADED * least
     };
-    if law.poisson > MOST_POISSON {
+    if laws.iter().any(|law| law.poisson > MOST_POISSON) {
         return Some("a Poisson's ratio above 0.45");
+    }
+    let moduli = laws.iter().map(|law| law.young);
+    let [least, most] = moduli.fold([f64::INFINITY, 0.0_f64], |[l, m], e| [l.min(e), m.max(e)]);
+    if most > MOST_CONTRAST * least {
+        return Some("layers whose Young's moduli differ more than 1:10 000");
     }
     let is_graded = mesh.order() == 1 && !mesh.axes[..2].iter().all(is_even);
     is_graded.then_some("linear elements whose lengths along the surface differ more than 1:50")
 }
 
 /// Memory that the solver of one symmetry class takes [B].
-pub fn solver_memory(mesh: &Mesh, law: &Thermoelastic) -> f64 {
+pub fn solver_memory(mesh: &Mesh, laws: &[Thermoelastic]) -> f64 {
     let unknowns = mesh.nodes().saturating_mul(mesh.geometry.degrees());
-    match suits_conjugate_gradients(mesh, law) {
+    match suits_conjugate_gradients(mesh, laws) {
         true => BrickSolver::memory(mesh.order(), unknowns),
         false => factor_memory(mesh.geometry, unknowns),
     }

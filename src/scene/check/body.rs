@@ -1,7 +1,7 @@
 //! Shape, material, faces, symmetry and mesh of each solid.
 
-use super::{Checker, LARGEST, MOST_ELEMENTS, fits, is_sound, number};
-use crate::material::Material;
+use super::{Checker, LARGEST, MOST_ELEMENTS, fits, is_sound, layers, number};
+use crate::material::{Constants, Material};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::types::{
@@ -9,11 +9,16 @@ use crate::scene::types::{
 };
 
 pub fn check(checker: &mut Checker) {
+    named_materials(checker);
     for (name, solid) in checker.scene.solids() {
         let path = Path::default().key("body").key(name);
         shape(checker, &path.at("shape"), &solid.shape);
-        material(checker, &path.at("material"), &solid.material);
-        elasticity(checker, (&path.at("material"), name), &solid.material);
+        layers::check(checker, &path, solid);
+        if checker.scene.needs_mechanics(name) {
+            for (place, constants) in solid.materials(&path) {
+                elasticity(checker, &place, constants);
+            }
+        }
         checker.temperature(&path.at("initial_temperature"), solid.initial_temperature);
         for (&name, face) in &solid.faces {
             let path = path.at("faces").key(name.as_str());
@@ -42,7 +47,14 @@ fn shape(checker: &mut Checker, path: &Path, shape: &Shape) {
     }
 }
 
-fn material(checker: &mut Checker, path: &Path, Material::Thermoelastic(law): &Material) {
+/// The constants that have names.
+fn named_materials(checker: &mut Checker) {
+    for (name, Material::Thermoelastic(constants)) in &checker.scene.material {
+        material(checker, &Path::default().key("material").key(name), constants);
+    }
+}
+
+pub(super) fn material(checker: &mut Checker, path: &Path, law: &Constants) {
     checker.constant(&path.at("density"), law.density, "the density");
     checker.constant(&path.at("specific_heat"), law.specific_heat, "the specific heat capacity");
     checker.constant(&path.at("conductivity"), law.conductivity, "the thermal conductivity");
@@ -61,14 +73,7 @@ fn material(checker: &mut Checker, path: &Path, Material::Thermoelastic(law): &M
 }
 
 /// Refuses materials without the constants of a body whose mechanics is needed.
-fn elasticity(
-    checker: &mut Checker,
-    (path, name): (&Path, &str),
-    Material::Thermoelastic(constants): &Material,
-) {
-    if !checker.scene.needs_mechanics(name) {
-        return;
-    }
+fn elasticity(checker: &mut Checker, path: &Path, constants: &Constants) {
     for (key, given, allowed) in [
         ("young", constants.young, "a positive number (Pa)"),
         ("poisson", constants.poisson, "-1 < poisson < 0.5"),

@@ -62,6 +62,13 @@ fn names(checker: &mut Checker) {
     identifier(checker, &root.key("name"), &scene.name);
     checker.require(!scene.body.is_empty(), &root.key("body"), "there is no body", "[body.NAME]");
 
+    for name in scene.material.keys() {
+        let path = root.key("material").key(name);
+        identifier(checker, &path, name);
+        let fine = name != "layer" && !name.starts_with("layer_");
+        let message = "the name is reserved for layers without names";
+        checker.require(fine, &path, message, "any name but layer and layer_…");
+    }
     let element = |kind: &str, i: usize| root.key(kind).index(i).key("name");
     let bodies = scene.body.keys().map(|name| (root.key("body").key(name), name));
     let loads = scene.load.iter().enumerate().map(|(i, load)| (element("load", i), &load.name));

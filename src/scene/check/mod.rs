@@ -5,6 +5,7 @@ mod coupling;
 mod droplet;
 mod field;
 mod header;
+mod layers;
 mod load;
 mod probe;
 mod start;

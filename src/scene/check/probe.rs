@@ -3,7 +3,7 @@
 use super::{Checker, fits, is_in_depth, number};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::types::{Disc, Probe, Shape};
+use crate::scene::types::{Disc, Probe, Shape, Solid};
 
 pub fn check(checker: &mut Checker) {
     for (i, probe) in checker.scene.probe.iter().enumerate() {
@@ -11,6 +11,7 @@ pub fn check(checker: &mut Checker) {
         checker.distinct(&path.at("gives"), &probe.gives);
         if let Some(solid) = checker.body(&path.at("in"), &probe.body) {
             place(checker, &path.at("at"), probe, &solid.shape);
+            side(checker, &path.at("side"), probe, solid);
         }
     }
 }
@@ -18,6 +19,19 @@ pub fn check(checker: &mut Checker) {
 fn place(checker: &mut Checker, path: &Path, probe: &Probe, shape: &Shape) {
     let message = format!("the point lies outside of `{}`", probe.body);
     checker.require(contains(shape, probe.at), path, message, inside(shape));
+}
+
+/// Only an interface has sides.
+fn side(checker: &mut Checker, path: &Path, probe: &Probe, solid: &Solid) {
+    if probe.side.is_some() && solid.interface_at(probe.at[2]).is_none() {
+        let list: Vec<String> = solid.interfaces().into_iter().map(number).collect();
+        let message = format!("the point is on no interface between layers of `{}`", probe.body);
+        let allowed = match list.is_empty() {
+            true => "a point of a body with layers".to_owned(),
+            false => format!("a point with z = {}", list.join(" or ")),
+        };
+        checker.refuse(path, message, allowed);
+    }
 }
 
 fn contains(shape: &Shape, [x, y, z]: [f64; 3]) -> bool {

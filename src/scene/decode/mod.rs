@@ -15,7 +15,8 @@ use toml::de::{DeFloat, DeValue};
 use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
 use super::locate::{Path, Source};
-use super::types::{Scene, Solid};
+use super::spelling::hint;
+use super::types::{Body, Scene, Solid};
 use crate::material::Constants;
 use failure::{Failure, Misfit, expectation};
 use unit::with_unit;
@@ -29,8 +30,12 @@ const MOST_PROBLEMS: usize = 100;
 pub fn decode(source: &Source) -> Result<Scene, SceneError> {
     let mut decoder = Decoder { source, left_out: BTreeSet::new(), problems: Vec::new() };
     decoder.refuse_numbers_that_are_not_finite(source.root(), &Path::default());
+    decoder.read_materials();
     decoder.read_bodies();
-    let scene = decoder.read::<Scene>(&Path::default(), None);
+    let mut scene = decoder.read::<Scene>(&Path::default(), None);
+    if let Some(scene) = &mut scene {
+        decoder.look_up_materials(scene);
+    }
     SceneError::unless_empty(decoder.problems)?;
     scene.ok_or_else(|| {
         source.problem(&Path::default(), "no scene".to_owned(), "a scene".to_owned()).into()
@@ -45,6 +50,40 @@ struct Decoder<'a> {
 }
 
 impl Decoder<'_> {
+    /// Reads the materials that have names, as [`Self::read_bodies`] does bodies.
+    fn read_materials(&mut self) {
+        let path = Path::default().key("material");
+        let Some(DeValue::Table(materials)) = self.source.value(&path) else { return };
+        for name in materials.keys() {
+            self.read_if::<Constants>(&path.key(name.get_ref()), "model", "thermoelastic");
+        }
+    }
+
+    /// Gives each body and layer that names a material a copy of it.
+    fn look_up_materials(&mut self, scene: &mut Scene) {
+        let known = &scene.material;
+        for (name, body) in &mut scene.body {
+            let Body::Solid(solid) = body else { continue };
+            let path = Path::default().key("body").key(name);
+            let layers = solid.layers.iter_mut().flatten().enumerate();
+            let layers =
+                layers.map(|(i, layer)| (path.key("layers").index(i), &mut layer.material));
+            let own = solid.material.iter_mut().map(|choice| (path.clone(), choice));
+            for (path, choice) in own.chain(layers) {
+                if !choice.look_up(|name| known.get(name)) {
+                    let name = choice.name.as_deref().unwrap_or_default();
+                    let path = path.key("material");
+                    let names = || known.keys().map(String::as_str);
+                    let message = format!("there is no material `{name}`{}", hint(name, names()));
+                    let mut allowed: Vec<&str> = names().collect();
+                    let new = format!("a table `[material.{name}]`");
+                    allowed.push(&new);
+                    self.problems.push(self.source.problem(&path, message, allowed.join(", ")));
+                }
+            }
+        }
+    }
+
     /// Reads tables whose type a key of theirs chooses, from the inside out: serde loses the
     /// places of values in such tables, so that they must be faultless when it gets to them.
     fn read_bodies(&mut self) {
@@ -53,6 +92,14 @@ impl Decoder<'_> {
         for name in bodies.keys() {
             let body = path.key(name.get_ref());
             self.read_if::<Constants>(&body.key("material"), "model", "thermoelastic");
+            let layers = body.key("layers");
+            let count = match self.source.value(&layers) {
+                Some(DeValue::Array(list)) => list.len(),
+                _ => 0,
+            };
+            for material in (0..count).map(|i| layers.index(i).key("material")) {
+                self.read_if::<Constants>(&material, "model", "thermoelastic");
+            }
             self.read_if::<Solid>(&body, "kind", "solid");
             self.read_if::<Droplet>(&body, "kind", "droplet");
         }

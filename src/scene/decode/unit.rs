@@ -3,7 +3,7 @@
 use crate::scene::locate::Path;
 
 /// Keys whose numbers have a unit; a key means the same wherever it stands.
-const UNITS: [(&str, &[&str]); 17] = [
+const UNITS: [(&str, &[&str]); 18] = [
     ("s", &["stop_time", "step", "time", "interval"]),
     (
         "m",
@@ -30,6 +30,7 @@ const UNITS: [(&str, &[&str]); 17] = [
     ("1/K", &["expansion"]),
     ("W/m²", &["flux", "heat_flux"]),
     ("W/(m² K)", &["coefficient"]),
+    ("m² K/W", &["contact_resistance"]),
     ("m/s", &["impact_velocity", "sound_speed"]),
     ("m/s²", &["gravity"]),
     ("Pa s", &["viscosity"]),

@@ -114,6 +114,21 @@ pub const EXTENT: Range = Range {
     highest: 1.0,
     mistakes: LENGTHS,
 };
+/// From films of a few atoms on.
+pub const LAYER: Range = Range {
+    what: "the thickness of a layer",
+    unit: "m",
+    lowest: 1e-9,
+    highest: 1.0,
+    mistakes: LENGTHS,
+};
+pub const CONTACT: Range = Range {
+    what: "the thermal resistance of a contact",
+    unit: "m² K/W",
+    lowest: 1e-10, // metals that have grown on each other
+    highest: 1.0,  // air gaps of centimetres
+    mistakes: &[scaled("cm² K/W", 1e-4), scaled("mm² K/W", 1e-6)],
+};
 pub const DIAMETER: Range = Range {
     what: "the diameter of a drop",
     unit: "m",

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::Reviewer;
 use super::ranges;
-use crate::material::Material;
+use crate::material::{Constants, Material};
 use crate::scene::check::number;
 use crate::scene::droplet::Fluid;
 use crate::scene::locate::Path;
@@ -24,9 +24,16 @@ const HOTTEST_RISE: f64 = 1e4;
 
 pub fn review(reviewer: &mut Reviewer) {
     let root = Path::default();
+    for (name, Material::Thermoelastic(constants)) in &reviewer.scene.material {
+        solid(reviewer, &root.key("material").key(name), constants);
+    }
     for (name, body) in reviewer.scene.solids() {
         let path = root.key("body").key(name);
-        solid(reviewer, &path.key("material"), body);
+        for (place, constants) in body.materials(&path) {
+            if place.is_within(&path) {
+                solid(reviewer, &place, constants);
+            }
+        }
         fluxes(reviewer, (&path, name), body);
     }
     for (name, body) in reviewer.scene.droplets() {
@@ -34,8 +41,7 @@ pub fn review(reviewer: &mut Reviewer) {
     }
 }
 
-fn solid(reviewer: &mut Reviewer, path: &Path, solid: &Solid) {
-    let Material::Thermoelastic(law) = &solid.material;
+fn solid(reviewer: &mut Reviewer, path: &Path, law: &Constants) {
     if !ranges::DENSITY.holds(law.density) {
         return;
     }
@@ -99,10 +105,13 @@ fn fluxes(reviewer: &mut Reviewer, (path, name): (&Path, &str), solid: &Solid) {
 /// The rise of a half space's surface under a constant flux, `2q√(at/π)/k`, and no more than on the
 /// axis of a disc in the long run, `qR/k`.
 fn flux_of(reviewer: &mut Reviewer, path: &Path, (flux, radius): (f64, f64), solid: &Solid) {
-    let Material::Thermoelastic(law) = &solid.material;
-    let diffusivity = law.conductivity / (law.density * law.specific_heat);
-    let depth = 2.0 * (diffusivity * reviewer.scene.stop_time / PI).sqrt();
-    let rise = flux * depth.min(radius) / law.conductivity;
+    let half_space = |law: &Constants| {
+        let depth = 2.0 * (law.diffusivity() * reviewer.scene.stop_time / PI).sqrt();
+        flux * depth.min(radius) / law.conductivity
+    };
+    // Of layers, the one that would be heated least.
+    let rises = solid.strata().into_iter().map(|layer| half_space(&layer.constants));
+    let rise = rises.reduce(|a, b| if b.abs() < a.abs() { b } else { a }).unwrap_or(0.0);
     if !ranges::HEAT_FLUX.holds(flux) {
         return;
     }

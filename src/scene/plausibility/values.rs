@@ -2,7 +2,7 @@
 
 use super::Reviewer;
 use super::ranges::{self, Range};
-use crate::material::Material;
+use crate::material::{Constants, Material};
 use crate::scene::droplet::{Droplet, Wall};
 use crate::scene::locate::Path;
 use crate::scene::types::{CellValues, Load, Scene, Shape, Solid};
@@ -12,8 +12,17 @@ pub fn review(reviewer: &mut Reviewer) {
     reviewer.value(&root.key("stop_time"), scene.stop_time, &ranges::TIME);
     reviewer.value(&root.key("step"), scene.step, &ranges::TIME);
     let temperature = temperatures(scene);
+    for (name, Material::Thermoelastic(constants)) in &scene.material {
+        material(reviewer, &root.key("material").key(name), constants);
+    }
     for (name, body) in scene.solids() {
-        solid(reviewer, &root.key("body").key(name), body, &temperature);
+        let path = root.key("body").key(name);
+        for (place, constants) in body.materials(&path) {
+            if place.is_within(&path) {
+                material(reviewer, &place, constants);
+            }
+        }
+        solid(reviewer, &path, body, &temperature);
     }
     for (name, body) in scene.droplets() {
         droplet(reviewer, &root.key("body").key(name), body, &temperature);
@@ -52,16 +61,11 @@ fn solid(reviewer: &mut Reviewer, path: &Path, solid: &Solid, temperature: &Rang
             }
         }
     }
-    let Material::Thermoelastic(law) = &solid.material;
-    for (key, value, range) in [
-        ("density", Some(law.density), &ranges::DENSITY),
-        ("specific_heat", Some(law.specific_heat), &ranges::SPECIFIC_HEAT),
-        ("conductivity", Some(law.conductivity), &ranges::CONDUCTIVITY),
-        ("young", law.young, &ranges::YOUNG),
-        ("expansion", law.expansion, &ranges::EXPANSION),
-    ] {
-        if let Some(value) = value {
-            reviewer.value(&path.at("material").key(key), value, range);
+    for (i, layer) in solid.layers.iter().flatten().enumerate() {
+        let path = path.key("layers").index(i);
+        reviewer.value(&path.key("thickness"), layer.thickness, &ranges::LAYER);
+        if let Some(resistance) = layer.contact_resistance {
+            reviewer.value(&path.key("contact_resistance"), resistance, &ranges::CONTACT);
         }
     }
     reviewer.value(&path.key("initial_temperature"), solid.initial_temperature, temperature);
@@ -79,6 +83,21 @@ fn solid(reviewer: &mut Reviewer, path: &Path, solid: &Solid, temperature: &Rang
             reviewer.value(&path.key("ambient"), convection.ambient, &ambient);
             let coefficient = convection.coefficient;
             reviewer.value(&path.key("coefficient"), coefficient, &ranges::HEAT_TRANSFER);
+        }
+    }
+}
+
+/// The constants of a solid.
+fn material(reviewer: &mut Reviewer, path: &Path, law: &Constants) {
+    for (key, value, range) in [
+        ("density", Some(law.density), &ranges::DENSITY),
+        ("specific_heat", Some(law.specific_heat), &ranges::SPECIFIC_HEAT),
+        ("conductivity", Some(law.conductivity), &ranges::CONDUCTIVITY),
+        ("young", law.young, &ranges::YOUNG),
+        ("expansion", law.expansion, &ranges::EXPANSION),
+    ] {
+        if let Some(value) = value {
+            reviewer.value(&path.key(key), value, range);
         }
     }
 }

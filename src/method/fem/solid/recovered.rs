@@ -12,7 +12,7 @@ use crate::math::separable::{Side, transform};
 use crate::method::fem::elastic::{ElasticProblem, Strains, Support};
 use crate::method::fem::mesh::{Geometry, Mesh, MeshFace, Parity};
 use crate::method::fem::plan::Plan;
-use crate::method::fem::recovery::{Beyond, Recovery};
+use crate::method::fem::recovery::{Beyond, Recovery, sampling_places};
 
 /// Tractions on the nodes of the bottom and the top as the stresses zz, yz and xz (zz and rz) there, a list
 /// for each recovered quantity that is one; empty where they are zero.
@@ -81,9 +81,8 @@ impl Recoveries {
             plan.supports.iter().find(|(face, _)| *face == place).map(|(_, support)| *support)
         };
         let supports = [support(false), support(true)];
-        let along_z = |known: fn(Option<Support>) -> bool| {
-            Recovery::new(&mesh.axes[2], Beyond::Nothing, supports.map(known))
-        };
+        let along_z =
+            |known: fn(Option<Support>) -> bool| Recovery::of_layers(mesh, supports.map(known));
         let lateral = |axis: usize| {
             let all = match continues(mesh, axis) {
                 true => [Beyond::Even, Beyond::Odd, Beyond::Vanishing],
@@ -126,7 +125,7 @@ impl SolidFem {
         point: [f64; 3],
     ) -> [f64; 6] {
         let (place, image) = self.mesh.locate(point);
-        let nodes = self.node_weights(place);
+        let nodes = self.sided_weights(place);
         let counts = self.mesh.node_counts();
         let quantities = quantities(self.mesh.geometry);
         let mut recovered = [0.0; 6];
@@ -148,7 +147,8 @@ impl SolidFem {
                 recovered[quantity.slot] += parity.tensor_sign(image, quantity.slot) * value;
             }
         }
-        let stress = self.stress_of(recovered, self.rise_from(temperatures, point));
+        let law = self.law_at(nodes[2].first);
+        let stress = self.stress_of(law, recovered, self.rise_from(temperatures, point));
         match self.mesh.geometry {
             Geometry::Box => stress,
             Geometry::Axisymmetric => {
@@ -198,12 +198,19 @@ impl SolidFem {
                 }
             }
         }
-        recovered.into_iter().zip(rise).map(|(r, rise)| self.stress_of(r, rise)).collect()
+        let [nx, ny, nz] = self.mesh.sided_counts();
+        let laws: Vec<_> = (0..nz).map(|k| self.law_at(k)).collect();
+        let nodes = recovered.into_iter().zip(rise).enumerate();
+        nodes.map(|(n, (r, rise))| self.stress_of(laws[n / (nx * ny)], r, rise)).collect()
     }
 
     /// Stress of recovered quantities at `rise` kelvin above the stress-free temperature.
-    fn stress_of(&self, [a, b, zz, xy, yz, xz]: [f64; 6], rise: f64) -> [f64; 6] {
-        let law = self.law();
+    fn stress_of(
+        &self,
+        law: &Thermoelastic,
+        [a, b, zz, xy, yz, xz]: [f64; 6],
+        rise: f64,
+    ) -> [f64; 6] {
         let [xx, yy] = match self.mesh.geometry {
             Geometry::Box => [a, b],
             Geometry::Axisymmetric => [a + b, a - b],
@@ -215,30 +222,38 @@ impl SolidFem {
         [s_xx, s_yy, zz, s_xy, yz, xz]
     }
 
-    fn law(&self) -> &Thermoelastic {
+    /// The law at a node along z, of which those on interfaces are there twice.
+    fn law_at(&self, sided: usize) -> &Thermoelastic {
         let elastic = self.elastic.as_ref();
-        elastic.expect("stress is asked for where mechanics is modelled").law()
+        let node = self.nodes_of_sided[sided];
+        let layers_below = sided - node;
+        elastic.expect("stress is asked for where mechanics is modelled").law(layers_below)
     }
 
     /// The recovered quantities of a class from its strains, of which that of a heated layer was left out.
     pub(super) fn quantities_of(&self, elastic: &ElasticProblem, mut strains: Strains) -> Strains {
-        let law = elastic.law();
-        let (lambda, shear) = (law.lame_first(), law.shear_modulus());
-        match self.mesh.geometry {
-            Geometry::Box => {
-                for at in strains.chunks_exact_mut(6) {
-                    at[2] = lambda * (at[0] + at[1]) + (lambda + 2.0 * shear) * at[2];
-                    at[4] *= shear;
-                    at[5] *= shear;
+        let values = quantities(self.mesh.geometry).len();
+        let [x, y, z] = self.mesh.axes.each_ref().map(sampling_places);
+        let planes = strains.chunks_exact_mut(values * x.len() * y.len());
+        for (plane, (element, _)) in planes.zip(z) {
+            let law = elastic.law(self.mesh.layering.layer_of(element));
+            let (lambda, shear) = (law.lame_first(), law.shear_modulus());
+            match self.mesh.geometry {
+                Geometry::Box => {
+                    for at in plane.chunks_exact_mut(6) {
+                        at[2] = lambda * (at[0] + at[1]) + (lambda + 2.0 * shear) * at[2];
+                        at[4] *= shear;
+                        at[5] *= shear;
+                    }
                 }
-            }
-            Geometry::Axisymmetric => {
-                for at in strains.chunks_exact_mut(4) {
-                    let [rr, tt] = [at[0], at[1]];
-                    at[2] = lambda * (rr + tt) + (lambda + 2.0 * shear) * at[2];
-                    at[0] = 0.5 * (rr + tt);
-                    at[1] = 0.5 * (rr - tt);
-                    at[3] *= shear;
+                Geometry::Axisymmetric => {
+                    for at in plane.chunks_exact_mut(4) {
+                        let [rr, tt] = [at[0], at[1]];
+                        at[2] = lambda * (rr + tt) + (lambda + 2.0 * shear) * at[2];
+                        at[0] = 0.5 * (rr + tt);
+                        at[1] = 0.5 * (rr - tt);
+                        at[3] *= shear;
+                    }
                 }
             }
         }

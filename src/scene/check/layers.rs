@@ -1,0 +1,97 @@
+//! What solids are made of: one material, or layers that fill their thickness.
+
+use super::{Checker, LARGEST, body, is_sound, number};
+use crate::scene::locate::Path;
+use crate::scene::types::{FaceName, HeatMethod, Layer, Solid};
+
+/// Layers of a body, at most: each has elements of its own.
+const MOST_LAYERS: usize = 100;
+/// Part of a thickness by which the sum of layers may miss it.
+const SLACK: f64 = 1e-9;
+
+/// Checks the materials of the solid at `path`.
+pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
+    const EITHER: &str = "`material = …` or `layers = [{ material = …, thickness = … }, …]`";
+    match (&solid.material, &solid.layers) {
+        (None, None) => {
+            checker.refuse(&path.key("material"), "the key `material` is missing", EITHER);
+        }
+        (Some(_), Some(_)) => {
+            let message = "a body takes either one material or layers, not both";
+            checker.refuse(&path.key("layers"), message, EITHER);
+        }
+        (Some(choice), None) if choice.name.is_none() => {
+            body::material(checker, &path.key("material"), choice.constants());
+        }
+        (Some(_), None) => {}
+        (None, Some(list)) => layers(checker, path, solid, list),
+    }
+}
+
+fn layers(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
+    let place = path.key("layers");
+    let fine = (1..=MOST_LAYERS).contains(&list.len());
+    let message = format!("a body of {} layers", list.len());
+    checker.require(fine, &place, message, format!("1 to {MOST_LAYERS}"));
+    let mut sound = !list.is_empty();
+    for (i, layer) in list.iter().enumerate() {
+        let place = place.index(i);
+        if layer.material.name.is_none() {
+            body::material(checker, &place.key("material"), layer.material.constants());
+        }
+        let what = "the thickness of a layer";
+        sound &= checker.length(&place.key("thickness"), layer.thickness, what);
+        if let Some(resistance) = layer.contact_resistance {
+            contact(checker, &place.key("contact_resistance"), i, resistance);
+        }
+    }
+    if sound && is_sound(&solid.shape) {
+        thickness(checker, &place, solid, list);
+    }
+    if solid.heat == HeatMethod::Sph && list.len() > 1 {
+        let message =
+            "particles conduct heat in bodies of one material only, and this one has layers";
+        checker.refuse(&path.key("heat"), message, "fem");
+    }
+    lateral_convection(checker, path, solid, list);
+}
+
+fn contact(checker: &mut Checker, path: &Path, layer: usize, resistance: f64) {
+    let message = "above the top layer there is none to be in contact with";
+    if !checker.require(layer > 0, path, message, "a layer below another one") {
+        return;
+    }
+    let message = "a contact resistance is not negative";
+    checker.require(resistance >= 0.0, path, message, ">= 0");
+    let message = "a contact resistance is beyond all bounds";
+    checker.require(resistance <= LARGEST, path, message, format!("0 to {LARGEST:e}"));
+}
+
+/// Layers fill the shape.
+fn thickness(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
+    let wanted = solid.shape.thickness();
+    let sum: f64 = list.iter().map(|layer| layer.thickness).sum();
+    let fine = (sum - wanted).abs() <= SLACK * wanted;
+    let message = format!("the layers are {sum:e} m thick together, the shape is {wanted:e} m");
+    checker.require(fine, path, message, format!("thicknesses that add up to {wanted:e} m"));
+}
+
+/// What passes a convective lateral face follows the temperature along it, but modes along the surface are
+/// those of all layers only where these conduct equally.
+fn lateral_convection(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
+    let mut conductivities = list.iter().map(|layer| layer.material.constants().conductivity);
+    let Some(first) = conductivities.next() else { return };
+    let Some(other) = conductivities.find(|&other| other != first) else { return };
+    for (&face, condition) in &solid.faces {
+        if condition.convection.is_some() && !matches!(face, FaceName::Top | FaceName::Bottom) {
+            let path = path.key("faces").key(face.as_str()).key("convection");
+            let message = format!(
+                "a lateral face of layers that conduct differently ({} and {} W/(m K)) cannot be convective",
+                number(first),
+                number(other)
+            );
+            let allowed = "`temperature`, `flux` or nothing, on top and bottom `convection` too";
+            checker.refuse(&path, message, allowed);
+        }
+    }
+}

@@ -1,0 +1,192 @@
+//! Materials by name, and the layers that solids are made of.
+
+use std::fmt;
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
+use serde::{Serialize, Serializer};
+
+use super::locate::Path;
+use super::types::{Layer, Probe, Scene, Side, Solid};
+use crate::material::{Constants, Material, Thermoelastic};
+
+/// Part of a body's thickness within which a point lies on an interface, and by which layers may miss it.
+pub const SLACK: f64 = 1e-9;
+
+/// The name of one of the scene's materials, or a material of its own.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MaterialChoice {
+    /// The name; none of a material of its own.
+    pub name: Option<String>,
+    /// A copy of what the name stands for, or the body's own; none until the name has been looked up.
+    material: Option<Material>,
+}
+
+impl MaterialChoice {
+    /// Looks the name up among the scene's materials; whether it is one of them.
+    pub(super) fn look_up<'a>(&mut self, find: impl Fn(&str) -> Option<&'a Material>) -> bool {
+        if let Some(name) = &self.name {
+            self.material = find(name).cloned();
+        }
+        self.material.is_some()
+    }
+
+    /// # Panics
+    /// If the scene has not been decoded, which looks all names up.
+    pub fn material(&self) -> &Material {
+        self.material.as_ref().expect("a decoded scene's names of materials are looked up")
+    }
+
+    /// The constants, to be changed.
+    ///
+    /// # Panics
+    /// If the scene has not been decoded, which looks all names up.
+    pub fn constants_mut(&mut self) -> &mut Constants {
+        let known = self.material.as_mut();
+        let Material::Thermoelastic(constants) =
+            known.expect("a decoded scene's names of materials are looked up");
+        constants
+    }
+
+    pub fn constants(&self) -> &Constants {
+        let Material::Thermoelastic(constants) = self.material();
+        constants
+    }
+}
+
+impl<'de> Deserialize<'de> for MaterialChoice {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Reader;
+
+        impl<'de> Visitor<'de> for Reader {
+            type Value = MaterialChoice;
+
+            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+                f.write_str("the name of a material or a table")
+            }
+
+            fn visit_str<E: Error>(self, name: &str) -> Result<Self::Value, E> {
+                Ok(MaterialChoice { name: Some(name.to_owned()), material: None })
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Self::Value, A::Error> {
+                let material = Material::deserialize(MapAccessDeserializer::new(map))?;
+                Ok(MaterialChoice { name: None, material: Some(material) })
+            }
+        }
+
+        deserializer.deserialize_any(Reader)
+    }
+}
+
+impl Serialize for MaterialChoice {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match (&self.material, &self.name) {
+            (Some(material), _) => material.serialize(serializer),
+            (None, name) => name.serialize(serializer),
+        }
+    }
+}
+
+/// A layer as it lies in its body; a body of one material is one layer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stratum {
+    pub constants: Constants,
+    /// Its bottom and its top [m].
+    pub z: [f64; 2],
+    /// Thermal resistance of its contact with the layer above [m² K/W].
+    pub contact_resistance: f64,
+}
+
+impl Stratum {
+    pub fn thickness(&self) -> f64 {
+        self.z[1] - self.z[0]
+    }
+}
+
+impl Solid {
+    /// The layers, from the top.
+    pub fn strata(&self) -> Vec<Stratum> {
+        let bottom = -self.shape.thickness();
+        let Some(layers) = &self.layers else {
+            let own = self.material.iter().map(|choice| *choice.constants());
+            return own
+                .map(|constants| Stratum { constants, z: [bottom, 0.0], contact_resistance: 0.0 })
+                .collect();
+        };
+        let mut depth = 0.0;
+        let mut top = 0.0;
+        let place = |(i, layer): (usize, &Layer)| {
+            depth += layer.thickness;
+            // The lowest ends where the body does, to the bit.
+            let low = if i + 1 == layers.len() { bottom } else { -depth };
+            let z = [low, top];
+            top = low;
+            let contact_resistance = layer.contact_resistance.unwrap_or(0.0);
+            Stratum { constants: *layer.material.constants(), z, contact_resistance }
+        };
+        layers.iter().enumerate().map(place).collect()
+    }
+
+    /// Coordinates of the interfaces between layers, from the top [m].
+    pub fn interfaces(&self) -> Vec<f64> {
+        let strata = self.strata();
+        strata.iter().take(strata.len().saturating_sub(1)).map(|layer| layer.z[0]).collect()
+    }
+
+    /// The interface that a coordinate is on, but for rounding [m].
+    pub fn interface_at(&self, z: f64) -> Option<f64> {
+        let slack = SLACK * self.shape.thickness();
+        self.interfaces().into_iter().find(|interface| (z - interface).abs() <= slack)
+    }
+
+    /// A point of which `side` tells on which side of an interface it is, where it is on one: as coordinate
+    /// of the interface above it, as the next lower number below.
+    pub fn on_side(&self, [x, y, z]: [f64; 3], side: Side) -> [f64; 3] {
+        let z = match (self.interface_at(z), side) {
+            (None, _) => z,
+            (Some(interface), Side::Above) => interface,
+            (Some(interface), Side::Below) => interface.next_down(),
+        };
+        [x, y, z]
+    }
+
+    /// What the body is made of, in the order of layers: the places of the constants in a scene, below the
+    /// body's `path`, and these. A named material stands where the scene names it.
+    pub(super) fn materials(&self, path: &Path) -> Vec<(Path, &Constants)> {
+        let place = |own: Path, choice: &MaterialChoice| match &choice.name {
+            Some(name) => Path::default().key("material").key(name),
+            None => own,
+        };
+        let layers = self.layers.iter().flatten().enumerate();
+        let own = self.material.iter().map(|choice| (path.key("material"), choice));
+        let all = own
+            .chain(layers.map(|(i, l)| (path.key("layers").index(i).key("material"), &l.material)));
+        let mut list: Vec<(Path, &Constants)> = Vec::new();
+        for (own, choice) in all {
+            let place = place(own, choice);
+            if list.iter().all(|(known, _)| *known != place) {
+                list.push((place, choice.constants()));
+            }
+        }
+        list
+    }
+
+    /// The laws of deformation of all layers, from the top; none where one of them names no elastic constants.
+    pub fn laws(&self) -> Option<Vec<Thermoelastic>> {
+        self.strata().iter().map(|layer| layer.constants.law()).collect()
+    }
+
+    /// Whether the materials name all constants of elasticity.
+    pub fn is_elastic(&self) -> bool {
+        self.laws().is_some()
+    }
+}
+
+impl Scene {
+    /// Where a probe reads its body.
+    pub fn point_of(&self, probe: &Probe) -> [f64; 3] {
+        let side = probe.side.unwrap_or_default();
+        self.solid(&probe.body).map_or(probe.at, |solid| solid.on_side(probe.at, side))
+    }
+}
