@@ -3,6 +3,7 @@
 mod constants;
 mod enthalpy;
 mod melting;
+mod properties;
 mod property;
 mod radiation;
 pub mod stress;
@@ -13,6 +14,7 @@ mod thermoelastic;
 pub use constants::Constants;
 pub use enthalpy::{Enthalpy, EnthalpyPoint};
 pub use melting::{Melting, MeltingError};
+pub use properties::Properties;
 pub use property::{Curve, Property, PropertyError, Table};
 pub use radiation::{radiative_flux, radiative_slope};
 pub use substance::{Substance, SubstanceError};
@@ -24,6 +26,22 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "model", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Material {
-    /// Isotropic Fourier conduction and linear thermo-elasticity.
-    Thermoelastic(Constants),
+    /// Isotropic Fourier conduction and thermo-elasticity.
+    Thermoelastic(Properties),
+    /// The same, but the body yields: J₂ plasticity with linear hardening.
+    Elastoplastic(Properties),
+}
+
+impl Material {
+    pub fn properties(&self) -> &Properties {
+        match self {
+            Self::Thermoelastic(properties) | Self::Elastoplastic(properties) => properties,
+        }
+    }
+
+    pub fn properties_mut(&mut self) -> &mut Properties {
+        match self {
+            Self::Thermoelastic(properties) | Self::Elastoplastic(properties) => properties,
+        }
+    }
 }

@@ -29,7 +29,8 @@ pub fn start_rates(
         Parameter::InitialTemperature { .. } => Some(value),
         Parameter::Material { constant, .. } | Parameter::LayerMaterial { constant, .. } => {
             match constant {
-                MaterialConstant::Density
+                MaterialConstant::YieldStress
+                | MaterialConstant::Density
                 | MaterialConstant::SpecificHeat
                 | MaterialConstant::Conductivity => None,
                 MaterialConstant::Young => Some(value),

@@ -106,6 +106,7 @@ impl Solid {
             temperature: own.temperature.or(sides.temperature),
             flux: own.flux.or(sides.flux),
             convection: own.convection.or(sides.convection),
+            radiation: own.radiation.or(sides.radiation),
             clamped: own.clamped || sides.clamped,
             roller: own.roller || sides.roller,
         }

@@ -8,7 +8,7 @@ use serde::{Serialize, Serializer};
 
 use super::locate::Path;
 use super::types::{Layer, Probe, Scene, Side, Solid};
-use crate::material::{Constants, Material, Thermoelastic};
+use crate::material::{Constants, Material, Properties, Thermoelastic};
 
 /// Part of a body's thickness within which a point lies on an interface, and by which layers may miss it.
 pub const SLACK: f64 = 1e-9;
@@ -37,20 +37,17 @@ impl MaterialChoice {
         self.material.as_ref().expect("a decoded scene's names of materials are looked up")
     }
 
-    /// The constants, to be changed.
+    /// The properties, to be changed.
     ///
     /// # Panics
     /// If the scene has not been decoded, which looks all names up.
-    pub fn constants_mut(&mut self) -> &mut Constants {
+    pub fn properties_mut(&mut self) -> &mut Properties {
         let known = self.material.as_mut();
-        let Material::Thermoelastic(constants) =
-            known.expect("a decoded scene's names of materials are looked up");
-        constants
+        known.expect("a decoded scene's names of materials are looked up").properties_mut()
     }
 
-    pub fn constants(&self) -> &Constants {
-        let Material::Thermoelastic(constants) = self.material();
-        constants
+    pub fn properties(&self) -> &Properties {
+        self.material().properties()
     }
 }
 
@@ -106,10 +103,13 @@ impl Stratum {
 
 impl Solid {
     /// The layers, from the top.
+    ///
+    /// Constants that depend on the temperature are those at time zero.
     pub fn strata(&self) -> Vec<Stratum> {
+        let start = self.initial_temperature;
         let bottom = -self.shape.thickness();
         let Some(layers) = &self.layers else {
-            let own = self.material.iter().map(|choice| *choice.constants());
+            let own = self.material.iter().map(|choice| choice.properties().at(start));
             return own
                 .map(|constants| Stratum { constants, z: [bottom, 0.0], contact_resistance: 0.0 })
                 .collect();
@@ -123,7 +123,7 @@ impl Solid {
             let z = [low, top];
             top = low;
             let contact_resistance = layer.contact_resistance.unwrap_or(0.0);
-            Stratum { constants: *layer.material.constants(), z, contact_resistance }
+            Stratum { constants: layer.material.properties().at(start), z, contact_resistance }
         };
         layers.iter().enumerate().map(place).collect()
     }
@@ -151,9 +151,9 @@ impl Solid {
         [x, y, z]
     }
 
-    /// What the body is made of, in the order of layers: the places of the constants in a scene, below the
+    /// What the body is made of, in the order of layers: the places of the materials in a scene, below the
     /// body's `path`, and these. A named material stands where the scene names it.
-    pub(super) fn materials(&self, path: &Path) -> Vec<(Path, &Constants)> {
+    pub(super) fn materials(&self, path: &Path) -> Vec<(Path, &Material)> {
         let place = |own: Path, choice: &MaterialChoice| match &choice.name {
             Some(name) => Path::default().key("material").key(name),
             None => own,
@@ -162,14 +162,39 @@ impl Solid {
         let own = self.material.iter().map(|choice| (path.key("material"), choice));
         let all = own
             .chain(layers.map(|(i, l)| (path.key("layers").index(i).key("material"), &l.material)));
-        let mut list: Vec<(Path, &Constants)> = Vec::new();
+        let mut list: Vec<(Path, &Material)> = Vec::new();
         for (own, choice) in all {
             let place = place(own, choice);
             if list.iter().all(|(known, _)| *known != place) {
-                list.push((place, choice.constants()));
+                list.push((place, choice.material()));
             }
         }
         list
+    }
+
+    /// What each layer is made of, from the top.
+    pub fn materials_of_layers(&self) -> Vec<&Material> {
+        let layers = self.layers.iter().flatten().map(|layer| &layer.material);
+        self.material.iter().chain(layers).map(MaterialChoice::material).collect()
+    }
+
+    /// Whether heat obeys a linear equation: no constant of it depends on the temperature, nothing melts, no face
+    /// radiates.
+    pub fn conducts_linearly(&self) -> bool {
+        let mut materials = self.materials_of_layers().into_iter();
+        materials.all(|material| material.properties().conducts_linearly())
+            && self.faces.values().all(|face| face.radiation.is_none())
+    }
+
+    /// Whether stress follows linearly from deformation and temperature.
+    pub fn deforms_linearly(&self) -> bool {
+        let mut materials = self.materials_of_layers().into_iter();
+        materials.all(|material| material.properties().deforms_linearly())
+    }
+
+    /// Temperature at which the body is free of thermal stress [K].
+    pub fn temperature_without_stress(&self) -> f64 {
+        self.stress_free_temperature.unwrap_or(self.initial_temperature)
     }
 
     /// The laws of deformation of all layers, from the top; none where one of them names no elastic constants.

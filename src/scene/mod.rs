@@ -19,6 +19,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+pub use check::takes_newton;
 pub use droplet::{
     Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Fluid, Governing, Placement,
     Precision, Wall, WallStart,

@@ -91,8 +91,10 @@ pub struct Solid {
     pub material: Option<MaterialChoice>,
     /// From the top; together as thick as the shape.
     pub layers: Option<Vec<Layer>>,
-    /// Uniform temperature at time zero, at which the body is free of thermal stress [K].
+    /// Uniform temperature at time zero [K].
     pub initial_temperature: f64,
+    /// Temperature at which the body is free of thermal stress [K]; that at time zero if left out.
+    pub stress_free_temperature: Option<f64>,
     /// Discretisation of the heat equation.
     #[serde(default)]
     pub heat: HeatMethod,
@@ -249,6 +251,8 @@ pub struct Face {
     /// Prescribed uniform heat flux into the body [W/m²].
     pub flux: Option<f64>,
     pub convection: Option<Convection>,
+    /// Beside a flux or convection, or alone.
+    pub radiation: Option<Radiation>,
     /// No displacement at all.
     #[serde(default)]
     pub clamped: bool,
@@ -264,6 +268,16 @@ pub struct Convection {
     /// Heat transfer coefficient h [W/(m² K)].
     pub coefficient: f64,
     /// Ambient temperature T∞ [K].
+    pub ambient: f64,
+}
+
+/// Heat flux into the body `q = ε σ (T∞⁴ − T⁴)`.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Radiation {
+    /// Emissivity ε [1].
+    pub emissivity: f64,
+    /// Temperature of the surroundings T∞ [K].
     pub ambient: f64,
 }
 
@@ -473,4 +487,20 @@ pub struct Solver {
     /// Threads a unit may use; 0 lets the program choose.
     #[serde(default)]
     pub threads: usize,
+    /// How the heat of solids is advanced.
+    #[serde(default)]
+    pub method: SolverMethod,
+}
+
+/// How the heat of solids is advanced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SolverMethod {
+    /// Exactly in time wherever constants and faces allow it, by Newton's method elsewhere.
+    #[default]
+    Auto,
+    /// Exactly in time, by modes; refused where that cannot be.
+    Modal,
+    /// In steps that Newton's method solves, everywhere.
+    Newton,
 }

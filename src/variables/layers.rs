@@ -47,7 +47,7 @@ fn constants(
             (format!("{body}.layer[{}]", i + 1), owner, LayersOf::Single(i))
         }
     };
-    let given = |constant: &MaterialConstant| constant.is_given(layer.material.constants());
+    let given = |constant: &MaterialConstant| constant.is_given(layer.material.properties());
     for constant in MaterialConstant::ALL.into_iter().filter(given) {
         let (body, layers) = (body.to_owned(), layers.clone());
         add(

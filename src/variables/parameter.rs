@@ -1,5 +1,5 @@
 use super::{DropletConstant, Quantity};
-use crate::material::Constants;
+use crate::material::{Properties, Property};
 use crate::scene::{Body, FaceName, Layer, Scene};
 
 /// A constant of the scene that may be set until initialisation ends.
@@ -60,16 +60,18 @@ pub enum MaterialConstant {
     Young,
     Poisson,
     Expansion,
+    YieldStress,
 }
 
 impl MaterialConstant {
-    pub const ALL: [MaterialConstant; 6] = [
+    pub const ALL: [MaterialConstant; 7] = [
         MaterialConstant::Density,
         MaterialConstant::SpecificHeat,
         MaterialConstant::Conductivity,
         MaterialConstant::Young,
         MaterialConstant::Poisson,
         MaterialConstant::Expansion,
+        MaterialConstant::YieldStress,
     ];
 
     /// Key in the scene and last part of the variable's name.
@@ -81,17 +83,22 @@ impl MaterialConstant {
             MaterialConstant::Young => "young",
             MaterialConstant::Poisson => "poisson",
             MaterialConstant::Expansion => "expansion",
+            MaterialConstant::YieldStress => "yield_stress",
         }
     }
 
-    /// Whether a material names the constant.
-    pub fn is_given(self, constants: &Constants) -> bool {
-        match self {
-            MaterialConstant::Young => constants.young.is_some(),
-            MaterialConstant::Poisson => constants.poisson.is_some(),
-            MaterialConstant::Expansion => constants.expansion.is_some(),
-            _ => true,
-        }
+    /// Whether a material names the constant as a number.
+    pub fn is_given(self, properties: &Properties) -> bool {
+        let property = match self {
+            MaterialConstant::Density => return true,
+            MaterialConstant::SpecificHeat => Some(&properties.specific_heat),
+            MaterialConstant::Conductivity => Some(&properties.conductivity),
+            MaterialConstant::Young => properties.young.as_ref(),
+            MaterialConstant::Poisson => properties.poisson.as_ref(),
+            MaterialConstant::Expansion => properties.expansion.as_ref(),
+            MaterialConstant::YieldStress => properties.yield_stress.as_ref(),
+        };
+        matches!(property, Some(Property::Constant(_)))
     }
 
     pub fn description(self) -> &'static str {
@@ -102,6 +109,7 @@ impl MaterialConstant {
             MaterialConstant::Young => "Young's modulus",
             MaterialConstant::Poisson => "Poisson's ratio",
             MaterialConstant::Expansion => "coefficient of linear thermal expansion",
+            MaterialConstant::YieldStress => "yield stress",
         }
     }
 
@@ -113,6 +121,7 @@ impl MaterialConstant {
             MaterialConstant::Young => Quantity::Modulus,
             MaterialConstant::Poisson => Quantity::Ratio,
             MaterialConstant::Expansion => Quantity::Expansion,
+            MaterialConstant::YieldStress => Quantity::Stress,
         }
     }
 
@@ -168,12 +177,12 @@ impl Parameter {
             }
             (Parameter::Material { constant, .. }, Body::Solid(solid)) => {
                 let own = solid.material.iter_mut();
-                own.map(|choice| constant.place(choice.constants_mut())).collect()
+                own.map(|choice| constant.place(choice.properties_mut())).collect()
             }
             (Parameter::LayerMaterial { layers, constant, .. }, Body::Solid(solid)) => {
                 let all = solid.layers.iter_mut().flatten().enumerate();
                 all.filter(|(i, layer)| layers.contains(*i, layer))
-                    .map(|(_, layer)| constant.place(layer.material.constants_mut()))
+                    .map(|(_, layer)| constant.place(layer.material.properties_mut()))
                     .collect()
             }
             (Parameter::ContactResistance { layer, .. }, Body::Solid(solid)) => {
@@ -189,19 +198,23 @@ impl Parameter {
 }
 
 impl MaterialConstant {
-    fn place(self, law: &mut Constants) -> &mut f64 {
+    fn place(self, properties: &mut Properties) -> &mut f64 {
         match self {
-            MaterialConstant::Density => &mut law.density,
-            MaterialConstant::SpecificHeat => &mut law.specific_heat,
-            MaterialConstant::Conductivity => &mut law.conductivity,
-            MaterialConstant::Young => given(&mut law.young),
-            MaterialConstant::Poisson => given(&mut law.poisson),
-            MaterialConstant::Expansion => given(&mut law.expansion),
+            MaterialConstant::Density => &mut properties.density,
+            MaterialConstant::SpecificHeat => number(Some(&mut properties.specific_heat)),
+            MaterialConstant::Conductivity => number(Some(&mut properties.conductivity)),
+            MaterialConstant::Young => number(properties.young.as_mut()),
+            MaterialConstant::Poisson => number(properties.poisson.as_mut()),
+            MaterialConstant::Expansion => number(properties.expansion.as_mut()),
+            MaterialConstant::YieldStress => number(properties.yield_stress.as_mut()),
         }
     }
 }
 
-/// A constant that may be left out; parameters are registered where it is not.
-fn given(constant: &mut Option<f64>) -> &mut f64 {
-    constant.as_mut().expect("registered from a constant that is given")
+/// A constant that may be left out or be a table; parameters are registered where it is a number.
+fn number(constant: Option<&mut Property>) -> &mut f64 {
+    match constant {
+        Some(Property::Constant(value)) => value,
+        _ => panic!("registered from a constant that is a number"),
+    }
 }

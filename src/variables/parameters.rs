@@ -15,7 +15,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     };
     for (body, solid) in scene.solids() {
         if let Some(choice) = &solid.material {
-            let given = |constant: &MaterialConstant| constant.is_given(choice.constants());
+            let given = |constant: &MaterialConstant| constant.is_given(choice.properties());
             for constant in MaterialConstant::ALL.into_iter().filter(given) {
                 add(
                     format!("{body}.{}", constant.key()),

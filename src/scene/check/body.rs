@@ -1,25 +1,33 @@
 //! Shape, material, faces, symmetry and mesh of each solid.
 
-use super::{Checker, LARGEST, MOST_ELEMENTS, fits, is_sound, layers, number};
-use crate::material::{Constants, Material};
+use super::{Checker, LARGEST, MOST_ELEMENTS, fits, is_sound, layers, material, nonlinear, number};
+use crate::material::Material;
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::types::{
-    Convection, Face, FaceName, HeatMethod, Mesh, Shape, Solid, SphOperator, SphSettings, Symmetry,
+    Convection, Face, FaceName, HeatMethod, Mesh, Radiation, Shape, Solid, SphOperator,
+    SphSettings, Symmetry,
 };
 
 pub fn check(checker: &mut Checker) {
-    named_materials(checker);
+    material::named(checker);
     for (name, solid) in checker.scene.solids() {
         let path = Path::default().key("body").key(name);
         shape(checker, &path.at("shape"), &solid.shape);
         layers::check(checker, &path, solid);
         if checker.scene.needs_mechanics(name) {
-            for (place, constants) in solid.materials(&path) {
-                elasticity(checker, &place, constants);
+            for (place, own) in solid.materials(&path) {
+                if matches!(own, Material::Thermoelastic(_)) {
+                    let why = "stress, displacement or traction is asked for";
+                    material::elasticity(checker, &place, own.properties(), why);
+                }
             }
         }
         checker.temperature(&path.at("initial_temperature"), solid.initial_temperature);
+        if let Some(temperature) = solid.stress_free_temperature {
+            checker.temperature(&path.at("stress_free_temperature"), temperature);
+        }
+        nonlinear::check(checker, &path, solid);
         for (&name, face) in &solid.faces {
             let path = path.at("faces").key(name.as_str());
             place_of_face(checker, &path, solid, name);
@@ -45,55 +53,6 @@ fn shape(checker: &mut Checker, path: &Path, shape: &Shape) {
             checker.length(&path.at("disc.thickness"), disc.thickness, "the thickness of a body");
         }
     }
-}
-
-/// The constants that have names.
-fn named_materials(checker: &mut Checker) {
-    for (name, Material::Thermoelastic(constants)) in &checker.scene.material {
-        material(checker, &Path::default().key("material").key(name), constants);
-    }
-}
-
-pub(super) fn material(checker: &mut Checker, path: &Path, law: &Constants) {
-    checker.constant(&path.at("density"), law.density, "the density");
-    checker.constant(&path.at("specific_heat"), law.specific_heat, "the specific heat capacity");
-    checker.constant(&path.at("conductivity"), law.conductivity, "the thermal conductivity");
-    if let Some(young) = law.young {
-        checker.constant(&path.at("young"), young, "Young's modulus");
-    }
-    if let Some(expansion) = law.expansion {
-        let fine = expansion.abs() <= LARGEST;
-        let message = "the coefficient of expansion is beyond all bounds";
-        let allowed = format!("-{LARGEST:e} to {LARGEST:e}");
-        checker.require(fine, &path.at("expansion"), message, allowed);
-    }
-    if let Some(ratio) = law.poisson {
-        poisson(checker, &path.at("poisson"), ratio);
-    }
-}
-
-/// Refuses materials without the constants of a body whose mechanics is needed.
-fn elasticity(checker: &mut Checker, path: &Path, constants: &Constants) {
-    for (key, given, allowed) in [
-        ("young", constants.young, "a positive number (Pa)"),
-        ("poisson", constants.poisson, "-1 < poisson < 0.5"),
-        ("expansion", constants.expansion, "a number (1/K)"),
-    ] {
-        let message =
-            format!("the key `{key}` is missing: stress, displacement or traction is asked for");
-        checker.require(given.is_some(), &path.at(key), message, allowed);
-    }
-}
-
-/// Refuses ratios at which resistance to shear or to compression is lost, or lost in rounding.
-fn poisson(checker: &mut Checker, path: &Path, ratio: f64) {
-    const MARGIN: f64 = 1e-9;
-    let message = match ratio {
-        high if high > 0.5 - MARGIN => "Poisson's ratio must stay below one half",
-        low if low < -1.0 + MARGIN => "Poisson's ratio must stay above minus one",
-        _ => return,
-    };
-    checker.refuse(path, message, "-1 < poisson < 0.5");
 }
 
 fn place_of_face(checker: &mut Checker, path: &Path, solid: &Solid, name: FaceName) {
@@ -122,6 +81,19 @@ fn condition_values(checker: &mut Checker, path: &Path, face: &Face) {
         let allowed = format!("0 to {LARGEST:e}");
         checker.require(coefficient <= LARGEST, &path.at("coefficient"), message, allowed);
         checker.temperature(&path.at("ambient"), ambient);
+    }
+    if let Some(Radiation { emissivity, ambient }) = face.radiation {
+        let path = path.at("radiation");
+        let message = "an emissivity is a part";
+        checker.require(
+            (0.0..=1.0).contains(&emissivity),
+            &path.at("emissivity"),
+            message,
+            "0 to 1",
+        );
+        checker.temperature(&path.at("ambient"), ambient);
+        let message = "a face of prescribed temperature loses whatever it has to";
+        checker.require(face.temperature.is_none(), &path, message, "`temperature` or `radiation`");
     }
 }
 

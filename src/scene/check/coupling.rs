@@ -63,12 +63,12 @@ fn check_contact(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
     }
     for (key, place, found) in [("from", &coupling.from, lower), ("to", &coupling.to, upper)] {
         let Some((face, solid)) = found else { continue };
-        if !solid.face(face).thermal().is_empty() {
+        if !solid.face(face).thermal().is_empty() || solid.face(face).radiation.is_some() {
             let message = "the face has a thermal condition of its own beside the contact";
             checker.refuse(
                 &path.at(key),
                 message,
-                "a face without `temperature`, `flux` or `convection`",
+                "a face without `temperature`, `flux`, `convection` or `radiation`",
             );
         }
         if is_in_contact(checker, i, place)

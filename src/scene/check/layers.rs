@@ -1,8 +1,8 @@
 //! What solids are made of: one material, or layers that fill their thickness.
 
-use super::{Checker, LARGEST, body, is_sound, number};
+use super::{Checker, LARGEST, is_sound, material, number};
 use crate::scene::locate::Path;
-use crate::scene::types::{FaceName, HeatMethod, Layer, Solid};
+use crate::scene::types::{FaceName, HeatMethod, Layer, Solid, SolverMethod};
 
 /// Layers of a body, at most: each has elements of its own.
 const MOST_LAYERS: usize = 100;
@@ -21,7 +21,7 @@ pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
             checker.refuse(&path.key("layers"), message, EITHER);
         }
         (Some(choice), None) if choice.name.is_none() => {
-            body::material(checker, &path.key("material"), choice.constants());
+            material::check(checker, &path.key("material"), choice.material());
         }
         (Some(_), None) => {}
         (None, Some(list)) => layers(checker, path, solid, list),
@@ -37,7 +37,7 @@ fn layers(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
     for (i, layer) in list.iter().enumerate() {
         let place = place.index(i);
         if layer.material.name.is_none() {
-            body::material(checker, &place.key("material"), layer.material.constants());
+            material::check(checker, &place.key("material"), layer.material.material());
         }
         let what = "the thickness of a layer";
         sound &= checker.length(&place.key("thickness"), layer.thickness, what);
@@ -53,7 +53,9 @@ fn layers(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
             "particles conduct heat in bodies of one material only, and this one has layers";
         checker.refuse(&path.key("heat"), message, "fem");
     }
-    lateral_convection(checker, path, solid, list);
+    if solid.conducts_linearly() && checker.scene.solver.method != SolverMethod::Newton {
+        lateral_convection(checker, path, solid);
+    }
 }
 
 fn contact(checker: &mut Checker, path: &Path, layer: usize, resistance: f64) {
@@ -78,8 +80,8 @@ fn thickness(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) 
 
 /// What passes a convective lateral face follows the temperature along it, but modes along the surface are
 /// those of all layers only where these conduct equally.
-fn lateral_convection(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
-    let mut conductivities = list.iter().map(|layer| layer.material.constants().conductivity);
+fn lateral_convection(checker: &mut Checker, path: &Path, solid: &Solid) {
+    let mut conductivities = solid.strata().into_iter().map(|layer| layer.constants.conductivity);
     let Some(first) = conductivities.next() else { return };
     let Some(other) = conductivities.find(|&other| other != first) else { return };
     for (&face, condition) in &solid.faces {
@@ -90,7 +92,7 @@ fn lateral_convection(checker: &mut Checker, path: &Path, solid: &Solid, list: &
                 number(first),
                 number(other)
             );
-            let allowed = "`temperature`, `flux` or nothing, on top and bottom `convection` too";
+            let allowed = "`temperature`, `flux` or nothing, on top and bottom `convection` too; or `solver.method = \"newton\"`";
             checker.refuse(&path, message, allowed);
         }
     }

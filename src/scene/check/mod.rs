@@ -6,12 +6,16 @@ mod droplet;
 mod field;
 mod header;
 mod layers;
+mod material;
+mod nonlinear;
 mod load;
 mod probe;
 mod start;
 mod support;
 mod values;
 mod wall;
+
+pub use nonlinear::takes_newton;
 
 use super::droplet::Droplet;
 use super::error::{Problem, SceneError};

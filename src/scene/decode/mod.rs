@@ -17,7 +17,7 @@ use super::error::{Problem, SceneError};
 use super::locate::{Path, Source};
 use super::spelling::hint;
 use super::types::{Body, Scene, Solid};
-use crate::material::Constants;
+use crate::material::Properties;
 use failure::{Failure, Misfit, expectation};
 use unit::with_unit;
 use value::{Node, View};
@@ -55,7 +55,14 @@ impl Decoder<'_> {
         let path = Path::default().key("material");
         let Some(DeValue::Table(materials)) = self.source.value(&path) else { return };
         for name in materials.keys() {
-            self.read_if::<Constants>(&path.key(name.get_ref()), "model", "thermoelastic");
+            self.read_material(&path.key(name.get_ref()));
+        }
+    }
+
+    /// Reads the table of a material, whatever its model.
+    fn read_material(&mut self, path: &Path) {
+        for model in ["thermoelastic", "elastoplastic"] {
+            self.read_if::<Properties>(path, "model", model);
         }
     }
 
@@ -91,14 +98,14 @@ impl Decoder<'_> {
         let Some(DeValue::Table(bodies)) = self.source.value(&path) else { return };
         for name in bodies.keys() {
             let body = path.key(name.get_ref());
-            self.read_if::<Constants>(&body.key("material"), "model", "thermoelastic");
+            self.read_material(&body.key("material"));
             let layers = body.key("layers");
             let count = match self.source.value(&layers) {
                 Some(DeValue::Array(list)) => list.len(),
                 _ => 0,
             };
             for material in (0..count).map(|i| layers.index(i).key("material")) {
-                self.read_if::<Constants>(&material, "model", "thermoelastic");
+                self.read_material(&material);
             }
             self.read_if::<Solid>(&body, "kind", "solid");
             self.read_if::<Droplet>(&body, "kind", "droplet");

@@ -56,6 +56,20 @@ pub const CONDUCTIVITY: Range = Range {
     highest: 5000.0, // diamond 2200, of one isotope 3300
     mistakes: &[scaled("mW/(m K)", 1e-3), scaled("kW/(m K)", 1e3)],
 };
+pub const YIELD_STRESS: Range = Range {
+    what: "the yield stress",
+    unit: "Pa",
+    lowest: 1e3,   // pastes; indium has 1e6
+    highest: 1e11, // of glass none is known; diamond 1e11
+    mistakes: &[scaled("MPa", 1e6), scaled("GPa", 1e9)],
+};
+pub const LATENT_HEAT: Range = Range {
+    what: "the latent heat of melting",
+    unit: "J/kg",
+    lowest: 3e3,  // helium 3.5e3, mercury 1.1e4
+    highest: 5e6, // boron 4.6e6
+    mistakes: &[scaled("kJ/kg", 1e3)],
+};
 pub const YOUNG: Range = Range {
     what: "Young's modulus",
     unit: "Pa",

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use super::Reviewer;
 use super::ranges;
-use crate::material::{Constants, Material};
+use crate::material::Constants;
 use crate::scene::check::number;
 use crate::scene::droplet::Fluid;
 use crate::scene::locate::Path;
@@ -13,6 +13,8 @@ use crate::scene::types::{CellValues, Solid};
 /// Foams and aerogels are lighter [kg/m³] and conduct less [W/(m K)] than this.
 const LIGHT: f64 = 30.0;
 const LIGHT_CONDUCTS: f64 = 1.0;
+/// At which materials are looked at that no body is known of [K].
+const ROOM: f64 = 293.15;
 /// Speed of sound √(E/ρ) in a bar, 18 600 m/s in diamond [m/s].
 const FASTEST_SOUND: f64 = 22_000.0;
 /// Liquids that take up heat like water, or that conduct like a metal, are thinner than this [Pa s].
@@ -24,14 +26,15 @@ const HOTTEST_RISE: f64 = 1e4;
 
 pub fn review(reviewer: &mut Reviewer) {
     let root = Path::default();
-    for (name, Material::Thermoelastic(constants)) in &reviewer.scene.material {
-        solid(reviewer, &root.key("material").key(name), constants);
+    for (name, own) in &reviewer.scene.material {
+        solid(reviewer, &root.key("material").key(name), &own.properties().at(ROOM));
     }
     for (name, body) in reviewer.scene.solids() {
         let path = root.key("body").key(name);
-        for (place, constants) in body.materials(&path) {
+        for (place, own) in body.materials(&path) {
             if place.is_within(&path) {
-                solid(reviewer, &place, constants);
+                let start = body.initial_temperature;
+                solid(reviewer, &place, &own.properties().at(start));
             }
         }
         fluxes(reviewer, (&path, name), body);

@@ -2,7 +2,7 @@
 
 use super::Reviewer;
 use super::ranges::{self, Range};
-use crate::material::{Constants, Material};
+use crate::material::{Properties, Property};
 use crate::scene::droplet::{Droplet, Wall};
 use crate::scene::locate::Path;
 use crate::scene::types::{CellValues, Load, Scene, Shape, Solid};
@@ -12,14 +12,14 @@ pub fn review(reviewer: &mut Reviewer) {
     reviewer.value(&root.key("stop_time"), scene.stop_time, &ranges::TIME);
     reviewer.value(&root.key("step"), scene.step, &ranges::TIME);
     let temperature = temperatures(scene);
-    for (name, Material::Thermoelastic(constants)) in &scene.material {
-        material(reviewer, &root.key("material").key(name), constants);
+    for (name, own) in &scene.material {
+        material(reviewer, &root.key("material").key(name), own.properties());
     }
     for (name, body) in scene.solids() {
         let path = root.key("body").key(name);
-        for (place, constants) in body.materials(&path) {
+        for (place, own) in body.materials(&path) {
             if place.is_within(&path) {
-                material(reviewer, &place, constants);
+                material(reviewer, &place, own.properties());
             }
         }
         solid(reviewer, &path, body, &temperature);
@@ -87,18 +87,30 @@ fn solid(reviewer: &mut Reviewer, path: &Path, solid: &Solid, temperature: &Rang
     }
 }
 
-/// The constants of a solid.
-fn material(reviewer: &mut Reviewer, path: &Path, law: &Constants) {
-    for (key, value, range) in [
-        ("density", Some(law.density), &ranges::DENSITY),
-        ("specific_heat", Some(law.specific_heat), &ranges::SPECIFIC_HEAT),
-        ("conductivity", Some(law.conductivity), &ranges::CONDUCTIVITY),
-        ("young", law.young, &ranges::YOUNG),
-        ("expansion", law.expansion, &ranges::EXPANSION),
+/// The constants of a solid, or the first of a table that is out of range.
+fn material(reviewer: &mut Reviewer, path: &Path, law: &Properties) {
+    reviewer.value(&path.key("density"), law.density, &ranges::DENSITY);
+    for (key, property, range) in [
+        ("specific_heat", Some(&law.specific_heat), &ranges::SPECIFIC_HEAT),
+        ("conductivity", Some(&law.conductivity), &ranges::CONDUCTIVITY),
+        ("young", law.young.as_ref(), &ranges::YOUNG),
+        ("expansion", law.expansion.as_ref(), &ranges::EXPANSION),
+        ("yield_stress", law.yield_stress.as_ref(), &ranges::YIELD_STRESS),
     ] {
-        if let Some(value) = value {
-            reviewer.value(&path.key(key), value, range);
+        match property {
+            Some(Property::Constant(value)) => reviewer.value(&path.key(key), *value, range),
+            Some(Property::Table(table)) => {
+                let odd = table.value.iter().position(|value| !range.holds(*value));
+                if let Some(i) = odd {
+                    reviewer.value(&path.key(key).key("value").index(i), table.value[i], range);
+                }
+            }
+            None => {}
         }
+    }
+    if let Some(melting) = &law.melting {
+        let path = path.key("melting");
+        reviewer.value(&path.key("latent_heat"), melting.latent_heat, &ranges::LATENT_HEAT);
     }
 }
 

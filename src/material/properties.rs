@@ -1,0 +1,82 @@
+use serde::{Deserialize, Serialize};
+
+use super::{Constants, Melting, Property, Substance};
+
+/// Constants of an isotropic body as a scene names them: numbers, or tables over the temperature. Those of elasticity
+/// may be left out where nothing mechanical is asked for.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Properties {
+    /// Mass density ρ [kg/m³]: a number, as mass is conserved.
+    pub density: f64,
+    /// Specific heat capacity c [J/(kg K)].
+    pub specific_heat: Property,
+    /// Thermal conductivity k [W/(m K)].
+    pub conductivity: Property,
+    /// Young's modulus E [Pa].
+    pub young: Option<Property>,
+    /// Poisson's ratio ν [1].
+    pub poisson: Option<Property>,
+    /// Mean coefficient of linear thermal expansion α from the temperature without stress [1/K].
+    pub expansion: Option<Property>,
+    pub melting: Option<Melting>,
+    /// Stress at which the body yields [Pa]; of an elastoplastic material.
+    pub yield_stress: Option<Property>,
+    /// By how much that grows per plastic strain [Pa].
+    pub isotropic_hardening: Option<Property>,
+    /// By how much the middle of elasticity moves per plastic strain [Pa].
+    pub kinematic_hardening: Option<Property>,
+}
+
+impl Properties {
+    /// The numbers that hold at a temperature [K], without what melting takes.
+    pub fn at(&self, temperature: f64) -> Constants {
+        let value = |property: &Property| property.value(temperature);
+        Constants {
+            density: self.density,
+            specific_heat: value(&self.specific_heat),
+            conductivity: value(&self.conductivity),
+            young: self.young.as_ref().map(value),
+            poisson: self.poisson.as_ref().map(value),
+            expansion: self.expansion.as_ref().map(value),
+        }
+    }
+
+    /// All that may be a table: its key, and what it is where it is given.
+    pub fn tables(&self) -> [(&'static str, Option<&Property>); 8] {
+        [
+            ("specific_heat", Some(&self.specific_heat)),
+            ("conductivity", Some(&self.conductivity)),
+            ("young", self.young.as_ref()),
+            ("poisson", self.poisson.as_ref()),
+            ("expansion", self.expansion.as_ref()),
+            ("yield_stress", self.yield_stress.as_ref()),
+            ("isotropic_hardening", self.isotropic_hardening.as_ref()),
+            ("kinematic_hardening", self.kinematic_hardening.as_ref()),
+        ]
+    }
+
+    /// What conducts and stores heat.
+    pub fn substance(&self) -> Substance {
+        Substance {
+            density: self.density,
+            specific_heat: self.specific_heat.clone(),
+            conductivity: self.conductivity.clone(),
+            melting: self.melting,
+        }
+    }
+
+    /// Whether heat obeys a linear equation.
+    pub fn conducts_linearly(&self) -> bool {
+        let is_number = |property: &Property| matches!(property, Property::Constant(_));
+        is_number(&self.specific_heat) && is_number(&self.conductivity) && self.melting.is_none()
+    }
+
+    /// Whether stress follows from deformation and temperature alone, and linearly.
+    pub fn deforms_linearly(&self) -> bool {
+        let [_, _, rest @ ..] = self.tables();
+        let is_table = |property: &Property| matches!(property, Property::Table(_));
+        self.yield_stress.is_none()
+            && !rest.iter().any(|(_, property)| property.is_some_and(is_table))
+    }
+}
