@@ -53,9 +53,8 @@ def report(result: Result):
     print(f"plate: brought in {brought:.6e} J = stored {stored:.6e} J + lost {lost:.6e} J", end="")
     print(f" to {abs(brought - stored - lost) / brought:.0e}")
     _, above, below = result.spot[-1]
-    print(
-        f"flux through the contact in the middle of the spot: {(above - below) / RESISTANCE:.3e} W/m²"
-    )
+    passed = (above - below) / RESISTANCE
+    print(f"flux through the contact in the middle of the spot: {passed:.3e} W/m²")
 
 
 def draw(result: Result, folder: Path):
