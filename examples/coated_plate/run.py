@@ -1,4 +1,4 @@
-"""Coated alumina under a hot spot and under a hot drop: temperatures and stresses on both sides of the interface."""
+"""Coated alumina under a hot spot and under a hot drop: both sides of the interface."""
 
 import sys
 from dataclasses import dataclass
@@ -53,7 +53,8 @@ def report(result: Result):
     print(f"plate: brought in {brought:.6e} J = stored {stored:.6e} J + lost {lost:.6e} J", end="")
     print(f" to {abs(brought - stored - lost) / brought:.0e}")
     _, above, below = result.spot[-1]
-    print(f"flux through the contact in the middle of the spot: {(above - below) / RESISTANCE:.3e} W/m²")
+    passed = (above - below) / RESISTANCE
+    print(f"flux through the contact in the middle of the spot: {passed:.3e} W/m²")
 
 
 def draw(result: Result, folder: Path):
@@ -67,7 +68,9 @@ def draw(result: Result, folder: Path):
             plot.plot(times, column, color=colour, label=label)
         plot.set(title=title, xlabel="time / ms", ylabel="temperature / °C")
         plot.legend(frameon=False)
-    for label, column, colour in zip(LABELS[1:], result.stresses.T, shared.COLOURS[1:], strict=False):
+    for label, column, colour in zip(
+        LABELS[1:], result.stresses.T, shared.COLOURS[1:], strict=False
+    ):
         axes[2].plot(times, column * 1e-6, color=colour, label=label)
     axes[2].set(title="under the spot", xlabel="time / ms", ylabel="σ_xx / MPa")
     axes[2].legend(frameon=False)

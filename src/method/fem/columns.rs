@@ -340,7 +340,7 @@ mod tests {
         ends.extend((1..=5).map(|i| 1.0 + 1e-4 * f64::from(i)));
         let height = Axis::from_element_ends(&ends, order, Weight::Uniform);
         Mesh {
-            axes: [Axis::point(), Axis::point(), height],
+            axes: [height.clone(), Axis::point(), height],
             mirrored: [false; 2],
             geometry: Geometry::Box,
             layering: Layering::new(vec![10], vec![resistance]),

@@ -72,7 +72,7 @@ impl Mesh {
 
     /// Node along z of each of those that are there twice on interfaces, ascending.
     pub fn nodes_of_sided(&self) -> Vec<usize> {
-        let order = self.order();
+        let order = self.axes[2].order;
         let of_layer = |layer: usize| {
             let elements = self.layer_elements(layer);
             elements.start * order..elements.end * order + 1
@@ -88,7 +88,7 @@ impl Mesh {
     /// The axis along z within a layer.
     pub fn layer_axis(&self, layer: usize) -> Axis {
         let Range { start, end } = self.layer_elements(layer);
-        let order = self.order();
+        let order = self.axes[2].order;
         let nodes = self.axes[2].nodes[start * order..=end * order].to_vec();
         Axis { nodes, order, weight: Weight::Uniform }
     }
