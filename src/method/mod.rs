@@ -2,6 +2,8 @@
 
 pub mod fem;
 
+pub mod inelastic;
+
 pub mod particle_heat;
 
 pub mod sph;

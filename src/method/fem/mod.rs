@@ -1,22 +1,22 @@
 //! A solid on a structured finite-element mesh.
 
-mod assembly;
+pub mod assembly;
 mod axis;
-mod axisymmetric;
-mod brick_inverse;
+pub mod axisymmetric;
+pub mod brick_inverse;
 mod brick_solver;
-mod brick_stiffness;
+pub mod brick_stiffness;
 mod conduction;
 mod dilatation;
-mod elastic;
+pub mod elastic;
 mod fineness;
 mod grading;
 mod heat;
-mod hexahedron;
+pub mod hexahedron;
 mod mesh;
 mod modes;
 mod plan;
-mod recovery;
+pub mod recovery;
 mod solid;
 mod solver_choice;
 

@@ -1,0 +1,293 @@
+//! One element: what its points answer to displacements, and how that changes.
+
+use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
+
+use super::problem::PointState;
+use super::remedy::Remedy;
+use super::shapes::{Scratch, Shapes};
+use crate::material::{History, PointConstants, PointTangent};
+
+/// Tables that all elements share.
+pub struct Kit {
+    pub shapes: Shapes,
+    pub remedy: Remedy,
+}
+
+/// What elements are given, one after another.
+pub struct Given<'a> {
+    pub elements: &'a [[usize; 3]],
+    /// Displacements, as [`Shapes`] has them.
+    pub displacement: &'a [f64],
+    /// Amplitudes of enhanced modes.
+    pub amplitudes: &'a [f64],
+    pub constants: &'a [PointConstants],
+    /// Histories of the points at the last accepted step.
+    pub old: &'a [f64],
+}
+
+/// What elements answer.
+pub struct Answer<'a> {
+    pub new: &'a mut [f64],
+    pub tangents: &'a mut [PointTangent],
+    /// Nodal forces, as [`Shapes`] has them, and forces on the amplitudes.
+    pub forces: &'a mut [f64],
+    pub mode_forces: &'a mut [f64],
+    /// What forces of an element, and those on its amplitudes, are small beside: moduli times strains times area, and
+    /// times volume.
+    pub scales: &'a mut [[f64; 2]],
+}
+
+/// What one element's change needs: its volumes and the factor that eliminates its enhanced modes.
+pub struct Prepared {
+    volumes: Vec<f64>,
+    means: Vec<f64>,
+    modes: Option<Cholesky<f64, Dyn>>,
+}
+
+/// How much stiffness is left, at least, where a point flows: hardening or not, matrices stay definite.
+const LEAST: f64 = 1e-8;
+
+/// The largest magnitude of a tensor's components.
+fn largest(tensor: &[f64; 6]) -> f64 {
+    tensor.iter().fold(0.0, |m, v| m.max(v.abs()))
+}
+
+impl Kit {
+    /// Unknowns of an element.
+    pub fn unknowns(&self) -> usize {
+        self.shapes.degrees * self.shapes.nodes
+    }
+
+    /// Strains of some elements, enhanced modes included.
+    fn strains(&self, given: &Given, scratch: &mut Scratch) -> Vec<[f64; 6]> {
+        let (points, modes) = (self.shapes.points, self.remedy.modes());
+        let mut strains = vec![[0.0; 6]; given.elements.len() * points];
+        self.shapes.strains(given.elements, given.displacement, &mut strains, scratch);
+        if modes > 0 {
+            for ((element, strains), amplitudes) in given
+                .elements
+                .iter()
+                .zip(strains.chunks_exact_mut(points))
+                .zip(given.amplitudes.chunks_exact(modes))
+            {
+                let means = self.remedy.means(&self.shapes.volumes(*element));
+                self.enhance(&means, amplitudes, strains);
+            }
+        }
+        strains
+    }
+
+    fn enhance(&self, means: &[f64], amplitudes: &[f64], strains: &mut [[f64; 6]]) {
+        for (q, strain) in strains.iter_mut().enumerate() {
+            for (m, amplitude) in amplitudes.iter().enumerate() {
+                let (component, value) = self.remedy.mode(means, q, m);
+                strain[component] += value * amplitude;
+            }
+        }
+    }
+
+    /// Work of stresses times volumes on the enhanced modes.
+    fn on_modes(&self, means: &[f64], stress: &[[f64; 6]], out: &mut [f64]) {
+        for (m, force) in out.iter_mut().enumerate() {
+            let of = |q: usize| {
+                let (component, value) = self.remedy.mode(means, q, m);
+                value * stress[q][component]
+            };
+            *force = (0..stress.len()).map(of).sum();
+        }
+    }
+
+    /// Takes strains apart: the elastic change of volume, projected where elements do so, is given back; what is left
+    /// are changes of shape.
+    fn split(&self, volumes: &[f64], thermal: impl Fn(usize) -> f64, strains: &mut [[f64; 6]]) -> Vec<f64> {
+        let trace = |(q, e): (usize, &[f64; 6])| e[0] + e[1] + e[2] - 3.0 * thermal(q);
+        let mut dilatation: Vec<f64> = strains.iter().enumerate().map(trace).collect();
+        if self.remedy.is_projected() {
+            self.remedy.project(volumes, &mut dilatation);
+        }
+        for (q, strain) in strains.iter_mut().enumerate() {
+            let off = dilatation[q] / 3.0 + thermal(q);
+            strain[..3].iter_mut().for_each(|e| *e -= off);
+        }
+        dilatation
+    }
+
+    /// Stresses times volumes from those of shape and pressures: the adjoint of [`Self::split`].
+    fn join(&self, volumes: &[f64], pressures: &[f64], stress: &mut [[f64; 6]]) {
+        let rest = |((s, p), v): ((&[f64; 6], &f64), &f64)| v * (p - (s[0] + s[1] + s[2]) / 3.0);
+        let mut rest: Vec<f64> = stress.iter().zip(pressures).zip(volumes).map(rest).collect();
+        if self.remedy.is_projected() {
+            self.remedy.project_back(volumes, &mut rest);
+        }
+        for ((stress, volume), rest) in stress.iter_mut().zip(volumes).zip(rest) {
+            *stress = stress.map(|s| s * volume);
+            stress[..3].iter_mut().for_each(|s| *s += rest);
+        }
+    }
+
+    /// What elements answer to displacements and amplitudes.
+    pub fn respond(&self, given: &Given, answer: &mut Answer, scratch: &mut Scratch) {
+        let (points, modes) = (self.shapes.points, self.remedy.modes());
+        let mut strains = self.strains(given, scratch);
+        let mut pressures = vec![0.0; points];
+        for (e, (element, strains)) in
+            given.elements.iter().zip(strains.chunks_exact_mut(points)).enumerate()
+        {
+            let volumes = self.shapes.volumes(*element);
+            let constants = &given.constants[e * points..][..points];
+            let totals: Vec<f64> = strains.iter().map(largest).collect();
+            let dilatation = self.split(&volumes, |q| constants[q].thermal_strain, strains);
+            let mut most = 0.0_f64;
+            for q in 0..points {
+                let at = (e * points + q) * History::LEN;
+                let old = History::read(&given.old[at..]);
+                let mut new = History::default();
+                let (stress, mut tangent) = constants[q].return_to_yield(&strains[q], &old, &mut new);
+                new.write(&mut answer.new[at..at + History::LEN]);
+                tangent.along = tangent.along.max(2.0 * LEAST * constants[q].shear - tangent.all);
+                answer.tangents[e * points + q] = tangent;
+                pressures[q] = constants[q].bulk * dilatation[q];
+                let strain = totals[q] + constants[q].thermal_strain.abs() + largest(&new.plastic_strain);
+                most = most.max(largest(&stress) + pressures[q].abs() + constants[q].shear * strain);
+                strains[q] = stress;
+            }
+            self.join(&volumes, &pressures, strains);
+            if modes > 0 {
+                let means = self.remedy.means(&volumes);
+                let out = &mut answer.mode_forces[e * modes..][..modes];
+                self.on_modes(&means, strains, out);
+            }
+            let volume: f64 = volumes.iter().sum();
+            answer.scales[e] = [most * volume / self.shortest(*element), most * volume];
+        }
+        self.shapes.forces(given.elements, &strains, answer.forces, scratch);
+    }
+
+    /// Stress and energies at the points, with the histories that they have.
+    pub fn read(&self, given: &Given, scratch: &mut Scratch, out: &mut Vec<PointState>) {
+        let points = self.shapes.points;
+        let mut strains = self.strains(given, scratch);
+        for (e, (element, strains)) in
+            given.elements.iter().zip(strains.chunks_exact_mut(points)).enumerate()
+        {
+            let volumes = self.shapes.volumes(*element);
+            let constants = &given.constants[e * points..][..points];
+            let dilatation = self.split(&volumes, |q| constants[q].thermal_strain, strains);
+            for (q, (constants, shape)) in constants.iter().zip(strains).enumerate() {
+                let history = History::read(&given.old[(e * points + q) * History::LEN..]);
+                let elastic: [f64; 6] = std::array::from_fn(|i| shape[i] - history.plastic_strain[i]);
+                let mut stress = constants.elastic_tangent().of_shape(&elastic);
+                let work: f64 = stress.iter().zip(&elastic).map(|(s, e)| s * e).sum();
+                // The tensor's own volume is left out of its stress, as elements that project it do.
+                let rest = constants.bulk * dilatation[q] - (stress[0] + stress[1] + stress[2]) / 3.0;
+                stress[..3].iter_mut().for_each(|s| *s += rest);
+                let stored = 0.5 * (work + constants.bulk * dilatation[q].powi(2))
+                    + constants.hardening_energy(&history);
+                let (volume, thermal_strain) = (volumes[q], constants.thermal_strain);
+                out.push(PointState { volume, stress, thermal_strain, stored, history });
+            }
+        }
+    }
+
+    fn shortest(&self, element: [usize; 3]) -> f64 {
+        let [x, y, z] = self.shapes.size(element);
+        if self.shapes.degrees == 2 { x.min(z) } else { x.min(y).min(z) }
+    }
+
+    /// What changes of an element need.
+    pub fn prepare(&self, element: [usize; 3], tangents: &[PointTangent]) -> Prepared {
+        let volumes = self.shapes.volumes(element);
+        let modes = self.remedy.modes();
+        if modes == 0 {
+            return Prepared { volumes, means: Vec::new(), modes: None };
+        }
+        let means = self.remedy.means(&volumes);
+        let mut own = DMatrix::<f64>::zeros(modes, modes);
+        for (q, (tangent, volume)) in tangents.iter().zip(&volumes).enumerate() {
+            let columns: [[f64; 6]; 6] = std::array::from_fn(|i| {
+                tangent.of_strain(&std::array::from_fn(|j| f64::from(u8::from(i == j))))
+            });
+            let all: Vec<(usize, f64)> = (0..modes).map(|m| self.remedy.mode(&means, q, m)).collect();
+            for (m, &(component, value)) in all.iter().enumerate() {
+                for (o, &(other, factor)) in all.iter().enumerate().take(m + 1) {
+                    own[(m, o)] += volume * value * factor * columns[component][other];
+                }
+            }
+        }
+        Prepared { volumes, means, modes: own.cholesky() }
+    }
+
+    /// Replaces changes of strain by those of stress times volume, enhanced modes left as they are.
+    fn stresses(&self, prepared: &Prepared, tangents: &[PointTangent], strains: &mut [[f64; 6]]) {
+        let dilatation = self.split(&prepared.volumes, |_| 0.0, strains);
+        let pressure = |(t, d): (&PointTangent, f64)| t.bulk * d;
+        let pressures: Vec<f64> = tangents.iter().zip(dilatation).map(pressure).collect();
+        for (strain, tangent) in strains.iter_mut().zip(tangents) {
+            *strain = tangent.of_shape(strain);
+        }
+        self.join(&prepared.volumes, &pressures, strains);
+    }
+
+    /// Replaces changes of strain by those of stress times volume, enhanced modes following.
+    pub fn relieved(&self, prepared: &Prepared, tangents: &[PointTangent], strains: &mut [[f64; 6]]) {
+        if self.remedy.modes() > 0 {
+            let mut stress = strains.to_vec();
+            let amplitudes = self.following(prepared, tangents, &mut stress, &[]);
+            self.enhance(&prepared.means, &amplitudes, strains);
+        }
+        self.stresses(prepared, tangents, strains);
+    }
+
+    /// Changes of amplitudes that leave no force on them, from changes of strain and the forces that there are.
+    pub fn following(
+        &self,
+        prepared: &Prepared,
+        tangents: &[PointTangent],
+        strains: &mut [[f64; 6]],
+        forces: &[f64],
+    ) -> Vec<f64> {
+        self.stresses(prepared, tangents, strains);
+        let mut on_modes = vec![0.0; self.remedy.modes()];
+        self.on_modes(&prepared.means, strains, &mut on_modes);
+        on_modes.iter_mut().zip(forces).for_each(|(sum, force)| *sum += force);
+        on_modes.iter_mut().for_each(|force| *force = -*force);
+        self.eliminate(prepared, on_modes)
+    }
+
+    fn eliminate(&self, prepared: &Prepared, forces: Vec<f64>) -> Vec<f64> {
+        match &prepared.modes {
+            Some(factor) => factor.solve(&DVector::from_vec(forces)).data.into(),
+            None => vec![f64::NAN; forces.len()],
+        }
+    }
+
+    /// Stresses times volumes once amplitudes have given way to the forces on them.
+    pub fn given_way(
+        &self,
+        prepared: &Prepared,
+        tangents: &[PointTangent],
+        forces: &[f64],
+        out: &mut [[f64; 6]],
+    ) {
+        out.fill([0.0; 6]);
+        let opposite = forces.iter().map(|f| -f).collect();
+        self.enhance(&prepared.means, &self.eliminate(prepared, opposite), out);
+        self.stresses(prepared, tangents, out);
+    }
+
+    /// Tangent stiffness of an element, symmetric, by columns.
+    pub fn stiffness(&self, element: [usize; 3], tangents: &[PointTangent], scratch: &mut Scratch) -> Vec<f64> {
+        let (unknowns, points) = (self.unknowns(), self.shapes.points);
+        let elements = vec![element; unknowns];
+        let mut unit = vec![0.0; unknowns * unknowns];
+        unit.iter_mut().step_by(unknowns + 1).for_each(|one| *one = 1.0);
+        let mut strains = vec![[0.0; 6]; unknowns * points];
+        self.shapes.strains(&elements, &unit, &mut strains, scratch);
+        let prepared = self.prepare(element, tangents);
+        for strains in strains.chunks_exact_mut(points) {
+            self.relieved(&prepared, tangents, strains);
+        }
+        self.shapes.forces(&elements, &strains, &mut unit, scratch);
+        unit
+    }
+}
