@@ -44,8 +44,9 @@ pub struct Prepared {
     modes: Option<Cholesky<f64, Dyn>>,
 }
 
-/// How much stiffness is left, at least, where a point flows: hardening or not, matrices stay definite.
-const LEAST: f64 = 1e-8;
+/// How much stiffness tangents keep where a point flows: with none, enhanced modes could run away, with more, Newton's
+/// method would slow down.
+const LEAST: f64 = 1e-5;
 
 /// The largest magnitude of a tensor's components.
 fn largest(tensor: &[f64; 6]) -> f64 {

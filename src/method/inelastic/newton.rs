@@ -53,7 +53,7 @@ impl Step<'_> {
         let mut before = f64::INFINITY;
         let mut accuracy = 1e-3;
         while part > TOLERANCE {
-            let gains_nothing = part <= ROUNDED && part > 0.5 * before;
+            let gains_nothing = part <= ROUNDED && part > 0.9 * before;
             if gains_nothing {
                 break;
             }
