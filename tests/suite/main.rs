@@ -25,3 +25,4 @@ mod scene_reference;
 mod scene_refusals;
 mod solid;
 mod tension;
+mod yielding;

@@ -149,7 +149,8 @@ impl Kit {
                 answer.tangents[e * points + q] = tangent;
                 pressures[q] = constants[q].bulk * dilatation[q];
                 let strain = totals[q] + constants[q].thermal_strain.abs() + largest(&new.plastic_strain);
-                most = most.max(largest(&stress) + pressures[q].abs() + constants[q].shear * strain);
+                let modulus = constants[q].bulk + constants[q].shear;
+                most = most.max(largest(&stress) + pressures[q].abs() + modulus * strain);
                 strains[q] = stress;
             }
             self.join(&volumes, &pressures, strains);
@@ -174,18 +175,25 @@ impl Kit {
             let volumes = self.shapes.volumes(*element);
             let constants = &given.constants[e * points..][..points];
             let dilatation = self.split(&volumes, |q| constants[q].thermal_strain, strains);
-            for (q, (constants, shape)) in constants.iter().zip(strains).enumerate() {
+            let first = out.len();
+            let mut pressures = Vec::with_capacity(points);
+            for (q, (constants, shape)) in constants.iter().zip(&mut *strains).enumerate() {
                 let history = History::read(&given.old[(e * points + q) * History::LEN..]);
                 let elastic: [f64; 6] = std::array::from_fn(|i| shape[i] - history.plastic_strain[i]);
-                let mut stress = constants.elastic_tangent().of_shape(&elastic);
-                let work: f64 = stress.iter().zip(&elastic).map(|(s, e)| s * e).sum();
-                // The tensor's own volume is left out of its stress, as elements that project it do.
-                let rest = constants.bulk * dilatation[q] - (stress[0] + stress[1] + stress[2]) / 3.0;
-                stress[..3].iter_mut().for_each(|s| *s += rest);
-                let stored = 0.5 * (work + constants.bulk * dilatation[q].powi(2))
+                *shape = constants.elastic_tangent().of_shape(&elastic);
+                pressures.push(constants.bulk * dilatation[q]);
+                let work: f64 = shape.iter().zip(&elastic).map(|(s, e)| s * e).sum();
+                let stored = 0.5 * (work + pressures[q] * dilatation[q])
                     + constants.hardening_energy(&history);
+                let mut stress = *shape;
+                let off = pressures[q] - (stress[0] + stress[1] + stress[2]) / 3.0;
+                stress[..3].iter_mut().for_each(|s| *s += off);
                 let (volume, thermal_strain) = (volumes[q], constants.thermal_strain);
-                out.push(PointState { volume, stress, thermal_strain, stored, history });
+                out.push(PointState { volume, stress, thermal_strain, tension: 0.0, stored, history });
+            }
+            self.join(&volumes, &pressures, strains);
+            for (point, stress) in out[first..].iter_mut().zip(strains) {
+                point.tension = (stress[0] + stress[1] + stress[2]) / point.volume;
             }
         }
     }

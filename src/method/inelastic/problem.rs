@@ -52,8 +52,10 @@ pub struct PointState {
     pub volume: f64,
     /// Stress xx, yy, zz, xy, yz, xz, of a ring rr, tt, zz, 0, 0, rz [Pa].
     pub stress: [f64; 6],
-    /// Thermal strain [1].
+    /// Thermal strain in each direction [1], and what it works against [Pa]: the sum of normal stresses, in elements
+    /// that project their change of volume with the part of it that this leaves over.
     pub thermal_strain: f64,
+    pub tension: f64,
     /// Energy per volume that elasticity and hardening keep [J/m³].
     pub stored: f64,
     pub history: History,
