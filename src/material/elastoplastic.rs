@@ -200,9 +200,7 @@ impl PointTangent {
     pub fn of_shape(&self, change: &[f64; 6]) -> [f64; 6] {
         let n = &self.direction;
         let along: f64 = self.along * (0..6).map(|i| n[i] * change[i]).sum::<f64>();
-        std::array::from_fn(|i| {
-            self.all * change[i] * if i < 3 { 1.0 } else { 0.5 } + along * n[i]
-        })
+        std::array::from_fn(|i| self.all * change[i] * if i < 3 { 1.0 } else { 0.5 } + along * n[i])
     }
 
     /// The change of stress that goes with a strain.
@@ -227,7 +225,11 @@ impl Law for Elastoplastic {
     ) -> Response {
         let Some(constants) = self.at(temperature) else {
             *new = *old;
-            return Response { stress: [f64::NAN; 6], tangent: [[f64::NAN; 6]; 6], dissipation: 0.0 };
+            return Response {
+                stress: [f64::NAN; 6],
+                tangent: [[f64::NAN; 6]; 6],
+                dissipation: 0.0,
+            };
         };
         let volume = strain[0] + strain[1] + strain[2];
         let mut shape = *strain;

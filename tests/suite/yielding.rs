@@ -92,11 +92,13 @@ fn a_clamped_bar_and_film_go_the_bilinear_way_when_heated_and_cooled() {
                 (bar, [ends.to_vec(), bar_sides].concat(), 2),
                 (film, [sides, vec![roller(2, false)]].concat(), 0),
             ] {
-                let problem = InelasticProblem::new(&mesh, vec![law(material)], &supports, 2).unwrap();
+                let problem =
+                    InelasticProblem::new(&mesh, vec![law(material)], &supports, 2).unwrap();
                 let yields_at = yield_stress / (exact.modulus * expansion);
                 // Glass never does.
                 let first_yield = if yields_at > 1e4 { 200.0 } else { yields_at };
-                let rises = [0.9, 1.0, 1.5, 1.2, 2.5, 0.0, -0.3, 0.5].map(|part| part * first_yield);
+                let rises =
+                    [0.9, 1.0, 1.5, 1.2, 2.5, 0.0, -0.3, 0.5].map(|part| part * first_yield);
                 let strains = rises.map(|rise| -expansion * rise);
                 let mut state = problem.initial_state();
                 for (rise, wanted) in rises.into_iter().zip(exact.stresses(&strains)) {
@@ -105,8 +107,12 @@ fn a_clamped_bar_and_film_go_the_bilinear_way_when_heated_and_cooled() {
                     for stress in problem.nodal_stress(&state, &temperatures).unwrap() {
                         let off = (stress[component] - wanted).abs();
                         let scale = exact.modulus * expansion * first_yield;
-                        assert!(off < 1e-9 * scale, "{young:e} at {rise}: {stress:?}, not {wanted}");
-                        let other = largest(&stress[3..]).max(stress[if component == 2 { 0 } else { 2 }].abs());
+                        assert!(
+                            off < 1e-9 * scale,
+                            "{young:e} at {rise}: {stress:?}, not {wanted}"
+                        );
+                        let other = largest(&stress[3..])
+                            .max(stress[if component == 2 { 0 } else { 2 }].abs());
                         assert!(other < 1e-9 * scale, "{young:e}: {stress:?}");
                     }
                     let plastic = problem.nodal_plastic_strain(&state);
@@ -126,7 +132,8 @@ fn a_flat_plate_yields_from_its_faces_inwards() {
     let material = [young, poisson, expansion, yield_stress, 2e9, 1e9];
     // The faces come to three times the strain of first yield, so back and half a yield stress beyond.
     let rise = 3.0 * yield_stress / (exact.modulus * expansion);
-    let sides = [roller(0, false), roller(0, true), roller(1, false), roller(1, true), roller(2, false)];
+    let sides =
+        [roller(0, false), roller(0, true), roller(1, false), roller(1, true), roller(2, false)];
     // Elements end where yield does: at a third of the half thickness, and when it is even again, at two thirds.
     let mesh = brick([even(0.0, 1.0, 2), even(0.0, 1.0, 1), even(-1.0, 1.0, 6)], 2);
     let height = |node: usize| mesh.axes[2].nodes[node / (mesh.axes[0].len() * mesh.axes[1].len())];
@@ -194,16 +201,27 @@ fn a_thick_cylinder_yields_as_hill_found_and_nothing_locks() {
                     problem.advance(&mut state, &temperatures, &forces).unwrap();
                 }
                 let u = problem.displacement(&state);
-                let displacement = mesh.axes[0].nodes.iter().enumerate().map(|(i, &r)| {
-                    (u[2 * i] / CYLINDER.radial_displacement(r) - 1.0).abs()
-                });
+                let displacement = mesh.axes[0]
+                    .nodes
+                    .iter()
+                    .enumerate()
+                    .map(|(i, &r)| (u[2 * i] / CYLINDER.radial_displacement(r) - 1.0).abs());
                 let stress = problem.nodal_stress(&state, &temperatures).unwrap();
                 // Away from the front, where the hoop stress has a kink.
-                for (i, &r) in mesh.axes[0].nodes.iter().enumerate().filter(|(_, r)| (*r - 0.15).abs() > 0.015) {
-                    let wanted = [CYLINDER.radial_stress(r), CYLINDER.hoop_stress(r), CYLINDER.axial_stress(r)];
+                for (i, &r) in
+                    mesh.axes[0].nodes.iter().enumerate().filter(|(_, r)| (*r - 0.15).abs() > 0.015)
+                {
+                    let wanted = [
+                        CYLINDER.radial_stress(r),
+                        CYLINDER.hoop_stress(r),
+                        CYLINDER.axial_stress(r),
+                    ];
                     for (found, wanted) in stress[i].iter().zip(wanted) {
                         let off = (found - wanted).abs() / 250e6;
-                        assert!(elements < 40 || off < 4e-3, "order {order} at {r}: {found:e} {wanted:e}");
+                        assert!(
+                            elements < 40 || off < 4e-3,
+                            "order {order} at {r}: {found:e} {wanted:e}"
+                        );
                     }
                 }
                 displacement.fold(0.0, f64::max)
@@ -230,7 +248,10 @@ fn what_a_body_cannot_bear_is_refused_and_changes_nothing() {
     assert!(state == before);
     let nothing = vec![f64::NAN; mesh.nodes()];
     let refused = problem.advance(&mut state, &nothing, &[]).unwrap_err();
-    assert!(matches!(refused, InelasticError::Constants { .. } | InelasticError::NoEquilibrium { .. }));
+    assert!(matches!(
+        refused,
+        InelasticError::Constants { .. } | InelasticError::NoEquilibrium { .. }
+    ));
     let short = problem.advance(&mut state, &temperatures[1..], &[]).unwrap_err();
     assert!(short.to_string().contains("nodal temperatures"), "{short}");
     assert!(state == before);
@@ -296,9 +317,14 @@ fn what_does_not_yield_deforms_as_in_elasticity() {
 fn work_of_loads_and_heat_is_what_is_stored_and_dissipated() {
     for material in &MATERIALS[..5] {
         for mesh in spot_bodies() {
-            let errors: Vec<f64> = [4, 16].map(|steps| energy_error(&mesh, *material, steps)).to_vec();
+            let errors: Vec<f64> =
+                [4, 16].map(|steps| energy_error(&mesh, *material, steps)).to_vec();
             let order = (errors[0] / errors[1]).log(4.0);
-            assert!(errors[1] < 0.01 && order > 1.5, "{:?} {material:?}: {errors:?}", mesh.geometry);
+            assert!(
+                errors[1] < 0.01 && order > 1.5,
+                "{:?} {material:?}: {errors:?}",
+                mesh.geometry
+            );
         }
     }
 }
@@ -313,12 +339,17 @@ fn energy_error(mesh: &Mesh, material: [f64; 6], steps: usize) -> f64 {
     let force = |part: f64| {
         let mut forces = vec![0.0; degrees * mesh.nodes()];
         let each = 2e-3 * part * yield_stress / (mesh.nodes() - first) as f64;
-        forces[degrees * first..].iter_mut().skip(degrees - 1).step_by(degrees).for_each(|f| *f = each);
+        forces[degrees * first..]
+            .iter_mut()
+            .skip(degrees - 1)
+            .step_by(degrees)
+            .for_each(|f| *f = each);
         forces
     };
     let mut state = problem.initial_state();
     let cold = uniform(mesh, FREE_OF_STRESS);
-    let (mut points, mut u) = (problem.points(&state, &cold).unwrap(), problem.displacement(&state).to_vec());
+    let (mut points, mut u) =
+        (problem.points(&state, &cold).unwrap(), problem.displacement(&state).to_vec());
     let mut forces = force(0.0);
     let mut work = 0.0;
     for step in 1..=2 * steps {
@@ -344,7 +375,8 @@ fn energy_error(mesh: &Mesh, material: [f64; 6], steps: usize) -> f64 {
 fn the_number_of_threads_changes_no_bit() {
     for mesh in spot_bodies() {
         let run = |threads: usize| {
-            let problem = InelasticProblem::new(&mesh, vec![law(STEEL)], &[CLAMPED_BELOW], threads).unwrap();
+            let problem =
+                InelasticProblem::new(&mesh, vec![law(STEEL)], &[CLAMPED_BELOW], threads).unwrap();
             let mut state = problem.initial_state();
             for rise in [800.0, 0.0] {
                 problem.advance(&mut state, &spot(&mesh, rise), &[]).unwrap();
@@ -362,18 +394,29 @@ fn half_and_quarter_bodies_are_parts_of_the_whole() {
     for order in [1, 2] {
         let side = [-0.3, -0.1, 0.0, 0.1, 0.3];
         let z = vec![0.0, 0.2, 0.3, 0.4];
-        let temperature = |x: f64, y: f64, z: f64| 300.0 + 700.0 * (-(x * x + 2.0 * y * y + (z - 0.4).powi(2)) / 0.02).exp();
+        let temperature = |x: f64, y: f64, z: f64| {
+            300.0 + 700.0 * (-(x * x + 2.0 * y * y + (z - 0.4).powi(2)) / 0.02).exp()
+        };
         let solve = |mesh: &Mesh| {
             let [nx, ny, _] = mesh.node_counts();
-            let at = |n: usize| [mesh.axes[0].nodes[n % nx], mesh.axes[1].nodes[n / nx % ny], mesh.axes[2].nodes[n / (nx * ny)]];
-            let hot: Vec<f64> = (0..mesh.nodes()).map(at).map(|[x, y, z]| temperature(x, y, z)).collect();
-            let problem = InelasticProblem::new(mesh, vec![law(STEEL)], &[CLAMPED_BELOW], 2).unwrap();
+            let at = |n: usize| {
+                [
+                    mesh.axes[0].nodes[n % nx],
+                    mesh.axes[1].nodes[n / nx % ny],
+                    mesh.axes[2].nodes[n / (nx * ny)],
+                ]
+            };
+            let hot: Vec<f64> =
+                (0..mesh.nodes()).map(at).map(|[x, y, z]| temperature(x, y, z)).collect();
+            let problem =
+                InelasticProblem::new(mesh, vec![law(STEEL)], &[CLAMPED_BELOW], 2).unwrap();
             let mut state = problem.initial_state();
             problem.advance(&mut state, &hot, &[]).unwrap();
             let cold = uniform(mesh, 300.0);
             problem.advance(&mut state, &cold, &[]).unwrap();
             let stress = problem.nodal_stress(&state, &cold).unwrap();
-            let list: Vec<([f64; 3], [f64; 6])> = (0..mesh.nodes()).map(|n| (at(n), stress[n])).collect();
+            let list: Vec<([f64; 3], [f64; 6])> =
+                (0..mesh.nodes()).map(|n| (at(n), stress[n])).collect();
             (list, problem.dissipated_energy(&state))
         };
         let (whole, dissipated) = solve(&brick([side.to_vec(), side.to_vec(), z.clone()], order));
@@ -384,7 +427,10 @@ fn half_and_quarter_bodies_are_parts_of_the_whole() {
         for (place, stress) in quarter {
             let (_, other) = whole.iter().find(|(at, _)| *at == place).unwrap();
             for (a, b) in stress.iter().zip(other) {
-                assert!((a - b).abs() < 1e-6 * STEEL[3], "order {order} {place:?}: {stress:?} {other:?}");
+                assert!(
+                    (a - b).abs() < 1e-6 * STEEL[3],
+                    "order {order} {place:?}: {stress:?} {other:?}"
+                );
             }
         }
     }
@@ -402,7 +448,13 @@ fn layers_have_laws_of_their_own_and_constants_follow_temperature() {
     soft.kinematic = constant(0.0);
     for order in [1, 2] {
         let mesh = brick([even(0.0, 1.0, 3), even(0.0, 1.0, 2), even(0.0, 0.4, 4)], order);
-        let sides = [roller(0, false), roller(0, true), roller(1, false), roller(1, true), roller(2, false)];
+        let sides = [
+            roller(0, false),
+            roller(0, true),
+            roller(1, false),
+            roller(1, true),
+            roller(2, false),
+        ];
         let laws = vec![law(glass), law(glass), soft.clone(), soft.clone()];
         let problem = InelasticProblem::new(&mesh, laws, &sides, 2).unwrap();
         let mut state = problem.initial_state();
@@ -412,7 +464,10 @@ fn layers_have_laws_of_their_own_and_constants_follow_temperature() {
             let points = problem.points(&state, &temperatures).unwrap();
             let [below, above] = [points[0].stress[0], points[points.len() - 1].stress[0]];
             let elastic = -65e9 / 0.8 * 3e-6 * (temperature - 300.0);
-            assert!((below - elastic).abs() < 1e-9 * 65e9 / 0.8 * 9e-4, "order {order}: {below} {elastic}");
+            assert!(
+                (below - elastic).abs() < 1e-9 * 65e9 / 0.8 * 9e-4,
+                "order {order}: {below} {elastic}"
+            );
             // It flows at 600 K; from there on stress is elastic in what changes, until it flows again.
             let modulus = |t: f64| 120e9 * falls(t) / (1.0 - 0.34);
             let flown = -17e-6 * 300.0 + 70e6 * falls(600.0) / modulus(600.0);

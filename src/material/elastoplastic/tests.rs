@@ -113,17 +113,17 @@ fn turned_strains_make_turned_stresses() {
             ..old
         };
         let (mut new, mut turned_new) = (History::default(), History::default());
-        let found = case.law.respond(
-            &turned(&strain, &rotation, 0.5),
-            350.0,
-            &turned_old,
-            &mut turned_new,
-        );
+        let found =
+            case.law.respond(&turned(&strain, &rotation, 0.5), 350.0, &turned_old, &mut turned_new);
         let wanted = case.law.respond(&strain, 350.0, &old, &mut new);
         let wanted = turned(&wanted.stress, &rotation, 1.0);
         let stiffness: f64 = found.tangent[0][0].abs() + case.stiffness();
         for (f, w) in found.stress.iter().zip(wanted) {
-            assert!((f - w).abs() < 1e-12 * stiffness * case.strain.max(0.01), "{}: {f} {w}", case.name);
+            assert!(
+                (f - w).abs() < 1e-12 * stiffness * case.strain.max(0.01),
+                "{}: {f} {w}",
+                case.name
+            );
         }
         assert!((turned_new.accumulated - new.accumulated).abs() < 1e-12 * (1.0 + new.accumulated));
     });
@@ -227,8 +227,9 @@ fn stress_returns_to_the_yield_surface_however_far_it_was_sent() {
             let response = plastic.respond(&strain, temperature, &old, &mut new);
             let back = at.back_stress(&new);
             let mean = (0..3).map(|i| response.stress[i]).sum::<f64>() / 3.0;
-            let xi: [f64; 6] =
-                std::array::from_fn(|i| response.stress[i] - back[i] - if i < 3 { mean } else { 0.0 });
+            let xi: [f64; 6] = std::array::from_fn(|i| {
+                response.stress[i] - back[i] - if i < 3 { mean } else { 0.0 }
+            });
             let radius = at.yield_stress + at.isotropic * new.accumulated;
             let equivalent = norm(&xi) / ROOT;
             // Pressure and back stress are much larger where they are.

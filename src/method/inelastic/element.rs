@@ -1,9 +1,7 @@
 //! One element: what its points answer to displacements, and how that changes.
 
-use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
-
 use super::problem::PointState;
-use super::remedy::Remedy;
+use super::remedy::{MOST_MODES, Remedy, SmallFactor};
 use super::shapes::{Scratch, Shapes};
 use crate::material::{History, PointConstants, PointTangent};
 
@@ -40,13 +38,33 @@ pub struct Answer<'a> {
 /// What one element's change needs: its volumes and the factor that eliminates its enhanced modes.
 pub struct Prepared {
     volumes: Vec<f64>,
-    means: Vec<f64>,
-    modes: Option<Cholesky<f64, Dyn>>,
+    means: [f64; MOST_MODES],
+    modes: Option<SmallFactor>,
 }
+
+/// What the last element whose points were all elastic alike needed: those beside it often need the same.
+#[derive(Default)]
+pub struct Known(Option<([f64; 3], PointTangent, Prepared)>);
 
 /// How much stiffness tangents keep where a point flows: with none, enhanced modes could run away, with more, Newton's
 /// method would slow down.
 const LEAST: f64 = 1e-5;
+
+/// A tangent for strains, by columns.
+fn matrix(tangent: &PointTangent) -> [[f64; 6]; 6] {
+    let PointTangent { bulk, all, along, direction: n } = tangent;
+    let mut d = [[0.0; 6]; 6];
+    for (i, row) in d.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            *entry = along * n[i] * n[j];
+            if i < 3 && j < 3 {
+                *entry += bulk - all / 3.0;
+            }
+        }
+        row[i] += if i < 3 { *all } else { 0.5 * all };
+    }
+    d
+}
 
 /// The largest magnitude of a tensor's components.
 fn largest(tensor: &[f64; 6]) -> f64 {
@@ -78,29 +96,32 @@ impl Kit {
         strains
     }
 
-    fn enhance(&self, means: &[f64], amplitudes: &[f64], strains: &mut [[f64; 6]]) {
+    fn enhance(&self, means: &[f64; MOST_MODES], amplitudes: &[f64], strains: &mut [[f64; 6]]) {
         for (q, strain) in strains.iter_mut().enumerate() {
-            for (m, amplitude) in amplitudes.iter().enumerate() {
-                let (component, value) = self.remedy.mode(means, q, m);
+            for ((component, value), amplitude) in self.remedy.at(means, q).zip(amplitudes) {
                 strain[component] += value * amplitude;
             }
         }
     }
 
     /// Work of stresses times volumes on the enhanced modes.
-    fn on_modes(&self, means: &[f64], stress: &[[f64; 6]], out: &mut [f64]) {
-        for (m, force) in out.iter_mut().enumerate() {
-            let of = |q: usize| {
-                let (component, value) = self.remedy.mode(means, q, m);
-                value * stress[q][component]
-            };
-            *force = (0..stress.len()).map(of).sum();
+    fn on_modes(&self, means: &[f64; MOST_MODES], stress: &[[f64; 6]], out: &mut [f64]) {
+        out.fill(0.0);
+        for (q, stress) in stress.iter().enumerate() {
+            for ((component, value), force) in self.remedy.at(means, q).zip(&mut *out) {
+                *force += value * stress[component];
+            }
         }
     }
 
     /// Takes strains apart: the elastic change of volume, projected where elements do so, is given back; what is left
     /// are changes of shape.
-    fn split(&self, volumes: &[f64], thermal: impl Fn(usize) -> f64, strains: &mut [[f64; 6]]) -> Vec<f64> {
+    fn split(
+        &self,
+        volumes: &[f64],
+        thermal: impl Fn(usize) -> f64,
+        strains: &mut [[f64; 6]],
+    ) -> Vec<f64> {
         let trace = |(q, e): (usize, &[f64; 6])| e[0] + e[1] + e[2] - 3.0 * thermal(q);
         let mut dilatation: Vec<f64> = strains.iter().enumerate().map(trace).collect();
         if self.remedy.is_projected() {
@@ -143,12 +164,14 @@ impl Kit {
                 let at = (e * points + q) * History::LEN;
                 let old = History::read(&given.old[at..]);
                 let mut new = History::default();
-                let (stress, mut tangent) = constants[q].return_to_yield(&strains[q], &old, &mut new);
+                let (stress, mut tangent) =
+                    constants[q].return_to_yield(&strains[q], &old, &mut new);
                 new.write(&mut answer.new[at..at + History::LEN]);
                 tangent.along = tangent.along.max(2.0 * LEAST * constants[q].shear - tangent.all);
                 answer.tangents[e * points + q] = tangent;
                 pressures[q] = constants[q].bulk * dilatation[q];
-                let strain = totals[q] + constants[q].thermal_strain.abs() + largest(&new.plastic_strain);
+                let strain =
+                    totals[q] + constants[q].thermal_strain.abs() + largest(&new.plastic_strain);
                 let modulus = constants[q].bulk + constants[q].shear;
                 most = most.max(largest(&stress) + pressures[q].abs() + modulus * strain);
                 strains[q] = stress;
@@ -179,7 +202,8 @@ impl Kit {
             let mut pressures = Vec::with_capacity(points);
             for (q, (constants, shape)) in constants.iter().zip(&mut *strains).enumerate() {
                 let history = History::read(&given.old[(e * points + q) * History::LEN..]);
-                let elastic: [f64; 6] = std::array::from_fn(|i| shape[i] - history.plastic_strain[i]);
+                let elastic: [f64; 6] =
+                    std::array::from_fn(|i| shape[i] - history.plastic_strain[i]);
                 *shape = constants.elastic_tangent().of_shape(&elastic);
                 pressures.push(constants.bulk * dilatation[q]);
                 let work: f64 = shape.iter().zip(&elastic).map(|(s, e)| s * e).sum();
@@ -189,7 +213,14 @@ impl Kit {
                 let off = pressures[q] - (stress[0] + stress[1] + stress[2]) / 3.0;
                 stress[..3].iter_mut().for_each(|s| *s += off);
                 let (volume, thermal_strain) = (volumes[q], constants.thermal_strain);
-                out.push(PointState { volume, stress, thermal_strain, tension: 0.0, stored, history });
+                out.push(PointState {
+                    volume,
+                    stress,
+                    thermal_strain,
+                    tension: 0.0,
+                    stored,
+                    history,
+                });
             }
             self.join(&volumes, &pressures, strains);
             for (point, stress) in out[first..].iter_mut().zip(strains) {
@@ -206,24 +237,48 @@ impl Kit {
     /// What changes of an element need.
     pub fn prepare(&self, element: [usize; 3], tangents: &[PointTangent]) -> Prepared {
         let volumes = self.shapes.volumes(element);
-        let modes = self.remedy.modes();
-        if modes == 0 {
-            return Prepared { volumes, means: Vec::new(), modes: None };
-        }
         let means = self.remedy.means(&volumes);
-        let mut own = DMatrix::<f64>::zeros(modes, modes);
+        let count = self.remedy.modes();
+        if count == 0 {
+            return Prepared { volumes, means, modes: None };
+        }
+        let mut own = [[0.0; MOST_MODES]; MOST_MODES];
         for (q, (tangent, volume)) in tangents.iter().zip(&volumes).enumerate() {
-            let columns: [[f64; 6]; 6] = std::array::from_fn(|i| {
-                tangent.of_strain(&std::array::from_fn(|j| f64::from(u8::from(i == j))))
-            });
-            let all: Vec<(usize, f64)> = (0..modes).map(|m| self.remedy.mode(&means, q, m)).collect();
-            for (m, &(component, value)) in all.iter().enumerate() {
-                for (o, &(other, factor)) in all.iter().enumerate().take(m + 1) {
-                    own[(m, o)] += volume * value * factor * columns[component][other];
+            let columns = matrix(tangent);
+            let mut all = [(0, 0.0); MOST_MODES];
+            all.iter_mut().zip(self.remedy.at(&means, q)).for_each(|(to, from)| *to = from);
+            for (m, &(component, value)) in all.iter().enumerate().take(count) {
+                let (row, weight) = (&columns[component], volume * value);
+                for (sum, &(other, factor)) in own[m][..=m].iter_mut().zip(&all) {
+                    *sum += weight * factor * row[other];
                 }
             }
         }
-        Prepared { volumes, means, modes: own.cholesky() }
+        Prepared { volumes, means, modes: SmallFactor::new(count, own) }
+    }
+
+    /// The same as [`Self::prepare`], from the last element where that was alike.
+    pub fn prepare_after<'a>(
+        &self,
+        known: &'a mut Known,
+        element: [usize; 3],
+        tangents: &[PointTangent],
+    ) -> &'a Prepared {
+        let size = self.shapes.size(element);
+        let is_alike = |(other, tangent, _): &([f64; 3], PointTangent, Prepared)| {
+            // Rings of one size differ in radius.
+            self.shapes.degrees == 3 && *other == size && tangents.iter().all(|t| t == tangent)
+        };
+        if !known.0.as_ref().is_some_and(is_alike) {
+            known.0 = Some((size, tangents[0], self.prepare(element, tangents)));
+            // What is kept must be that of a tangent that all points have.
+            if tangents.iter().any(|t| *t != tangents[0])
+                && let Some((size, ..)) = &mut known.0
+            {
+                *size = [f64::NAN; 3];
+            }
+        }
+        &known.0.as_ref().expect("it has been found").2
     }
 
     /// Replaces changes of strain by those of stress times volume, enhanced modes left as they are.
@@ -238,7 +293,12 @@ impl Kit {
     }
 
     /// Replaces changes of strain by those of stress times volume, enhanced modes following.
-    pub fn relieved(&self, prepared: &Prepared, tangents: &[PointTangent], strains: &mut [[f64; 6]]) {
+    pub fn relieved(
+        &self,
+        prepared: &Prepared,
+        tangents: &[PointTangent],
+        strains: &mut [[f64; 6]],
+    ) {
         if self.remedy.modes() > 0 {
             let mut stress = strains.to_vec();
             let amplitudes = self.following(prepared, tangents, &mut stress, &[]);
@@ -263,9 +323,12 @@ impl Kit {
         self.eliminate(prepared, on_modes)
     }
 
-    fn eliminate(&self, prepared: &Prepared, forces: Vec<f64>) -> Vec<f64> {
+    fn eliminate(&self, prepared: &Prepared, mut forces: Vec<f64>) -> Vec<f64> {
         match &prepared.modes {
-            Some(factor) => factor.solve(&DVector::from_vec(forces)).data.into(),
+            Some(factor) => {
+                factor.solve_in_place(&mut forces);
+                forces
+            }
             None => vec![f64::NAN; forces.len()],
         }
     }
@@ -285,7 +348,12 @@ impl Kit {
     }
 
     /// Tangent stiffness of an element, symmetric, by columns.
-    pub fn stiffness(&self, element: [usize; 3], tangents: &[PointTangent], scratch: &mut Scratch) -> Vec<f64> {
+    pub fn stiffness(
+        &self,
+        element: [usize; 3],
+        tangents: &[PointTangent],
+        scratch: &mut Scratch,
+    ) -> Vec<f64> {
         let (unknowns, points) = (self.unknowns(), self.shapes.points);
         let elements = vec![element; unknowns];
         let mut unit = vec![0.0; unknowns * unknowns];

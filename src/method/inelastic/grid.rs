@@ -1,6 +1,6 @@
 //! All elements of a mesh: loops over their layers along z on many threads, the same to the bit on any number.
 
-use super::element::{Answer, Given, Kit};
+use super::element::{Answer, Given, Kit, Known};
 use super::remedy::Remedy;
 use super::shapes::{Scratch, Shapes};
 use crate::material::{History, PointConstants, PointTangent};
@@ -38,6 +38,8 @@ pub struct Layer<'a> {
     pub out: Vec<&'a mut [f64]>,
 }
 
+/// Forces on amplitudes that are rounding, beside moduli times strains times volume.
+const NOTHING: f64 = 1e-15;
 /// Elements that are worked on at once.
 const BATCH: usize = 32;
 
@@ -200,33 +202,38 @@ impl Grid {
             items.push((new, tangents, on_modes.next().unwrap_or_default(), scales));
         }
         forces.fill(0.0);
-        self.add_layers(team, forces, items, |layer, (new, tangents, mode_forces, scales), scratch| {
-            let (mut u, mut f) = (Vec::new(), Vec::new());
-            for (first, elements) in self.batches(layer.number) {
-                self.gather(&elements, displacement, &mut u);
-                f.clear();
-                f.resize(u.len(), 0.0);
-                let (own, all) = (first..first + elements.len(), layer.number * count + first);
-                let at = |each: usize| all * each..(all + elements.len()) * each;
-                let within = |each: usize| own.start * each..own.end * each;
-                let given = Given {
-                    elements: &elements,
-                    displacement: &u,
-                    amplitudes: &amplitudes[at(modes)],
-                    constants: &constants[at(points)],
-                    old: &old[at(points * History::LEN)],
-                };
-                let mut answer = Answer {
-                    new: &mut new[within(points * History::LEN)],
-                    tangents: &mut tangents[within(points)],
-                    forces: &mut f,
-                    mode_forces: &mut mode_forces[within(modes)],
-                    scales: &mut scales[within(1)],
-                };
-                self.kit.respond(&given, &mut answer, scratch);
-                self.scatter(&elements, &f, layer);
-            }
-        });
+        self.add_layers(
+            team,
+            forces,
+            items,
+            |layer, (new, tangents, mode_forces, scales), scratch| {
+                let (mut u, mut f) = (Vec::new(), Vec::new());
+                for (first, elements) in self.batches(layer.number) {
+                    self.gather(&elements, displacement, &mut u);
+                    f.clear();
+                    f.resize(u.len(), 0.0);
+                    let (own, all) = (first..first + elements.len(), layer.number * count + first);
+                    let at = |each: usize| all * each..(all + elements.len()) * each;
+                    let within = |each: usize| own.start * each..own.end * each;
+                    let given = Given {
+                        elements: &elements,
+                        displacement: &u,
+                        amplitudes: &amplitudes[at(modes)],
+                        constants: &constants[at(points)],
+                        old: &old[at(points * History::LEN)],
+                    };
+                    let mut answer = Answer {
+                        new: &mut new[within(points * History::LEN)],
+                        tangents: &mut tangents[within(points)],
+                        forces: &mut f,
+                        mode_forces: &mut mode_forces[within(modes)],
+                        scales: &mut scales[within(1)],
+                    };
+                    self.kit.respond(&given, &mut answer, scratch);
+                    self.scatter(&elements, &f, layer);
+                }
+            },
+        );
     }
 
     /// Adds to `load` what forces on amplitudes come to once these give way.
@@ -237,14 +244,19 @@ impl Grid {
         }
         let items = vec![(); self.layers()];
         self.add_layers(team, load, items, |layer, (), scratch| {
+            let mut known = Known::default();
             for (first, elements) in self.batches(layer.number) {
                 let mut stress = vec![[0.0; 6]; elements.len() * points];
                 for (e, stress) in stress.chunks_exact_mut(points).enumerate() {
                     let number = layer.number * self.per_layer() + first + e;
                     let tangents = &iterate.tangents[number * points..][..points];
-                    let prepared = self.kit.prepare(elements[e], tangents);
                     let forces = &iterate.mode_forces[number * modes..][..modes];
-                    self.kit.given_way(&prepared, tangents, forces, stress);
+                    let most = forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+                    if most <= NOTHING * iterate.scales[number][1] {
+                        continue;
+                    }
+                    let prepared = self.kit.prepare_after(&mut known, elements[e], tangents);
+                    self.kit.given_way(prepared, tangents, forces, stress);
                     stress.iter_mut().flatten().for_each(|s| *s = -*s);
                 }
                 let mut f = vec![0.0; elements.len() * self.kit.unknowns()];
@@ -261,7 +273,7 @@ impl Grid {
             return Vec::new();
         }
         let layers = team.map(self.layers(), |layer| {
-            let mut scratch = Scratch::default();
+            let (mut scratch, mut known) = (Scratch::default(), Known::default());
             let (mut u, mut out) = (Vec::new(), Vec::new());
             for (first, elements) in self.batches(layer) {
                 self.gather(&elements, change, &mut u);
@@ -270,9 +282,9 @@ impl Grid {
                 for (e, strains) in strains.chunks_exact_mut(points).enumerate() {
                     let number = layer * self.per_layer() + first + e;
                     let tangents = &iterate.tangents[number * points..][..points];
-                    let prepared = self.kit.prepare(elements[e], tangents);
+                    let prepared = self.kit.prepare_after(&mut known, elements[e], tangents);
                     let forces = &iterate.mode_forces[number * modes..][..modes];
-                    out.extend(self.kit.following(&prepared, tangents, strains, forces));
+                    out.extend(self.kit.following(prepared, tangents, strains, forces));
                 }
             }
             out

@@ -103,10 +103,11 @@ impl Step<'_> {
         let mut part = if nodes == 0.0 { 0.0 } else { nodes / scale };
         if modes > 0 {
             let volume = iterate.scales.iter().fold(0.0_f64, |most, [_, s]| most.max(*s));
-            let most = iterate.mode_forces.iter().fold(0.0_f64, |most, force| match force.is_nan() {
-                true => f64::INFINITY,
-                false => most.max(force.abs()),
-            });
+            let most =
+                iterate.mode_forces.iter().fold(0.0_f64, |most, force| match force.is_nan() {
+                    true => f64::INFINITY,
+                    false => most.max(force.abs()),
+                });
             part = part.max(if most == 0.0 { 0.0 } else { most / volume });
         }
         part

@@ -88,7 +88,8 @@ impl InelasticProblem {
     /// Accumulated plastic strain at the nodes [1].
     pub fn nodal_plastic_strain(&self, state: &[f64]) -> Vec<f64> {
         let histories = state[self.layout().history].chunks_exact(History::LEN);
-        let values: Vec<f64> = histories.map(|history| History::read(history).accumulated).collect();
+        let values: Vec<f64> =
+            histories.map(|history| History::read(history).accumulated).collect();
         // Even, as xx is.
         let beyond = [0, 1].map(|axis| self.beyond(axis, 0));
         // Where it falls to nothing, polynomials go below.

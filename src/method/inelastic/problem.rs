@@ -116,9 +116,12 @@ impl InelasticProblem {
         const VECTORS: f64 = 24.0;
         let unknowns = self.grid.unknowns() as f64;
         let own = self.grid.kit.unknowns() as f64;
-        let triangles = if self.grid.kit.remedy.modes() > 0 { 0.5 * own * (own + 1.0) } else { 0.0 };
+        let triangles =
+            if self.grid.kit.remedy.modes() > 0 { 0.5 * own * (own + 1.0) } else { 0.0 };
         let factor = match self.solver.is_factored() {
-            true => 1.2 * expected_entries(self.mesh.geometry, self.grid.unknowns()) + 60.0 * unknowns,
+            true => {
+                1.2 * expected_entries(self.mesh.geometry, self.grid.unknowns()) + 60.0 * unknowns
+            }
             false => 0.0,
         };
         POINT * self.grid.points() as f64

@@ -12,12 +12,17 @@ use super::shapes::Shapes;
 use crate::method::fem::axisymmetric::ENHANCED as RING_MODES;
 use crate::method::fem::hexahedron::ENHANCED as BRICK_MODES;
 
+/// Enhanced modes of any element, at most.
+pub const MOST_MODES: usize = 15;
+
 /// Tables of local places.
 pub struct Remedy {
     /// Strain component (of six) of each enhanced mode.
     components: Vec<usize>,
-    /// Values of each mode: a row a point.
-    modes: DMatrix<f64>,
+    /// Values of the modes at each point, point after point.
+    modes: Vec<f64>,
+    /// Whether their means over an element vanish by themselves, as on a brick.
+    is_balanced: bool,
     /// Values of the polynomials that the change of volume is projected on: a row a point; no column where the change
     /// at the point itself is taken.
     polynomials: DMatrix<f64>,
@@ -37,17 +42,22 @@ impl Remedy {
             };
             let count = if is_ring { 3 } else { 4 };
             let columns = (0..count).map(|m| places().map(|p| kept(p)[m]).collect()).collect();
-            let modes = DMatrix::zeros(shapes.points, 0);
-            return Self { components: Vec::new(), modes, polynomials: table(columns) };
+            let (components, modes) = (Vec::new(), Vec::new());
+            return Self { components, modes, is_balanced: true, polynomials: table(columns) };
         }
-        let (components, columns) = match is_ring {
+        let (components, columns): (Vec<usize>, Vec<Vec<f64>>) = match is_ring {
             true => RING_MODES
                 .iter()
-                .map(|(c, f)| (if *c == 3 { 5 } else { *c }, places().map(|p| f(p[0], p[2])).collect()))
+                .map(|(c, f)| {
+                    (if *c == 3 { 5 } else { *c }, places().map(|p| f(p[0], p[2])).collect())
+                })
                 .unzip(),
             false => BRICK_MODES.iter().map(|(c, f)| (*c, places().map(f).collect())).unzip(),
         };
-        Self { components, modes: table(columns), polynomials: DMatrix::zeros(shapes.points, 0) }
+        let values = (0..shapes.points).flat_map(|q| columns.iter().map(move |column| column[q]));
+        let modes = values.collect();
+        let polynomials = DMatrix::zeros(shapes.points, 0);
+        Self { components, modes, is_balanced: !is_ring, polynomials }
     }
 
     /// Amplitudes of enhanced modes an element.
@@ -56,19 +66,27 @@ impl Remedy {
     }
 
     /// Mean of each mode over an element's volume, which is taken off, so that uniform stress does no work on it.
-    pub fn means(&self, volumes: &[f64]) -> Vec<f64> {
-        let total: f64 = volumes.iter().sum();
-        let mean = |m: usize| {
-            let sum: f64 = volumes.iter().enumerate().map(|(q, v)| v * self.modes[(q, m)]).sum();
-            // Symmetric over a brick: what is left is rounding.
-            if sum.abs() < 1e-14 * total { 0.0 } else { sum / total }
-        };
-        (0..self.modes()).map(mean).collect()
+    pub fn means(&self, volumes: &[f64]) -> [f64; MOST_MODES] {
+        let mut means = [0.0; MOST_MODES];
+        if !self.is_balanced {
+            let total: f64 = volumes.iter().sum();
+            for (values, volume) in self.modes.chunks_exact(self.modes()).zip(volumes) {
+                means.iter_mut().zip(values).for_each(|(mean, v)| *mean += v * volume / total);
+            }
+        }
+        means
     }
 
-    /// Strain component and value of a mode at a point.
-    pub fn mode(&self, means: &[f64], q: usize, m: usize) -> (usize, f64) {
-        (self.components[m], self.modes[(q, m)] - means[m])
+    /// Strain component and value of each mode at a point.
+    #[inline]
+    pub fn at<'a>(
+        &'a self,
+        means: &'a [f64; MOST_MODES],
+        q: usize,
+    ) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let values = &self.modes[q * self.modes()..][..self.modes()];
+        let pairs = self.components.iter().zip(values).zip(means);
+        pairs.map(|((component, value), mean)| (*component, value - mean))
     }
 
     pub fn is_projected(&self) -> bool {
@@ -119,3 +137,42 @@ impl Remedy {
     }
 }
 
+/// `A = L Lᵀ` of a system of enhanced modes.
+#[derive(Clone)]
+pub struct SmallFactor {
+    count: usize,
+    /// Rows of L, the inverse of the diagonal on it.
+    lower: [[f64; MOST_MODES]; MOST_MODES],
+}
+
+impl SmallFactor {
+    /// From the rows of the lower triangle; nothing where it is not positive definite.
+    pub fn new(count: usize, mut lower: [[f64; MOST_MODES]; MOST_MODES]) -> Option<Self> {
+        for i in 0..count {
+            for j in 0..=i {
+                let done: f64 = (0..j).map(|k| lower[i][k] * lower[j][k]).sum();
+                let rest = lower[i][j] - done;
+                lower[i][j] = if i > j {
+                    rest * lower[j][j]
+                } else if rest > 0.0 {
+                    rest.sqrt().recip()
+                } else {
+                    return None;
+                };
+            }
+        }
+        Some(Self { count, lower })
+    }
+
+    /// Replaces a right-hand side by the solution.
+    pub fn solve_in_place(&self, x: &mut [f64]) {
+        for i in 0..self.count {
+            let done: f64 = (0..i).map(|k| self.lower[i][k] * x[k]).sum();
+            x[i] = (x[i] - done) * self.lower[i][i];
+        }
+        for i in (0..self.count).rev() {
+            let done: f64 = (i + 1..self.count).map(|k| self.lower[k][i] * x[k]).sum();
+            x[i] = (x[i] - done) * self.lower[i][i];
+        }
+    }
+}

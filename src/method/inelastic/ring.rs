@@ -24,7 +24,8 @@ impl Ring {
             let node = |a: usize| axis.nodes[element * order + a % (order + 1)];
             (0..values.ncols()).map(|a| values[(q, a)] * node(a)).sum()
         };
-        let radii = (0..axis.elements()).map(|e| (0..values.nrows()).map(|q| radius(e, q)).collect());
+        let radii =
+            (0..axis.elements()).map(|e| (0..values.nrows()).map(|q| radius(e, q)).collect());
         Self { radii: radii.collect(), values, slopes }
     }
 

@@ -64,12 +64,14 @@ impl Shapes {
             }
         }
         let nodes = if is_box { n * n * n } else { n * n };
-        let split = |a: usize| if is_box { [a % n, a / n % n, a / (n * n)] } else { [a % n, 0, a / n] };
-        let along = |axis: usize, xi: f64, i: usize, derived: bool| match (is_box || axis != 1, derived) {
-            (false, _) => 1.0,
-            (true, true) => slope(order, xi)[i],
-            (true, false) => shape(order, xi)[i],
-        };
+        let split =
+            |a: usize| if is_box { [a % n, a / n % n, a / (n * n)] } else { [a % n, 0, a / n] };
+        let along =
+            |axis: usize, xi: f64, i: usize, derived: bool| match (is_box || axis != 1, derived) {
+                (false, _) => 1.0,
+                (true, true) => slope(order, xi)[i],
+                (true, false) => shape(order, xi)[i],
+            };
         let value = |q: usize, a: usize, derived: Option<usize>| -> f64 {
             let (at, node) = (places[q].0, split(a));
             (0..3).map(|k| along(k, at[k], node[k], derived == Some(k))).product()

@@ -165,7 +165,8 @@ impl TangentSolver {
         let Kit { shapes, .. } = &grid.kit;
         let (degrees, nodes, points) = (shapes.degrees, shapes.nodes, shapes.points);
         let counts = self.reach.each_ref().map(Reach::len);
-        let split = |n: usize| [n % counts[0], n / counts[0] % counts[1], n / (counts[0] * counts[1])];
+        let split =
+            |n: usize| [n % counts[0], n / counts[0] % counts[1], n / (counts[0] * counts[1])];
         let mut matrix = StencilMatrix::zeros(self.reach.clone(), [degrees; 2]);
         for layer in 0..grid.layers() {
             // A layer of matrices at a time: computed on all threads, added in fixed order.
@@ -245,7 +246,13 @@ impl Corrections {
     /// Elements that are worked on at once.
     const BATCH: usize = 32;
 
-    fn forces(&self, grid: &Grid, x: &[f64], scratch: &mut Scratch, mut add: impl FnMut(&[[usize; 3]], &[f64])) {
+    fn forces(
+        &self,
+        grid: &Grid,
+        x: &[f64],
+        scratch: &mut Scratch,
+        mut add: impl FnMut(&[[usize; 3]], &[f64]),
+    ) {
         let (points, unknowns) = (grid.kit.shapes.points, grid.kit.unknowns());
         let triangle = unknowns * (unknowns + 1) / 2;
         let (mut u, mut f, mut strains) = (Vec::new(), Vec::new(), Vec::new());
@@ -256,7 +263,9 @@ impl Corrections {
             let first = batch * Self::BATCH;
             if self.points.is_empty() {
                 let triangles = self.triangles[first * triangle..].chunks_exact(triangle);
-                for ((entries, u), f) in triangles.zip(u.chunks_exact(unknowns)).zip(f.chunks_exact_mut(unknowns)) {
+                for ((entries, u), f) in
+                    triangles.zip(u.chunks_exact(unknowns)).zip(f.chunks_exact_mut(unknowns))
+                {
                     add_symmetric(entries, u, f);
                 }
             } else {
