@@ -140,18 +140,14 @@ impl TangentSolver {
         let degrees = grid.kit.shapes.degrees;
         let matrix = self.assemble(grid, iterate, team);
         let mut number = vec![usize::MAX; self.held.len()];
-        let mut count = 0;
-        for (number, _) in number.iter_mut().zip(&self.held).filter(|(_, held)| !**held) {
-            *number = count;
-            count += 1;
-        }
+        let free = || (0..self.held.len()).filter(|&i| !self.held[i]);
+        free().enumerate().for_each(|(k, i)| number[i] = k);
         let order: Vec<usize> = self.order.iter().map(|&i| number[i]).collect();
         let triangle = lower_triangle(&matrix, degrees, &number);
         drop(matrix);
         let cholesky = SparseCholesky::factor(&triangle, &order, team.threads())?;
         drop(triangle);
         let place = |i: usize| i % degrees * grid.nodes + i / degrees;
-        let free = || (0..self.held.len()).filter(|&i| !self.held[i]);
         let mut solution: Vec<f64> = free().map(|i| load[place(i)]).collect();
         cholesky.solve_in_place(&mut solution);
         let mut out = vec![0.0; load.len()];
