@@ -66,6 +66,10 @@ fn matrix(tangent: &PointTangent) -> [[f64; 6]; 6] {
     d
 }
 
+/// Strain up to which rounding is allowed for: where a body gives way, strains grow without end, but what is left of
+/// the forces does not.
+const MOST_STRAIN: f64 = 0.1;
+
 /// The largest magnitude of a tensor's components.
 fn largest(tensor: &[f64; 6]) -> f64 {
     tensor.iter().fold(0.0, |m, v| m.max(v.abs()))
@@ -172,8 +176,9 @@ impl Kit {
                 pressures[q] = constants[q].bulk * dilatation[q];
                 let strain =
                     totals[q] + constants[q].thermal_strain.abs() + largest(&new.plastic_strain);
-                let modulus = constants[q].bulk + constants[q].shear;
-                most = most.max(largest(&stress) + pressures[q].abs() + modulus * strain);
+                let moduli = constants[q].bulk + constants[q].shear;
+                let rounded = moduli * strain.min(MOST_STRAIN);
+                most = most.max(largest(&stress) + pressures[q].abs() + rounded);
                 strains[q] = stress;
             }
             self.join(&volumes, &pressures, strains);
