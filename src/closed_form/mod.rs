@@ -21,12 +21,15 @@
 //! | [`heated_disc`] | thin free disc and long free cylinder, temperature along the radius |
 //! | [`disc_pressure`] | half space under uniform pressure on a disc |
 //! | [`thick_cylinder`] | thick cylinder under internal pressure, plane strain |
+//! | [`yielding_cylinder`] | the same of incompressible material that yields |
+//! | [`bilinear`] | bar or film that yields, strained to and fro |
 //! | [`circular_plate`], [`square_plate`] | clamped plates under uniform pressure |
 //! | [`cantilever`] | beam under an end load, with shear |
 //!
 //! [`medium`] holds the constants they share, [`special`] the special functions and
 //! [`quadrature`] the integrals that no closed form is known for.
 
+pub mod bilinear;
 pub mod bonded_plate;
 pub mod cantilever;
 pub mod circular_plate;
@@ -52,10 +55,12 @@ pub mod spreading_film;
 pub mod square_plate;
 pub mod swinging_drop;
 pub mod thick_cylinder;
+pub mod yielding_cylinder;
 
 #[cfg(test)]
 mod checks;
 
+pub use bilinear::Bilinear;
 pub use bonded_plate::{BondedLayer, BondedPlate};
 pub use cantilever::Cantilever;
 pub use circular_plate::CircularPlate;
@@ -78,3 +83,4 @@ pub use spreading_film::flux_over_rest;
 pub use square_plate::SquarePlate;
 pub use swinging_drop::SwingingDrop;
 pub use thick_cylinder::ThickCylinder;
+pub use yielding_cylinder::YieldingCylinder;

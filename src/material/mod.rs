@@ -1,7 +1,9 @@
 //! Constitutive laws, one a file. The enum is also the parser of a scene's `material` table.
 
 mod constants;
+mod elastoplastic;
 mod enthalpy;
+mod law;
 mod melting;
 mod properties;
 mod property;
@@ -12,7 +14,9 @@ mod substance;
 mod thermoelastic;
 
 pub use constants::Constants;
+pub use elastoplastic::{Elastoplastic, OfTemperature, PointConstants, PointTangent, constant};
 pub use enthalpy::{Enthalpy, EnthalpyPoint};
+pub use law::{Elastic, History, Law, Response};
 pub use melting::{Melting, MeltingError};
 pub use properties::Properties;
 pub use property::{Curve, Property, PropertyError, Table};

@@ -4,6 +4,8 @@ pub mod enthalpy;
 
 pub mod fem;
 
+pub mod inelastic;
+
 pub mod particle_heat;
 
 pub mod sph;

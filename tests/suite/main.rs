@@ -29,3 +29,4 @@ mod scene_reference;
 mod scene_refusals;
 mod solid;
 mod tension;
+mod yielding;

@@ -57,10 +57,10 @@ struct Enhanced {
 const MODES: usize = 7;
 
 /// Strain component (rr, tt, zz, rz) and local polynomial.
-type Mode = (usize, fn(f64, f64) -> f64);
+pub type Mode = (usize, fn(f64, f64) -> f64);
 
 /// The enhanced modes.
-const ENHANCED: [Mode; MODES] = [
+pub const ENHANCED: [Mode; MODES] = [
     (0, |xi, _| xi),
     (0, |xi, eta| xi * eta),
     (1, |xi, eta| xi * eta),

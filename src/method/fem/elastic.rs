@@ -205,7 +205,7 @@ impl ElasticProblem {
 
     /// Nodes of a box along each axis where a component of displacement is solved for; nothing where one is held
     /// nowhere, so that the body may move.
-    fn free_nodes(&self, parity: Parity) -> Option<[[Range<usize>; 3]; 3]> {
+    pub fn free_nodes(&self, parity: Parity) -> Option<[[Range<usize>; 3]; 3]> {
         let mut free = [(); 3].map(|()| self.mesh.node_counts().map(|count| 0..count));
         let mut hold = |component: usize, MeshFace { axis, high }: MeshFace| {
             let Range { start, end } = &mut free[component][axis];
@@ -251,7 +251,7 @@ impl ElasticProblem {
     }
 
     /// Which degrees of freedom supports and symmetry planes hold.
-    fn held(&self, parity: Parity) -> Vec<bool> {
+    pub fn held(&self, parity: Parity) -> Vec<bool> {
         let degrees = self.degrees();
         let mut held = vec![false; self.mesh.nodes() * degrees];
         let component_of_axis = |axis: usize| match self.mesh.geometry {

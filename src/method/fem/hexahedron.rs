@@ -192,10 +192,10 @@ fn thermal_block(
 const MODES: usize = 15;
 
 /// Strain component (xx, yy, zz, xy, yz, xz) and local polynomial.
-type Mode = (usize, fn([f64; 3]) -> f64);
+pub type Mode = (usize, fn([f64; 3]) -> f64);
 
 /// The enhanced modes.
-const ENHANCED: [Mode; MODES] = [
+pub const ENHANCED: [Mode; MODES] = [
     (0, |p| p[0]),
     (0, |p| p[0] * p[1]),
     (0, |p| p[0] * p[2]),

@@ -1,25 +1,25 @@
 //! A solid on a structured finite-element mesh.
 
-mod assembly;
+pub mod assembly;
 mod axis;
-mod axisymmetric;
-mod brick_inverse;
+pub mod axisymmetric;
+pub mod brick_inverse;
 mod brick_solver;
-mod brick_stiffness;
+pub mod brick_stiffness;
 mod columns;
 mod conduction;
 mod dilatation;
-mod elastic;
+pub mod elastic;
 mod end_response;
 mod fineness;
 mod grading;
 mod heat;
-mod hexahedron;
+pub mod hexahedron;
 mod layering;
 mod mesh;
 mod modes;
 mod plan;
-mod recovery;
+pub mod recovery;
 mod solid;
 mod solver_choice;
 

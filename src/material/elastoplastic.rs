@@ -1,0 +1,249 @@
+//! Small-strain J₂ plasticity with linear isotropic and kinematic hardening.
+//!
+//! With the deviator s of stress, the back stress β, `ξ = s − β` and the accumulated plastic strain p:
+//!
+//! - Yield: `‖ξ‖ ≤ √⅔ (σ_y + H_i p)` (R. von Mises 1913).
+//! - Flow: `ε̇ₚ = γ̇ n`, `n = ξ/‖ξ‖`, `ṗ = √⅔ γ̇`.
+//! - Hardening: `β = ⅔ H_k a`, `ȧ = ε̇ₚ` (W. Prager 1956, doi 10.1115/1.4011389, as an energy `⅓ H_k a:a`).
+//! - Elasticity: `σ = 3K (tr ε/3 − ε_T) 1 + 2G dev(ε − εₚ)`, `ε_T = α(T)(T − T_ref)`.
+//!
+//! A step is the radial return of M. L. Wilkins 1964 with the consistent tangent of J. C. Simo and R. L. Taylor 1985
+//! (doi 10.1016/0045-7825(85)90070-2). Hardening is linear, so the return is one division, and exact where constants
+//! change with temperature, as all of them are those of the step's end.
+
+use std::sync::Arc;
+
+use super::Thermoelastic;
+use super::law::{History, Law, Response};
+
+/// A constant as a function of temperature [K].
+pub type OfTemperature = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
+
+/// The function that is the same at all temperatures.
+pub fn constant(value: f64) -> OfTemperature {
+    Arc::new(move |_| value)
+}
+
+/// The law, its constants as functions of temperature.
+#[derive(Clone)]
+pub struct Elastoplastic {
+    /// Young's modulus E [Pa].
+    pub young: OfTemperature,
+    /// Poisson's ratio ν [1].
+    pub poisson: OfTemperature,
+    /// Mean coefficient of linear thermal expansion α between T_ref and T [1/K].
+    pub expansion: OfTemperature,
+    /// Initial yield stress σ_y [Pa]; infinite where nothing yields.
+    pub yield_stress: OfTemperature,
+    /// Isotropic hardening modulus H_i [Pa].
+    pub isotropic: OfTemperature,
+    /// Kinematic hardening modulus H_k [Pa].
+    pub kinematic: OfTemperature,
+    /// Temperature T_ref without thermal strain [K].
+    pub stress_free_temperature: f64,
+}
+
+/// The constants of the law at one temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointConstants {
+    /// Bulk modulus K [Pa].
+    pub bulk: f64,
+    /// Shear modulus G [Pa].
+    pub shear: f64,
+    /// Thermal strain ε_T [1].
+    pub thermal_strain: f64,
+    /// Initial yield stress σ_y [Pa].
+    pub yield_stress: f64,
+    /// Hardening moduli H_i and H_k [Pa].
+    pub isotropic: f64,
+    pub kinematic: f64,
+}
+
+/// How a point's stress changes: `dσ = K dθ 1 + A de + B n (n:de)` with the change θ of volume and e of shape.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointTangent {
+    /// K [Pa].
+    pub bulk: f64,
+    /// A and B [Pa].
+    pub all: f64,
+    pub along: f64,
+    /// n, as stress: shears once.
+    pub direction: [f64; 6],
+}
+
+/// `√⅔`
+const ROOT: f64 = 0.816_496_580_927_726;
+
+/// Scalar product of two symmetric tensors given as xx, yy, zz, xy, yz, xz, shears once.
+fn inner(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5])
+}
+
+/// `a:a`, that of huge tensors too.
+fn norm(a: &[f64; 6]) -> f64 {
+    let largest = a.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    let scaled = a.map(|v| v / largest);
+    largest * inner(&scaled, &scaled).sqrt()
+}
+
+/// A strain's components as a tensor's: engineering shears halved.
+fn tensor(strain: &[f64; 6]) -> [f64; 6] {
+    std::array::from_fn(|i| if i < 3 { strain[i] } else { 0.5 * strain[i] })
+}
+
+impl Elastoplastic {
+    /// The law that never yields.
+    pub fn elastic(law: &Thermoelastic, stress_free_temperature: f64) -> Self {
+        Self {
+            young: constant(law.young),
+            poisson: constant(law.poisson),
+            expansion: constant(law.expansion),
+            yield_stress: constant(f64::INFINITY),
+            isotropic: constant(0.0),
+            kinematic: constant(0.0),
+            stress_free_temperature,
+        }
+    }
+
+    /// The constants at a temperature [K]; nothing where they are none: not positive moduli, −1 < ν < ½, a negative
+    /// yield stress, softening, or no numbers.
+    pub fn at(&self, temperature: f64) -> Option<PointConstants> {
+        let (young, poisson) = ((self.young)(temperature), (self.poisson)(temperature));
+        let constants = PointConstants {
+            bulk: young / (3.0 * (1.0 - 2.0 * poisson)),
+            shear: young / (2.0 * (1.0 + poisson)),
+            thermal_strain: (self.expansion)(temperature)
+                * (temperature - self.stress_free_temperature),
+            yield_stress: (self.yield_stress)(temperature),
+            isotropic: (self.isotropic)(temperature),
+            kinematic: (self.kinematic)(temperature),
+        };
+        constants.is_sensible().then_some(constants)
+    }
+}
+
+impl PointConstants {
+    fn is_sensible(&self) -> bool {
+        let moduli = [self.bulk, self.shear].iter().all(|m| m.is_finite() && *m > 0.0);
+        let hardening = [self.isotropic, self.kinematic].iter().all(|h| h.is_finite() && *h >= 0.0);
+        moduli && hardening && self.thermal_strain.is_finite() && self.yield_stress >= 0.0
+    }
+
+    /// The tangent where nothing yields.
+    pub fn elastic_tangent(&self) -> PointTangent {
+        PointTangent { bulk: self.bulk, all: 2.0 * self.shear, along: 0.0, direction: [0.0; 6] }
+    }
+
+    /// The part of stress that a change of shape makes, [Pa]: the return to the yield surface.
+    ///
+    /// `shape` is the strain less a third of the elastic change of volume and less the thermal strain in each
+    /// direction, with engineering shears. It is a deviator where elements take the change of volume at the point
+    /// itself; what a projected one leaves over yields with the rest.
+    pub fn return_to_yield(
+        &self,
+        shape: &[f64; 6],
+        old: &History,
+        new: &mut History,
+    ) -> ([f64; 6], PointTangent) {
+        *new = *old;
+        let mut tangent = self.elastic_tangent();
+        let (e, plastic) = (tensor(shape), tensor(&old.plastic_strain));
+        let trial: [f64; 6] = std::array::from_fn(|i| 2.0 * self.shear * (e[i] - plastic[i]));
+        let back = self.back_stress(old);
+        let xi: [f64; 6] = std::array::from_fn(|i| trial[i] - back[i]);
+        let size = norm(&xi);
+        let excess = size - ROOT * (self.yield_stress + self.isotropic * old.accumulated);
+        // Not `excess <= 0`: what is no number goes on as it is.
+        if excess.is_nan() || excess <= 0.0 || !size.is_finite() {
+            return (trial, tangent);
+        }
+        let modulus = 2.0 * self.shear + (self.isotropic + self.kinematic) / 1.5;
+        let flow = excess / modulus;
+        let direction = xi.map(|x| x / size);
+        for (i, n) in direction.iter().enumerate() {
+            let change = flow * n * if i < 3 { 1.0 } else { 2.0 };
+            new.plastic_strain[i] += change;
+            new.back_strain[i] += change;
+        }
+        new.accumulated += ROOT * flow;
+        new.dissipated += self.yield_stress * ROOT * flow;
+        // From the yield surface, not from the trial, which may be far beyond it.
+        let radius = ROOT * (self.yield_stress + self.isotropic * new.accumulated);
+        let back = self.back_stress(new);
+        let stress = std::array::from_fn(|i| back[i] + radius * direction[i]);
+        let kept = 1.0 - 2.0 * self.shear * flow / size;
+        tangent.all *= kept;
+        tangent.along = 2.0 * self.shear * (1.0 - kept - 2.0 * self.shear / modulus);
+        tangent.direction = direction;
+        (stress, tangent)
+    }
+
+    /// Back stress β [Pa].
+    pub fn back_stress(&self, history: &History) -> [f64; 6] {
+        tensor(&history.back_strain).map(|a| self.kinematic / 1.5 * a)
+    }
+
+    /// Energy that hardening keeps per volume, `½ H_i p² + ⅓ H_k a:a` [J/m³].
+    pub fn hardening_energy(&self, history: &History) -> f64 {
+        let back = tensor(&history.back_strain);
+        0.5 * self.isotropic * history.accumulated.powi(2)
+            + self.kinematic / 3.0 * inner(&back, &back)
+    }
+}
+
+impl PointTangent {
+    /// The change of stress that goes with a change of shape, engineering shears.
+    #[inline]
+    pub fn of_shape(&self, change: &[f64; 6]) -> [f64; 6] {
+        let n = &self.direction;
+        let along: f64 = self.along * (0..6).map(|i| n[i] * change[i]).sum::<f64>();
+        std::array::from_fn(|i| self.all * change[i] * if i < 3 { 1.0 } else { 0.5 } + along * n[i])
+    }
+
+    /// The change of stress that goes with a strain.
+    pub fn of_strain(&self, strain: &[f64; 6]) -> [f64; 6] {
+        let volume = strain[0] + strain[1] + strain[2];
+        let mut shape = *strain;
+        shape[..3].iter_mut().for_each(|e| *e -= volume / 3.0);
+        let mut stress = self.of_shape(&shape);
+        stress[..3].iter_mut().for_each(|s| *s += self.bulk * volume);
+        stress
+    }
+}
+
+impl Law for Elastoplastic {
+    /// Where the constants are none at this temperature, the answer is no number.
+    fn respond(
+        &self,
+        strain: &[f64; 6],
+        temperature: f64,
+        old: &History,
+        new: &mut History,
+    ) -> Response {
+        let Some(constants) = self.at(temperature) else {
+            *new = *old;
+            return Response {
+                stress: [f64::NAN; 6],
+                tangent: [[f64::NAN; 6]; 6],
+                dissipation: 0.0,
+            };
+        };
+        let volume = strain[0] + strain[1] + strain[2];
+        let mut shape = *strain;
+        shape[..3].iter_mut().for_each(|e| *e -= volume / 3.0);
+        let (mut stress, tangent) = constants.return_to_yield(&shape, old, new);
+        let pressure = constants.bulk * (volume - 3.0 * constants.thermal_strain);
+        stress[..3].iter_mut().for_each(|s| *s += pressure);
+        // Symmetric: its columns are its rows.
+        let rows = std::array::from_fn(|j| {
+            tangent.of_strain(&std::array::from_fn(|i| f64::from(u8::from(i == j))))
+        });
+        Response { stress, tangent: rows, dissipation: new.dissipated - old.dissipated }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,299 @@
+//! Properties that every law has, whatever its constants: one table, one test a property.
+
+use nalgebra::{Matrix3, Rotation3, Vector3};
+
+use super::*;
+use crate::material::Elastic;
+
+/// Steel, aluminium, copper, hot lead, titanium, glass, and what no metal is: E, ν, α, σ_y, H_i, H_k.
+const MATERIALS: [[f64; 6]; 9] = [
+    [210e9, 0.3, 12e-6, 250e6, 2e9, 0.0],
+    [70e9, 0.33, 23e-6, 95e6, 0.0, 1e9],
+    [120e9, 0.34, 17e-6, 70e6, 0.5e9, 0.5e9],
+    [12e9, 0.44, 30e-6, 5e6, 0.0, 0.0],
+    [115e9, 0.32, 9e-6, 880e6, 1e9, 2e9],
+    [65e9, 0.2, 3e-6, 1e15, 0.0, 0.0],
+    [1e9, 0.49999, 1e-4, 1e3, 0.0, 1e6],
+    [1e6, -0.5, 1e-3, 0.0, 1e3, 1e3],
+    [1e6, 0.0, 0.0, 1e3, 1e9, 1e9],
+];
+
+struct Case {
+    name: String,
+    law: Box<dyn Law>,
+    plastic: Option<Elastoplastic>,
+    /// A strain that is large for the law.
+    strain: f64,
+}
+
+/// All laws, with constants that fall with temperature and with constants that do not.
+fn laws() -> Vec<Case> {
+    let mut all = Vec::new();
+    for [young, poisson, expansion, yield_stress, isotropic, kinematic] in MATERIALS {
+        let law = Thermoelastic { young, poisson, expansion };
+        let strain = 3.0 * yield_stress / young + 1e-4;
+        all.push(Case {
+            name: format!("elastic {young:e}"),
+            law: Box::new(Elastic { law, stress_free_temperature: 300.0 }),
+            plastic: None,
+            strain: 1e-3,
+        });
+        for fall in [0.0, 4e-4] {
+            let falls = |value: f64| -> OfTemperature {
+                Arc::new(move |t: f64| value * (1.0 - fall * (t - 300.0)))
+            };
+            let plastic = Elastoplastic {
+                young: falls(young),
+                poisson: constant(poisson),
+                expansion: falls(expansion),
+                yield_stress: falls(yield_stress),
+                isotropic: falls(isotropic),
+                kinematic: falls(kinematic),
+                stress_free_temperature: 300.0,
+            };
+            all.push(Case {
+                name: format!("elastoplastic {young:e}, {fall}"),
+                law: Box::new(plastic.clone()),
+                plastic: Some(plastic),
+                strain,
+            });
+        }
+    }
+    all
+}
+
+fn random(rng: &mut fastrand::Rng, size: f64) -> [f64; 6] {
+    std::array::from_fn(|_| size * (2.0 * rng.f64() - 1.0))
+}
+
+/// A history that the law itself led to.
+fn worn(case: &Case, rng: &mut fastrand::Rng) -> History {
+    let mut history = History::default();
+    for _ in 0..4 {
+        let mut new = History::default();
+        let strain = random(rng, 2.0 * case.strain);
+        case.law.respond(&strain, 300.0 + 200.0 * rng.f64(), &history, &mut new);
+        history = new;
+    }
+    history
+}
+
+fn matrix(t: &[f64; 6], shear: f64) -> Matrix3<f64> {
+    let [xx, yy, zz] = [t[0], t[1], t[2]];
+    let [xy, yz, xz] = [t[3] * shear, t[4] * shear, t[5] * shear];
+    Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
+}
+
+/// A tensor seen from turned axes; `shear` is what its shears are of a tensor's.
+fn turned(t: &[f64; 6], rotation: &Matrix3<f64>, shear: f64) -> [f64; 6] {
+    let m = rotation * matrix(t, shear) * rotation.transpose();
+    let s = 1.0 / shear;
+    [m[(0, 0)], m[(1, 1)], m[(2, 2)], s * m[(0, 1)], s * m[(1, 2)], s * m[(0, 2)]]
+}
+
+/// Runs a check on random states of all laws.
+fn for_all(check: impl Fn(&Case, &mut fastrand::Rng)) {
+    for case in laws() {
+        let mut rng = fastrand::Rng::with_seed(7);
+        for _ in 0..40 {
+            check(&case, &mut rng);
+        }
+    }
+}
+
+#[test]
+fn turned_strains_make_turned_stresses() {
+    for_all(|case, rng| {
+        let (old, strain) = (worn(case, rng), random(rng, case.strain));
+        let axis = Vector3::new(rng.f64(), rng.f64(), rng.f64());
+        let rotation = Rotation3::from_scaled_axis(4.0 * axis).into_inner();
+        let turned_old = History {
+            plastic_strain: turned(&old.plastic_strain, &rotation, 0.5),
+            back_strain: turned(&old.back_strain, &rotation, 0.5),
+            ..old
+        };
+        let (mut new, mut turned_new) = (History::default(), History::default());
+        let found =
+            case.law.respond(&turned(&strain, &rotation, 0.5), 350.0, &turned_old, &mut turned_new);
+        let wanted = case.law.respond(&strain, 350.0, &old, &mut new);
+        let wanted = turned(&wanted.stress, &rotation, 1.0);
+        let stiffness: f64 = found.tangent[0][0].abs() + case.stiffness();
+        for (f, w) in found.stress.iter().zip(wanted) {
+            assert!(
+                (f - w).abs() < 1e-12 * stiffness * case.strain.max(0.01),
+                "{}: {f} {w}",
+                case.name
+            );
+        }
+        assert!((turned_new.accumulated - new.accumulated).abs() < 1e-12 * (1.0 + new.accumulated));
+    });
+}
+
+impl Case {
+    /// The stiffness that rounding of strains meets [Pa].
+    fn stiffness(&self) -> f64 {
+        let (old, mut new) = (History::default(), History::default());
+        let row = self.law.respond(&[0.0; 6], 300.0, &old, &mut new).tangent[0];
+        row.iter().map(|d| d.abs()).sum()
+    }
+}
+
+#[test]
+fn tangents_are_symmetric_and_the_limit_of_differences() {
+    for_all(|case, rng| {
+        let (old, strain) = (worn(case, rng), random(rng, case.strain));
+        let respond = |strain: &[f64; 6]| {
+            let mut new = History::default();
+            let response = case.law.respond(strain, 400.0, &old, &mut new);
+            (response, new.accumulated > old.accumulated)
+        };
+        let (centre, flows) = respond(&strain);
+        let largest = case.stiffness();
+        let h = 1e-6 * case.strain;
+        for j in 0..6 {
+            let moved = |by: f64| {
+                let mut strain = strain;
+                strain[j] += by;
+                respond(&strain)
+            };
+            let (above, below) = (moved(h), moved(-h));
+            // Not across the yield surface, where stress has a kink.
+            let kink = above.1 != flows || below.1 != flows;
+            for i in 0..6 {
+                let t = centre.tangent[i][j];
+                assert!((t - centre.tangent[j][i]).abs() <= 1e-14 * largest, "{}", case.name);
+                let difference = (above.0.stress[i] - below.0.stress[i]) / (2.0 * h);
+                let off = (t - difference).abs() / largest;
+                assert!(kink || off < 1e-6, "{}: {t} {difference}", case.name);
+            }
+        }
+    });
+}
+
+#[test]
+fn dissipation_is_never_negative_and_is_what_histories_sum() {
+    for_all(|case, rng| {
+        let (mut old, mut sum) = (History::default(), 0.0);
+        for _ in 0..10 {
+            let mut new = History::default();
+            let size = case.strain * 10f64.powf(3.0 * rng.f64() - 1.0);
+            let (strain, temperature) = (random(rng, size), 250.0 + 300.0 * rng.f64());
+            let dissipation = case.law.respond(&strain, temperature, &old, &mut new).dissipation;
+            assert!(dissipation >= 0.0 && new.accumulated >= old.accumulated, "{}", case.name);
+            sum += dissipation;
+            old = new;
+        }
+        assert!((old.dissipated - sum).abs() <= 1e-12 * sum);
+    });
+}
+
+#[test]
+fn where_nothing_yields_the_way_does_not_matter_and_the_law_is_elasticity() {
+    for_all(|case, rng| {
+        let Some(plastic) = &case.plastic else { return };
+        let at = plastic.at(400.0).unwrap();
+        // The norm of a deviator is at most that of six components of a size.
+        let size = 0.2 * at.yield_stress / at.shear;
+        let (first, second) = (random(rng, size), random(rng, size));
+        let (old, mut new) = (History::default(), History::default());
+        let direct = plastic.respond(&second, 400.0, &old, &mut new);
+        assert_eq!(new, old);
+        plastic.respond(&first, 400.0, &old, &mut new);
+        assert_eq!(new, old);
+        let after = plastic.respond(&second, 400.0, &{ new }, &mut new);
+        assert_eq!(direct, after);
+        let young = (plastic.young)(400.0);
+        let expansion = (plastic.expansion)(400.0);
+        let law = Thermoelastic { young, poisson: (plastic.poisson)(400.0), expansion };
+        let elastic = Elastic { law, stress_free_temperature: 300.0 };
+        let wanted = elastic.respond(&second, 400.0, &old, &mut new);
+        let scale = at.bulk * (size + 100.0 * expansion) + at.shear * size;
+        for (f, w) in direct.stress.iter().zip(wanted.stress) {
+            assert!((f - w).abs() <= 1e-13 * scale, "{}: {f} {w}", case.name);
+        }
+    });
+}
+
+#[test]
+fn stress_returns_to_the_yield_surface_however_far_it_was_sent() {
+    for_all(|case, rng| {
+        let Some(plastic) = &case.plastic else { return };
+        let old = worn(case, rng);
+        for power in [0.0, 1.0, 3.0, 6.0, 100.0] {
+            let strain = random(rng, case.strain * 10f64.powf(power));
+            let temperature = 300.0 + 400.0 * rng.f64();
+            let at = plastic.at(temperature).unwrap();
+            let mut new = History::default();
+            let response = plastic.respond(&strain, temperature, &old, &mut new);
+            let back = at.back_stress(&new);
+            let mean = (0..3).map(|i| response.stress[i]).sum::<f64>() / 3.0;
+            let xi: [f64; 6] = std::array::from_fn(|i| {
+                response.stress[i] - back[i] - if i < 3 { mean } else { 0.0 }
+            });
+            let radius = at.yield_stress + at.isotropic * new.accumulated;
+            let equivalent = norm(&xi) / ROOT;
+            // Pressure and back stress are much larger where they are.
+            let scale = radius + 1e-3 * (mean.abs() + norm(&back));
+            if new.accumulated > old.accumulated {
+                assert!((equivalent - radius).abs() <= 1e-12 * scale, "{} {power}", case.name);
+            } else {
+                assert!(equivalent <= radius + 1e-12 * scale, "{} {power}", case.name);
+            }
+            assert!(response.stress.iter().all(|s| s.is_finite()), "{} {power}", case.name);
+        }
+    });
+}
+
+#[test]
+fn a_bar_goes_the_bilinear_way_to_and_fro() {
+    for [young, poisson, _, yield_stress, isotropic, kinematic] in MATERIALS {
+        if yield_stress == 0.0 {
+            continue;
+        }
+        let law = Thermoelastic { young, poisson, expansion: 0.0 };
+        let law = Elastoplastic {
+            yield_stress: constant(yield_stress),
+            isotropic: constant(isotropic),
+            kinematic: constant(kinematic),
+            ..Elastoplastic::elastic(&law, 300.0)
+        };
+        let unit = yield_stress / young;
+        let path = [0.5, 3.0, 1.0, -4.0, -3.5, 6.0, 0.0].map(|part| part * unit);
+        let bar = crate::closed_form::Bilinear::bar(young, yield_stress, isotropic, kinematic);
+        let mut history = History::default();
+        for (strain, wanted) in path.iter().zip(bar.stresses(&path)) {
+            // Sideways strain that leaves no stress there.
+            let (mut side, mut new) = (-poisson * strain, History::default());
+            let mut stress = f64::NAN;
+            for _ in 0..40 {
+                let six = [side, side, *strain, 0.0, 0.0, 0.0];
+                let response = law.respond(&six, 300.0, &history, &mut new);
+                side -= response.stress[0] / (response.tangent[0][0] + response.tangent[0][1]);
+                stress = response.stress[2];
+            }
+            history = new;
+            let scale = yield_stress * if poisson > 0.49 { 1e4 } else { 1.0 };
+            assert!((stress - wanted).abs() < 1e-11 * scale, "{young:e}: {stress} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn constants_that_are_none_are_refused() {
+    let law = Thermoelastic { young: 200e9, poisson: 0.3, expansion: 1e-5 };
+    let sound = Elastoplastic::elastic(&law, 300.0);
+    assert!(sound.at(1e4).is_some());
+    for broken in [
+        Elastoplastic { young: constant(0.0), ..sound.clone() },
+        Elastoplastic { poisson: constant(0.5), ..sound.clone() },
+        Elastoplastic { poisson: constant(-1.0), ..sound.clone() },
+        Elastoplastic { yield_stress: constant(-1.0), ..sound.clone() },
+        Elastoplastic { yield_stress: constant(f64::NAN), ..sound.clone() },
+        Elastoplastic { isotropic: constant(-1e9), ..sound.clone() },
+        Elastoplastic { expansion: constant(f64::INFINITY), ..sound.clone() },
+    ] {
+        assert!(broken.at(400.0).is_none());
+        let mut new = History::default();
+        assert!(broken.respond(&[0.0; 6], 400.0, &History::default(), &mut new).stress[0].is_nan());
+    }
+}

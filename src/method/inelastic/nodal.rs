@@ -1,0 +1,167 @@
+//! Stress and plastic strain at points and, recovered, at nodes.
+//!
+//! Values at the quadrature points of an element are taken to its sampling points by the polynomial of one order less
+//! that fits them best, which leaves out the part in which strains of Lagrange elements are least accurate, and from
+//! there to the nodes as strains of elasticity are (see `recovery` of [`crate::method::fem`]).
+
+use faer::Mat;
+
+use super::element::Given;
+use super::grid::{Grid, Iterate};
+use super::problem::{InelasticError, InelasticProblem, PointState};
+use super::shapes::Scratch;
+use crate::material::{History, PointConstants};
+use crate::math::gauss::gauss_legendre;
+use crate::math::parallel::Team;
+use crate::math::separable::{Side, transform};
+use crate::method::fem::recovery::{Beyond, Recovery};
+use crate::method::fem::{Geometry, Mesh};
+
+impl Grid {
+    /// All points under the displacements of an iterate, with the histories that they have.
+    pub fn read(
+        &self,
+        team: &Team,
+        constants: &[PointConstants],
+        history: &[f64],
+        iterate: &Iterate,
+    ) -> Vec<PointState> {
+        let (points, modes) = (self.kit.shapes.points, self.kit.remedy.modes());
+        let layers = team.map(self.layers(), |layer| {
+            let (mut scratch, mut u, mut out) = (Scratch::default(), Vec::new(), Vec::new());
+            for (first, elements) in self.batches(layer) {
+                self.gather(&elements, &iterate.displacement, &mut u);
+                let all = layer * self.per_layer() + first;
+                let at = |each: usize| all * each..(all + elements.len()) * each;
+                let given = Given {
+                    elements: &elements,
+                    displacement: &u,
+                    amplitudes: &iterate.amplitudes[at(modes)],
+                    constants: &constants[at(points)],
+                    old: &history[at(points * History::LEN)],
+                };
+                self.kit.read(&given, &mut scratch, &mut out);
+            }
+            out
+        });
+        layers.concat()
+    }
+}
+
+impl InelasticProblem {
+    /// Stress at the nodes: xx, yy, zz, xy, yz, xz, of a section rr, tt, zz, 0, 0, rz [Pa].
+    pub fn nodal_stress(
+        &self,
+        state: &[f64],
+        temperatures: &[f64],
+    ) -> Result<Vec<[f64; 6]>, InelasticError> {
+        let points = self.points(state, temperatures)?;
+        let is_ring = self.mesh.geometry == Geometry::Axisymmetric;
+        // On the axis rr and tt are one: their mean is even, half their difference vanishes.
+        let parted = |s: &PointState| match (is_ring, s.stress) {
+            (true, [a, b, rest @ ..]) => {
+                let [zz, xy, yz, xz] = rest;
+                [0.5 * (a + b), 0.5 * (a - b), zz, xy, yz, xz]
+            }
+            (false, stress) => stress,
+        };
+        let parted: Vec<[f64; 6]> = points.iter().map(parted).collect();
+        let mut out = vec![[0.0; 6]; self.mesh.nodes()];
+        for component in 0..6 {
+            if is_ring && (component == 3 || component == 4) {
+                continue;
+            }
+            let values: Vec<f64> = parted.iter().map(|stress| stress[component]).collect();
+            let beyond = [0, 1].map(|axis| self.beyond(axis, component));
+            for (stress, value) in out.iter_mut().zip(recover(&self.mesh, &values, beyond)) {
+                stress[component] = value;
+            }
+        }
+        if is_ring {
+            for stress in &mut out {
+                (stress[0], stress[1]) = (stress[0] + stress[1], stress[0] - stress[1]);
+            }
+        }
+        Ok(out)
+    }
+
+    /// Accumulated plastic strain at the nodes [1].
+    pub fn nodal_plastic_strain(&self, state: &[f64]) -> Vec<f64> {
+        let histories = state[self.layout().history].chunks_exact(History::LEN);
+        let values: Vec<f64> =
+            histories.map(|history| History::read(history).accumulated).collect();
+        // Even, as xx is.
+        let beyond = [0, 1].map(|axis| self.beyond(axis, 0));
+        // Where it falls to nothing, polynomials go below.
+        recover(&self.mesh, &values, beyond).into_iter().map(|p| p.max(0.0)).collect()
+    }
+
+    /// What lies beyond the low end of x or y for a component of stress.
+    fn beyond(&self, axis: usize, component: usize) -> Beyond {
+        match self.mesh.geometry {
+            Geometry::Axisymmetric if axis == 0 && self.mesh.axes[0].start() == 0.0 => {
+                match component {
+                    1 => Beyond::Vanishing,
+                    5 => Beyond::Odd,
+                    _ => Beyond::Even,
+                }
+            }
+            Geometry::Box if self.mesh.mirrored[axis] => {
+                let shears = [[3, 5], [3, 4]][axis];
+                if shears.contains(&component) { Beyond::Odd } else { Beyond::Even }
+            }
+            _ => Beyond::Nothing,
+        }
+    }
+}
+
+/// From values at the points of all elements to the nodes.
+fn recover(mesh: &Mesh, values: &[f64], beyond: [Beyond; 2]) -> Vec<f64> {
+    let per_axis = match mesh.geometry {
+        Geometry::Box => mesh.order() + 1,
+        Geometry::Axisymmetric => mesh.order() + 2,
+    };
+    let elements = mesh.element_counts();
+    let points = elements.map(|count| if count == 0 { 1 } else { per_axis });
+    let counts = [0, 1, 2].map(|a| points[a] * elements[a].max(1));
+    // Points of the whole mesh in one order along each axis.
+    let mut ordered = vec![0.0; values.len()];
+    let of_element: usize = points.iter().product();
+    for (e, values) in values.chunks_exact(of_element).enumerate() {
+        let [nx, ny, _] = elements.map(|count| count.max(1));
+        let element = [e % nx, e / nx % ny, e / (nx * ny)];
+        for (q, value) in values.iter().enumerate() {
+            let point = [q % points[0], q / points[0] % points[1], q / (points[0] * points[1])];
+            let [i, j, k] = [0, 1, 2].map(|a| element[a] * points[a] + point[a]);
+            ordered[i + counts[0] * (j + counts[1] * k)] = *value;
+        }
+    }
+    let matrices = [0, 1, 2].map(|axis| {
+        let beyond = if axis < 2 { beyond[axis] } else { Beyond::Nothing };
+        let recovery = Recovery::new(&mesh.axes[axis], beyond, [false; 2]).samples;
+        match elements[axis] {
+            0 => recovery,
+            count => through(&recovery, &fit(mesh.order(), per_axis), count),
+        }
+    });
+    transform(&ordered, matrices.each_ref(), Side::Direct)
+}
+
+/// Values at the Gauss points of an order from those at more: the polynomial that fits best.
+fn fit(order: usize, points: usize) -> Mat<f64> {
+    let legendre = |degree: usize, x: f64| if degree == 0 { 1.0 } else { x };
+    let (to, from) = (gauss_legendre(order), gauss_legendre(points));
+    Mat::from_fn(order, points, |i, j| {
+        let (x, (y, w)) = (to[i].0, from[j]);
+        (0..order).map(|d| (2 * d + 1) as f64 / 2.0 * legendre(d, x) * legendre(d, y) * w).sum()
+    })
+}
+
+/// The recovery after the fit of every element.
+fn through(recovery: &Mat<f64>, fit: &Mat<f64>, elements: usize) -> Mat<f64> {
+    let (order, points) = (fit.nrows(), fit.ncols());
+    Mat::from_fn(recovery.nrows(), elements * points, |node, p| {
+        let (element, point) = (p / points, p % points);
+        (0..order).map(|i| recovery[(node, element * order + i)] * fit[(i, point)]).sum()
+    })
+}

@@ -1,0 +1,295 @@
+//! The problem of a body: what is known before time starts, and steps from one state to the next.
+
+use super::grid::{Grid, Iterate};
+use super::newton::{Progress, Step};
+use super::tangent::TangentSolver;
+use crate::material::{Elastoplastic, History, PointConstants};
+use crate::math::address_space;
+use crate::math::cholesky::SolverError;
+use crate::math::parallel::Team;
+use crate::math::thread::aside;
+use crate::method::fem::elastic::Support;
+use crate::method::fem::{Mesh, MeshFace, expected_entries};
+
+/// Why a step was not made; the state is then as it was before.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum InelasticError {
+    #[error("{what} has {given} entries, {wanted} are wanted")]
+    Length { what: &'static str, given: usize, wanted: usize },
+    #[error(
+        "layer {layer} of elements has no law at {temperature} K: moduli and −1 < ν < ½ must be positive, \
+         hardening and yield stress not negative"
+    )]
+    Constants { layer: usize, temperature: f64 },
+    #[error(
+        "{iterations} iterations found no equilibrium: {residual:e} of the forces are left, where {tolerance:e} \
+         is wanted"
+    )]
+    NoEquilibrium { iterations: usize, residual: f64, tolerance: f64 },
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+}
+
+/// Where what stands in a state, a flat vector: displacements, then amplitudes, then histories.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StateLayout {
+    /// Displacements of each node [m], its components together (x, y, z or r, z), the x index of nodes fastest.
+    pub displacement: std::ops::Range<usize>,
+    /// Amplitudes of enhanced strains of each element [1]: 15 of linear bricks, 7 of linear rings, 0 of quadratic
+    /// elements.
+    pub amplitudes: std::ops::Range<usize>,
+    /// Histories of each element's points, both x fastest: [`History::LEN`] numbers each, as [`History::read`] has
+    /// them.
+    pub history: std::ops::Range<usize>,
+    /// Points of an element: (p + 1)³ of a brick of order p, (p + 2)² of a ring.
+    pub points: usize,
+}
+
+/// A quadrature point in some state.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PointState {
+    /// Volume that it stands for, mirror images left out [m³].
+    pub volume: f64,
+    /// Stress xx, yy, zz, xy, yz, xz, of a ring rr, tt, zz, 0, 0, rz [Pa].
+    pub stress: [f64; 6],
+    /// Thermal strain in each direction [1], and what it works against [Pa]: the sum of normal stresses, in elements
+    /// that project their change of volume with the part of it that this leaves over.
+    pub thermal_strain: f64,
+    pub tension: f64,
+    /// Energy per volume that elasticity and hardening keep [J/m³].
+    pub stored: f64,
+    pub history: History,
+}
+
+/// The equilibrium of a body with elastic–plastic layers.
+///
+/// Where an axis of the mesh is mirrored, what drives the body must be even about that plane.
+pub struct InelasticProblem {
+    pub(super) mesh: Mesh,
+    laws: Vec<Elastoplastic>,
+    pub(super) grid: Grid,
+    solver: TangentSolver,
+    threads: usize,
+}
+
+impl InelasticProblem {
+    /// `laws` are those of the layers of elements along z, from the bottom, or one for all of them.
+    pub fn new(
+        mesh: &Mesh,
+        laws: Vec<Elastoplastic>,
+        supports: &[(MeshFace, Support)],
+        threads: usize,
+    ) -> Result<Self, InelasticError> {
+        let layers = mesh.element_counts()[2];
+        if laws.len() != 1 && laws.len() != layers {
+            let what = "the list of laws";
+            return Err(InelasticError::Length { what, given: laws.len(), wanted: layers });
+        }
+        let grid = Grid::new(mesh);
+        let reference = reference(&laws)?;
+        let solver = aside(|| TangentSolver::new(mesh, &reference, supports, &Team::new(threads)));
+        Ok(Self { mesh: mesh.clone(), laws, grid, solver, threads })
+    }
+
+    pub fn layout(&self) -> StateLayout {
+        let displacement = self.grid.unknowns();
+        let amplitudes = displacement + self.grid.elements() * self.grid.kit.remedy.modes();
+        let history = amplitudes + self.grid.points() * History::LEN;
+        StateLayout {
+            displacement: 0..displacement,
+            amplitudes: displacement..amplitudes,
+            history: amplitudes..history,
+            points: self.grid.kit.shapes.points,
+        }
+    }
+
+    /// The state before anything happened: at rest, never yielded.
+    pub fn initial_state(&self) -> Vec<f64> {
+        vec![0.0; self.layout().history.end]
+    }
+
+    /// What a step takes, at most, besides the state [B].
+    pub fn memory(&self) -> f64 {
+        // Constants, tangents twice, histories new and old; of linear bricks the triangle of a matrix.
+        const POINT: f64 = 8.0 * (6.0 + 2.0 * 9.0 + 2.0 * History::LEN as f64);
+        // Vectors of Newton's method and of conjugate gradients.
+        const VECTORS: f64 = 24.0;
+        let unknowns = self.grid.unknowns() as f64;
+        let own = self.grid.kit.unknowns() as f64;
+        let triangles =
+            if self.grid.kit.remedy.modes() > 0 { 0.5 * own * (own + 1.0) } else { 0.0 };
+        let factor = match self.solver.is_factored() {
+            true => {
+                1.2 * expected_entries(self.mesh.geometry, self.grid.unknowns()) + 60.0 * unknowns
+            }
+            false => 0.0,
+        };
+        POINT * self.grid.points() as f64
+            + 8.0 * (VECTORS * unknowns + triangles * self.grid.elements() as f64 + factor)
+    }
+
+    /// Advances a state to equilibrium at nodal temperatures [K] under nodal forces [N], laid out as displacements are;
+    /// an empty list of forces stands for none.
+    ///
+    /// The path between the last state and this one is straight at every point. Where no equilibrium is found, as
+    /// under forces that a body cannot bear, the state is left as it was.
+    pub fn advance(
+        &self,
+        state: &mut [f64],
+        temperatures: &[f64],
+        forces: &[f64],
+    ) -> Result<Progress, InelasticError> {
+        self.check(state, temperatures)?;
+        let unknowns = self.grid.unknowns();
+        if !forces.is_empty() && forces.len() != unknowns {
+            let what = "the list of nodal forces";
+            return Err(InelasticError::Length { what, given: forces.len(), wanted: unknowns });
+        }
+        address_space::expect(self.memory() as usize).map_err(SolverError::from)?;
+        aside(|| self.advance_here(state, temperatures, forces))
+    }
+
+    fn advance_here(
+        &self,
+        state: &mut [f64],
+        temperatures: &[f64],
+        forces: &[f64],
+    ) -> Result<Progress, InelasticError> {
+        let team = Team::new(self.threads);
+        let constants = self.constants(temperatures, &team)?;
+        let layout = self.layout();
+        let mut iterate = self.iterate(state);
+        let load = match forces.is_empty() {
+            true => vec![0.0; self.grid.unknowns()],
+            false => self.apart(forces),
+        };
+        let progress = {
+            let step = Step {
+                grid: &self.grid,
+                solver: &self.solver,
+                team: &team,
+                constants: &constants,
+                old: &state[layout.history.clone()],
+                load: &load,
+            };
+            step.balance(&mut iterate)?
+        };
+        let degrees = self.grid.kit.shapes.degrees;
+        for (c, component) in iterate.displacement.chunks_exact(self.grid.nodes).enumerate() {
+            let own = state[layout.displacement.clone()].iter_mut().skip(c).step_by(degrees);
+            own.zip(component).for_each(|(to, from)| *to = *from);
+        }
+        state[layout.amplitudes].copy_from_slice(&iterate.amplitudes);
+        state[layout.history].copy_from_slice(&iterate.new);
+        Ok(progress)
+    }
+
+    pub(super) fn check(&self, state: &[f64], temperatures: &[f64]) -> Result<(), InelasticError> {
+        let lengths = [
+            ("the state", state.len(), self.layout().history.end),
+            ("the list of nodal temperatures", temperatures.len(), self.grid.nodes),
+        ];
+        match lengths.into_iter().find(|(_, given, wanted)| given != wanted) {
+            Some((what, given, wanted)) => Err(InelasticError::Length { what, given, wanted }),
+            None => Ok(()),
+        }
+    }
+
+    /// Components one after another.
+    fn apart(&self, nodal: &[f64]) -> Vec<f64> {
+        let degrees = self.grid.kit.shapes.degrees;
+        (0..degrees).flat_map(|c| nodal.iter().skip(c).step_by(degrees)).copied().collect()
+    }
+
+    fn iterate(&self, state: &[f64]) -> Iterate {
+        let layout = self.layout();
+        let mut iterate = self.grid.iterate();
+        iterate.displacement = self.apart(&state[layout.displacement]);
+        iterate.amplitudes.copy_from_slice(&state[layout.amplitudes]);
+        iterate
+    }
+
+    pub(super) fn law(&self, layer: usize) -> &Elastoplastic {
+        if self.laws.len() == 1 { &self.laws[0] } else { &self.laws[layer] }
+    }
+
+    /// Constants of all points.
+    fn constants(
+        &self,
+        temperatures: &[f64],
+        team: &Team,
+    ) -> Result<Vec<PointConstants>, InelasticError> {
+        let shapes = &self.grid.kit.shapes;
+        let layers = team.map(self.grid.layers(), |layer| {
+            let mut out = Vec::with_capacity(self.grid.per_layer() * shapes.points);
+            let mut at = vec![0.0; shapes.points];
+            for e in 0..self.grid.per_layer() {
+                let place = self.grid.place(layer, e);
+                let nodal: Vec<f64> =
+                    self.grid.nodes_of(place).map(|node| temperatures[node]).collect();
+                shapes.interpolate(&nodal, &mut at);
+                for &temperature in &at {
+                    let constants = self.law(layer).at(temperature);
+                    out.push(constants.ok_or(InelasticError::Constants { layer, temperature })?);
+                }
+            }
+            Ok::<_, InelasticError>(out)
+        });
+        let mut all = Vec::with_capacity(self.grid.points());
+        for layer in layers {
+            all.extend(layer?);
+        }
+        Ok(all)
+    }
+
+    /// All quadrature points, as histories stand in a state.
+    pub fn points(
+        &self,
+        state: &[f64],
+        temperatures: &[f64],
+    ) -> Result<Vec<PointState>, InelasticError> {
+        self.check(state, temperatures)?;
+        let team = Team::new(self.threads);
+        let constants = self.constants(temperatures, &team)?;
+        let iterate = self.iterate(state);
+        let history = &state[self.layout().history];
+        Ok(self.grid.read(&team, &constants, history, &iterate))
+    }
+
+    /// Displacements, the components of a node together [m].
+    pub fn displacement<'a>(&self, state: &'a [f64]) -> &'a [f64] {
+        &state[self.layout().displacement]
+    }
+
+    /// Energy that the body has dissipated, mirror images included [J].
+    pub fn dissipated_energy(&self, state: &[f64]) -> f64 {
+        let shapes = &self.grid.kit.shapes;
+        let mut histories = state[self.layout().history].chunks_exact(History::LEN);
+        let mut sum = 0.0;
+        for layer in 0..self.grid.layers() {
+            for e in 0..self.grid.per_layer() {
+                for (volume, history) in
+                    shapes.volumes(self.grid.place(layer, e)).into_iter().zip(&mut histories)
+                {
+                    sum += volume * History::read(history).dissipated;
+                }
+            }
+        }
+        sum * self.mesh.copies()
+    }
+}
+
+/// Constants that stand for those of all layers: their means at the temperatures without stress.
+fn reference(laws: &[Elastoplastic]) -> Result<PointConstants, InelasticError> {
+    let mut sum: Option<PointConstants> = None;
+    for (layer, law) in laws.iter().enumerate() {
+        let temperature = law.stress_free_temperature;
+        let own = law.at(temperature).ok_or(InelasticError::Constants { layer, temperature })?;
+        let (bulk, shear) = sum.map_or((0.0, 0.0), |sum| (sum.bulk, sum.shear));
+        sum = Some(PointConstants { bulk: bulk + own.bulk, shear: shear + own.shear, ..own });
+    }
+    let count = laws.len() as f64;
+    let what = "the list of laws";
+    let sum = sum.ok_or(InelasticError::Length { what, given: 0, wanted: 1 })?;
+    Ok(PointConstants { bulk: sum.bulk / count, shear: sum.shear / count, ..sum })
+}
