@@ -17,6 +17,7 @@ pub enum Quantity {
     HeatTransferCoefficient,
     /// Of a contact, for a unit of area.
     ThermalResistance,
+    Volume,
     Velocity,
     Viscosity,
     SurfaceTension,
@@ -45,7 +46,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 27] = [
+    pub const ALL: [Quantity; 28] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::HeatFlux,
@@ -61,6 +62,7 @@ impl Quantity {
         Quantity::Expansion,
         Quantity::HeatTransferCoefficient,
         Quantity::ThermalResistance,
+        Quantity::Volume,
         Quantity::Velocity,
         Quantity::Viscosity,
         Quantity::SurfaceTension,
@@ -110,6 +112,7 @@ impl Quantity {
             Quantity::Expansion => "ThermalExpansion",
             Quantity::HeatTransferCoefficient => "HeatTransferCoefficient",
             Quantity::ThermalResistance => "ThermalInsulance",
+            Quantity::Volume => "Volume",
             Quantity::Velocity => "Velocity",
             Quantity::Viscosity => "DynamicViscosity",
             Quantity::SurfaceTension => "SurfaceTension",
@@ -141,6 +144,7 @@ impl Quantity {
             Quantity::Expansion => "1/K",
             Quantity::HeatTransferCoefficient => "W/(m2.K)",
             Quantity::ThermalResistance => "m2.K/W",
+            Quantity::Volume => "m3",
             Quantity::Velocity => "m/s",
             Quantity::Viscosity => "Pa.s",
             Quantity::SurfaceTension => "N/m",
@@ -172,6 +176,7 @@ impl Quantity {
             Quantity::Expansion => [0, 0, 0, -1],
             Quantity::HeatTransferCoefficient => [1, 0, -3, -1],
             Quantity::ThermalResistance => [-1, 0, 3, 1],
+            Quantity::Volume => [0, 3, 0, 0],
             Quantity::Velocity => [0, 1, -1, 0],
             Quantity::Viscosity => [1, -1, -1, 0],
             Quantity::SurfaceTension => [1, 0, -2, 0],
@@ -227,6 +232,7 @@ impl Quantity {
             Quantity::Expansion => 1e-5,
             Quantity::HeatTransferCoefficient => 10.0,
             Quantity::ThermalResistance => 1e-6,
+            Quantity::Volume => 1e-12,
             Quantity::Velocity => 10.0,
             Quantity::Viscosity => 1e-3,
             Quantity::SurfaceTension => 0.1,

@@ -23,6 +23,7 @@ pub enum Per {
     Mode,
     Node,
     Particle,
+    Point,
 }
 
 /// The fields of a state in the order in which they lie there.
@@ -104,6 +105,7 @@ impl fmt::Display for Place {
             Per::Mode => "mode",
             Per::Node => "node",
             Per::Particle => "particle",
+            Per::Point => "point",
         };
         write!(out, " of {entry} {}", self.entry)
     }

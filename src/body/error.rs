@@ -1,6 +1,8 @@
 use crate::math::address_space::TooLittle;
 use crate::math::allowance::Halt;
 use crate::math::cholesky::SolverError;
+use crate::method::fem::NonlinearFailure;
+use crate::method::inelastic::InelasticError;
 use crate::method::sph::Failure;
 
 /// Why a body does not do what it is asked for.
@@ -26,6 +28,18 @@ pub enum BodyError {
         "the value is {0}, beyond what numbers can hold: an input or constant is far too large"
     )]
     NotFinite(f64),
+    /// Nonlinear heat did not advance.
+    #[error("{body}: {failure}")]
+    Heat { body: String, failure: NonlinearFailure },
+    /// A body that yields found no equilibrium.
+    #[error("{body}: {error}")]
+    Equilibrium { body: String, error: InelasticError },
+    /// Loads on part of a body that stands for the whole do not.
+    #[error(
+        "{body}: forces are not even about the planes of symmetry, which a body that yields needs (allowed: forces that \
+         are, or `symmetry = \"none\"`)"
+    )]
+    Uneven { body: String },
     #[error("{0}")]
     Solver(#[from] SolverError),
     /// A step of a droplet has no physical meaning.
@@ -45,8 +59,10 @@ pub enum BodyError {
     /// A step was ended before it was done.
     #[error("{body}: {halt}")]
     Halted { body: String, halt: Halt },
-    /// What a droplet gives has no derivative in time.
-    #[error("what a droplet gives is known step by step: it has no derivative in time")]
+    /// What has no derivative.
+    #[error(
+        "what droplets give, and what follows from heat that is not linear, is known step by step: it has no derivative"
+    )]
     NoRate,
 }
 

@@ -75,6 +75,9 @@ pub trait Body: Send + Sync {
     /// A value, where the memo is that of what acts and of the state.
     fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError>;
 
+    /// Whether a value follows inputs without delay.
+    fn follows_at_once(&self, reading: &Reading) -> bool;
+
     /// Whether a reading takes more stack than a host's thread need have; nothing is remembered yet without a memo.
     fn is_deep(&self, memo: Option<&Memo>, reading: &Reading) -> bool;
 
@@ -112,6 +115,9 @@ pub trait Body: Send + Sync {
 
 /// A body whose faces answer to heat and force that others give.
 pub trait Conductor {
+    /// What temperatures may err by from step to step [K]; nothing where they are exact.
+    fn tolerance(&self) -> f64;
+
     /// The cells through which others exchange with a face.
     fn cells(&self, face: FaceName) -> WallCells;
 

@@ -439,6 +439,9 @@ pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
             | BodyError::BelowAbsoluteZero { .. }
             | BodyError::Droplet { .. }
             | BodyError::Contact { .. }
+            | BodyError::Heat { .. }
+            | BodyError::Equilibrium { .. }
+            | BodyError::Uneven { .. }
             | BodyError::NoRoom(_)
             | BodyError::Halted { .. } => (Status::Discard, None),
             BodyError::NotFinite(_) | BodyError::Solver(_) | BodyError::NoRate => {

@@ -1,6 +1,8 @@
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
-use super::{Constants, Melting, Property, Substance};
+use super::{Constants, Elastoplastic, Melting, OfTemperature, Property, Substance, constant};
 
 /// Constants of an isotropic body as a scene names them: numbers, or tables over the temperature. Those of elasticity
 /// may be left out where nothing mechanical is asked for.
@@ -63,6 +65,30 @@ impl Properties {
             specific_heat: self.specific_heat.clone(),
             conductivity: self.conductivity.clone(),
             melting: self.melting,
+        }
+    }
+
+    /// How the body deforms, free of stress at a temperature [K]; without a yield stress it never yields.
+    ///
+    /// # Panics
+    /// If constants of elasticity are missing, which checked scenes that ask for mechanics have.
+    pub fn elastoplastic(&self, stress_free_temperature: f64) -> Elastoplastic {
+        let given = |property: &Option<Property>| -> OfTemperature {
+            let property = property.clone().expect("mechanics has its constants");
+            Arc::new(move |temperature| property.value(temperature))
+        };
+        let or = |property: &Option<Property>, other: f64| match property {
+            Some(_) => given(property),
+            None => constant(other),
+        };
+        Elastoplastic {
+            young: given(&self.young),
+            poisson: given(&self.poisson),
+            expansion: given(&self.expansion),
+            yield_stress: or(&self.yield_stress, f64::INFINITY),
+            isotropic: or(&self.isotropic_hardening, 0.0),
+            kinematic: or(&self.kinematic_hardening, 0.0),
+            stress_free_temperature,
         }
     }
 

@@ -15,6 +15,8 @@ const STAGES: [f64; 2] = [1.0 / 3.0, 1.0];
 const TOLERANCE: f64 = 1e-10;
 /// Difference of temperatures that is rounding, over the temperatures.
 const ROUNDING: f64 = 1e-12;
+/// What steps of bodies that are not exact may change of temperatures from one try to the next, over their tolerance.
+const NOISE: f64 = 0.1;
 /// More iterations than any contact was seen to take.
 const MOST_ITERATIONS: usize = 100;
 
@@ -49,6 +51,7 @@ impl Model {
         let places: usize = joints.iter().map(|joint| joint.cells.len()).sum();
         let mut fluxes: Fluxes = vec![[0.0; 2]; places];
         let mut anderson = Anderson::default();
+        let noise = NOISE * self.tolerance_of(group);
         for _ in 0..MOST_ITERATIONS {
             let passed = exchanges(&joints, &fluxes, dt);
             let all: Vec<&Exchange> = others.iter().chain(&passed).collect();
@@ -67,7 +70,8 @@ impl Model {
                     let [from, to] = sides.each_ref().map(|side| [side[0][place], side[1][place]]);
                     let off = [0, 1].map(|s| joint.conductance * (from[s] - to[s]) - flux[s]);
                     let corrected = product(corrections[n], off);
-                    let rounding = ROUNDING * joint.conductance * from[1].abs().max(to[1].abs());
+                    let rounding = ROUNDING * from[1].abs().max(to[1].abs());
+                    let rounding = joint.conductance * rounding.max(noise);
                     // Not `>`, by which what is no number would be settled.
                     is_settled &= (0..2).all(|s| {
                         corrected[s].abs() <= TOLERANCE * largest || off[s].abs() <= rounding
@@ -83,6 +87,12 @@ impl Model {
         }
         let sides = joints[0].sides.each_ref().map(|side| self.bodies[side.body].name().to_owned());
         Err(BodyError::Contact { sides })
+    }
+
+    /// What temperatures of bodies in a group may err by [K].
+    fn tolerance_of(&self, group: &Group) -> f64 {
+        let conductors = group.bodies.iter().filter_map(|&body| self.bodies[body].conductor());
+        conductors.map(|conductor| conductor.tolerance()).fold(0.0, f64::max)
     }
 
     /// Temperatures of the sides of a group's joints at each stage.

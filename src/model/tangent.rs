@@ -69,7 +69,9 @@ impl Model {
                 (&bodies[place], change.memo(place)),
                 &output.reading,
             )?,
-            None if *in_time => return Err(BodyError::NoRate.into()),
+            None if *in_time || self.bodies[place].follows_at_once(&output.reading) => {
+                return Err(BodyError::NoRate.into());
+            }
             None => 0.0,
         };
         Ok(BodyError::unless_finite(rate)?)

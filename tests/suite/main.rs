@@ -21,6 +21,7 @@ mod joints;
 mod layered_mechanics;
 mod layers;
 mod nonlinear_heat;
+mod nonlinear_solids;
 mod output;
 mod particles;
 mod plausibility;

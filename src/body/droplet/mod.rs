@@ -277,6 +277,10 @@ impl Body for DropletBody {
         })
     }
 
+    fn follows_at_once(&self, _: &Reading) -> bool {
+        false
+    }
+
     fn is_deep(&self, _: Option<&Memo>, _: &Reading) -> bool {
         false
     }

@@ -26,7 +26,7 @@ impl SolidBody {
         let loads = self.with_received(outside, acts);
         let loads = loads.as_deref().unwrap_or(outside);
         let advanced = self.solid.advance(state, loads, acts.duration, allowance);
-        advanced.map_err(|halt| self.halted(halt))
+        advanced.map_err(|failure| self.error(failure))
     }
 
     /// Advances under inputs that follow a path.
@@ -51,7 +51,7 @@ impl SolidBody {
             false => 1.0,
         };
         let foreseen = allowance.foresee(parts, "samples of moving footprints", state.len());
-        foreseen.map_err(|halt| self.halted(halt))?;
+        foreseen.map_err(|halt| self.error(halt.into()))?;
         let h = duration / parts;
         let mut first = self.loads_at(path, 0.0)?;
         for part in 0..parts as usize {
@@ -60,7 +60,7 @@ impl SolidBody {
             let loads = quadratic([&first, &middle, &last], h);
             let loads = self.with_received(&loads, acts).unwrap_or_else(|| loads.to_vec());
             let advanced = self.solid.advance(state, &loads, h, allowance);
-            advanced.map_err(|halt| self.halted(halt))?;
+            advanced.map_err(|failure| self.error(failure))?;
             first = last;
         }
         Ok(())
@@ -69,7 +69,7 @@ impl SolidBody {
     fn loads_at(&self, path: &InputPath, s: f64) -> Result<SolidLoads, BodyError> {
         let inputs = path.at(0, s);
         self.loads.check(&inputs).map_err(|error| error.underway(s))?;
-        Ok(self.loads.assemble(&inputs, self.solid.mesh()))
+        Ok(self.loads.assemble(&inputs, self.meshes()))
     }
 
     /// Loads and their derivatives with what comes through ports; nothing if nothing does.

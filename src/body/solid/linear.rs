@@ -20,23 +20,23 @@ impl SolidChange<'_> {
     /// [K/s], or per unit of what changes.
     pub fn max_temperature_rate(&mut self) -> f64 {
         let Self { now, change } = self;
-        let solid = &now.body.solid;
-        let temperatures = now.memo.heat(solid, now.state);
-        solid.max_temperature_rate(temperatures, change.memo.heat(solid, change.state))
+        let body = now.body;
+        let temperatures = now.memo.heat(body, now.state);
+        body.solid.max_temperature_rate(temperatures, change.memo.heat(body, change.state))
     }
 
     /// Of the highest von Mises and the largest principal stress.
     pub fn max_stress_rate(&mut self) -> Result<[f64; 2], BodyError> {
         let Self { now, change } = self;
-        let solid = &now.body.solid;
-        let fields = now.memo.solve(solid, now.state)?;
-        Ok(solid.max_stress_rate(fields, change.memo.solve(solid, change.state)?))
+        let body = now.body;
+        let fields = now.memo.solve(body, now.state)?;
+        Ok(body.solid.max_stress_rate(fields, change.memo.solve(body, change.state)?))
     }
 }
 
 impl Linear for SolidBody {
     fn change(&self, inputs: &[f64], rates: &[f64]) -> Memo {
-        Box::new(SolidMemo::new(self.loads.change(inputs, rates, self.solid.mesh())))
+        Box::new(SolidMemo::of_change(self.loads.change(inputs, rates, self.meshes())))
     }
 
     fn rates(&self, state: &[f64], memo: &Memo, change: &Memo) -> Vec<f64> {

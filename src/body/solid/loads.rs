@@ -85,17 +85,17 @@ impl BodyLoads {
         SolidLoads { faces, ..SolidLoads::default() }
     }
 
-    /// What acts on the body under these inputs.
-    pub fn assemble(&self, inputs: &[f64], mesh: &Mesh) -> SolidLoads {
-        let faces = self.face_values(inputs, self.initial_temperature, mesh);
-        self.sum(mesh, faces, Asked::Value(inputs))
+    /// What acts on the body under these inputs; heat and forces have meshes of their own.
+    pub fn assemble(&self, inputs: &[f64], meshes: [&Mesh; 2]) -> SolidLoads {
+        let faces = self.face_values(inputs, self.initial_temperature, meshes[0]);
+        self.sum(meshes, faces, Asked::Value(inputs))
     }
 
     /// Rate of what [`assemble`](Self::assemble) gives when the inputs change at `rates`; exact, be
     /// it amounts or places of footprints that change.
-    pub fn change(&self, inputs: &[f64], rates: &[f64], mesh: &Mesh) -> SolidLoads {
-        let faces = self.face_values(rates, 0.0, mesh);
-        self.sum(mesh, faces, Asked::Change { inputs, rates })
+    pub fn change(&self, inputs: &[f64], rates: &[f64], meshes: [&Mesh; 2]) -> SolidLoads {
+        let faces = self.face_values(rates, 0.0, meshes[0]);
+        self.sum(meshes, faces, Asked::Change { inputs, rates })
     }
 
     /// Over how many of its own sizes any footprint moves or grows in a time `dt` [s]; `path` holds
@@ -125,7 +125,8 @@ impl BodyLoads {
     }
 
     /// Adds the parts of all loads to the values of faces.
-    fn sum(&self, mesh: &Mesh, faces: Vec<Vec<f64>>, asked: Asked) -> SolidLoads {
+    fn sum(&self, meshes: [&Mesh; 2], faces: Vec<Vec<f64>>, asked: Asked) -> SolidLoads {
+        let [mesh, _] = meshes;
         let classes = mesh.parities().len();
         let components = if mesh.geometry == Geometry::Box { 3 } else { 2 };
         let mut out = SolidLoads {
@@ -135,7 +136,7 @@ impl BodyLoads {
         };
         for (load, places) in &self.loads {
             let top = usize::from(load.body_and_face().1 == FaceName::Top);
-            for part in self.parts(load, places, asked, mesh) {
+            for part in self.parts(load, places, asked, meshes) {
                 for (class, vector) in part.vectors.into_iter().enumerate() {
                     let target = match part.component {
                         None => &mut out.heat[class][top],
@@ -173,10 +174,16 @@ impl BodyLoads {
     }
 
     /// The loads' nodal vectors, each with where it goes.
-    fn parts(&self, load: &Load, places: &LoadInputs, asked: Asked, mesh: &Mesh) -> Vec<Part> {
+    fn parts(
+        &self,
+        load: &Load,
+        places: &LoadInputs,
+        asked: Asked,
+        [of_heat, of_force]: [&Mesh; 2],
+    ) -> Vec<Part> {
         let top = load.body_and_face().1 == FaceName::Top;
-        let round = mesh.geometry == Geometry::Axisymmetric;
-        let vectors = |pattern: Pattern, flips: [bool; 2], range: &Range<usize>| match asked {
+        let round = of_heat.geometry == Geometry::Axisymmetric;
+        let vectors = |mesh, pattern: Pattern, flips: [bool; 2], range: &Range<usize>| match asked {
             Asked::Value(inputs) => {
                 let place = placement(load, places, inputs);
                 still(mesh, load, (pattern, flips), &place, &inputs[range.clone()])
@@ -193,11 +200,14 @@ impl BodyLoads {
         // Pressure acts into the body: down on the top, up on the bottom.
         let inward = if top { -1.0 } else { 1.0 };
         let mut parts = Vec::new();
-        let mut push = |range: &Option<Range<usize>>, component, sign, pattern, flips| {
-            if let Some(range) = range {
-                parts.push(Part { component, sign, vectors: vectors(pattern, flips, range) });
-            }
-        };
+        let mut push =
+            |range: &Option<Range<usize>>, component: Option<usize>, sign, pattern, flips| {
+                if let Some(range) = range {
+                    let mesh = if component.is_none() { of_heat } else { of_force };
+                    let vectors = vectors(mesh, pattern, flips, range);
+                    parts.push(Part { component, sign, vectors });
+                }
+            };
         let none = [false; 2];
         push(&places.heat_flux, None, 1.0, Pattern::Scalar, none);
         push(&places.pressure, Some(axial), inward, Pattern::Scalar, none);

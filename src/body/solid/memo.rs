@@ -1,7 +1,8 @@
 use std::any::Any;
 
+use super::SolidBody;
 use crate::body::{BodyError, Memo};
-use crate::method::fem::{Deformation, SolidFem, SolidLoads, Temperatures};
+use crate::method::fem::{Deformation, NodalFields, SolidLoads, Temperatures};
 
 /// What acts on a solid, and what follows from that and from a state, computed when first asked for.
 #[derive(Debug, Default)]
@@ -11,6 +12,9 @@ pub struct SolidMemo {
     /// The same with what came through ports, if anything did.
     with_received: Option<SolidLoads>,
     temperatures: Option<Temperatures>,
+    /// Temperatures above the one without stress; those of a change are its temperatures.
+    thermal: Option<Temperatures>,
+    is_change: bool,
     deformation: Option<Deformation>,
     max_temperature: Option<f64>,
     max_stress: Option<[f64; 2]>,
@@ -23,6 +27,11 @@ const OWN: &str = "a memo is that of the body that made it";
 impl SolidMemo {
     pub fn new(outside: SolidLoads) -> Self {
         Self { outside, ..Self::default() }
+    }
+
+    /// Of a change of what acts.
+    pub fn of_change(outside: SolidLoads) -> Self {
+        Self { outside, is_change: true, ..Self::default() }
     }
 
     pub fn of(memo: &Memo) -> &Self {
@@ -39,7 +48,7 @@ impl SolidMemo {
     pub fn forget_state(&mut self) {
         let outside = std::mem::take(&mut self.outside);
         let with_received = self.with_received.take();
-        *self = Self { outside, with_received, ..Self::default() };
+        *self = Self { outside, with_received, is_change: self.is_change, ..Self::default() };
     }
 
     /// What acts by the inputs alone.
@@ -58,26 +67,47 @@ impl SolidMemo {
     }
 
     /// Nodal temperatures above the initial one.
-    pub fn heat(&mut self, solid: &SolidFem, state: &[f64]) -> &Temperatures {
+    pub fn heat(&mut self, body: &SolidBody, state: &[f64]) -> &Temperatures {
         if self.temperatures.is_none() {
-            self.temperatures = Some(solid.temperatures(state, self.loads()));
+            let heat = body.heat_of(state);
+            self.temperatures = Some(body.solid.temperatures(heat, self.loads()));
         }
         self.temperatures.as_ref().expect("just computed")
     }
 
-    /// Nodal temperatures and the deformation.
+    /// Nodal temperatures above the one without stress, and the deformation.
     pub fn solve(
         &mut self,
-        solid: &SolidFem,
+        body: &SolidBody,
         state: &[f64],
     ) -> Result<(&Temperatures, &Deformation), BodyError> {
-        self.heat(solid, state);
-        let temperatures = self.temperatures.as_ref().expect("just computed");
+        if self.thermal.is_none() {
+            let temperatures = self.heat(body, state).clone();
+            self.thermal = Some(match self.is_change {
+                true => temperatures,
+                false => body.solid.above_stress_free(temperatures),
+            });
+        }
+        let thermal = self.thermal.as_ref().expect("just computed");
         if self.deformation.is_none() {
             let loads = self.with_received.as_ref().unwrap_or(&self.outside);
-            self.deformation = Some(solid.deformation(temperatures, loads)?);
+            self.deformation = Some(match body.remembered(state, self.temperatures.as_ref())? {
+                Some(deformation) => deformation,
+                None => body.solid.deformation(thermal, loads)?,
+            });
         }
-        Ok((temperatures, self.deformation.as_ref().expect("just computed")))
+        Ok((thermal, self.deformation.as_ref().expect("just computed")))
+    }
+
+    /// Values at all nodes.
+    pub fn fields(&mut self, body: &SolidBody, state: &[f64]) -> Result<NodalFields, BodyError> {
+        self.heat(body, state);
+        self.solve(body, state)?;
+        let known = "just computed";
+        let [temperatures, thermal] = [&self.temperatures, &self.thermal];
+        let (temperatures, thermal) = (temperatures.as_ref(), thermal.as_ref());
+        let deformation = self.deformation.as_ref().expect(known);
+        Ok(body.solid.fields(temperatures.expect(known), thermal.expect(known), deformation))
     }
 
     /// Whether stresses need but be looked up.
@@ -89,29 +119,29 @@ impl SolidMemo {
         self.max_stress.is_some()
     }
 
-    pub fn max_temperature(&mut self, solid: &SolidFem, state: &[f64]) -> f64 {
+    pub fn max_temperature(&mut self, body: &SolidBody, state: &[f64]) -> f64 {
         if let Some(known) = self.max_temperature {
             return known;
         }
-        let value = solid.max_temperature(self.heat(solid, state));
+        let value = body.solid.max_temperature(self.heat(body, state));
         self.max_temperature = Some(value);
         value
     }
 
     /// Highest von Mises and largest principal stress.
-    pub fn max_stress(&mut self, solid: &SolidFem, state: &[f64]) -> Result<[f64; 2], BodyError> {
+    pub fn max_stress(&mut self, body: &SolidBody, state: &[f64]) -> Result<[f64; 2], BodyError> {
         if let Some(known) = self.max_stress {
             return Ok(known);
         }
-        let (temperatures, deformation) = self.solve(solid, state)?;
-        let value = solid.max_stress(temperatures, deformation);
+        let (temperatures, deformation) = self.solve(body, state)?;
+        let value = body.solid.max_stress(temperatures, deformation);
         self.max_stress = Some(value);
         Ok(value)
     }
 
     pub fn stress_at(
         &mut self,
-        solid: &SolidFem,
+        body: &SolidBody,
         state: &[f64],
         point: [f64; 3],
     ) -> Result<[f64; 6], BodyError> {
@@ -120,8 +150,8 @@ impl SolidMemo {
         {
             return Ok(stress);
         }
-        let (temperatures, deformation) = self.solve(solid, state)?;
-        let stress = solid.stress_at(temperatures, deformation, point);
+        let (temperatures, deformation) = self.solve(body, state)?;
+        let stress = body.solid.stress_at(temperatures, deformation, point);
         self.stress = Some((point, stress));
         Ok(stress)
     }

@@ -10,28 +10,38 @@ mod point;
 mod port;
 mod reader;
 mod totals;
+mod yielding;
 
 pub use forecast::{BodyForecast, PRODUCT_RATE, ParticleForecast, forecast_solid};
 pub use plan::plan;
 pub use point::{PointQuantity, point_quantities};
 pub use totals::offered_totals;
 
-use super::{Acts, Body, BodyError, Conductor, Fields, Given, Linear, Memo, Reading, Received};
+use super::{
+    Acts, Body, BodyError, Conductor, Direct, Fields, Given, Linear, Memo, Reading, Received,
+};
 use crate::inputs::InputLayout;
-use crate::math::allowance::{Allowance, Halt};
-use crate::method::fem::{Plan, SolidFem};
+use crate::math::allowance::Allowance;
+use crate::method::fem::{HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
 use crate::scene::{FaceName, Scene, Solid};
 use crate::state::Layout;
 use loads::BodyLoads;
 use memo::SolidMemo;
 use port::Port;
 use reader::SolidReader;
+use yielding::Yielding;
 
 /// A solid and what of the scene concerns it.
 pub struct SolidBody {
     name: String,
     plan: Plan,
     solid: SolidFem,
+    /// On which heat is brought in.
+    heat_mesh: Mesh,
+    /// Length of the part of a state that is heat.
+    heat_len: usize,
+    /// Mechanics that remembers.
+    yielding: Option<Yielding>,
     loads: BodyLoads,
     ports: Vec<Port>,
     threads: usize,
@@ -58,11 +68,36 @@ impl SolidBody {
         let fem = SolidFem::new(&plan, threads)?;
         let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan);
         let ports = linked.iter().map(|&face| Port::new(face, &plan, &fem)).collect();
-        Ok(Self { name: name.into(), plan, solid: fem, loads, ports, threads })
+        let yielding = Yielding::of(&plan, threads)?;
+        Ok(Self {
+            name: name.into(),
+            heat_mesh: heat_mesh(&plan),
+            heat_len: fem.state_len(),
+            plan,
+            solid: fem,
+            yielding,
+            loads,
+            ports,
+            threads,
+        })
     }
 
-    fn halted(&self, halt: Halt) -> BodyError {
-        BodyError::Halted { body: self.name.clone(), halt }
+    fn error(&self, failure: HeatFailure) -> BodyError {
+        let body = self.name.clone();
+        match failure {
+            HeatFailure::Halted(halt) => BodyError::Halted { body, halt },
+            HeatFailure::Nonlinear(failure) => BodyError::Heat { body, failure },
+        }
+    }
+
+    fn own_layout(&self) -> Layout {
+        let mechanics = self.yielding.as_ref().map(Yielding::layout);
+        self.solid.layout().then(mechanics.unwrap_or_default())
+    }
+
+    /// Where heat and where forces act.
+    fn meshes(&self) -> [&Mesh; 2] {
+        [&self.heat_mesh, self.solid.mesh()]
     }
 
     /// Refuses unknowns that are no numbers, and temperatures that are not above absolute zero. By the maximum
@@ -75,7 +110,7 @@ impl SolidBody {
             return Ok(());
         }
         let loads = self.loads.of_faces(end, self.solid.mesh());
-        let temperatures = self.solid.temperatures(state, &loads);
+        let temperatures = self.solid.temperatures(self.heat_of(state), &loads);
         let temperature = self.solid.min_temperature(&temperatures);
         match temperature <= 0.0 {
             true => Err(BodyError::BelowAbsoluteZero { body: self.name.clone(), temperature }),
@@ -90,15 +125,16 @@ impl Body for SolidBody {
     }
 
     fn initial_state(&self) -> Vec<f64> {
-        vec![0.0; self.solid.state_len()]
+        let mechanics = self.yielding.as_ref().map(Yielding::initial_state);
+        self.solid.initial_state().into_iter().chain(mechanics.into_iter().flatten()).collect()
     }
 
     fn layout(&self, state: &[f64]) -> Option<Layout> {
-        Some(self.solid.layout()).filter(|layout| layout.len() == state.len())
+        Some(self.own_layout()).filter(|layout| layout.len() == state.len())
     }
 
     fn check_state(&self, state: &[f64]) -> Result<(), String> {
-        match self.solid.state_len() {
+        match self.own_layout().len() {
             wanted if wanted == state.len() => Ok(()),
             wanted => {
                 Err(format!("{} unknowns of {}; this body has {wanted}", state.len(), self.name))
@@ -111,7 +147,7 @@ impl Body for SolidBody {
     }
 
     fn memo(&self, inputs: &[f64], received: &[Received]) -> Memo {
-        let outside = self.loads.assemble(inputs, self.solid.mesh());
+        let outside = self.loads.assemble(inputs, self.meshes());
         let mut memo = SolidMemo::new(outside);
         for Received { face, given } in received {
             self.port(*face).add(memo.received(), given);
@@ -130,7 +166,13 @@ impl Body for SolidBody {
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
-        self.advance_here(state, SolidMemo::of(memo), acts, allowance)?;
+        let memo = SolidMemo::of(memo);
+        match &self.yielding {
+            None => self.advance_here(state, memo, acts, allowance)?,
+            Some(yielding) => self.advance_yielding(yielding, state, acts, |heat, acts| {
+                self.advance_here(heat, memo, acts, allowance)
+            })?,
+        }
         let (start, end) = (acts.path.start(), acts.path.at(0, acts.duration));
         self.check_end(state, start, &end)?;
         Ok(None)
@@ -161,6 +203,15 @@ impl Body for SolidBody {
         }
     }
 
+    fn follows_at_once(&self, reading: &Reading) -> bool {
+        let direct = match *reading {
+            Reading::Point { quantity, .. } => point_quantities()[quantity].descriptor.direct,
+            Reading::Total(place) => totals::direct(place),
+            Reading::Cell { .. } => Direct::Nothing,
+        };
+        direct != Direct::Nothing
+    }
+
     fn is_deep(&self, memo: Option<&Memo>, reading: &Reading) -> bool {
         let memo = memo.map(SolidMemo::of);
         let solved = memo.is_some_and(SolidMemo::is_solved);
@@ -176,12 +227,13 @@ impl Body for SolidBody {
     }
 
     fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError> {
-        let memo = SolidMemo::of_mut(memo);
-        let (temperatures, deformation) = memo.solve(&self.solid, state)?;
-        Ok(Fields::Nodes(self.solid.fields(temperatures, deformation)))
+        Ok(Fields::Nodes(SolidMemo::of_mut(memo).fields(self, state)?))
     }
 
     fn linear(&self) -> Option<&dyn Linear> {
+        if !self.solid.conducts_linearly() || self.yielding.is_some() {
+            return None;
+        }
         Some(self)
     }
 
@@ -218,6 +270,6 @@ impl Body for SolidBody {
     }
 
     fn steps_are_deep(&self) -> bool {
-        false
+        self.yielding.is_some() || !self.solid.conducts_linearly()
     }
 }

@@ -1,8 +1,10 @@
 //! From a solid of a scene to its plan: where its mesh is fine, and what of mechanics is asked for.
 
 use crate::body::droplet;
-use crate::method::fem::{Mechanics, Plan, Refinement};
-use crate::scene::{Carries, Coupling, FaceName, Footprint, Load, Scene, Solid, lateral_extents};
+use crate::method::fem::{Mechanics, Plan, Refinement, Wishes};
+use crate::scene::{
+    Carries, Coupling, FaceName, Footprint, Load, Scene, Solid, lateral_extents, takes_newton,
+};
 
 pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     let on_body = scene.load.iter().filter(|load| load.body_and_face().0 == name);
@@ -19,8 +21,12 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
         (true, false) => Mechanics::Offered,
         (true, true) => Mechanics::Wanted,
     };
-    Plan::new(solid, mechanics, &refinements, shortest)
+    let newton = takes_newton(scene, solid).then(|| TEMPERATURES * scene.fidelity.tolerance);
+    Plan::new(solid, Wishes { mechanics, refinements: &refinements, shortest, newton })
 }
+
+/// Differences of temperatures that a tolerance is a part of [K].
+const TEMPERATURES: f64 = 100.0;
 
 /// Where another solid touches this one: heat enters over all that both have in common, most of it at once near the
 /// edge of the smaller one.

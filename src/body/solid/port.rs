@@ -7,7 +7,7 @@ use crate::body::{Acts, BodyError, Conductor, Given, Memo};
 use crate::coupling::FaceCells;
 use crate::inputs::InputPath;
 use crate::math::allowance::Allowance;
-use crate::method::fem::{Geometry, Plan, SolidFem, SolidLoads, Temperatures};
+use crate::method::fem::{Geometry, Plan, SolidFem, SolidLoads, Temperatures, heat_mesh};
 use crate::method::sph::{Surface, SurfaceResponse, WallCells};
 use crate::scene::FaceName;
 
@@ -24,10 +24,12 @@ impl Port {
     /// Of the top or the bottom.
     pub fn new(face: FaceName, plan: &Plan, solid: &SolidFem) -> Self {
         let high = face == FaceName::Top;
+        // Each node has a volume of its own.
+        let has_volumes = plan.sph.is_some() || plan.newton.is_some();
         let [rates, gains] = solid.end_modes(high);
         Self {
             face,
-            cells: FaceCells::of(&plan.mesh, high, plan.sph.is_some()),
+            cells: FaceCells::of(&heat_mesh(plan), high, has_volumes),
             response: SurfaceResponse { rates, gains },
             initial_temperature: plan.initial_temperature,
             geometry: plan.mesh.geometry,
@@ -155,6 +157,10 @@ impl SolidBody {
 }
 
 impl Conductor for SolidBody {
+    fn tolerance(&self) -> f64 {
+        self.solid.tolerance()
+    }
+
     fn cells(&self, face: FaceName) -> WallCells {
         self.port(face).cells.cells()
     }
@@ -167,6 +173,7 @@ impl Conductor for SolidBody {
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Vec<Surface>, BodyError> {
+        let state = self.heat_of(state);
         let mut later = state.to_vec();
         self.advance_here(&mut later, SolidMemo::of(memo), acts, allowance)?;
         let start = self.temperatures_at(state, memo, acts.path, 0.0);
@@ -184,6 +191,7 @@ impl Conductor for SolidBody {
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Vec<Vec<f64>>, BodyError> {
+        let state = self.heat_of(state);
         let mut later = state.to_vec();
         if acts.duration > 0.0 {
             self.advance_here(&mut later, SolidMemo::of(memo), acts, allowance)?;

@@ -14,10 +14,10 @@ impl SolidReader<'_> {
     /// Temperature above the initial one [K]. Where the point is `alone` it comes from the modes, which is cheaper
     /// than the whole field.
     pub fn rise_at(&mut self, point: [f64; 3], alone: bool) -> f64 {
-        let solid = &self.body.solid;
+        let (body, solid) = (self.body, &self.body.solid);
         match alone {
-            true => solid.rise_at(self.state, self.memo.loads(), point),
-            false => solid.rise_from(self.memo.heat(solid, self.state), point),
+            true => solid.rise_at(body.heat_of(self.state), self.memo.loads(), point),
+            false => solid.rise_from(self.memo.heat(body, self.state), point),
         }
     }
 
@@ -28,38 +28,52 @@ impl SolidReader<'_> {
 
     /// [m]
     pub fn displacement_at(&mut self, point: [f64; 3]) -> Result<[f64; 3], BodyError> {
-        let solid = &self.body.solid;
-        let (_, deformation) = self.memo.solve(solid, self.state)?;
-        Ok(solid.displacement_at(deformation, point))
+        let (_, deformation) = self.memo.solve(self.body, self.state)?;
+        Ok(self.body.solid.displacement_at(deformation, point))
     }
 
     /// xx, yy, zz, xy, yz, xz [Pa]
     pub fn stress_at(&mut self, point: [f64; 3]) -> Result<[f64; 6], BodyError> {
-        self.memo.stress_at(&self.body.solid, self.state, point)
+        self.memo.stress_at(self.body, self.state, point)
     }
 
     /// [K]
     pub fn max_temperature(&mut self) -> f64 {
-        self.memo.max_temperature(&self.body.solid, self.state)
+        self.memo.max_temperature(self.body, self.state)
     }
 
     /// Highest von Mises and largest principal stress [Pa].
     pub fn max_stress(&mut self) -> Result<[f64; 2], BodyError> {
-        self.memo.max_stress(&self.body.solid, self.state)
+        self.memo.max_stress(self.body, self.state)
     }
 
     pub fn heat_totals(&self) -> HeatTotals {
-        self.body.solid.heat_totals(self.state)
+        self.body.solid.heat_totals(self.body.heat_of(self.state))
     }
 
     /// [J]
     pub fn heat_stored(&self) -> f64 {
-        self.body.solid.heat_stored(self.state)
+        self.body.solid.heat_stored(self.body.heat_of(self.state))
     }
 
     /// [J]
     pub fn heat_drift(&self) -> f64 {
-        self.body.solid.heat_drift(self.state)
+        self.body.solid.heat_drift(self.body.heat_of(self.state))
+    }
+
+    /// [m³]
+    pub fn liquid_volume(&self) -> f64 {
+        self.body.solid.liquid_volume(self.body.heat_of(self.state))
+    }
+
+    /// Largest accumulated plastic strain at a node [1].
+    pub fn max_plastic_strain(&self) -> f64 {
+        self.body.plastic_strain(self.state).into_iter().fold(0.0, f64::max)
+    }
+
+    /// Energy that yielding has dissipated [J].
+    pub fn plastic_work(&self) -> f64 {
+        self.body.plastic_work(self.state)
     }
 
     pub fn fallback_particles(&self) -> f64 {

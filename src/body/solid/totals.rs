@@ -3,6 +3,7 @@
 use super::linear::SolidChange;
 use super::reader::SolidReader;
 use crate::body::{BodyError, Descriptor, Direct};
+use crate::material::Material;
 use crate::quantity::Quantity;
 use crate::scene::{Scene, Solid};
 
@@ -20,11 +21,15 @@ enum Offered {
     All,
     /// Those whose heat particles conduct.
     OfParticles,
+    /// Those of which something melts.
+    Melting,
+    /// Those that yield.
+    Yielding,
     /// Those whose mechanics is modelled.
     Mechanical,
 }
 
-const TOTALS: [Total; 8] = [
+const TOTALS: [Total; 11] = [
     Total {
         descriptor: Descriptor {
             key: "max_temperature",
@@ -78,6 +83,34 @@ const TOTALS: [Total; 8] = [
         rate: |_| Ok(0.0),
     },
     Total {
+        descriptor: Descriptor {
+            key: "liquid_volume",
+            words: "volume that is liquid",
+            quantity: Quantity::Volume,
+            direct: Direct::Nothing,
+        },
+        of: Offered::Melting,
+        read: |reader| Ok(reader.liquid_volume()),
+        rate: |_| Err(BodyError::NoRate),
+    },
+    Total {
+        descriptor: Descriptor {
+            key: "max_plastic_strain",
+            words: "largest accumulated plastic strain",
+            quantity: Quantity::Ratio,
+            direct: Direct::Nothing,
+        },
+        of: Offered::Yielding,
+        read: |reader| Ok(reader.max_plastic_strain()),
+        rate: |_| Err(BodyError::NoRate),
+    },
+    Total {
+        descriptor: heat("plastic_work", "energy that yielding has dissipated"),
+        of: Offered::Yielding,
+        read: |reader| Ok(reader.plastic_work()),
+        rate: |_| Err(BodyError::NoRate),
+    },
+    Total {
         descriptor: stress("max_von_mises", "highest von Mises stress of the body"),
         of: Offered::Mechanical,
         read: |reader| Ok(reader.max_stress()?[0]),
@@ -108,10 +141,22 @@ pub fn offered_totals(scene: &Scene, (name, solid): (&str, &Solid)) -> Vec<(usiz
     let is_offered = |total: &Total| match total.of {
         Offered::All => true,
         Offered::OfParticles => solid.sph().is_some(),
+        Offered::Melting => {
+            solid.materials_of_layers().iter().any(|own| own.properties().melting.is_some())
+        }
+        Offered::Yielding => {
+            let mut materials = solid.materials_of_layers().into_iter();
+            let yields = materials.any(|own| matches!(own, Material::Elastoplastic(_)));
+            yields && scene.asks_mechanics(name)
+        }
         Offered::Mechanical => scene.asks_mechanics(name),
     };
     let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));
     totals.map(|(place, total)| (place, total.descriptor)).collect()
+}
+
+pub fn direct(place: usize) -> Direct {
+    TOTALS[place].descriptor.direct
 }
 
 pub fn is_mechanical(place: usize) -> bool {

@@ -2,8 +2,10 @@
 
 use super::heat::{HeatLoads, HeatProblem, HeatTotals, LayeredHeat, ThermalFace};
 use super::mesh::{Geometry, Mesh};
+use super::nonlinear::{NonlinearFailure, NonlinearHeat};
 use super::plan::Plan;
 use crate::math::allowance::{Allowance, Halt};
+use crate::method::enthalpy::Failure;
 use crate::method::particle_heat::{
     Condition, Cost, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
 };
@@ -18,10 +20,33 @@ pub enum Conduction {
     Layers(Box<LayeredHeat>),
     /// Smoothed particles on the nodes.
     Particles(Box<ParticleHeat>),
+    /// Enthalpies of nodes, by Newton's method.
+    Nonlinear(Box<NonlinearHeat>),
+}
+
+/// Why heat did not advance.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum HeatFailure {
+    #[error(transparent)]
+    Halted(#[from] Halt),
+    #[error(transparent)]
+    Nonlinear(NonlinearFailure),
+}
+
+impl From<NonlinearFailure> for HeatFailure {
+    fn from(failure: NonlinearFailure) -> Self {
+        match failure {
+            NonlinearFailure::Heat(Failure::Halted(halt)) => Self::Halted(halt),
+            failure => Self::Nonlinear(failure),
+        }
+    }
 }
 
 impl Conduction {
     pub fn new(plan: &Plan, threads: usize) -> Self {
+        if let Some(newton) = &plan.newton {
+            return Self::Nonlinear(Box::new(NonlinearHeat::new(plan, newton)));
+        }
         match particle_setup(plan) {
             Some(setup) => Self::Particles(Box::new(ParticleHeat::new(setup, threads))),
             None if plan.strata.len() > 1 => Self::Layers(Box::new(LayeredHeat::new(
@@ -39,6 +64,35 @@ impl Conduction {
         }
     }
 
+    /// The state at time zero.
+    pub fn initial_state(&self) -> Vec<f64> {
+        match self {
+            Self::Nonlinear(problem) => problem.initial_state(),
+            _ => vec![0.0; self.state_len()],
+        }
+    }
+
+    /// What temperatures may err by from step to step [K]; nothing where they are exact.
+    pub fn tolerance(&self) -> f64 {
+        match self {
+            Self::Nonlinear(problem) => problem.tolerance(),
+            _ => 0.0,
+        }
+    }
+
+    /// Whether heat obeys a linear equation.
+    pub fn is_linear(&self) -> bool {
+        !matches!(self, Self::Nonlinear(_))
+    }
+
+    /// Volume that is liquid, of so many copies of the mesh [m³]; nothing where nothing melts.
+    pub fn liquid_volume(&self, state: &[f64], copies: f64) -> f64 {
+        match self {
+            Self::Nonlinear(problem) => problem.liquid_volume(state, copies),
+            _ => 0.0,
+        }
+    }
+
     /// Length of a state.
     pub fn state_len(&self) -> usize {
         self.layout().len()
@@ -50,6 +104,7 @@ impl Conduction {
             Self::Modes(problem) => problem.layout(),
             Self::Layers(problem) => problem.layout(),
             Self::Particles(problem) => problem.layout(),
+            Self::Nonlinear(problem) => problem.layout(),
         }
     }
 
@@ -62,7 +117,7 @@ impl Conduction {
         loads: &[HeatLoads],
         dt: f64,
         allowance: &Allowance,
-    ) -> Result<(), Halt> {
+    ) -> Result<(), HeatFailure> {
         match self {
             Self::Modes(problem) => {
                 // Their number is the same for any length of a step.
@@ -77,8 +132,9 @@ impl Conduction {
             }
             Self::Particles(problem) => {
                 let sources: Vec<Sources> = loads.iter().map(sources).collect();
-                problem.advance(state, &sources, dt, allowance)
+                Ok(problem.advance(state, &sources, dt, allowance)?)
             }
+            Self::Nonlinear(problem) => Ok(problem.advance(state, loads, dt, allowance)?),
         }
     }
 
@@ -89,6 +145,7 @@ impl Conduction {
             Self::Modes(problem) => problem.rates(state, loads, rates),
             Self::Layers(problem) => problem.rates(state, loads, rates),
             Self::Particles(problem) => problem.rates(state, &sources(loads), &sources(rates)),
+            Self::Nonlinear(_) => unreachable!("rates are asked of linear bodies alone"),
         }
     }
 
@@ -98,6 +155,7 @@ impl Conduction {
             Self::Modes(problem) => problem.stored(state),
             Self::Layers(problem) => problem.stored(state),
             Self::Particles(problem) => problem.stored(state),
+            Self::Nonlinear(problem) => problem.stored(state),
         }
     }
 
@@ -109,6 +167,7 @@ impl Conduction {
                 let totals = problem.totals(state);
                 HeatTotals { brought_in: totals.brought_in, lost: totals.lost }
             }
+            Self::Nonlinear(problem) => problem.totals(state),
         }
     }
 
@@ -124,7 +183,7 @@ impl Conduction {
         match self {
             Self::Modes(problem) => Some(problem.temperature_at(mesh, state, faces, point, image)),
             Self::Layers(problem) => Some(problem.temperature_at(mesh, state, faces, point, image)),
-            Self::Particles(_) => None,
+            Self::Particles(_) | Self::Nonlinear(_) => None,
         }
     }
 
@@ -135,13 +194,14 @@ impl Conduction {
             Self::Modes(problem) => problem.nodal(state, faces),
             Self::Layers(problem) => problem.nodal(state, faces),
             Self::Particles(problem) => problem.temperatures(state, faces),
+            Self::Nonlinear(problem) => problem.nodal(state),
         }
     }
 
     /// Number of particles without a corrected operator of their own; `None` for finite elements.
     pub fn fallback(&self) -> Option<usize> {
         match self {
-            Self::Modes(_) | Self::Layers(_) => None,
+            Self::Modes(_) | Self::Layers(_) | Self::Nonlinear(_) => None,
             Self::Particles(problem) => Some(problem.fallback()),
         }
     }

@@ -6,11 +6,13 @@ use super::fineness::Fineness;
 use super::heat::ThermalFace;
 use super::mesh::{Geometry, Mesh, MeshFace};
 use super::solver_choice::note_on_solver;
-use crate::material::{Constants, Thermoelastic};
-use crate::scene::{Face, FaceName, Shape, Solid, SphOperator, SphSettings, Stratum, Symmetry};
+use crate::material::{Constants, Elastoplastic, Substance, Thermoelastic};
+use crate::scene::{
+    Face, FaceName, Radiation, Shape, Solid, SphOperator, SphSettings, Stratum, Symmetry,
+};
 
 /// Everything that a solid's model is built from.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Clone)]
 pub struct Plan {
     pub mesh: Mesh,
     /// The layers, from the lowest on; one of a body of one material.
@@ -26,11 +28,39 @@ pub struct Plan {
     pub thermal_faces: Vec<(MeshFace, ThermalFace)>,
     /// For each thermal face, the face of the body that lies there and the one whose image does.
     pub face_sources: Vec<(FaceName, Option<FaceName>)>,
+    /// What Newton's method advances the heat by; `None` where modes or particles do.
+    pub newton: Option<NewtonPlan>,
+    /// What each layer of elements along z deforms by where that is not linear, from the lowest on.
+    pub inelastic: Option<Vec<Elastoplastic>>,
+    /// Temperature without thermal stress above the initial one [K].
+    pub stress_free_rise: f64,
     pub supports: Vec<(MeshFace, Support)>,
     /// Whether deformations are read in any case, so that building prepares for them.
     pub prepared: bool,
     /// What was chosen or left out, and why: a sentence each.
     pub notes: Vec<String>,
+}
+
+/// What nonlinear heat takes beside the rest of a plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NewtonPlan {
+    /// What each layer is made of, from the lowest on.
+    pub materials: Vec<Substance>,
+    pub radiation: Vec<(MeshFace, Radiation)>,
+    /// What a step in time may err by [K].
+    pub tolerance: f64,
+}
+
+/// What a scene wants of a solid's plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wishes<'a> {
+    pub mechanics: Mechanics,
+    /// Where loads act.
+    pub refinements: &'a [Refinement],
+    /// Shortest time after which results are wanted [s].
+    pub shortest: f64,
+    /// What a step in time of nonlinear heat may err by [K]; nothing where heat is linear.
+    pub newton: Option<f64>,
 }
 
 /// A part of the top or bottom face where a load may act.
@@ -74,21 +104,17 @@ impl Mechanics {
 }
 
 impl Plan {
-    /// Plans a solid under loads on `refinements`; `shortest` is the shortest time after which results
-    /// are wanted [s].
-    pub fn new(
-        solid: &Solid,
-        mechanics: Mechanics,
-        refinements: &[Refinement],
-        shortest: f64,
-    ) -> Self {
+    /// Plans a solid.
+    pub fn new(solid: &Solid, Wishes { mechanics, refinements, shortest, newton }: Wishes) -> Self {
         let mut strata = solid.strata();
         strata.reverse();
         let constants = strata[strata.len() - 1].constants;
         let laws: Option<Vec<_>> = strata.iter().map(|layer| layer.constants.law()).collect();
-        let law = laws.filter(|_| mechanics != Mechanics::Absent);
+        let wanted = mechanics != Mechanics::Absent;
+        let is_inelastic = wanted && !solid.deforms_linearly();
+        let law = laws.filter(|_| wanted && !is_inelastic);
         let mut notes = Vec::new();
-        let mirrored = mirrored(solid, &mut notes);
+        let mirrored = mirrored(solid, newton.is_some() || is_inelastic, &mut notes);
         let fineness = Fineness::choose(solid, &strata, refinements, shortest, &mut notes);
         let mesh = build_mesh(&solid.shape, mirrored, &fineness);
         notes.extend((strata.len() > 1).then(|| note_on_layers(&mesh)));
@@ -99,6 +125,11 @@ impl Plan {
         }
         let (thermal_faces, face_sources) = thermal_faces(solid, &mesh);
         let supports = supports(solid, &mesh);
+        let newton = newton.map(|tolerance| newton_plan(solid, &mesh, tolerance));
+        notes.extend(newton.as_ref().map(note_on_newton));
+        let inelastic = is_inelastic.then(|| inelastic_laws(solid, &mesh));
+        notes.extend(inelastic.as_ref().map(|_| NOTE_ON_HISTORY.to_owned()));
+        let stress_free_rise = solid.temperature_without_stress() - solid.initial_temperature;
         let initial_temperature = solid.initial_temperature;
         Self {
             mesh,
@@ -109,6 +140,9 @@ impl Plan {
             sph: solid.sph(),
             thermal_faces,
             face_sources,
+            newton,
+            inelastic,
+            stress_free_rise,
             supports,
             prepared: mechanics == Mechanics::Wanted,
             notes,
@@ -133,7 +167,11 @@ impl Plan {
         let degrees = self.mesh.geometry.degrees();
         [
             self.mesh.sided_nodes(),
-            if self.law.is_some() { nodes.saturating_mul(degrees) } else { 0 },
+            if self.law.is_some() || self.inelastic.is_some() {
+                nodes.saturating_mul(degrees)
+            } else {
+                0
+            },
         ]
     }
 }
@@ -169,13 +207,21 @@ fn particle_note(settings: &SphSettings, mesh: &Mesh) -> String {
 }
 
 /// Along which axes half the body stands for the whole.
-fn mirrored(solid: &Solid, notes: &mut Vec<String>) -> [bool; 2] {
+fn mirrored(solid: &Solid, is_nonlinear: bool, notes: &mut Vec<String>) -> [bool; 2] {
     if matches!(solid.shape, Shape::Disc(_)) {
         notes.push("axisymmetric: a meridian section stands for the disc".into());
         return [false; 2];
     }
     if solid.symmetry == Symmetry::None {
         notes.push("the whole box is meshed, as the scene asks".into());
+        return [false; 2];
+    }
+    if is_nonlinear && solid.symmetry == Symmetry::Auto {
+        notes.push(
+            "the whole box is meshed: parts of loads that are odd about a plane do not add up where heat or \
+             deformation is not linear (`symmetry = \"quarter\"` for loads that stay even)"
+                .into(),
+        );
         return [false; 2];
     }
     let pairs = [(FaceName::Left, FaceName::Right, "x"), (FaceName::Front, FaceName::Back, "y")];
@@ -200,6 +246,7 @@ fn alike(a: &Face, b: &Face) -> bool {
     a.temperature.is_some() == b.temperature.is_some()
         && a.flux.is_some() == b.flux.is_some()
         && a.convection.map(|c| c.coefficient) == b.convection.map(|c| c.coefficient)
+        && a.radiation == b.radiation
         && a.clamped == b.clamped
         && a.roller == b.roller
 }
@@ -262,6 +309,39 @@ fn thermal_condition(face: &Face) -> Option<ThermalFace> {
     } else {
         face.flux.map(|_| ThermalFace::Flux)
     }
+}
+
+fn newton_plan(solid: &Solid, mesh: &Mesh, tolerance: f64) -> NewtonPlan {
+    let mut materials: Vec<Substance> =
+        solid.materials_of_layers().iter().map(|own| own.properties().substance()).collect();
+    materials.reverse();
+    let radiating = solid.shape.faces().iter().filter_map(|&name| {
+        let radiation = solid.face(name).radiation?;
+        let (place, image) = mesh.place(name);
+        (!image).then_some((place, radiation))
+    });
+    NewtonPlan { materials, radiation: radiating.collect(), tolerance }
+}
+
+/// Of what follows from the deformation's history.
+const NOTE_ON_HISTORY: &str = "stress depends on what the body went through: equilibrium is found at the end of every \
+                               communication step, between which each place deforms straight on";
+
+fn inelastic_laws(solid: &Solid, mesh: &Mesh) -> Vec<Elastoplastic> {
+    let mut materials = solid.materials_of_layers();
+    materials.reverse();
+    let stress_free = solid.temperature_without_stress();
+    let laws: Vec<Elastoplastic> =
+        materials.iter().map(|own| own.properties().elastoplastic(stress_free)).collect();
+    let elements = mesh.axes[2].elements();
+    (0..elements).map(|element| laws[mesh.layering.layer_of(element)].clone()).collect()
+}
+
+fn note_on_newton(NewtonPlan { tolerance, .. }: &NewtonPlan) -> String {
+    format!(
+        "heat is not linear: it advances in inner steps of which each errs by {tolerance:.1e} K at most \
+         (`fidelity.tolerance` times 100 K), and balances whatever these leave"
+    )
 }
 
 fn supports(solid: &Solid, mesh: &Mesh) -> Vec<(MeshFace, Support)> {

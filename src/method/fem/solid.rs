@@ -4,14 +4,14 @@ mod recovered;
 mod tangent;
 
 use super::axis::Axis;
-use super::conduction::Conduction;
+use super::conduction::{Conduction, HeatFailure};
 use super::elastic::{ElasticProblem, Strains};
 use super::end_response::EndResponse;
 use super::heat::{HeatLoads, HeatTotals};
 use super::mesh::{Geometry, Mesh, Parity};
 use super::plan::Plan;
 use crate::material::stress::{max_principal, von_mises};
-use crate::math::allowance::{Allowance, Halt};
+use crate::math::allowance::Allowance;
 use crate::math::cholesky::SolverError;
 use crate::state::Layout;
 use recovered::{FaceStresses, Recoveries};
@@ -20,6 +20,8 @@ use recovered::{FaceStresses, Recoveries};
 pub struct SolidFem {
     mesh: Mesh,
     initial_temperature: f64,
+    /// Temperature without stress above the initial one [K].
+    stress_free_rise: f64,
     heat: Conduction,
     /// Of the bottom and the top.
     ends: [EndResponse; 2],
@@ -53,6 +55,16 @@ pub struct Deformation {
     /// The recovered quantities at the sampling points.
     strains: Vec<Strains>,
     tractions: Vec<FaceStresses>,
+    /// Stress at the nodes, those on interfaces twice, of a body whose stress remembers more than its strain [Pa]: xx, yy,
+    /// zz, xy, yz, xz, of a section rr, tt, zz, 0, 0, rz.
+    stress: Option<Vec<[f64; 6]>>,
+}
+
+impl Deformation {
+    /// Displacements and stress that are known at the nodes, even about planes of symmetry.
+    pub fn of_nodes(displacement: Vec<f64>, stress: Vec<[f64; 6]>) -> Self {
+        Self { displacement: vec![displacement], stress: Some(stress), ..Self::default() }
+    }
 }
 
 /// Values at all nodes of the whole body, images included: a rectilinear grid.
@@ -121,6 +133,7 @@ impl SolidFem {
         Ok(Self {
             mesh,
             initial_temperature,
+            stress_free_rise: plan.stress_free_rise,
             heat,
             ends,
             nodes_of_sided,
@@ -132,6 +145,26 @@ impl SolidFem {
 
     pub fn mesh(&self) -> &Mesh {
         &self.mesh
+    }
+
+    /// The state at time zero.
+    pub fn initial_state(&self) -> Vec<f64> {
+        self.heat.initial_state()
+    }
+
+    /// Whether heat obeys a linear equation.
+    pub fn conducts_linearly(&self) -> bool {
+        self.heat.is_linear()
+    }
+
+    /// What temperatures may err by from step to step [K]; nothing where they are exact.
+    pub fn tolerance(&self) -> f64 {
+        self.heat.tolerance()
+    }
+
+    /// Volume that is liquid [m³].
+    pub fn liquid_volume(&self, state: &[f64]) -> f64 {
+        self.heat.liquid_volume(state, self.mesh.copies())
     }
 
     pub fn state_len(&self) -> usize {
@@ -157,7 +190,7 @@ impl SolidFem {
         loads: &[SolidLoads],
         dt: f64,
         allowance: &Allowance,
-    ) -> Result<(), Halt> {
+    ) -> Result<(), HeatFailure> {
         let heat: Vec<HeatLoads> = loads.iter().map(SolidLoads::thermal).collect();
         self.heat.advance(state, &heat, dt, allowance)
     }
@@ -216,6 +249,8 @@ impl SolidFem {
     }
 
     /// Solves for the deformation under temperatures and loads.
+    ///
+    /// Temperatures are those above the one without stress, see [`Self::above_stress_free`].
     pub fn deformation(
         &self,
         temperatures: &Temperatures,
@@ -234,6 +269,15 @@ impl SolidFem {
             result.strains.push(strains);
         }
         Ok(result)
+    }
+
+    /// Temperatures above the one without stress from those above the initial one.
+    pub fn above_stress_free(&self, mut temperatures: Temperatures) -> Temperatures {
+        if self.stress_free_rise != 0.0 {
+            temperatures[0].resize(self.mesh.sided_nodes(), 0.0);
+            temperatures[0].iter_mut().for_each(|rise| *rise -= self.stress_free_rise);
+        }
+        temperatures
     }
 
     /// Temperature above the initial one at a point from nodal values [K].
@@ -297,7 +341,7 @@ impl SolidFem {
         let mut highest = [f64::NEG_INFINITY; 2];
         let nodal = self.nodal_strains(deformation);
         for image in self.images(&deformation.displacement) {
-            for stress in self.stress_of_image(temperatures, &nodal, image) {
+            for stress in self.stress_in(temperatures, deformation, &nodal, image) {
                 // Not `max`, which would pass over a stress that is no number.
                 for (highest, value) in
                     highest.iter_mut().zip([von_mises(stress), max_principal(stress)])
@@ -311,8 +355,14 @@ impl SolidFem {
         highest
     }
 
-    /// Values at all nodes of the whole body.
-    pub fn fields(&self, temperatures: &Temperatures, deformation: &Deformation) -> NodalFields {
+    /// Values at all nodes of the whole body, from temperatures above the initial one, those above the one without stress
+    /// and the deformation under these.
+    pub fn fields(
+        &self,
+        temperatures: &Temperatures,
+        thermal: &Temperatures,
+        deformation: &Deformation,
+    ) -> NodalFields {
         let [x, y, z] = &self.mesh.axes;
         let [mirror_x, mirror_y] = self.mesh.mirrored;
         let (columns, rows) = (self.mesh.unfolded(0), self.mesh.unfolded(1));
@@ -334,7 +384,7 @@ impl SolidFem {
         let images = [[false, false], [true, false], [false, true], [true, true]];
         let parts = images.map(|image| {
             let wanted = (!image[0] || mirror_x) && (!image[1] || mirror_y);
-            wanted.then(|| self.image_fields(temperatures, deformation, &nodal, image))
+            wanted.then(|| self.image_fields([temperatures, thermal], deformation, &nodal, image))
         });
         for (k, &layer) in self.nodes_of_sided.iter().enumerate() {
             for &(j, image_y) in &rows {
@@ -356,18 +406,34 @@ impl SolidFem {
 
     fn image_fields(
         &self,
-        temperatures: &Temperatures,
+        [temperatures, thermal]: [&Temperatures; 2],
         deformation: &Deformation,
         nodal_strains: &[Vec<Vec<f64>>],
         image: [bool; 2],
     ) -> NodalFields {
         let temperature = self.rise_of_image(temperatures, image);
         let (mut displacement, mut stress) = (Vec::new(), Vec::new());
-        if self.elastic.is_some() {
-            stress = self.stress_of_image(temperatures, nodal_strains, image);
+        if self.elastic.is_some() || deformation.stress.is_some() {
+            stress = self.stress_in(thermal, deformation, nodal_strains, image);
             displacement = self.displacement_of_image(deformation, image);
         }
         NodalFields { temperature, displacement, stress, ..Default::default() }
+    }
+
+    /// Stress at the nodes of an image, those on interfaces twice.
+    fn stress_in(
+        &self,
+        thermal: &Temperatures,
+        deformation: &Deformation,
+        nodal_strains: &[Vec<Vec<f64>>],
+        image: [bool; 2],
+    ) -> Vec<[f64; 6]> {
+        let Some(stress) = &deformation.stress else {
+            return self.stress_of_image(thermal, nodal_strains, image);
+        };
+        let even = self.parities[0];
+        let signs: [f64; 6] = std::array::from_fn(|slot| even.tensor_sign(image, slot));
+        stress.iter().map(|stress| std::array::from_fn(|slot| signs[slot] * stress[slot])).collect()
     }
 
     fn displacement_of_image(&self, deformation: &Deformation, image: [bool; 2]) -> Vec<[f64; 3]> {

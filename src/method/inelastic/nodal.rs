@@ -49,7 +49,8 @@ impl Grid {
 }
 
 impl InelasticProblem {
-    /// Stress at the nodes: xx, yy, zz, xy, yz, xz, of a section rr, tt, zz, 0, 0, rz [Pa].
+    /// Stress at the nodes, those on interfaces between layers twice: xx, yy, zz, xy, yz, xz, of a section rr, tt, zz, 0,
+    /// 0, rz [Pa].
     pub fn nodal_stress(
         &self,
         state: &[f64],
@@ -66,7 +67,7 @@ impl InelasticProblem {
             (false, stress) => stress,
         };
         let parted: Vec<[f64; 6]> = points.iter().map(parted).collect();
-        let mut out = vec![[0.0; 6]; self.mesh.nodes()];
+        let mut out = vec![[0.0; 6]; self.mesh.sided_nodes()];
         for component in 0..6 {
             if is_ring && (component == 3 || component == 4) {
                 continue;
@@ -85,7 +86,7 @@ impl InelasticProblem {
         Ok(out)
     }
 
-    /// Accumulated plastic strain at the nodes [1].
+    /// Accumulated plastic strain at the nodes, those on interfaces between layers twice [1].
     pub fn nodal_plastic_strain(&self, state: &[f64]) -> Vec<f64> {
         let histories = state[self.layout().history].chunks_exact(History::LEN);
         let values: Vec<f64> =
@@ -115,8 +116,18 @@ impl InelasticProblem {
     }
 }
 
-/// From values at the points of all elements to the nodes.
+/// From values at the points of all elements to the nodes, layer by layer: what is read jumps between them.
 fn recover(mesh: &Mesh, values: &[f64], beyond: [Beyond; 2]) -> Vec<f64> {
+    let per_element = values.len() / mesh.element_counts()[2];
+    let of_layer = |layer: usize| {
+        let elements = mesh.layer_elements(layer);
+        let values = &values[elements.start * per_element..elements.end * per_element];
+        recover_layer(&mesh.layer_mesh(layer), values, beyond)
+    };
+    (0..mesh.layering.count()).flat_map(of_layer).collect()
+}
+
+fn recover_layer(mesh: &Mesh, values: &[f64], beyond: [Beyond; 2]) -> Vec<f64> {
     let per_axis = match mesh.geometry {
         Geometry::Box => mesh.order() + 1,
         Geometry::Axisymmetric => mesh.order() + 2,

@@ -126,6 +126,9 @@ impl SolidFem {
     ) -> [f64; 6] {
         let (place, image) = self.mesh.locate(point);
         let nodes = self.sided_weights(place);
+        if let Some(stress) = &deformation.stress {
+            return self.turned(self.nodal_at(stress, &nodes, image), point);
+        }
         let counts = self.mesh.node_counts();
         let quantities = quantities(self.mesh.geometry);
         let mut recovered = [0.0; 6];
@@ -149,6 +152,11 @@ impl SolidFem {
         }
         let law = self.law_at(nodes[2].first);
         let stress = self.stress_of(law, recovered, self.rise_from(temperatures, point));
+        self.turned(stress, point)
+    }
+
+    /// A stress in components along x, y and z.
+    fn turned(&self, stress: [f64; 6], point: [f64; 3]) -> [f64; 6] {
         match self.mesh.geometry {
             Geometry::Box => stress,
             Geometry::Axisymmetric => {
@@ -156,6 +164,16 @@ impl SolidFem {
                 from_cylindrical([rr, tt, zz, rz], point[0], point[1])
             }
         }
+    }
+
+    /// Stress between the nodes where it is known.
+    fn nodal_at(&self, stress: &[[f64; 6]], nodes: &[Weights; 3], image: [bool; 2]) -> [f64; 6] {
+        let counts = self.mesh.sided_counts();
+        let field = stress.as_flattened();
+        std::array::from_fn(|slot| {
+            let value = weighted(field, nodes.each_ref(), counts, (slot, 6));
+            self.parities[0].tensor_sign(image, slot) * value
+        })
     }
 
     /// Recovered quantities at the nodes: class, quantity, node.

@@ -1,0 +1,190 @@
+//! Solids whose stress depends on what they went through: their mechanics advances with their heat.
+
+use super::SolidBody;
+use crate::body::{Acts, BodyError};
+use crate::math::cholesky::SolverError;
+use crate::method::fem::{Deformation, Plan, SolidLoads, Temperatures};
+use crate::method::inelastic::{InelasticError, InelasticProblem, StateLayout};
+use crate::state::{Field, Layout, Per};
+
+/// The mechanics of a solid that yields, or whose elastic constants depend on the temperature.
+pub struct Yielding {
+    problem: InelasticProblem,
+    layout: StateLayout,
+    /// Of those that stand twice on every interface, one level along z for each of the mesh.
+    levels: Vec<usize>,
+}
+
+/// How often a step that finds no equilibrium is halved.
+const MOST_HALVES: u32 = 6;
+
+impl Yielding {
+    /// Nothing where stress follows linearly from deformation and temperature, or is not asked for.
+    pub fn of(plan: &Plan, threads: usize) -> Result<Option<Self>, SolverError> {
+        let Some(laws) = &plan.inelastic else { return Ok(None) };
+        let problem = InelasticProblem::new(&plan.mesh, laws.clone(), &plan.supports, threads);
+        let problem = problem.map_err(|error| match error {
+            InelasticError::Solver(error) => error,
+            error => panic!("a checked scene has mechanics: {error}"),
+        })?;
+        let sided = plan.mesh.nodes_of_sided();
+        let level = |node: usize| sided.iter().position(|&other| other == node);
+        let levels = (0..plan.mesh.axes[2].len()).filter_map(level).collect();
+        Ok(Some(Self { layout: problem.layout(), problem, levels }))
+    }
+
+    pub fn initial_state(&self) -> Vec<f64> {
+        self.problem.initial_state()
+    }
+
+    pub fn layout(&self) -> Layout {
+        let field = |name, words, per| Field { name, words, per, width: 1 };
+        let StateLayout { displacement, amplitudes, history, .. } = &self.layout;
+        Layout::default()
+            .with(field("displacement", "displacement [m]", Per::Node), displacement.len())
+            .with(
+                field("amplitude", "enhanced strain of an element [1]", Per::Cell),
+                amplitudes.len(),
+            )
+            .with(
+                field(
+                    "history",
+                    "plastic and back strain [1], accumulated strain [1], dissipation [J/m³]",
+                    Per::Point,
+                ),
+                history.len(),
+            )
+    }
+}
+
+impl SolidBody {
+    /// The part of a state that is heat.
+    pub(super) fn heat_of<'s>(&self, state: &'s [f64]) -> &'s [f64] {
+        &state[..self.heat_len]
+    }
+
+    /// Advances heat, and then mechanics to the equilibrium at the end. A step that finds none is halved.
+    pub(super) fn advance_yielding(
+        &self,
+        yielding: &Yielding,
+        state: &mut [f64],
+        acts: &Acts,
+        mut heat: impl FnMut(&mut [f64], &Acts) -> Result<(), BodyError>,
+    ) -> Result<(), BodyError> {
+        let start = state.to_vec();
+        let mut halves = 0;
+        'parts: loop {
+            let parts = 1 << halves;
+            let length = acts.duration / f64::from(parts);
+            for part in 0..parts {
+                let path = acts.path.from(f64::from(part) * length);
+                let acts = Acts { path: &path, duration: length, ..*acts };
+                heat(&mut state[..self.heat_len], &acts)?;
+                match self.balance(yielding, state, &acts) {
+                    Ok(()) => {}
+                    // What is received changes over the whole step, so that step is not cut.
+                    Err(BodyError::Equilibrium { .. })
+                        if halves < MOST_HALVES && acts.received.is_empty() =>
+                    {
+                        halves += 1;
+                        state.copy_from_slice(&start);
+                        continue 'parts;
+                    }
+                    Err(error) => return Err(error),
+                }
+            }
+            return Ok(());
+        }
+    }
+
+    /// Equilibrium at the end of what acts.
+    fn balance(
+        &self,
+        yielding: &Yielding,
+        state: &mut [f64],
+        acts: &Acts,
+    ) -> Result<(), BodyError> {
+        let inputs = acts.path.at(0, acts.duration);
+        let mut loads = self.loads.assemble(&inputs, self.meshes());
+        for received in acts.received {
+            self.port(received.face).add(&mut loads, received.given);
+        }
+        let (heat, mechanics) = state.split_at_mut(self.heat_len);
+        let temperatures = self.solid.temperatures(heat, &loads);
+        let nodal = self.nodal_temperatures(yielding, &temperatures);
+        let forces = self.nodal_forces(&loads)?;
+        let advanced = yielding.problem.advance(mechanics, &nodal, &forces);
+        advanced.map(drop).map_err(|error| self.inelastic_error(error))
+    }
+
+    fn inelastic_error(&self, error: InelasticError) -> BodyError {
+        match error {
+            InelasticError::Solver(error) => error.into(),
+            error => BodyError::Equilibrium { body: self.name.clone(), error },
+        }
+    }
+
+    /// Temperature of every node of the mesh [K]; interfaces have one, as layers touch without resistance.
+    fn nodal_temperatures(&self, yielding: &Yielding, temperatures: &Temperatures) -> Vec<f64> {
+        let mesh = self.solid.mesh();
+        let plane = mesh.axes[0].len() * mesh.axes[1].len();
+        let start = self.solid.initial_temperature();
+        let rises = &temperatures[0];
+        if rises.is_empty() {
+            return vec![start; mesh.nodes()];
+        }
+        let level = |&level: &usize| &rises[level * plane..(level + 1) * plane];
+        yielding.levels.iter().flat_map(level).map(|rise| start + rise).collect()
+    }
+
+    /// Forces on all nodes, their components together [N].
+    fn nodal_forces(&self, loads: &SolidLoads) -> Result<Vec<f64>, BodyError> {
+        let mesh = self.solid.mesh();
+        let (degrees, nodes) = (mesh.geometry.degrees(), mesh.nodes());
+        let plane = mesh.axes[0].len() * mesh.axes[1].len();
+        let is_zero = |list: &Vec<f64>| list.iter().all(|&force| force == 0.0);
+        if !loads.force.iter().skip(1).flatten().flatten().all(is_zero) {
+            return Err(BodyError::Uneven { body: self.name.clone() });
+        }
+        let mut forces = vec![0.0; nodes * degrees];
+        for (lists, first) in loads.force[0].iter().zip([0, nodes - plane]) {
+            for (component, list) in lists.iter().enumerate() {
+                for (node, force) in list.iter().enumerate() {
+                    forces[(first + node) * degrees + component] += force;
+                }
+            }
+        }
+        Ok(forces)
+    }
+
+    /// Displacements and stress as the state remembers them; nothing where stress follows from deformation alone.
+    pub(super) fn remembered(
+        &self,
+        state: &[f64],
+        temperatures: Option<&Temperatures>,
+    ) -> Result<Option<Deformation>, BodyError> {
+        let (Some(yielding), Some(temperatures)) = (&self.yielding, temperatures) else {
+            return Ok(None);
+        };
+        let mechanics = &state[self.heat_len..];
+        let nodal = self.nodal_temperatures(yielding, temperatures);
+        let stress = yielding.problem.nodal_stress(mechanics, &nodal);
+        let stress = stress.map_err(|error| self.inelastic_error(error))?;
+        let displacement = yielding.problem.displacement(mechanics).to_vec();
+        Ok(Some(Deformation::of_nodes(displacement, stress)))
+    }
+
+    /// Accumulated plastic strain at the nodes [1]; none where nothing yields.
+    pub(super) fn plastic_strain(&self, state: &[f64]) -> Vec<f64> {
+        let strain =
+            |yielding: &Yielding| yielding.problem.nodal_plastic_strain(&state[self.heat_len..]);
+        self.yielding.as_ref().map_or(Vec::new(), strain)
+    }
+
+    /// Energy that yielding has dissipated [J].
+    pub(super) fn plastic_work(&self, state: &[f64]) -> f64 {
+        let work =
+            |yielding: &Yielding| yielding.problem.dissipated_energy(&state[self.heat_len..]);
+        self.yielding.as_ref().map_or(0.0, work)
+    }
+}

@@ -1,0 +1,190 @@
+//! Nonlinear heat of a solid's plan: enthalpies on the nodes of its mesh.
+
+use super::heat::{HeatLoads, HeatTotals, ThermalFace};
+use super::mesh::Mesh;
+use super::plan::{NewtonPlan, Plan};
+use crate::math::allowance::Allowance;
+use crate::method::enthalpy::{
+    Condition, Contact, EnthalpyHeat, Face, Failure, Loads, Setup, linear_mesh,
+};
+use crate::state::{Field, Layout, Per};
+
+/// Heat by enthalpies as that of a solid: temperatures above the initial one, nodes on interfaces between layers twice,
+/// parts that are odd about a plane of symmetry refused.
+pub struct NonlinearHeat {
+    heat: EnthalpyHeat,
+    initial_temperature: f64,
+    /// Conditions of the plan's thermal faces.
+    faces: Vec<ThermalFace>,
+    /// Temperatures of what radiating faces see [K].
+    ambients: Vec<f64>,
+    /// What a step in time may err by [K].
+    tolerance: f64,
+    /// For each level along z of those that stand twice on every interface, that of the heat's own.
+    levels: Vec<usize>,
+    /// Nodes of a level.
+    plane: usize,
+    classes: usize,
+}
+
+/// Why nonlinear heat did not advance.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NonlinearFailure {
+    #[error(transparent)]
+    Heat(#[from] Failure),
+    #[error(
+        "loads are not even about the planes of symmetry, which heat that is not linear needs (allowed: loads that are, or \
+         `symmetry = \"none\"`)"
+    )]
+    Uneven,
+}
+
+impl NonlinearHeat {
+    pub fn new(plan: &Plan, newton: &NewtonPlan) -> Self {
+        let faces: Vec<ThermalFace> = plan.thermal_faces.iter().map(|(_, kind)| *kind).collect();
+        let heat = EnthalpyHeat::new(&setup(plan, newton));
+        Self {
+            heat: heat
+                .unwrap_or_else(|error| panic!("a checked scene has nonlinear heat: {error}")),
+            initial_temperature: plan.initial_temperature,
+            faces,
+            ambients: newton.radiation.iter().map(|(_, radiation)| radiation.ambient).collect(),
+            tolerance: newton.tolerance,
+            levels: levels(&plan.mesh),
+            plane: plan.mesh.axes[0].len() * plan.mesh.axes[1].len(),
+            classes: plan.mesh.parities().len(),
+        }
+    }
+
+    /// The fields of a state, see [`EnthalpyHeat`].
+    pub fn layout(&self) -> Layout {
+        let body = |name, words| Field { name, words, per: Per::Body, width: 1 };
+        let words = "enthalpy per volume above that of the solid at time zero [J/m³]";
+        let enthalpy = Field { name: "enthalpy", words, per: Per::Node, width: 1 };
+        Layout::default()
+            .with(enthalpy, self.heat.nodes())
+            .with(body("inner_step", "length of the next inner step [s]"), 1)
+            .with(body("inner_steps", "inner steps made since time zero"), 1)
+            .with(body("initial_heat", "heat at time zero above the reference [J]"), 1)
+            .with(body("brought_in", "heat brought in since time zero [J]"), 1)
+            .with(body("lost", "heat lost since time zero [J]"), 1)
+    }
+
+    pub fn initial_state(&self) -> Vec<f64> {
+        self.heat.initial_state(self.initial_temperature)
+    }
+
+    /// What a step in time may err by [K].
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    pub fn advance(
+        &self,
+        state: &mut [f64],
+        loads: &[HeatLoads],
+        dt: f64,
+        allowance: &Allowance,
+    ) -> Result<(), NonlinearFailure> {
+        let is_zero = |list: &Vec<f64>| list.iter().all(|&value| value == 0.0);
+        for load in loads {
+            let mut odd = load.surface.iter().skip(1).flatten().chain(load.faces.iter().skip(1));
+            if !odd.all(is_zero) {
+                return Err(NonlinearFailure::Uneven);
+            }
+        }
+        let values: Vec<Vec<f64>> =
+            loads.iter().enumerate().map(|(k, load)| self.values(k, load.faces)).collect();
+        let loads: Vec<Loads> = loads
+            .iter()
+            .zip(&values)
+            .map(|(load, faces)| Loads { surface: &load.surface[0], faces })
+            .collect();
+        Ok(self.heat.advance(state, &loads, dt, self.tolerance, allowance)?)
+    }
+
+    /// Values of all faces, or a time derivative of them: temperatures from absolute zero on.
+    fn values(&self, derivative: usize, faces: &[Vec<f64>]) -> Vec<f64> {
+        let is_value = if derivative == 0 { 1.0 } else { 0.0 };
+        let base = |kind: &ThermalFace| match kind {
+            ThermalFace::Flux => 0.0,
+            ThermalFace::Prescribed | ThermalFace::Convective(_) => {
+                is_value * self.initial_temperature
+            }
+        };
+        let own = faces[0].iter().zip(&self.faces).map(|(value, kind)| value + base(kind));
+        own.chain(self.ambients.iter().map(|ambient| is_value * ambient)).collect()
+    }
+
+    /// Temperature above the initial one at all nodes, class by class [K].
+    pub fn nodal(&self, state: &[f64]) -> Vec<Vec<f64>> {
+        let temperatures = self.heat.temperatures(state);
+        let level = |&level: &usize| &temperatures[level * self.plane..(level + 1) * self.plane];
+        let rises = self.levels.iter().flat_map(level).map(|t| t - self.initial_temperature);
+        let mut classes = vec![Vec::new(); self.classes];
+        classes[0] = rises.collect();
+        classes
+    }
+
+    pub fn stored(&self, state: &[f64]) -> f64 {
+        self.heat.stored(state)
+    }
+
+    pub fn totals(&self, state: &[f64]) -> HeatTotals {
+        self.heat.totals(state)
+    }
+
+    /// Volume that is liquid [m³].
+    pub fn liquid_volume(&self, state: &[f64], copies: f64) -> f64 {
+        let fractions = self.heat.liquid_fractions(state);
+        let parts = fractions.iter().zip(self.heat.volumes());
+        copies * parts.map(|(fraction, volume)| fraction * volume).sum::<f64>()
+    }
+}
+
+/// The mesh on which heat is brought into the nodes.
+pub fn heat_mesh(plan: &Plan) -> Mesh {
+    if plan.newton.is_some() { linear_mesh(&plan.mesh) } else { plan.mesh.clone() }
+}
+
+fn setup(plan: &Plan, newton: &NewtonPlan) -> Setup {
+    let layering = &plan.mesh.layering;
+    let elements = plan.mesh.axes[2].elements();
+    let contact = |layer: usize| {
+        let resistance = layering.resistance_above(layer);
+        let below = layering.elements(layer, elements).end;
+        (resistance > 0.0).then(|| Contact { below, conductance: 1.0 / resistance })
+    };
+    let own = plan.thermal_faces.iter().map(|&(place, kind)| Face {
+        place,
+        condition: match kind {
+            ThermalFace::Flux => Condition::Flux,
+            ThermalFace::Prescribed => Condition::Prescribed,
+            ThermalFace::Convective(coefficient) => Condition::Convective(coefficient),
+        },
+    });
+    let radiating = newton.radiation.iter().map(|&(place, radiation)| Face {
+        place,
+        condition: Condition::Radiative(radiation.emissivity),
+    });
+    Setup {
+        mesh: plan.mesh.clone(),
+        reference: plan.initial_temperature,
+        materials: newton.materials.clone(),
+        layers: (0..elements).map(|element| layering.layer_of(element)).collect(),
+        contacts: (0..layering.interfaces()).filter_map(contact).collect(),
+        faces: own.chain(radiating).collect(),
+    }
+}
+
+/// Levels of the heat, which stand twice at contacts that resist alone, for those that do on every interface.
+fn levels(mesh: &Mesh) -> Vec<usize> {
+    let resists = |layer: &usize| mesh.layering.resistance_above(*layer) > 0.0;
+    let of_layer = |layer: usize| {
+        let contacts = (0..layer).filter(resists).count();
+        let elements = mesh.layer_elements(layer);
+        let order = mesh.order();
+        (elements.start * order..=elements.end * order).map(move |node| node + contacts)
+    };
+    (0..mesh.layering.count()).flat_map(of_layer).collect()
+}

@@ -1,0 +1,333 @@
+//! Solids of scenes whose constants depend on the temperature, that melt, radiate or yield.
+
+use crate::common::{Trial, off};
+
+/// A body with a material, faces and further tables.
+fn body(shape: &str, material: &str, start: f64, faces: &str, rest: &str) -> String {
+    format!(
+        "name = \"Body\"\nstop_time = 1.0\nstep = 0.1\n[body.plate]\nkind = \"solid\"\nshape = {{ {shape} }}\n\
+         initial_temperature = {start:?}\nmaterial = {{ {material} }}\n[body.plate.faces]\n{faces}\n{rest}"
+    )
+}
+
+fn with_mesh(text: &str, mesh: &str) -> String {
+    text.replacen("[body.plate.faces]", &format!("mesh = {{ {mesh} }}\n[body.plate.faces]"), 1)
+}
+
+fn probe(name: &str, at: [f64; 3], gives: &str) -> String {
+    format!("[[probe]]\nname = \"{name}\"\nin = \"plate\"\nat = {at:?}\ngives = [{gives}]\n")
+}
+
+const T: &str = "\"temperature\"";
+
+#[test]
+fn a_steady_slab_conducts_as_the_integral_of_its_conductivity() {
+    // k falls from 30 to 9 W/(m K) between 300 and 800 K: θ is a parabola.
+    let material = "model = \"thermoelastic\", density = 3950.0, specific_heat = 900.0, \
+                    conductivity = { temperature = [300.0, 800.0], value = [30.0, 9.0] }";
+    let faces = "bottom = { temperature = 300.0 }\ntop = { temperature = 800.0 }";
+    let probes = probe("middle", [0.0, 0.0, -0.5e-3], T) + &probe("low", [0.0, 0.0, -0.75e-3], T);
+    for shape in ["box = [2e-3, 2e-3, 1e-3]", "disc = { radius = 1e-3, thickness = 1e-3 }"] {
+        let text = with_mesh(
+            &body(shape, material, 300.0, faces, &probes),
+            "spacing = 5e-4, depth_spacing = 5e-5, growth = 1.0",
+        );
+        let mut trial = Trial::new(&text);
+        (0..3).for_each(|_| trial.step(1.0));
+        let theta = |t: f64| 30.0 * (t - 300.0) - 0.5 * 21.0 / 500.0 * (t - 300.0).powi(2);
+        for (name, part) in [("middle", 0.5), ("low", 0.25)] {
+            let found = trial.get(&format!("{name}.temperature"));
+            assert!(off(theta(found), part * theta(800.0)) < 1e-4, "{shape} {name} {found}");
+        }
+        assert!(trial.heat_residual("plate") < 1e-9);
+    }
+}
+
+/// Differences of temperatures, and of what follows from them, between Newton's method and modes on one mesh.
+fn off_modes(spacing: [f64; 2]) -> [f64; 2] {
+    let material = "model = \"thermoelastic\", density = 3950.0, specific_heat = 900.0, conductivity = 10.0, \
+                    young = 300e9, poisson = 0.21, expansion = 8.1e-6";
+    let load = "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = { gaussian = { radius = 2e-4 } }\n\
+                carries = [\"heat_flux\", \"pressure\"]\nstart = { heat_flux = 1e7, pressure = 1e6 }\n";
+    let faces = "bottom = { convection = { coefficient = 500.0, ambient = 350.0 } }\nsides = { clamped = true }";
+    let probes = probe("spot_top", [0.0; 3], "\"temperature\", \"stress\", \"displacement\"")
+        + &probe("deep", [1e-4, 0.0, -2e-4], T);
+    let text = with_mesh(
+        &body("box = [1e-3, 1e-3, 4e-4]", material, 300.0, faces, &(load.to_owned() + &probes)),
+        &format!("spacing = {:e}, depth_spacing = {:e}", spacing[0], spacing[1]),
+    );
+    let text = text.replacen("initial_", "symmetry = \"quarter\"\ninitial_", 1);
+    let mut modal = Trial::new(&text);
+    let mut newton = Trial::new(&format!(
+        "{text}\n[solver]\nmethod = \"newton\"\n[fidelity]\ntolerance = 1e-5\n"
+    ));
+    for _ in 0..4 {
+        modal.step(2e-3);
+        newton.step(2e-3);
+        assert!(newton.heat_residual("plate") < 1e-9);
+    }
+    let mut largest = |names: &[&str], zero: f64| {
+        let of = |name: &&str| {
+            let [a, b] = [&mut modal, &mut newton].map(|trial| trial.get(name) - zero);
+            off(a, b)
+        };
+        names.iter().map(of).fold(0.0, f64::max)
+    };
+    let temperatures = ["spot_top.temperature", "deep.temperature", "plate.max_temperature"];
+    let others = [
+        "spot_top.stress_xx",
+        "spot_top.von_mises",
+        "spot_top.displacement_z",
+        "plate.heat_stored",
+    ];
+    [largest(&temperatures, 300.0), largest(&others, 0.0)]
+}
+
+#[test]
+fn newton_comes_to_agree_with_modes_where_both_may_be_taken() {
+    let [coarse, fine] = [[4e-5, 2e-5], [2e-5, 1e-5]].map(off_modes);
+    for (coarse, fine) in coarse.iter().zip(fine) {
+        assert!(fine < 0.01 && (coarse / fine).log2() > 1.5, "{coarse} {fine}");
+    }
+}
+
+#[test]
+fn a_melting_plate_takes_its_latent_heat() {
+    // Tin, heated evenly from above until all of it is liquid.
+    let material = "model = \"thermoelastic\", density = 7290.0, specific_heat = 230.0, conductivity = 65.0, \
+                    melting = { solidus = 505.0, liquidus = 505.0, latent_heat = 5.9e4 }";
+    let load = "[[load]]\nname = \"heat\"\non = \"plate.top\"\nfootprint = { tiles = { count = [1, 1], size = [2e-3, 2e-3] } }\n\
+                carries = [\"heat_flux\"]\nstart = { heat_flux = 1e5 }\n";
+    let text = with_mesh(
+        &body("box = [2e-3, 2e-3, 5e-4]", material, 300.0, "", load),
+        "spacing = 1e-3, depth_spacing = 5e-5, growth = 1.0",
+    );
+    let mut trial = Trial::new(&text);
+    let volume = 4e-6 * 5e-4;
+    let needed = volume * 7290.0 * (230.0 * 205.0 + 5.9e4);
+    // A gradient of 1.5 K/mm stands in the plate as long as heat comes in.
+    let time = needed / (1e5 * 4e-6);
+    trial.step(0.9 * time);
+    let half = trial.get("plate.liquid_volume") / volume;
+    assert!((0.7..0.9).contains(&half), "{half}");
+    assert!((trial.get("plate.max_temperature") - 505.0).abs() < 1.0);
+    trial.step(0.2 * time);
+    assert!(off(trial.get("plate.liquid_volume"), volume) < 1e-9);
+    let rise = 0.1 * needed / (volume * 7290.0 * 230.0);
+    trial.set("heat.heat_flux[1,1]", 0.0);
+    trial.step(1.0);
+    assert!(off(trial.get("plate.max_temperature") - 505.0, rise) < 1e-3);
+    assert!(off(trial.get("plate.heat_in"), 1.1 * needed) < 1e-9);
+    assert!(trial.heat_residual("plate") < 1e-9);
+}
+
+#[test]
+fn a_radiating_plate_comes_to_rest_where_it_loses_what_it_gets() {
+    let material =
+        "model = \"thermoelastic\", density = 8960.0, specific_heat = 385.0, conductivity = 400.0";
+    for (emissivity, flux, ambient) in [(0.8, 2e4, 293.15), (1.0, 5e5, 4.0), (0.03, 100.0, 500.0)] {
+        let faces = format!(
+            "top = {{ radiation = {{ emissivity = {emissivity:?}, ambient = {ambient:?} }} }}\nbottom = {{ flux = {flux:?} }}"
+        );
+        let text = with_mesh(
+            &body("disc = { radius = 1e-2, thickness = 1e-3 }", material, 400.0, &faces, ""),
+            "spacing = 5e-3, depth_spacing = 5e-4",
+        );
+        let mut trial = Trial::new(&text);
+        (0..4).for_each(|_| trial.step(1e5));
+        let wanted = (flux / (emissivity * 5.670374419e-8) + f64::powi(ambient, 4)).powf(0.25);
+        let found = trial.get("plate.max_temperature");
+        // Across the plate the flux makes a difference of its own.
+        assert!((found - wanted - flux * 1e-3 / 400.0).abs() < 2e-4 * wanted, "{found} {wanted}");
+        assert!(trial.heat_residual("plate") < 1e-9);
+    }
+}
+
+/// Steel, say, that yields.
+const STEEL: &str = "model = \"elastoplastic\", density = 7800.0, specific_heat = 500.0, conductivity = 45.0, \
+                     young = 200e9, poisson = 0.3, expansion = 1.2e-5, yield_stress = 250e6, \
+                     isotropic_hardening = 2e9";
+
+/// A bar between rigid walls whose sides are free.
+fn bar(material: &str, rest: &str) -> String {
+    let faces = "left = { roller = true }\nright = { roller = true }\nfront = { roller = true }\n\
+                 bottom = { roller = true, temperature = 300.0 }\ntop = { temperature = 300.0 }";
+    with_mesh(
+        &body(
+            "box = [4e-2, 1e-2, 1e-2]",
+            material,
+            300.0,
+            faces,
+            &(probe("inside", [0.0, 0.0, -5e-3], "\"stress\", \"displacement\"") + rest),
+        ),
+        "spacing = 5e-3, depth_spacing = 5e-3, growth = 1.0",
+    )
+}
+
+#[test]
+fn a_held_bar_yields_when_heated_and_is_in_tension_when_cold_again() {
+    for (method, material) in [("auto", STEEL), ("newton", STEEL)] {
+        let mut trial = Trial::new(&bar(material, &format!("[solver]\nmethod = \"{method}\"\n")));
+        // Inner steps of Newton's method leave some of the way to rest.
+        let bound = if method == "auto" { 1e-6 } else { 1e-4 };
+        let to = |trial: &mut Trial, temperature: f64| {
+            trial.set("plate.top.temperature", temperature);
+            trial.set("plate.bottom.temperature", temperature);
+            (0..4).for_each(|_| trial.step(100.0));
+            trial.get("inside.stress_xx")
+        };
+        // Yield at σ/(Eα) = 104.17 K; beyond it stress grows by EH/(E + H) of the strain.
+        let (young, hardening, strain) = (200e9, 2e9, 1.2e-5);
+        let elastic = to(&mut trial, 350.0);
+        assert!(off(elastic, -young * strain * 50.0) < bound, "{elastic}");
+        let plastic = young * strain * 300.0 - 250e6;
+        let tangent = hardening / (young + hardening);
+        let hot = to(&mut trial, 600.0);
+        let wanted = -(250e6 + tangent * plastic);
+        assert!(off(hot, wanted) < bound, "{method}: {hot} {wanted}");
+        assert!(trial.heat_residual("plate") < 1e-9);
+        let strained = trial.get("plate.max_plastic_strain");
+        assert!(off(strained, plastic / (young + hardening)) < bound, "{strained}");
+        assert!(trial.get("plate.plastic_work") > 0.0);
+        // Cooled it is elastic until tension yields at the hardened stress.
+        let cold = to(&mut trial, 300.0);
+        let residual: f64 = wanted + young * strain * 300.0;
+        let limit = -wanted;
+        let wanted = if residual > limit { limit + tangent * (residual - limit) } else { residual };
+        assert!(off(cold, wanted) < bound, "{method}: {cold} {wanted}");
+    }
+}
+
+#[test]
+fn a_yield_stress_out_of_reach_leaves_a_body_elastic() {
+    let glass = STEEL.replace("250e6", "1e13");
+    let elastic = STEEL
+        .replace("elastoplastic", "thermoelastic")
+        .replace(", yield_stress = 250e6, isotropic_hardening = 2e9", "");
+    let load = "[[load]]\nname = \"press\"\non = \"plate.top\"\nfootprint = { disc = { radius = 2e-3 } }\n\
+                carries = [\"pressure\", \"shear\", \"heat_flux\"]\n\
+                start = { pressure = 1e8, shear_x = 3e7, heat_flux = 1e6, x = 2e-3, y = 1e-3 }\n";
+    let text = |material: &str, symmetry: &str| {
+        let faces = "bottom = { clamped = true }";
+        let text = body(
+            "box = [2e-2, 1.6e-2, 6e-3]",
+            material,
+            300.0,
+            faces,
+            &format!(
+                "{load}{}",
+                probe("inside", [2e-3, 1e-3, -3e-3], "\"stress\", \"displacement\"")
+            ),
+        );
+        let text = with_mesh(&text, "spacing = 1e-3, depth_spacing = 1e-3, growth = 1.5");
+        text.replacen("initial_", &format!("symmetry = \"{symmetry}\"\ninitial_"), 1)
+    };
+    let mut one = Trial::new(&text(&glass, "auto"));
+    let mut other = Trial::new(&text(&elastic, "none"));
+    for trial in [&mut one, &mut other] {
+        (0..2).for_each(|_| trial.step(0.2));
+    }
+    for key in ["displacement_x", "displacement_y", "displacement_z"] {
+        let name = format!("inside.{key}");
+        let (found, wanted) = (one.get(&name), other.get(&name));
+        assert!(off(found, wanted) < 1e-8, "{name}: {found} {wanted}");
+    }
+    // Both recover stress from the same points, but not by the same polynomials.
+    let scale = other.get("inside.von_mises");
+    for key in ["stress_xx", "stress_yy", "stress_zz", "stress_xz", "von_mises"] {
+        let name = format!("inside.{key}");
+        let (found, wanted) = (one.get(&name), other.get(&name));
+        assert!((found - wanted).abs() < 0.1 * scale, "{name}: {found} {wanted} {scale}");
+    }
+    assert_eq!(one.get("plate.max_plastic_strain"), 0.0);
+}
+
+#[test]
+fn stress_counts_from_the_temperature_without_it() {
+    // Held on all sides: σ = −Eα(T − T₀)/(1 − 2ν), whatever the temperature at time zero.
+    let faces = "sides = { roller = true }\ntop = { roller = true }\nbottom = { roller = true }";
+    for material in [
+        STEEL.replace("250e6", "1e13"),
+        STEEL
+            .replace("elastoplastic", "thermoelastic")
+            .replace(", yield_stress = 250e6, isotropic_hardening = 2e9", ""),
+    ] {
+        let text = body(
+            "box = [2e-2, 2e-2, 1e-2]",
+            &material,
+            400.0,
+            faces,
+            &probe("inside", [1e-3, 2e-3, -3e-3], "\"stress\""),
+        );
+        let text = with_mesh(&text, "spacing = 5e-3, depth_spacing = 5e-3").replacen(
+            "initial_",
+            "stress_free_temperature = 300.0\ninitial_",
+            1,
+        );
+        let mut trial = Trial::new(&text);
+        trial.step(1.0);
+        let wanted = -200e9 * 1.2e-5 * 100.0 / 0.4;
+        for key in ["stress_xx", "stress_yy", "stress_zz"] {
+            let found = trial.get(&format!("inside.{key}"));
+            assert!(off(found, wanted) < 1e-9, "{key} {found} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn states_of_bodies_that_melt_and_yield_go_on_to_the_bit() {
+    let material = STEEL.replace(
+        "yield_stress = 250e6",
+        "yield_stress = { temperature = [300.0, 900.0], value = [250e6, 40e6] }, \
+         melting = { solidus = 1700.0, liquidus = 1750.0, latent_heat = 2.7e5 }",
+    );
+    let load = "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = { gaussian = { radius = 1e-3 } }\n\
+                carries = [\"heat_flux\"]\nstart = { heat_flux = 4e7 }\n";
+    let text = with_mesh(
+        &body(
+            "disc = { radius = 6e-3, thickness = 2e-3 }",
+            &material,
+            300.0,
+            "bottom = { clamped = true, convection = { coefficient = 1e3, ambient = 300.0 } }\n\
+             top = { radiation = { emissivity = 0.4, ambient = 293.0 } }",
+            &format!("{load}{}", probe("inside", [0.0, 0.0, -1e-3], "\"stress\", \"temperature\"")),
+        ),
+        "spacing = 4e-4, depth_spacing = 2e-4",
+    );
+    let mut trial = Trial::new(&text);
+    trial.step(0.02);
+    let saved = trial.state.clone();
+    trial.step(0.02);
+    let ahead = trial.state.clone();
+    let mut other = Trial::on_threads(&text, 3);
+    other.restart(&saved);
+    other.step(0.02);
+    assert_eq!(other.state, ahead);
+    assert!(trial.get("plate.max_plastic_strain") > 0.0);
+    assert!(trial.get("plate.liquid_volume") >= 0.0);
+    assert!(trial.heat_residual("plate") < 1e-9);
+    trial.model.check_state(&ahead).unwrap();
+}
+
+#[test]
+fn parts_of_bodies_take_loads_that_are_even_alone() {
+    let load = "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = { disc = { radius = 2e-3 } }\n\
+                carries = [\"heat_flux\", \"pressure\"]\nstart = { heat_flux = 1e5, pressure = 1e5 }\n";
+    let text = body("box = [2e-2, 2e-2, 4e-3]", STEEL, 300.0, "bottom = { clamped = true }", load);
+    let text = with_mesh(&text, "spacing = 2e-3, depth_spacing = 2e-3");
+    let of = |symmetry: &str| {
+        Trial::new(&text.replacen("initial_", &format!("symmetry = \"{symmetry}\"\ninitial_"), 1))
+    };
+    let (mut quarter, mut whole) = (of("quarter"), of("none"));
+    for trial in [&mut quarter, &mut whole] {
+        trial.step(0.1);
+    }
+    for name in ["plate.max_temperature", "plate.max_von_mises", "plate.heat_in"] {
+        assert!(off(quarter.get(name), whole.get(name)) < 1e-6, "{name}");
+    }
+    let before = quarter.state.clone();
+    quarter.set("spot.x", 1e-3);
+    let refused = quarter.try_step(0.1).unwrap_err().to_string();
+    assert!(refused.contains("plate") && refused.contains("even"), "{refused}");
+    assert_eq!(quarter.state.bodies, before.bodies);
+}
