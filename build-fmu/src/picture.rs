@@ -125,8 +125,9 @@ impl<'a> Section<'a> {
         let body = loaded.or(coupled).or_else(first);
         let drops: Vec<Drop> = match body {
             Some(body) => {
-                let coupling = scene.coupling_to(body);
-                coupling.and_then(|coupling| scene.droplet(&coupling.from)).map_or(vec![], Drop::of)
+                let couplings = scene.couplings_to(body);
+                let droplets = couplings.filter_map(|coupling| scene.droplet(&coupling.from));
+                droplets.flat_map(Drop::of).collect()
             }
             None => scene.droplets().next().map_or(vec![], |(_, droplet)| Drop::of(droplet)),
         };

@@ -70,10 +70,10 @@ impl Model {
         allowance: &Allowance,
     ) -> Result<(), ModelError> {
         let mut all = || {
-            let groups = self.schedule.iter();
-            groups
-                .map(|group| self.advance_group(group, states, cache, (path, dt), allowance))
-                .collect::<Result<(), BodyError>>()
+            let mut groups = self.schedule.iter();
+            groups.try_for_each(|group| {
+                self.advance_group(group, states, cache, (path, dt), allowance)
+            })
         };
         let advanced = match self.bodies.iter().any(|body| body.steps_are_deep()) {
             true => aside(all),

@@ -2,6 +2,7 @@
 
 use super::schedule::Exchange;
 use super::{BodyError, Cache, Model, ModelError, State};
+use crate::body::Body;
 use crate::inputs::InputPath;
 use crate::variables::Output;
 
@@ -18,12 +19,12 @@ impl Model {
     /// The change when the inputs change at `rates` while the unknowns stay.
     pub fn input_tangent(&self, state: &State, rates: &[f64]) -> Result<Tangent, ModelError> {
         self.check_inputs(&state.inputs)?;
-        let change = |body: &Box<dyn crate::body::Body>| match body.linear() {
+        let change = |body: &dyn Body| match body.linear() {
             Some(linear) => linear.change(&state.inputs, rates),
             None => body.memo(&state.inputs, &[]),
         };
         let bodies = state.bodies.iter().map(|unknowns| vec![0.0; unknowns.len()]).collect();
-        let cache = Cache::of_memos(self.bodies.iter().map(change).collect());
+        let cache = Cache::of_memos(self.bodies.iter().map(|body| change(body.as_ref())).collect());
         Ok(Tangent { bodies, cache, in_time: false })
     }
 

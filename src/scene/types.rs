@@ -77,7 +77,7 @@ impl Naming {
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Body {
     /// A solid that conducts heat and deforms elastically.
-    Solid(Solid),
+    Solid(Box<Solid>),
     /// Drops of a fluid.
     Droplet(Droplet),
 }

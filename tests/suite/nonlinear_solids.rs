@@ -54,7 +54,7 @@ fn off_modes(spacing: [f64; 2]) -> [f64; 2] {
         + &probe("deep", [1e-4, 0.0, -2e-4], T);
     let text = with_mesh(
         &body("box = [1e-3, 1e-3, 4e-4]", material, 300.0, faces, &(load.to_owned() + &probes)),
-        &format!("spacing = {:e}, depth_spacing = {:e}", spacing[0], spacing[1]),
+        &format!("spacing = {:e}, depth_spacing = {:e}, growth = 1.0", spacing[0], spacing[1]),
     );
     let text = text.replacen("initial_", "symmetry = \"quarter\"\ninitial_", 1);
     let mut modal = Trial::new(&text);

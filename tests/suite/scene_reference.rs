@@ -13,7 +13,7 @@ const IMPACT: &str = include_str!("../scenes/impact.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 23] = [
+const SECTIONS: [Section; 25] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -27,6 +27,13 @@ const SECTIONS: [Section; 23] = [
     ("`shape` of a solid", IMPACT, "shape = {", "shape = { zz = 1, aa = 1 } # {", &[]),
     ("`shape.disc`", IMPACT, "shape = {", "shape = { disc = { zz = 1 } } # {", &[]),
     ("`material` of a solid", PLATE, "density = 3950.0", "density = 3950.0, zz = 1", &["model"]),
+    (
+        "`melting` of a material",
+        PLATE,
+        "density = 3950.0",
+        "density = 3950.0, melting = { zz = 1 }",
+        &[],
+    ),
     ("`layers` of a solid", PLATE, "material = {", "layers = [{ zz = 1 }] # {", &[]),
     ("`sph` of a solid", PLATE, "heat = \"fem\"", "heat = \"sph\"\nsph = { zz = 1 }", &[]),
     ("`mesh` of a solid", PLATE, "mesh = {", "mesh = { zz = 1,", &[]),
@@ -36,6 +43,13 @@ const SECTIONS: [Section; 23] = [
         PLATE,
         "[body.plate.faces]",
         "[body.plate.faces]\ntop = { convection = { zz = 1 } }",
+        &[],
+    ),
+    (
+        "`faces.FACE.radiation` of a solid",
+        PLATE,
+        "[body.plate.faces]",
+        "[body.plate.faces]\ntop = { radiation = { zz = 1 } }",
         &[],
     ),
     ("`[body.NAME]` of a droplet", DROP, "diameter =", "zz = 1\ndiameter =", &["kind"]),

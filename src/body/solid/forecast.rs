@@ -3,8 +3,10 @@
 use super::{is_large, plan};
 use crate::body::threads_for;
 use crate::math::chebyshev::products;
+use crate::method::enthalpy::EnthalpyHeat;
 use crate::method::fem::{
-    Geometry, expected_entries, particle_cost, solver_memory, suits_conjugate_gradients,
+    Geometry, expected_entries, factor_memory, particle_cost, solver_memory,
+    suits_conjugate_gradients,
 };
 use crate::scene::{CellValues, Scene, Solid};
 
@@ -51,6 +53,11 @@ const BRICK_RATE: f64 = 7e5;
 /// Products of particles' matrices: entries a second on one thread, and rows built a second.
 pub const PRODUCT_RATE: f64 = 9e8;
 const ROW_RATE: f64 = 2.5e4;
+/// What nonlinear heat takes a node in a communication step of some ten inner ones [s]; and equilibrium of a body that
+/// yields, where part of it does [s], and memory [B].
+const NONLINEAR_HEAT: f64 = 1.5e-5;
+const YIELDING: f64 = 7e-5;
+const YIELDING_MEMORY: f64 = 8e3;
 /// Modes through layers: cubed numbers of nodes along z a second, on each thread.
 const COLUMN_RATE: f64 = 1e8;
 
@@ -60,7 +67,10 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     let unknowns = plan.unknowns();
     let n = unknowns[1] as f64;
     let geometry = plan.mesh.geometry;
-    let by_bricks = plan.law.as_ref().is_some_and(|law| suits_conjugate_gradients(&plan.mesh, law));
+    // Bodies that yield have a factor of a section alone.
+    let is_yielding_box = plan.inelastic.is_some() && geometry == Geometry::Box;
+    let suits = |law| suits_conjugate_gradients(&plan.mesh, law);
+    let by_bricks = is_yielding_box || plan.law.as_deref().is_some_and(suits);
     let entries = if by_bricks { 0.0 } else { expected_entries(geometry, unknowns[1]) };
     let operations = match geometry {
         _ if by_bricks => 0.0,
@@ -88,6 +98,19 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     // Of each axis a full matrix, and what it is found from.
     let modes = plan.mesh.axes.iter().map(|axis| 3.0 * (axis.len() as f64).powi(2));
     let modes: f64 = if particles.is_none() { modes.sum() } else { 0.0 };
+    let nodes = unknowns[0] as f64;
+    let (mut nonlinear_memory, mut nonlinear_time) = (0.0, 0.0);
+    if plan.newton.is_some() {
+        nonlinear_memory += EnthalpyHeat::expected_bytes(plan.mesh.sided_counts());
+        nonlinear_time += NONLINEAR_HEAT * nodes;
+    }
+    if plan.inelastic.is_some() {
+        nonlinear_memory += YIELDING_MEMORY * nodes;
+        if !is_yielding_box {
+            nonlinear_memory += factor_memory(geometry, unknowns[1]);
+        }
+        nonlinear_time += YIELDING * nodes / threads;
+    }
     let columns = classes * plan.entries_of_columns();
     let rows = if particles.is_some() { unknowns[0] as f64 } else { 0.0 };
     BodyForecast {
@@ -97,7 +120,8 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         spacing,
         order: plan.mesh.order(),
         particles,
-        memory: classes * solver
+        memory: nonlinear_memory
+            + classes * solver
             + 8.0 * (20.0 * unknowns[0] as f64 + modes + columns)
             + 12.0 * links,
         build_time: classes * operations / (FACTOR_RATE * threads)
@@ -105,6 +129,7 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
             + rows / ROW_RATE
             + columns * plan.mesh.sided_counts()[2] as f64 / (COLUMN_RATE * threads),
         step_time: classes * (entries / SOLVE_RATE + iterations / threads + 5e-7 * n)
+            + nonlinear_time
             + 1e-7 * unknowns[0] as f64
             + columns / SOLVE_RATE
             + passes * links / PRODUCT_RATE,

@@ -21,7 +21,7 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
         (true, false) => Mechanics::Offered,
         (true, true) => Mechanics::Wanted,
     };
-    let newton = takes_newton(scene, solid).then(|| TEMPERATURES * scene.fidelity.tolerance);
+    let newton = takes_newton(scene, solid).then_some(TEMPERATURES * scene.fidelity.tolerance);
     Plan::new(solid, Wishes { mechanics, refinements: &refinements, shortest, newton })
 }
 

@@ -32,4 +32,6 @@ pub use mesh::{Geometry, Mesh, MeshFace, Parity};
 pub use nonlinear::{NonlinearFailure, heat_mesh};
 pub use plan::{Mechanics, Plan, Refinement, Wishes};
 pub use solid::{Deformation, NodalFields, SolidFem, SolidLoads, Temperatures};
-pub use solver_choice::{expected_entries, solver_memory, suits_conjugate_gradients};
+pub use solver_choice::{
+    expected_entries, factor_memory, solver_memory, suits_conjugate_gradients,
+};

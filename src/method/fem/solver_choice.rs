@@ -21,7 +21,7 @@ pub fn expected_entries(geometry: Geometry, unknowns: usize) -> f64 {
 }
 
 /// Memory that it takes to factor so many unknowns, most of which the factor keeps [B].
-fn factor_memory(geometry: Geometry, unknowns: usize) -> f64 {
+pub fn factor_memory(geometry: Geometry, unknowns: usize) -> f64 {
     8.0 * (1.2 * expected_entries(geometry, unknowns) + 60.0 * unknowns as f64)
 }
 

@@ -58,16 +58,17 @@ fn each(
         return property.values().iter().for_each(|&number| value(checker, path, number));
     };
     let ascending = "strictly ascending temperatures, at least two";
-    match table.check() {
-        Ok(()) => {}
-        Err(error @ PropertyError::Lengths { .. }) => {
-            checker.refuse(path, error.to_string(), "one value for each temperature");
-            return;
+    if let Err(error) = table.check() {
+        // What is allowed stands apart in a scene's errors.
+        let message = error.to_string();
+        let message = message.split(" (allowed").next().unwrap_or_default().to_owned();
+        match error {
+            PropertyError::Lengths { .. } => {
+                checker.refuse(path, message, "one value for each temperature");
+            }
+            _ => checker.refuse(&path.key("temperature"), message, ascending),
         }
-        Err(error) => {
-            checker.refuse(&path.key("temperature"), error.to_string(), ascending);
-            return;
-        }
+        return;
     }
     for (i, &temperature) in table.temperature.iter().enumerate() {
         checker.temperature(&path.key("temperature").index(i), temperature);

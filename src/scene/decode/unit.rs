@@ -3,7 +3,7 @@
 use crate::scene::locate::Path;
 
 /// Keys whose numbers have a unit; a key means the same wherever it stands.
-const UNITS: [(&str, &[&str]); 18] = [
+const UNITS: [(&str, &[&str]); 19] = [
     ("s", &["stop_time", "step", "time", "interval"]),
     (
         "m",
@@ -22,14 +22,37 @@ const UNITS: [(&str, &[&str]); 18] = [
             "height",
         ],
     ),
-    ("K", &["initial_temperature", "temperature", "ambient"]),
+    (
+        "K",
+        &[
+            "initial_temperature",
+            "stress_free_temperature",
+            "temperature",
+            "ambient",
+            "solidus",
+            "liquidus",
+        ],
+    ),
     ("kg/m³", &["density"]),
     ("J/(kg K)", &["specific_heat"]),
     ("W/(m K)", &["conductivity"]),
-    ("Pa", &["young", "pressure", "shear_x", "shear_y", "shear_r"]),
+    (
+        "Pa",
+        &[
+            "young",
+            "pressure",
+            "shear_x",
+            "shear_y",
+            "shear_r",
+            "yield_stress",
+            "isotropic_hardening",
+            "kinematic_hardening",
+        ],
+    ),
+    ("J/kg", &["latent_heat"]),
     ("1/K", &["expansion"]),
     ("W/m²", &["flux", "heat_flux"]),
-    ("W/(m² K)", &["coefficient"]),
+    ("W/(m² K)", &["coefficient", "conductance"]),
     ("m² K/W", &["contact_resistance"]),
     ("m/s", &["impact_velocity", "sound_speed"]),
     ("m/s²", &["gravity"]),
