@@ -29,7 +29,7 @@ pub struct DropletForecast {
 const PARTICLE_MEMORY: f64 = 1.5e3;
 /// What the solid does in an exchange beyond its own step, a node [s]: measured on boxes of 10 000 to 110 000 nodes, as the
 /// difference to the same droplet above a wall.
-const EXCHANGE: f64 = 3.3e-7;
+const EXCHANGE: f64 = 2.2e-7;
 
 impl DropletForecast {
     /// Estimates without building the droplet.
