@@ -4,7 +4,8 @@ use faer::Mat;
 
 use crate::math::gauss::gauss_on;
 use crate::math::separable::{Side, transform};
-use crate::method::fem::{Axis, Geometry, Mesh, Temperatures};
+use crate::method::fem::Temperatures;
+use crate::method::mesh::{Axis, Geometry, Mesh};
 use crate::method::sph::WallCells;
 
 use super::symmetry::split_load;
@@ -167,7 +168,7 @@ fn consistent(axis: &Axis) -> Mat<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::fem::{Layering, Weight};
+    use crate::method::mesh::{Layering, Weight};
 
     fn mesh(order: usize, mirrored: [bool; 2]) -> Mesh {
         let half = [0.0, 0.1, 0.3, 1.0];

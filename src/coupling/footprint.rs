@@ -8,7 +8,7 @@ mod motion;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::math::gauss::{gauss_legendre, gauss_on};
-use crate::method::fem::{Axis, Weight};
+use crate::method::mesh::{Axis, Weight};
 use crate::scene::Footprint;
 
 /// Where a footprint lies on its face [m].

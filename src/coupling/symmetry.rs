@@ -1,4 +1,4 @@
-use crate::method::fem::Mesh;
+use crate::method::mesh::Mesh;
 
 /// Splits a load on a face into nodal vectors of the mesh's symmetry classes, in their order.
 ///
@@ -35,7 +35,7 @@ pub fn split_load(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::fem::{Axis, Geometry, Layering, Weight};
+    use crate::method::mesh::{Axis, Geometry, Layering, Weight};
 
     fn quarter() -> Mesh {
         let axis = Axis::from_element_ends(&[0.0, 1.0], 1, Weight::Uniform);

@@ -2,6 +2,10 @@
 
 pub mod enthalpy;
 
+pub mod heat_totals;
+
+pub mod mesh;
+
 pub mod fem;
 
 pub mod inelastic;

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::{Pattern, Placement, add_scaled, chord, gaussian, outer, ring_jumps, scaled, tile_sum};
 use crate::math::gauss::gauss_on;
-use crate::method::fem::Axis;
+use crate::method::mesh::Axis;
 use crate::scene::Footprint;
 
 /// A strip of tiles along an axis, and how it changes.
@@ -299,7 +299,7 @@ fn strip_motions(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::fem::Weight;
+    use crate::method::mesh::Weight;
 
     fn axis(order: usize) -> Axis {
         let ends = [-1.0, -0.6, -0.55, -0.1, 0.0, 0.03, 0.2, 0.7, 1.0];

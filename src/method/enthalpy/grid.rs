@@ -1,7 +1,7 @@
 //! Nodes in levels along z, the volumes next to them and the conductances between them.
 
 use super::setup::Setup;
-use crate::method::fem::Axis;
+use crate::method::mesh::Axis;
 
 /// Columns of nodes along z, level by level; the x index runs fastest. A contact doubles a level.
 pub struct Grid {

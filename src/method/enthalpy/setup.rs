@@ -1,7 +1,7 @@
 //! What a nonlinear heat problem is made of, as plain data.
 
 use crate::material::{Substance, SubstanceError};
-use crate::method::fem::{Mesh, MeshFace};
+use crate::method::mesh::{Mesh, MeshFace};
 
 /// A body and what surrounds it.
 #[derive(Debug, Clone)]

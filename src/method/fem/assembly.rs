@@ -2,11 +2,11 @@
 
 use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
 use super::hexahedron::HexahedronMatrices;
-use super::mesh::{Geometry, Mesh};
 use crate::material::Thermoelastic;
 use crate::math::cholesky::LowerTriangle;
 use crate::math::parallel;
 use crate::math::stencil_matrix::{Reach, StencilMatrix};
+use crate::method::mesh::{Geometry, Mesh};
 
 /// What a matrix makes forces of.
 #[derive(Clone, Copy, PartialEq, Eq)]

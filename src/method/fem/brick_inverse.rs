@@ -10,13 +10,13 @@ use std::ops::Range;
 
 use faer::{Mat, MatRef};
 
-use super::axis::Axis;
 use super::brick_stiffness::{PolynomialModuli, legendre, moduli, strain_of};
-use super::mesh::Mesh;
 use super::modes::{AxisModes, EndCondition};
 use crate::material::Thermoelastic;
 use crate::math::parallel::Team;
 use crate::math::product::product;
+use crate::method::mesh::Axis;
+use crate::method::mesh::Mesh;
 
 /// Eigenvectors of the axes for each component, and the factors of what is left along z.
 pub struct BrickInverse {

@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use super::brick_inverse::BrickInverse;
 use super::brick_stiffness::BrickStiffness;
-use super::mesh::Mesh;
 use crate::material::Thermoelastic;
 use crate::math::conjugate_gradients::{self, NotConverged, Operator};
 use crate::math::parallel::Team;
+use crate::method::mesh::Mesh;
 
 /// Stiffness of one symmetry class and what is nearly its inverse.
 pub struct BrickSolver {
@@ -84,10 +84,10 @@ mod tests {
     use std::slice;
 
     use super::*;
-    use crate::method::fem::axis::{Axis, Weight};
     use crate::method::fem::hexahedron::HexahedronMatrices;
-    use crate::method::fem::layering::Layering;
-    use crate::method::fem::mesh::Geometry;
+    use crate::method::mesh::Geometry;
+    use crate::method::mesh::Layering;
+    use crate::method::mesh::{Axis, Weight};
 
     fn graded(order: usize, counts: [usize; 3], growth: f64) -> Mesh {
         let axes = counts.map(|count| {

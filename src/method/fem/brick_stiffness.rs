@@ -15,10 +15,10 @@
 
 use std::ops::Range;
 
-use super::layering::Layering;
-use super::mesh::Mesh;
 use crate::material::Thermoelastic;
 use crate::math::parallel::Team;
+use crate::method::mesh::Layering;
+use crate::method::mesh::Mesh;
 
 /// Moduli of one product of Legendre polynomials.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -10,11 +10,11 @@ use faer::linalg::triangular_solve::{
 };
 use faer::{Mat, Par};
 
-use super::mesh::Mesh;
 use super::modes::{EndCondition, cholesky_factor, deflate_constant};
 use crate::material::Constants;
 use crate::math::eigenvectors::eigenvectors;
 use crate::math::gauss::gauss_on;
+use crate::method::mesh::Mesh;
 
 /// A contact that resists less than this part of the thinner layer beside it is none: the layers' temperatures
 /// there differ by no more than that.
@@ -319,9 +319,9 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::fem::axis::{Axis, Weight};
-    use crate::method::fem::layering::Layering;
-    use crate::method::fem::mesh::Geometry;
+    use crate::method::mesh::Geometry;
+    use crate::method::mesh::Layering;
+    use crate::method::mesh::{Axis, Weight};
 
     fn constants(conductivity: f64, heat_capacity: f64) -> Constants {
         Constants {

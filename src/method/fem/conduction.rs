@@ -1,11 +1,12 @@
 //! The heat of a solid by the method that its scene names.
 
-use super::heat::{HeatLoads, HeatProblem, HeatTotals, LayeredHeat, ThermalFace};
-use super::mesh::{Geometry, Mesh};
+use super::heat::{HeatLoads, HeatProblem, LayeredHeat, ThermalFace};
 use super::nonlinear::{NonlinearFailure, NonlinearHeat};
 use super::plan::Plan;
 use crate::math::allowance::{Allowance, Halt};
 use crate::method::enthalpy::Failure;
+use crate::method::heat_totals::HeatTotals;
+use crate::method::mesh::{Geometry, Mesh};
 use crate::method::particle_heat::{
     Condition, Cost, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
 };
@@ -163,10 +164,7 @@ impl Conduction {
         match self {
             Self::Modes(problem) => problem.totals(state),
             Self::Layers(problem) => problem.totals(state),
-            Self::Particles(problem) => {
-                let totals = problem.totals(state);
-                HeatTotals { brought_in: totals.brought_in, lost: totals.lost }
-            }
+            Self::Particles(problem) => problem.totals(state),
             Self::Nonlinear(problem) => problem.totals(state),
         }
     }

@@ -4,11 +4,9 @@ use std::ops::Range;
 use std::sync::OnceLock;
 
 use super::assembly::{Part, assemble, lower_triangle};
-use super::axis::ShapeAt;
 use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
 use super::brick_solver::BrickSolver;
 use super::dilatation::{DilatationProjection, POLYNOMIALS, evaluate};
-use super::mesh::{Geometry, Mesh, MeshFace, Parity};
 use super::recovery::sampling_places;
 use super::solver_choice::{solver_memory, suits_conjugate_gradients};
 use crate::material::Thermoelastic;
@@ -18,6 +16,8 @@ use crate::math::nested_dissection::nested_dissection;
 use crate::math::parallel;
 use crate::math::stencil_matrix::StencilMatrix;
 use crate::math::thread::{STACK, aside};
+use crate::method::mesh::ShapeAt;
+use crate::method::mesh::{Geometry, Mesh, MeshFace, Parity};
 
 /// Mechanical condition on an end of an axis; free where nothing is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

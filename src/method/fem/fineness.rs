@@ -3,8 +3,8 @@
 mod layers;
 
 use super::grading::{Fine, graded_ends};
-use super::layering::Layering;
 use super::plan::Refinement;
+use crate::method::mesh::Layering;
 use crate::scene::{Face, FaceName, HeatMethod, Mesh as MeshKeys, Shape, Solid, Stratum};
 
 /// Nodes across a feature of a load, where the scene names no spacing.

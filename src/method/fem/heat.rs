@@ -15,10 +15,11 @@ pub use layered::{LayeredHeat, depth_ends};
 
 use faer::Mat;
 
-use super::mesh::{Mesh, MeshFace, Parity};
 use super::modes::{AxisModes, EndCondition};
 use crate::math::exponential;
 use crate::math::separable::{Side, add_product, contract, transform};
+use crate::method::heat_totals::HeatTotals;
+use crate::method::mesh::{Mesh, MeshFace, Parity};
 use crate::state::{Field, Layout, Per};
 
 /// Thermal condition on an end of an axis.
@@ -72,13 +73,6 @@ pub struct HeatLoads<'a> {
     pub surface: &'a [[Vec<f64>; 2]],
     /// For each class and face: flux [W/m²], or temperature above the initial one [K].
     pub faces: &'a [Vec<f64>],
-}
-
-/// Heat that has passed since time zero [J].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct HeatTotals {
-    pub brought_in: f64,
-    pub lost: f64,
 }
 
 /// What happened during a step to the even part; or, as rates, what happens at a moment.

@@ -1,7 +1,6 @@
 //! A solid on a structured finite-element mesh.
 
 pub mod assembly;
-mod axis;
 pub mod axisymmetric;
 pub mod brick_inverse;
 mod brick_solver;
@@ -15,8 +14,6 @@ mod fineness;
 mod grading;
 mod heat;
 pub mod hexahedron;
-mod layering;
-mod mesh;
 mod modes;
 mod nonlinear;
 mod plan;
@@ -24,11 +21,10 @@ pub mod recovery;
 mod solid;
 mod solver_choice;
 
-pub use axis::{Axis, Weight};
+pub use crate::method::heat_totals::HeatTotals;
+pub use crate::method::mesh::{Axis, Geometry, Layering, Mesh, MeshFace, Parity, Weight};
 pub use conduction::{HeatFailure, particle_cost};
-pub use heat::{HeatLoads, HeatProblem, HeatTotals, ThermalFace};
-pub use layering::Layering;
-pub use mesh::{Geometry, Mesh, MeshFace, Parity};
+pub use heat::{HeatLoads, HeatProblem, ThermalFace};
 pub use nonlinear::{NonlinearFailure, heat_mesh};
 pub use plan::{Mechanics, Plan, Refinement, Wishes};
 pub use solid::{Deformation, NodalFields, SolidFem, SolidLoads, Temperatures};

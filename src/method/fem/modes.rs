@@ -9,8 +9,8 @@ use faer::linalg::triangular_solve::{
 };
 use faer::{Auto, Mat, Par};
 
-use super::axis::Axis;
 use crate::math::eigenvectors::eigenvectors;
+use crate::method::mesh::Axis;
 
 /// Condition at an end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -174,7 +174,7 @@ fn rayleigh_quotient(axis: &Axis, ends: &[EndCondition; 2], shapes: &Mat<f64>, k
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::fem::axis::Weight;
+    use crate::method::mesh::Weight;
     use std::f64::consts::PI;
 
     fn line(elements: usize, order: usize) -> Axis {

@@ -1,12 +1,12 @@
 //! What will be modelled of a solid, decided before any heavy work: symmetry, mesh, physics.
 
-use super::axis::{Axis, Weight};
 use super::elastic::Support;
 use super::fineness::Fineness;
 use super::heat::ThermalFace;
-use super::mesh::{Geometry, Mesh, MeshFace};
 use super::solver_choice::note_on_solver;
 use crate::material::{Constants, Elastoplastic, Substance, Thermoelastic};
+use crate::method::mesh::{Axis, Weight};
+use crate::method::mesh::{Geometry, Mesh, MeshFace};
 use crate::scene::{
     Face, FaceName, Radiation, Shape, Solid, SphOperator, SphSettings, Stratum, Symmetry,
 };

@@ -18,10 +18,10 @@
 
 use faer::Mat;
 
-use super::axis::Axis;
-use super::mesh::Mesh;
 use crate::math::gauss::gauss_legendre;
 use crate::math::lagrange::interpolation_weights;
+use crate::method::mesh::Axis;
+use crate::method::mesh::Mesh;
 
 /// Sampling points inside: cubic; at an end, where the polynomial is extrapolated: quadratic.
 const INSIDE: usize = 4;
@@ -154,7 +154,7 @@ fn nearest(points: &[f64], x: f64, count: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::method::fem::axis::Weight;
+    use crate::method::mesh::Weight;
 
     #[test]
     fn quadratics_are_recovered_everywhere() {

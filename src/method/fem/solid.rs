@@ -3,16 +3,17 @@
 mod recovered;
 mod tangent;
 
-use super::axis::Axis;
 use super::conduction::{Conduction, HeatFailure};
 use super::elastic::{ElasticProblem, Strains};
 use super::end_response::EndResponse;
-use super::heat::{HeatLoads, HeatTotals};
-use super::mesh::{Geometry, Mesh, Parity};
+use super::heat::HeatLoads;
 use super::plan::Plan;
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::allowance::Allowance;
 use crate::math::cholesky::SolverError;
+use crate::method::heat_totals::HeatTotals;
+use crate::method::mesh::Axis;
+use crate::method::mesh::{Geometry, Mesh, Parity};
 use crate::state::Layout;
 use recovered::{FaceStresses, Recoveries};
 

@@ -1,9 +1,9 @@
 //! How displacements are found: by a factor of stiffness or by conjugate gradients, and what that takes.
 
-use super::axis::Axis;
 use super::brick_solver::BrickSolver;
-use super::mesh::{Geometry, Mesh};
 use crate::material::Thermoelastic;
+use crate::method::mesh::Axis;
+use crate::method::mesh::{Geometry, Mesh};
 
 /// Entries of the factor of a solid mesh per unknown^(4/3), and of a meridian section per
 /// unknown · log₂(unknowns), measured on the example scenes.

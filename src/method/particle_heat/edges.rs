@@ -1,7 +1,8 @@
 //! Ends of the axes of a lattice: how heat comes in through them, and what leaves.
 
-use super::problem::{Condition, Face, Totals};
+use super::problem::{Condition, Face};
 use super::rows::{Lattice, Operator, Row};
+use crate::method::heat_totals::HeatTotals;
 
 /// An end of an axis through which heat comes in. What a particle of the face gets is shared with
 /// those below it as the images of an inclined profile would share it.
@@ -124,7 +125,12 @@ impl Inlet {
     }
 
     /// Adds the heat of each particle of the face [W] to those that share it.
-    pub fn spread(&self, nodal: impl Iterator<Item = f64>, power: &mut [f64], passed: &mut Totals) {
+    pub fn spread(
+        &self,
+        nodal: impl Iterator<Item = f64>,
+        power: &mut [f64],
+        passed: &mut HeatTotals,
+    ) {
         for (heat, shares) in nodal.zip(&self.shares) {
             passed.brought_in += heat;
             if shares.is_empty() {

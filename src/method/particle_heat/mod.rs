@@ -10,5 +10,5 @@ mod problem;
 mod rows;
 
 pub use lattice::{End, LatticeAxis};
-pub use problem::{Condition, Cost, Face, ParticleHeat, Setup, Sources, Totals};
+pub use problem::{Condition, Cost, Face, ParticleHeat, Setup, Sources};
 pub use rows::{Lattice, Operator, Row, Settings};

@@ -11,6 +11,7 @@ use crate::math::parallel;
 use crate::math::separable::dot;
 use crate::math::sparse_rows::SparseRows;
 use crate::math::thread::aside;
+use crate::method::heat_totals::HeatTotals;
 use crate::state::{Field, Layout, Per};
 
 /// What the particles are and what surrounds them; ends of the axes are set by the faces.
@@ -55,13 +56,6 @@ pub struct Sources<'a> {
     pub surface: &'a [[Vec<f64>; 2]],
     /// For each class and face: flux [W/m²], or temperature above the initial one [K].
     pub faces: &'a [Vec<f64>],
-}
-
-/// Heat that has passed since time zero [J].
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Totals {
-    pub brought_in: f64,
-    pub lost: f64,
 }
 
 /// What a problem will cost, estimated from its finest particle.
@@ -173,7 +167,7 @@ impl ParticleHeat {
     pub fn rates(&self, state: &[f64], sources: &Sources, rates: &Sources) -> Vec<f64> {
         let count = self.particles();
         let mut out = Vec::with_capacity(state.len());
-        let mut totals = Totals::default();
+        let mut totals = HeatTotals::default();
         for (index, content) in state.chunks_exact(count).take(self.classes.len()).enumerate() {
             let driven = sources.acts_on(index) || rates.acts_on(index);
             if !driven && content.iter().all(|&v| v == 0.0) {
@@ -189,7 +183,7 @@ impl ParticleHeat {
             });
             if index == 0 {
                 let lost = dot(&class.leak, &held) + passed.lost - self.held_heat(class, &rate);
-                totals = Totals {
+                totals = HeatTotals {
                     brought_in: self.setup.copies * passed.brought_in,
                     lost: self.setup.copies * lost,
                 };
@@ -208,9 +202,9 @@ impl ParticleHeat {
         self.setup.copies * self.setup.capacity * sum
     }
 
-    pub fn totals(&self, state: &[f64]) -> Totals {
+    pub fn totals(&self, state: &[f64]) -> HeatTotals {
         let n = state.len();
-        Totals { brought_in: state[n - 2], lost: state[n - 1] }
+        HeatTotals { brought_in: state[n - 2], lost: state[n - 1] }
     }
 
     /// Temperature of all particles above the initial one, class by class [K], held ones at the
@@ -246,11 +240,11 @@ impl ParticleHeat {
         content: &mut [f64],
         (sources, dt): (&[Sources], f64),
         allowance: &Allowance,
-    ) -> Result<Totals, Halt> {
+    ) -> Result<HeatTotals, Halt> {
         let class = self.class(index);
         let before = self.held_heat(class, content);
         self.hold(index, content, &sources[0].faces[index]);
-        let mut passed = Totals::default();
+        let mut passed = HeatTotals::default();
         let mut drives = Vec::with_capacity(sources.len());
         let mut weight = 1.0;
         for (k, source) in sources.iter().enumerate() {
@@ -275,7 +269,12 @@ impl ParticleHeat {
 
     /// Rate of the temperatures that `source` causes [K/s], and what it brings in and loses at once
     /// [W]. Held particles follow their faces, whose rates are in `next`.
-    fn drive(&self, index: usize, source: &Sources, next: Option<&Sources>) -> (Vec<f64>, Totals) {
+    fn drive(
+        &self,
+        index: usize,
+        source: &Sources,
+        next: Option<&Sources>,
+    ) -> (Vec<f64>, HeatTotals) {
         let class = self.class(index);
         let (mut rate, passed) =
             class.inflow(&self.setup, &source.surface[index], &source.faces[index]);
@@ -370,9 +369,14 @@ impl Class {
 
     /// Heat into each particle that does not depend on temperatures [W], and what is brought in and
     /// lost at once [W]: on held particles, heat goes straight through.
-    fn inflow(&self, setup: &Setup, surface: &[Vec<f64>; 2], values: &[f64]) -> (Vec<f64>, Totals) {
+    fn inflow(
+        &self,
+        setup: &Setup,
+        surface: &[Vec<f64>; 2],
+        values: &[f64],
+    ) -> (Vec<f64>, HeatTotals) {
         let mut power = vec![0.0; self.lattice.particles()];
-        let mut passed = Totals::default();
+        let mut passed = HeatTotals::default();
         for inlet in &self.inlets {
             let nodal = surface[usize::from(inlet.high)].iter().copied();
             if inlet.axis == 2 {
@@ -389,7 +393,7 @@ impl Class {
                         );
                     }
                     Condition::Convective(h) => {
-                        let mut gained = Totals::default();
+                        let mut gained = HeatTotals::default();
                         let heat = inlet.areas.iter().map(|a| h * value * a);
                         inlet.spread(heat, &mut power, &mut gained);
                         // What the ambient gives to held particles they pass back to it.

@@ -6,7 +6,7 @@
 
 use super::Fineness;
 use crate::method::fem::grading::{Fine, graded_ends};
-use crate::method::fem::layering::Layering;
+use crate::method::mesh::Layering;
 use crate::scene::{FaceName, Shape, Stratum};
 
 impl Fineness<'_> {

@@ -11,7 +11,6 @@ mod class;
 use faer::Mat;
 
 use super::super::columns::DepthProblem;
-use super::super::mesh::{Mesh, MeshFace};
 use super::super::modes::EndCondition;
 use super::{
     HeatLoads, HeatTotals, Passage, ThermalFace, dot, end_conditions, multiply, state_layout,
@@ -20,6 +19,7 @@ use super::{
 use crate::material::Constants;
 use crate::math::exponential;
 use crate::math::separable::{Side, add_product, contract, transform};
+use crate::method::mesh::{Mesh, MeshFace};
 use crate::state::Layout;
 use class::{Columns, LayeredClass};
 

@@ -10,9 +10,9 @@ use crate::material::Thermoelastic;
 use crate::material::stress::from_cylindrical;
 use crate::math::separable::{Side, transform};
 use crate::method::fem::elastic::{ElasticProblem, Strains, Support};
-use crate::method::fem::mesh::{Geometry, Mesh, MeshFace, Parity};
 use crate::method::fem::plan::Plan;
 use crate::method::fem::recovery::{Beyond, Recovery, sampling_places};
+use crate::method::mesh::{Geometry, Mesh, MeshFace, Parity};
 
 /// Tractions on the nodes of the bottom and the top as the stresses zz, yz and xz (zz and rz) there, a list
 /// for each recovered quantity that is one; empty where they are zero.

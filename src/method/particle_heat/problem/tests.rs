@@ -181,7 +181,7 @@ fn odd_parts_see_an_odd_lattice() {
     for (i, value) in parts[1].iter().enumerate() {
         assert!((value - 1e3 * nodes[i % 9]).abs() < 1e-9, "{value}");
     }
-    assert_eq!(problem.totals(&state), Totals::default());
+    assert_eq!(problem.totals(&state), HeatTotals::default());
 }
 
 #[test]

@@ -9,8 +9,8 @@ use super::super::{ThermalFace, dot, end_conditions, face_factor, multiply};
 use crate::math::parallel;
 use crate::math::separable::{Side, contract, transform};
 use crate::method::fem::columns::{Column, DepthProblem};
-use crate::method::fem::mesh::{Mesh, MeshFace, Parity};
 use crate::method::fem::modes::{AxisModes, EndCondition};
+use crate::method::mesh::{Mesh, MeshFace, Parity};
 
 /// The part of one symmetry class.
 pub struct LayeredClass {

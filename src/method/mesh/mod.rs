@@ -1,7 +1,13 @@
+//! Structured meshes: products of three axes, and the layers that lie along the last.
+
+mod axis;
+mod layering;
+
 use std::ops::Range;
 
-use super::axis::{Axis, ShapeAt, Weight};
-use super::layering::Layering;
+pub use axis::{Axis, ShapeAt, Weight};
+pub use layering::Layering;
+
 use crate::scene::FaceName;
 
 /// A structured mesh as the product of three axes; the x index of a node runs fastest.
