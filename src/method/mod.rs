@@ -1,15 +1,16 @@
-//! Numerical methods, one a folder: they know numbers, not scenes or inputs.
+//! Numerical methods, one a folder: they know numbers, not scenes or inputs. A method uses only those above it.
 
-pub mod enthalpy;
-
+// Blank lines keep the order.
 pub mod heat_totals;
 
 pub mod mesh;
 
+pub mod particle_heat;
+
+pub mod enthalpy;
+
 pub mod fem;
 
 pub mod inelastic;
-
-pub mod particle_heat;
 
 pub mod sph;

@@ -52,6 +52,29 @@ fn a_module_uses_only_modules_above_it() {
 }
 
 #[test]
+fn a_method_uses_only_methods_above_it() {
+    let text = fs::read_to_string("src/method/mod.rs").unwrap();
+    let name = |line: &str| Some(line.strip_prefix("pub mod ")?.strip_suffix(';')?.to_owned());
+    let methods: Vec<String> = text.lines().filter_map(name).collect();
+    assert!(methods.len() >= 7, "{methods:?}");
+    for (n, method) in methods.iter().enumerate() {
+        let folder = Path::new("src/method").join(method);
+        let mut files = Vec::new();
+        if folder.is_dir() {
+            sources(&folder, &mut files);
+        }
+        for path in files {
+            let text = fs::read_to_string(&path).unwrap();
+            let code = text.split("#[cfg(test)]").next().unwrap();
+            for later in &methods[n + 1..] {
+                let uses = code.contains(&format!("crate::method::{later}::"));
+                assert!(!uses, "{} uses {later}, which stands below", path.display());
+            }
+        }
+    }
+}
+
+#[test]
 fn only_the_outer_layers_do_input_and_output() {
     for (module, path, code) in library() {
         if ["fmi", "machine", "output", "scene"].contains(&module.as_str()) {
