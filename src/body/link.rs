@@ -3,10 +3,10 @@
 use super::Body;
 use super::droplet;
 use super::solid::plan;
-use crate::coupling::CommonCells;
+use crate::coupling::{CommonCells, LateralModes};
 use crate::material::Constants;
 use crate::method::fem::Plan;
-use crate::method::sph::{DropletSph, WallCells};
+use crate::method::sph::{DropletSph, SurfaceResponse, WallCells};
 use crate::scene::{Coupling, Droplet, FaceName, Scene};
 
 /// A body that stands on a face of another.
@@ -33,6 +33,10 @@ pub struct Joint {
     /// Longest part of a step [s].
     pub interval: f64,
     pub cells: CommonCells,
+    /// Along the cells.
+    pub modes: LateralModes,
+    /// How fast two bodies whose temperatures are even each come to one temperature [1/s].
+    rate: f64,
 }
 
 /// A face in a joint.
@@ -43,12 +47,22 @@ pub struct Side {
     pub face: FaceName,
     /// Cells of the face along x, and all of them.
     pub counts: [usize; 2],
+    /// How the face answers to heat that is uniform along it, and the diffusivity of what is below [m²/s].
+    pub response: SurfaceResponse,
+    pub diffusivity: f64,
 }
 
 impl Joint {
     /// Number of equal parts of a step of `dt` [s].
     pub fn parts(&self, dt: f64) -> usize {
         parts(self.interval, dt)
+    }
+
+    /// How often a part of a step of this length [s] is halved for its first parts. What is fast beside a part would go
+    /// beyond its rest in the stages of one, by a tenth; parts that grow let it come to rest first.
+    pub fn halvings(&self, length: f64) -> usize {
+        let ratio = length * self.rate / FASTEST;
+        if ratio > 1.0 { (ratio.log2().ceil() as usize).min(MOST_HALVINGS) } else { 0 }
     }
 
     /// Temperatures of a side's cells as they are at the common ones.
@@ -85,15 +99,33 @@ pub fn joints(
         let ends = [coupling.lower()?, coupling.upper()?];
         let [from, to] = ends.map(|(name, face)| {
             let body = place(name)?;
-            let cells = bodies[body].as_ref()?.conductor()?.cells(face);
-            let side = Side { body, face, counts: [width(&cells), cells.len()] };
+            let conductor = bodies[body].as_ref()?.conductor()?;
+            let cells = conductor.cells(face);
+            let side = Side {
+                body,
+                face,
+                counts: [width(&cells), cells.len()],
+                response: conductor.response(face).clone(),
+                diffusivity: conductor.diffusivity(face),
+            };
             Some((side, cells))
         });
         let ((from, from_cells), (to, to_cells)) = (from?, to?);
+        let cells = CommonCells::of([&from_cells, &to_cells])?;
+        let conductance = coupling.conductance?;
+        // Of the slowest mode, the inverse of the body's heat capacity per area; of the others, its own resistance.
+        let slowest = |side: &Side| side.response.gains.first().copied().unwrap_or(0.0);
+        let resistance = |side: &Side| {
+            let modes = side.response.rates.iter().zip(&side.response.gains).skip(1);
+            modes.map(|(rate, gain)| gain / rate).sum::<f64>()
+        };
+        let through = 1.0 / conductance + resistance(&from) + resistance(&to);
         Some(Joint {
-            cells: CommonCells::of([&from_cells, &to_cells])?,
+            modes: cells.modes(),
+            cells,
+            rate: (slowest(&from) + slowest(&to)) / through,
             sides: [from, to],
-            conductance: coupling.conductance?,
+            conductance,
             interval: coupling.interval.unwrap_or(f64::INFINITY),
         })
     };
@@ -107,6 +139,10 @@ fn width(cells: &WallCells) -> usize {
         cells => cells.len(),
     }
 }
+
+/// What may happen in a part of a step, over a relaxation time: at three times that stages go beyond rest.
+const FASTEST: f64 = 1.5;
+const MOST_HALVINGS: usize = 20;
 
 /// Least part of a squared element's length over which heat may diffuse along it between two exchanges.
 const LEAST_ALONG: f64 = 0.01;

@@ -21,7 +21,7 @@ pub use solid::{PointQuantity, point_quantities};
 use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::Allowance;
 use crate::method::fem::NodalFields;
-use crate::method::sph::{ParticleFields, Surface, WallCells};
+use crate::method::sph::{ParticleFields, Surface, SurfaceResponse, WallCells};
 use crate::scene::{self, FaceName, Scene};
 use crate::state::Layout;
 use droplet::DropletBody;
@@ -115,6 +115,12 @@ pub trait Body: Send + Sync {
 
 /// A body whose faces answer to heat and force that others give.
 pub trait Conductor {
+    /// How a face answers to heat that is uniform along it.
+    fn response(&self, face: FaceName) -> &SurfaceResponse;
+
+    /// Thermal diffusivity beside a face [m²/s].
+    fn diffusivity(&self, face: FaceName) -> f64;
+
     /// What temperatures may err by from step to step [K]; nothing where they are exact.
     fn tolerance(&self) -> f64;
 

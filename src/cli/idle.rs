@@ -1,11 +1,11 @@
 //! Runs in which nothing happens.
 
-use impinge::scene::Scene;
+use impinge::scene::{Face, Scene, Solid};
 use impinge::variables::{InputLayout, Quantity, Registry, Slot};
 
 /// What to say where neither an input nor a face nor a droplet acts on anything.
 pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
-    if scene.droplets().next().is_some() {
+    if scene.droplets().next().is_some() || acts_by_itself(scene) {
         return None;
     }
     let layout = InputLayout::of(scene);
@@ -28,6 +28,22 @@ pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
     Some(format!(
         "nothing acts: all loads are zero and all faces at the initial temperature; {remedy}"
     ))
+}
+
+/// Whether solids warm each other, radiate or are under stress from the beginning.
+fn acts_by_itself(scene: &Scene) -> bool {
+    let start = |name: &str| scene.solid(name).map(|solid| solid.initial_temperature);
+    let touches =
+        scene.coupling.iter().any(|coupling| match (coupling.lower(), coupling.upper()) {
+            (Some((lower, _)), Some((upper, _))) => start(lower) != start(upper),
+            _ => false,
+        });
+    let changes = |solid: &Solid| {
+        let start = solid.initial_temperature;
+        let radiates = |face: &Face| face.radiation.is_some_and(|r| r.ambient != start);
+        solid.faces.values().any(radiates) || solid.temperature_without_stress() != start
+    };
+    touches || scene.solids().any(|(_, solid)| changes(solid))
 }
 
 /// The value with which the input at a place does nothing; `None` for inputs that do nothing alone.

@@ -1,5 +1,8 @@
 //! Two faces that touch: the cells that both have in common.
 
+use std::f64::consts::PI;
+
+use super::lateral_modes::LateralModes;
 use crate::method::sph::{Domain, WallCells};
 
 /// Places where two faces touch: wherever either has the end of an element, as far as both reach. Seen from either
@@ -10,9 +13,16 @@ pub struct CommonCells {
     places: [Vec<f64>; 2],
     /// Of the area that belongs to each place [m²].
     pub areas: Vec<f64>,
-    /// For each face and axis: where each place lies between the face's own.
-    between: [[Vec<Between>; 2]; 2],
+    /// Places of fluxes, which are linear between them: along each axis those of the face that has fewer. Fluxes that
+    /// vary faster than one of the faces can follow would be found by rounding alone.
+    flux_places: [Vec<f64>; 2],
+    flux_areas: Vec<f64>,
+    /// For each face, and last for fluxes, and axis: where each place lies between those.
+    between: [[Vec<Between>; 2]; 3],
 }
+
+/// Fluxes among the faces.
+const FLUXES: usize = 2;
 
 /// Between the places `first` and the next, by this part of their distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,12 +51,35 @@ impl CommonCells {
             WallCells::RadialNodes { .. } => WallCells::RadialNodes { r: places[0].clone() },
             _ => WallCells::Nodes { x: places[0].clone(), y: places[1].clone() },
         };
-        let between = [0, 1].map(|face| {
+        let flux_places = [0, 1].map(|axis| fewer(axes[axis], &places[axis]));
+        let between = [0, 1, FLUXES].map(|face| {
             [0, 1].map(|axis| {
-                places[axis].iter().map(|&place| Between::of(axes[axis][face], place)).collect()
+                let own = if face == FLUXES { &flux_places[axis] } else { axes[axis][face] };
+                places[axis].iter().map(|&place| Between::of(own, place)).collect()
             })
         });
-        Some(Self { areas: whole.areas(Domain::whole(3)), places, between })
+        let areas = whole.areas(Domain::whole(3));
+        let mut cells = Self { areas, places, flux_places, flux_areas: Vec::new(), between };
+        cells.flux_areas = cells.gathered(&cells.areas);
+        Some(cells)
+    }
+
+    /// Modes of heat along the places of fluxes.
+    pub fn modes(&self) -> LateralModes {
+        let [x, y] = &self.flux_places;
+        if y.len() == 1 && *y == [0.0] {
+            let ring = |r: f64| 2.0 * PI * r;
+            return LateralModes::of([(x, self.flux_areas.clone()), (y, vec![1.0])], ring);
+        }
+        let lengths = |places: &[f64]| {
+            let half = |i: usize| 0.5 * (places[i + 1] - places[i]);
+            let last = places.len() - 1;
+            let of = |i: usize| {
+                (if i > 0 { half(i - 1) } else { 0.0 }) + (if i < last { half(i) } else { 0.0 })
+            };
+            (0..places.len()).map(of).collect::<Vec<f64>>()
+        };
+        LateralModes::of([(x, lengths(x)), (y, lengths(y))], |_| 1.0)
     }
 
     pub fn len(&self) -> usize {
@@ -55,6 +88,28 @@ impl CommonCells {
 
     pub fn is_empty(&self) -> bool {
         self.areas.is_empty()
+    }
+
+    /// Number of fluxes.
+    pub fn fluxes(&self) -> usize {
+        self.flux_areas.len()
+    }
+
+    /// Fluxes at the common places from those at their own.
+    pub fn spread(&self, fluxes: &[f64]) -> Vec<f64> {
+        self.values(FLUXES, fluxes, self.flux_places[0].len())
+    }
+
+    /// Means about the places of fluxes of values at the common ones.
+    pub fn means(&self, values: &[f64]) -> Vec<f64> {
+        let amounts: Vec<f64> = values.iter().zip(&self.areas).map(|(v, area)| v * area).collect();
+        let gathered = self.gathered(&amounts);
+        gathered.iter().zip(&self.flux_areas).map(|(sum, area)| sum / area).collect()
+    }
+
+    fn gathered(&self, amounts: &[f64]) -> Vec<f64> {
+        let [x, y] = self.flux_places.each_ref().map(Vec::len);
+        self.deposit(FLUXES, amounts, [x, x * y])
     }
 
     /// Values at the common places from those of a face's own, of which there are `width` along x.
@@ -102,6 +157,23 @@ impl Between {
             part if part > 1.0 - SAME => Self { first: above, part: 0.0 },
             part => Self { first: above - 1, part },
         }
+    }
+}
+
+/// The places of the list that has fewer within what both span, with the ends of that.
+fn fewer(lists: [&[f64]; 2], common: &[f64]) -> Vec<f64> {
+    let (low, high) = (common[0], common[common.len() - 1]);
+    let slack = SAME * (high - low);
+    let within = lists.map(|list| {
+        let inner =
+            list.iter().copied().filter(|place| *place > low + slack && *place < high - slack);
+        inner.collect::<Vec<f64>>()
+    });
+    let [one, other] = within;
+    let inner = if one.len() <= other.len() { one } else { other };
+    match common {
+        [single] => vec![*single],
+        _ => std::iter::once(low).chain(inner).chain([high]).collect(),
     }
 }
 

@@ -3,9 +3,11 @@
 mod common_cells;
 mod face_cells;
 mod footprint;
+mod lateral_modes;
 mod symmetry;
 
 pub use common_cells::CommonCells;
 pub use face_cells::FaceCells;
 pub use footprint::{Pattern, Placement};
+pub use lateral_modes::LateralModes;
 pub use symmetry::split_load;

@@ -5,7 +5,7 @@ use super::{Cache, Model};
 use crate::body::{BodyError, Given, Joint};
 use crate::math::allowance::Allowance;
 use crate::math::anderson::Anderson;
-use crate::method::sph::{Surface, SurfaceResponse};
+use crate::method::sph::SurfaceResponse;
 
 /// Parts of a step at whose ends the law of the contact holds: those of the method Radau IIA of third order (E. Hairer
 /// and G. Wanner, *Solving Ordinary Differential Equations II*, Springer 1996, §IV.5). Between them the flux is linear.
@@ -20,18 +20,18 @@ const NOISE: f64 = 0.1;
 /// More iterations than any contact was seen to take.
 const MOST_ITERATIONS: usize = 100;
 
-/// Two fluxes at each common place of each joint [W/m²].
+/// Two fluxes at each place of fluxes of each joint [W/m²].
 type Fluxes = Vec<[f64; 2]>;
 
 impl Model {
     /// What passes through the joints of a group over a part of a step, all found together; nothing has advanced yet.
-    /// `surfaces` end with those of the joints' sides, `others` is what comes from elsewhere.
+    /// `others` is what comes from elsewhere.
     ///
     /// The law holds exactly between the bodies as they are at the stages, whatever these conduct within: iterations
-    /// correct the fluxes as if heat went straight down from each place, which is nearly so.
+    /// correct the fluxes as if both bodies ended where the contact does.
     pub(super) fn settle_joints(
         &self,
-        (group, surfaces): (&Group, &[Surface]),
+        group: &Group,
         states: &[Vec<f64>],
         cache: &mut Cache,
         (path, dt): Part,
@@ -42,13 +42,8 @@ impl Model {
         if joints.is_empty() {
             return Ok(Vec::new());
         }
-        let sides = surfaces[surfaces.len() - 2 * joints.len()..].chunks_exact(2);
-        let corrections: Vec<_> = joints
-            .iter()
-            .zip(sides)
-            .map(|(joint, sides)| correction(joint, sides.iter().map(|s| &s.response), dt))
-            .collect();
-        let places: usize = joints.iter().map(|joint| joint.cells.len()).sum();
+        let corrections: Vec<_> = joints.iter().map(|joint| Correction::of(joint, dt)).collect();
+        let places: usize = joints.iter().map(|joint| joint.cells.fluxes()).sum();
         let mut fluxes: Fluxes = vec![[0.0; 2]; places];
         let mut anderson = Anderson::default();
         let noise = NOISE * self.tolerance_of(group);
@@ -61,23 +56,33 @@ impl Model {
             let largest = fluxes.as_flattened().iter().fold(0.0_f64, |m, q| m.max(q.abs()));
             let mut first = 0;
             for (n, joint) in joints.iter().enumerate() {
-                let own = &fluxes[first..first + joint.cells.len()];
-                first += joint.cells.len();
+                let own = &fluxes[first..first + joint.cells.fluxes()];
+                first += joint.cells.fluxes();
                 let sides = [0, 1].map(|side| {
                     [0, 1].map(|stage| joint.values(side, &temperatures[stage][2 * n + side]))
                 });
-                for (place, flux) in own.iter().enumerate() {
-                    let [from, to] = sides.each_ref().map(|side| [side[0][place], side[1][place]]);
-                    let off = [0, 1].map(|s| joint.conductance * (from[s] - to[s]) - flux[s]);
-                    let corrected = product(corrections[n], off);
-                    let rounding = ROUNDING * from[1].abs().max(to[1].abs());
-                    let rounding = joint.conductance * rounding.max(noise);
+                let of_stage = |stage: usize| {
+                    let [from, to] = [0, 1].map(|side| &sides[side][stage]);
+                    let differences: Vec<f64> = from.iter().zip(to).map(|(a, b)| a - b).collect();
+                    joint.cells.means(&differences)
+                };
+                let means = [of_stage(0), of_stage(1)];
+                let conducted =
+                    |s: usize, place: usize| joint.conductance * means[s][place] - own[place][s];
+                let off: Vec<[f64; 2]> =
+                    (0..own.len()).map(|place| [0, 1].map(|s| conducted(s, place))).collect();
+                let hottest = sides.as_flattened().iter().flatten().fold(0.0_f64, |m, t| m.max(*t));
+                let rounding = joint.conductance * (ROUNDING * hottest).max(noise);
+                for (off, corrected) in off.iter().zip(corrections[n].apply(&off)) {
                     // Not `>`, by which what is no number would be settled.
                     is_settled &= (0..2).all(|s| {
                         corrected[s].abs() <= TOLERANCE * largest || off[s].abs() <= rounding
                     });
                     wrong.push(corrected);
                 }
+            }
+            if !wrong.as_flattened().iter().all(|flux| flux.is_finite()) {
+                break;
             }
             if is_settled {
                 return Ok(passed);
@@ -145,8 +150,9 @@ impl Model {
                 *values = found.into_iter().flatten().collect();
             }
             let [from, to] = [0, 1].map(|side| joint.values(side, &values[side]));
-            let flux = |(from, to): (&f64, &f64)| [joint.conductance * (from - to); 2];
-            let fluxes: Fluxes = from.iter().zip(&to).map(flux).collect();
+            let differences: Vec<f64> = from.iter().zip(&to).map(|(from, to)| from - to).collect();
+            let means = joint.cells.means(&differences).into_iter();
+            let fluxes: Fluxes = means.map(|mean| [joint.conductance * mean; 2]).collect();
             passed.extend(exchanges(&[joint], &fluxes, 1.0));
         }
         Ok(passed)
@@ -158,11 +164,14 @@ fn exchanges(joints: &[&Joint], fluxes: &[[f64; 2]], dt: f64) -> Vec<Exchange> {
     let mut first = 0;
     let mut all = Vec::new();
     for joint in joints {
-        let own = fluxes[first..first + joint.cells.len()].iter().zip(&joint.cells.areas);
-        first += joint.cells.len();
+        let own = &fluxes[first..first + joint.cells.fluxes()];
+        first += joint.cells.fluxes();
+        let stage =
+            |s: usize| joint.cells.spread(&own.iter().map(|flux| flux[s]).collect::<Vec<_>>());
+        let both = stage(0).into_iter().zip(stage(1)).zip(&joint.cells.areas);
         // Of a flux that is linear through its values at the stages: the mean, and what it is above that at first.
-        let (heat, falling): (Vec<f64>, Vec<f64>) = own
-            .map(|([early, late], area)| {
+        let (heat, falling): (Vec<f64>, Vec<f64>) = both
+            .map(|((early, late), area)| {
                 (area * dt * (0.75 * early + 0.25 * late), area * 0.75 * (early - late))
             })
             .unzip();
@@ -184,15 +193,48 @@ fn exchanges(joints: &[&Joint], fluxes: &[[f64; 2]], dt: f64) -> Vec<Exchange> {
     all
 }
 
-/// What corrects the fluxes at a place for what they are wrong by, if heat goes straight down from there: the inverse of
-/// `1 + h R`, R the rise of both sides at the stages by the fluxes there.
-fn correction<'a>(
-    joint: &Joint,
-    responses: impl Iterator<Item = &'a SurfaceResponse>,
-    dt: f64,
-) -> [[f64; 2]; 2] {
+/// What corrects the fluxes of a joint for what they are wrong by: the inverse of `1 + h R`, R the rise of both sides at
+/// the stages by the fluxes. A flux that varies along the face like a mode of wave number κ makes the rise of a uniform
+/// one whose modes of rate λ decay at λ + aκ²: exact for bodies that end where the contact does.
+struct Correction<'a> {
+    joint: &'a Joint,
+    /// Of each mode along the cells.
+    inverses: Vec<[[f64; 2]; 2]>,
+}
+
+impl<'a> Correction<'a> {
+    fn of(joint: &'a Joint, dt: f64) -> Self {
+        let inverses = joint.modes.decay.iter().map(|&decay| inverse(joint, decay, dt)).collect();
+        Self { joint, inverses }
+    }
+
+    /// What to add to the fluxes.
+    fn apply(&self, off: &[[f64; 2]]) -> Fluxes {
+        let modes = &self.joint.modes;
+        let of_stage = |stage: usize| {
+            let values: Vec<f64> = off.iter().map(|off| off[stage]).collect();
+            modes.amplitudes(&values)
+        };
+        let [early, late] = [of_stage(0), of_stage(1)];
+        let pairs = self.inverses.iter().zip(early.into_iter().zip(late));
+        let (early, late): (Vec<f64>, Vec<f64>) = pairs
+            .map(|([first, second], (x, y))| {
+                (first[0] * x + first[1] * y, second[0] * x + second[1] * y)
+            })
+            .unzip();
+        let [early, late] = [modes.values(&early), modes.values(&late)];
+        early.into_iter().zip(late).map(|(early, late)| [early, late]).collect()
+    }
+}
+
+fn inverse(joint: &Joint, decay: f64, dt: f64) -> [[f64; 2]; 2] {
     let mut matrix = [[1.0, 0.0], [0.0, 1.0]];
-    for response in responses {
+    for side in &joint.sides {
+        let SurfaceResponse { rates, gains } = &side.response;
+        let response = SurfaceResponse {
+            rates: rates.iter().map(|rate| rate + side.diffusivity * decay).collect(),
+            gains: gains.clone(),
+        };
         for (row, stage) in matrix.iter_mut().zip(STAGES) {
             let time = stage * dt;
             let held = response.of_held_flux(time);
@@ -205,8 +247,4 @@ fn correction<'a>(
     let [[a, b], [c, d]] = matrix;
     let determinant = a * d - b * c;
     [[d, -b], [-c, a]].map(|row| row.map(|entry| entry / determinant))
-}
-
-fn product(matrix: [[f64; 2]; 2], [x, y]: [f64; 2]) -> [f64; 2] {
-    matrix.map(|row| row[0] * x + row[1] * y)
 }

@@ -106,19 +106,32 @@ impl Model {
         let of_joints = group.joints.iter().map(|&joint| self.joints[joint].parts(dt));
         let parts = of_links.chain(of_joints).max().unwrap_or(1);
         self.foresee_exchanges(group, states, parts, allowance)?;
-        let part = dt / parts as f64;
-        for n in 0..parts {
-            let rest;
-            let from = match path.is_held() || n == 0 {
-                true => path,
-                false => {
-                    rest = path.from(n as f64 * part);
-                    &rest
-                }
-            };
-            self.advance_part(group, states, cache, (from, part), allowance)?;
+        let lengths = self.lengths(group, dt / parts as f64);
+        let mut start = 0.0;
+        for _ in 0..parts {
+            for &length in &lengths {
+                let rest;
+                let from = match path.is_held() || start == 0.0 {
+                    true => path,
+                    false => {
+                        rest = path.from(start);
+                        &rest
+                    }
+                };
+                self.advance_part(group, states, cache, (from, length), allowance)?;
+                start += length;
+            }
         }
         Ok(())
+    }
+
+    /// The parts of a part of a step: one, or some that grow where solids that touch would go beyond their rest.
+    fn lengths(&self, group: &Group, part: f64) -> Vec<f64> {
+        let halvings = group.joints.iter().map(|&joint| self.joints[joint].halvings(part));
+        let halvings = halvings.max().unwrap_or(0);
+        let first = part / (halvings as f64).exp2();
+        let grown = (0..halvings).map(|n| first * (n as f64).exp2());
+        std::iter::once(first).chain(grown).collect()
     }
 
     fn foresee_exchanges(
@@ -167,8 +180,7 @@ impl Model {
                 Some(Exchange { body: link.to, face: link.face, given })
             })
             .collect();
-        let passed =
-            self.settle_joints((group, &surfaces), states, cache, part, &exchanges, allowance)?;
+        let passed = self.settle_joints(group, states, cache, part, &exchanges, allowance)?;
         exchanges.extend(passed);
         for &body in group.bodies.iter().filter(|body| !is_above(body)) {
             let received = Exchange::with(&exchanges, body);
@@ -178,8 +190,7 @@ impl Model {
         Ok(())
     }
 
-    /// The faces below over a part of a step if nothing is given to them: one for each link of a group, and then two
-    /// for each joint.
+    /// The faces below over a part of a step if nothing is given to them, one for each link of a group.
     fn surfaces(
         &self,
         group: &Group,
@@ -189,8 +200,7 @@ impl Model {
         allowance: &Allowance,
     ) -> Result<Vec<Surface>, BodyError> {
         let of_links = group.links.iter().map(|&link| (self.links[link].to, self.links[link].face));
-        let sides = group.joints.iter().flat_map(|&joint| &self.joints[joint].sides);
-        let faces: Vec<_> = of_links.chain(sides.map(|side| (side.body, side.face))).collect();
+        let faces: Vec<_> = of_links.collect();
         let mut surfaces = vec![Surface::default(); faces.len()];
         for &body in &group.bodies {
             let on_it: Vec<_> =

@@ -375,3 +375,73 @@ fn a_droplet_on_each_of_two_plates_minds_its_own() {
         }
     }
 }
+
+#[test]
+fn faces_of_different_sizes_meet_at_any_conductance_and_step() {
+    let pairs = [(COPPER, COPPER), (MERCURY, GLASS), (AEROGEL, AEROGEL), (DIAMOND, AEROGEL)];
+    let shapes = [
+        [
+            "disc = { radius = 1e-2, thickness = 4e-3 }",
+            "disc = { radius = 5e-3, thickness = 2e-3 }",
+        ],
+        ["box = [2e-2, 1e-2, 4e-3]", "box = [6e-3, 8e-3, 2e-3]"],
+    ];
+    for [bed, plate] in shapes {
+        for (below, above) in pairs {
+            for (conductance, step) in [(1e4, 1e-3), (1e7, 1.0), (1e6, 1e5), (1e15, 1.0)] {
+                let mesh = "growth = 1.6";
+                let text = stack(
+                    [(bed, below, 300.0, mesh), (plate, above, 600.0, mesh)],
+                    [conductance, 1e9],
+                    "",
+                );
+                let mut trial = Trial::new(&text);
+                for _ in 0..2 {
+                    let stepped = trial.try_step(step);
+                    assert!(
+                        stepped.is_ok(),
+                        "{bed} {below:?} {above:?} {conductance} {step}: {stepped:?}"
+                    );
+                    let [bed, plate] = ["bed.heat_in", "plate.heat_in"].map(|name| trial.get(name));
+                    assert!((bed + plate).abs() <= 1e-9 * bed.abs(), "{bed} {plate}");
+                    let [bed, plate] =
+                        ["bed", "plate"].map(|name| trial.get(&format!("{name}.max_temperature")));
+                    // Short steps overshoot beside the contact by what coarse elements do.
+                    assert!(bed < 606.0 && plate < 606.0, "{conductance} {step}: {bed} {plate}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn heat_does_not_go_from_cold_to_hot_in_long_steps() {
+    // A thin plate on a bed with fourteen times its heat: it never falls below the bed's temperature.
+    let bed = "disc = { radius = 5e-3, thickness = 4e-3 }";
+    for (plate, conductance) in [(2e-4, 1e3), (2e-3, 1e5)] {
+        let plate = format!("disc = {{ radius = 5e-3, thickness = {plate:e} }}");
+        for step in [0.1, 1.0, 6.25, 25.0, 1e3] {
+            let text = stack(
+                [(bed, COPPER, 300.0, "spacing = 1e-3"), (&plate, COPPER, 600.0, "spacing = 1e-4")],
+                [conductance, 1e9],
+                &probe("plate_top", "plate", 0.0),
+            );
+            let mut trial = Trial::new(&text);
+            for _ in 0..3 {
+                trial.step(step);
+                let [bed, plate] =
+                    ["bed.max_temperature", "plate_top.temperature"].map(|name| trial.get(name));
+                assert!(plate > bed - 0.3, "{step}: {plate} {bed}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_step_beyond_numbers_is_refused() {
+    let mut trial = Trial::new(&small_on_large(2e3, [3e-3, 2e-3]));
+    let before = trial.state.clone();
+    assert!(trial.try_step(1e300).is_err());
+    assert_eq!(trial.state, before);
+    trial.step(0.1);
+}

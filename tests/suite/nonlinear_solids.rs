@@ -331,3 +331,39 @@ fn parts_of_bodies_take_loads_that_are_even_alone() {
     assert!(refused.contains("plate") && refused.contains("even"), "{refused}");
     assert_eq!(quarter.state.bodies, before.bodies);
 }
+
+#[test]
+fn a_body_that_yields_is_in_equilibrium_from_the_beginning() {
+    // Copper that has cooled from 800 K, free but for its base or held along x.
+    let material = "model = \"elastoplastic\", density = 8960.0, specific_heat = 385.0, conductivity = 400.0, \
+                    young = 120e9, poisson = 0.34, expansion = 1.7e-5, yield_stress = 60e6";
+    let of = |faces: &str| {
+        let text = body(
+            "box = [1e-2, 1e-2, 1e-2]",
+            material,
+            300.0,
+            faces,
+            &probe("inside", [0.0, 0.0, -5e-3], "\"stress\", \"displacement\""),
+        );
+        let text = with_mesh(&text, "spacing = 5e-3, depth_spacing = 5e-3").replacen(
+            "initial_",
+            "stress_free_temperature = 800.0\ninitial_",
+            1,
+        );
+        Trial::new(&text)
+    };
+    let mut free =
+        of("left = { roller = true }\nfront = { roller = true }\nbottom = { roller = true }");
+    let mut held = of(
+        "left = { roller = true }\nright = { roller = true }\nfront = { roller = true }\nbottom = { roller = true }",
+    );
+    for step in 0..2 {
+        assert!(free.get("inside.stress_xx").abs() < 1.0);
+        assert!(off(free.get("inside.displacement_z"), -1.7e-5 * 500.0 * 5e-3) < 1e-9, "{step}");
+        assert!(off(held.get("inside.stress_xx"), 60e6) < 1e-9);
+        assert!(off(held.get("plate.max_von_mises"), 60e6) < 1e-9);
+        for trial in [&mut free, &mut held] {
+            trial.step(1.0);
+        }
+    }
+}

@@ -53,10 +53,10 @@ const BRICK_RATE: f64 = 7e5;
 /// Products of particles' matrices: entries a second on one thread, and rows built a second.
 pub const PRODUCT_RATE: f64 = 9e8;
 const ROW_RATE: f64 = 2.5e4;
-/// What nonlinear heat takes a node in a communication step of some ten inner ones [s]; and equilibrium of a body that
+/// What nonlinear heat takes a node in a communication step, of some ten inner ones or, where something melts, many more [s]; and equilibrium of a body that
 /// yields, where part of it does [s], and memory [B].
-const NONLINEAR_HEAT: f64 = 1.5e-5;
-const YIELDING: f64 = 7e-5;
+const NONLINEAR_HEAT: f64 = 9e-5;
+const YIELDING: f64 = 1.5e-4;
 const YIELDING_MEMORY: f64 = 8e3;
 /// Modes through layers: cubed numbers of nodes along z a second, on each thread.
 const COLUMN_RATE: f64 = 1e8;

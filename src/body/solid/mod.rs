@@ -125,7 +125,8 @@ impl Body for SolidBody {
     }
 
     fn initial_state(&self) -> Vec<f64> {
-        let mechanics = self.yielding.as_ref().map(Yielding::initial_state);
+        let (nodes, start) = (self.solid.mesh().nodes(), self.solid.initial_temperature());
+        let mechanics = self.yielding.as_ref().map(|yielding| yielding.initial_state(nodes, start));
         self.solid.initial_state().into_iter().chain(mechanics.into_iter().flatten()).collect()
     }
 

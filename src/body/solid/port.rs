@@ -157,6 +157,16 @@ impl SolidBody {
 }
 
 impl Conductor for SolidBody {
+    fn response(&self, face: FaceName) -> &SurfaceResponse {
+        &self.port(face).response
+    }
+
+    fn diffusivity(&self, face: FaceName) -> f64 {
+        let strata = &self.plan.strata;
+        let layer = if face == FaceName::Top { strata.last() } else { strata.first() };
+        layer.map_or(0.0, |layer| layer.constants.diffusivity())
+    }
+
     fn tolerance(&self) -> f64 {
         self.solid.tolerance()
     }

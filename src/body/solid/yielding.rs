@@ -33,8 +33,12 @@ impl Yielding {
         Ok(Some(Self { layout: problem.layout(), problem, levels }))
     }
 
-    pub fn initial_state(&self) -> Vec<f64> {
-        self.problem.initial_state()
+    /// The state at time zero: in equilibrium at one temperature [K], without forces. Where there is none, as the first
+    /// step says, nothing has moved.
+    pub fn initial_state(&self, nodes: usize, temperature: f64) -> Vec<f64> {
+        let mut state = self.problem.initial_state();
+        let _ = self.problem.advance(&mut state, &vec![temperature; nodes], &[]);
+        state
     }
 
     pub fn layout(&self) -> Layout {

@@ -96,7 +96,10 @@ impl<'a> Fineness<'a> {
         let resolved = RESOLVED * named.powi(2) / diffusivity;
         (shortest < resolved).then(|| {
             format!(
-                "heat through faces is resolved after {resolved:.1e} s, when it has gone further than the nodes are                  apart below them ({named:.1e} m); before, rises of heated surfaces are too low and heat of                  prescribed temperatures and of droplets too high, by several times at first (the finer                  `mesh.depth_spacing`, the sooner; a mesh without `spacing` is as fine as the step asks)"
+                "heat through faces is resolved after {resolved:.1e} s, when it has gone further than the nodes are \
+                 apart below them ({named:.1e} m); before, rises of heated surfaces are too low and heat of \
+                 prescribed temperatures and of droplets too high, by several times at first (the finer \
+                 `mesh.depth_spacing`, the sooner; a mesh without `spacing` is as fine as the step asks)"
             )
         })
     }

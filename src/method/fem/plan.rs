@@ -117,7 +117,7 @@ impl Plan {
         let mirrored = mirrored(solid, newton.is_some() || is_inelastic, &mut notes);
         let fineness = Fineness::choose(solid, &strata, refinements, shortest, &mut notes);
         let mesh = build_mesh(&solid.shape, mirrored, &fineness);
-        notes.extend((strata.len() > 1).then(|| note_on_layers(&mesh)));
+        notes.extend((strata.len() > 1).then(|| note_on_layers(&mesh, newton.is_none())));
         notes.extend(mechanics.note().map(str::to_owned));
         notes.extend(law.as_ref().and_then(|law| note_on_solver(&mesh, law)));
         if let Some(settings) = solid.sph() {
@@ -176,14 +176,17 @@ impl Plan {
     }
 }
 
-fn note_on_layers(mesh: &Mesh) -> String {
+fn note_on_layers(mesh: &Mesh, is_linear: bool) -> String {
     let elements = (0..mesh.layering.count()).rev().map(|layer| mesh.layer_elements(layer).len());
     let elements: Vec<String> = elements.map(|count| count.to_string()).collect();
-    format!(
-        "layers of {} elements from the top; heat passes them exactly in time, by modes through the depth for \
-         each pair of modes along the surface",
-        elements.join(", ")
-    )
+    let elements = elements.join(", ");
+    match is_linear {
+        true => format!(
+            "layers of {elements} elements from the top; heat passes them exactly in time, by modes through the depth \
+             for each pair of modes along the surface"
+        ),
+        false => format!("layers of {elements} elements from the top"),
+    }
 }
 
 fn particle_note(settings: &SphSettings, mesh: &Mesh) -> String {

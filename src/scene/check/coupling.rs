@@ -30,6 +30,11 @@ pub fn check(checker: &mut Checker) {
 const CONDUCTANCES: [f64; 2] = [1e-12, 1e15];
 
 fn check_droplet(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupling) {
+    if checker.scene.solid(&coupling.from).is_some() && coupling.conductance.is_some() {
+        let message = format!("`{}` is a solid, of which a face touches", coupling.from);
+        checker.refuse(&path.at("from"), message, format!("{}.top", coupling.from));
+        return;
+    }
     let droplet = checker.droplet(&path.at("from"), &coupling.from);
     let face = checker.face(&path.at("to"), &coupling.to, |_| vec![FaceName::Top]);
     alone(checker, path, i, coupling);

@@ -2,6 +2,7 @@
 
 use super::{Checker, LARGEST, is_sound, material, number};
 use crate::scene::locate::Path;
+use crate::scene::materials::MaterialChoice;
 use crate::scene::types::{FaceName, HeatMethod, Layer, Solid, SolverMethod};
 
 /// Layers of a body, at most: each has elements of its own.
@@ -20,10 +21,7 @@ pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
             let message = "a body takes either one material or layers, not both";
             checker.refuse(&path.key("layers"), message, EITHER);
         }
-        (Some(choice), None) if choice.name.is_none() => {
-            material::check(checker, &path.key("material"), choice.material());
-        }
-        (Some(_), None) => {}
+        (Some(choice), None) => own_material(checker, &path.key("material"), choice),
         (None, Some(list)) => layers(checker, path, solid, list),
     }
 }
@@ -36,9 +34,7 @@ fn layers(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
     let mut sound = !list.is_empty();
     for (i, layer) in list.iter().enumerate() {
         let place = place.index(i);
-        if layer.material.name.is_none() {
-            material::check(checker, &place.key("material"), layer.material.material());
-        }
+        own_material(checker, &place.key("material"), &layer.material);
         let what = "the thickness of a layer";
         sound &= checker.length(&place.key("thickness"), layer.thickness, what);
         if let Some(resistance) = layer.contact_resistance {
@@ -55,6 +51,14 @@ fn layers(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
     }
     if solid.conducts_linearly() && checker.scene.solver.method != SolverMethod::Newton {
         lateral_convection(checker, path, solid);
+    }
+}
+
+/// Checks a material where it is not just what its name says: one of its own, or a copy whose constants were set.
+fn own_material(checker: &mut Checker, path: &Path, choice: &MaterialChoice) {
+    let named = choice.name.as_ref().and_then(|name| checker.scene.material.get(name));
+    if named != Some(choice.material()) {
+        material::check(checker, path, choice.material());
     }
 }
 

@@ -2,7 +2,8 @@
 
 use super::Checker;
 use crate::scene::locate::Path;
-use crate::scene::types::{HeatMethod, Scene, Solid, SolverMethod};
+use crate::scene::lookup::split_place;
+use crate::scene::types::{HeatMethod, Layer, Scene, Solid, SolverMethod, Symmetry};
 
 /// Whether Newton's method advances the heat of a solid.
 pub fn takes_newton(scene: &Scene, solid: &Solid) -> bool {
@@ -10,6 +11,27 @@ pub fn takes_newton(scene: &Scene, solid: &Solid) -> bool {
         SolverMethod::Newton => true,
         SolverMethod::Modal => false,
         SolverMethod::Auto => !solid.conducts_linearly(),
+    }
+}
+
+/// Refuses loads that a part of a body cannot take for the whole where it is not linear.
+fn even_loads(checker: &mut Checker, path: &Path) {
+    let name = path.last_key().to_owned();
+    for (i, load) in checker.scene.load.iter().enumerate() {
+        if split_place(&load.on).is_none_or(|(body, _)| body != name) {
+            continue;
+        }
+        let path = Path::default().key("load").index(i);
+        for (key, value) in [("start.x", load.start.x), ("start.y", load.start.y)] {
+            let message = "a quarter of a body that is not linear takes loads that are even about x = 0 and y = 0 alone";
+            let fine = value.is_none_or(|value| value == 0.0);
+            checker.require(
+                fine,
+                &path.at(key),
+                message,
+                "0, or `symmetry = \"none\"` for the body",
+            );
+        }
     }
 }
 
@@ -24,8 +46,11 @@ pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
         let message = "particles conduct heat with constants that are numbers alone, and by no Newton's method";
         checker.refuse(&path.key("heat"), message, "fem");
     }
-    let resists =
-        |layer: &crate::scene::types::Layer| layer.contact_resistance.is_some_and(|r| r > 0.0);
+    let is_part = solid.symmetry == Symmetry::Quarter;
+    if is_part && (takes_newton(checker.scene, solid) || !solid.deforms_linearly()) {
+        even_loads(checker, path);
+    }
+    let resists = |layer: &Layer| layer.contact_resistance.is_some_and(|r| r > 0.0);
     if !solid.deforms_linearly() && solid.layers.iter().flatten().any(resists) {
         let message = "layers of a body that yields, or whose elastic constants depend on the temperature, touch \
                        without resistance";

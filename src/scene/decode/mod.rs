@@ -79,6 +79,11 @@ impl Decoder<'_> {
             for (path, choice) in own.chain(layers) {
                 if !choice.look_up(|name| known.get(name)) {
                     let name = choice.name.as_deref().unwrap_or_default();
+                    // What is wrong with a table that is there has been said.
+                    let table = Path::default().key("material").key(name);
+                    if self.source.value(&table).is_some() {
+                        continue;
+                    }
                     let path = path.key("material");
                     let names = || known.keys().map(String::as_str);
                     let message = format!("there is no material `{name}`{}", hint(name, names()));

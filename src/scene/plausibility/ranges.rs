@@ -63,6 +63,13 @@ pub const YIELD_STRESS: Range = Range {
     highest: 1e11, // of glass none is known; diamond 1e11
     mistakes: &[scaled("MPa", 1e6), scaled("GPa", 1e9)],
 };
+pub const MELTING: Range = Range {
+    what: "a temperature of melting",
+    unit: "K",
+    lowest: 50.0,    // nitrogen 63, mercury 234
+    highest: 4500.0, // tantalum hafnium carbide 4300
+    mistakes: CELSIUS,
+};
 pub const LATENT_HEAT: Range = Range {
     what: "the latent heat of melting",
     unit: "J/kg",

@@ -38,6 +38,9 @@ pub fn review(reviewer: &mut Reviewer) {
     }
 }
 
+/// Lowest temperature of surroundings that is not doubted: in the shade of space; 20 is meant in °C [K].
+const CRYOGENIC_SKY: f64 = 60.0;
+
 /// Density below which a liquid is hydrogen or helium [kg/m³].
 const LIGHTEST_COMMON: f64 = 150.0;
 
@@ -69,6 +72,9 @@ fn solid(reviewer: &mut Reviewer, path: &Path, solid: &Solid, temperature: &Rang
         }
     }
     reviewer.value(&path.key("initial_temperature"), solid.initial_temperature, temperature);
+    if let Some(value) = solid.stress_free_temperature {
+        reviewer.value(&path.key("stress_free_temperature"), value, temperature);
+    }
     for (name, face) in &solid.faces {
         let path = path.key("faces").key(name.as_str());
         if let Some(value) = face.temperature {
@@ -76,6 +82,10 @@ fn solid(reviewer: &mut Reviewer, path: &Path, solid: &Solid, temperature: &Rang
         }
         if let Some(flux) = face.flux {
             reviewer.value(&path.key("flux"), flux, &ranges::HEAT_FLUX);
+        }
+        if let Some(radiation) = face.radiation {
+            let ambient = Range { lowest: CRYOGENIC_SKY, ..ranges::AMBIENT };
+            reviewer.value(&path.key("radiation").key("ambient"), radiation.ambient, &ambient);
         }
         if let Some(convection) = face.convection {
             let path = path.key("convection");
@@ -110,6 +120,9 @@ fn material(reviewer: &mut Reviewer, path: &Path, law: &Properties) {
     }
     if let Some(melting) = &law.melting {
         let path = path.key("melting");
+        for (key, value) in [("solidus", melting.solidus), ("liquidus", melting.liquidus)] {
+            reviewer.value(&path.key(key), value, &ranges::MELTING);
+        }
         reviewer.value(&path.key("latent_heat"), melting.latent_heat, &ranges::LATENT_HEAT);
     }
 }
