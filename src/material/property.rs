@@ -104,7 +104,7 @@ impl<'de> Deserialize<'de> for Property {
             type Value = Property;
 
             fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("a number or a table of `temperature` and `value`")
+                f.write_str("a finite number or a table of `temperature` and `value`")
             }
 
             fn visit_f64<E>(self, value: f64) -> Result<Self::Value, E> {

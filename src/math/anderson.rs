@@ -4,7 +4,7 @@
 use nalgebra::{DMatrix, DVector};
 
 /// Most earlier iterates that are looked back at.
-const DEPTH: usize = 20;
+const DEPTH: usize = 40;
 /// Singular values below this part of the largest count as zero.
 const SINGULAR: f64 = 1e-12;
 
