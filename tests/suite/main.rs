@@ -20,6 +20,7 @@ mod impossible;
 mod joints;
 mod layered_mechanics;
 mod layers;
+mod named_materials;
 mod nonlinear_heat;
 mod nonlinear_solids;
 mod output;
