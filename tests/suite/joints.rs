@@ -2,6 +2,8 @@
 
 use crate::common::{Trial, off};
 use impinge::closed_form::{Conductor, Contact, ResistiveContact};
+use impinge::model::forecast;
+use impinge::scene::parse;
 
 /// Density, specific heat and conductivity.
 type Material = [f64; 3];
@@ -444,4 +446,20 @@ fn a_step_beyond_numbers_is_refused() {
     assert!(trial.try_step(1e300).is_err());
     assert_eq!(trial.state, before);
     trial.step(0.1);
+}
+
+#[test]
+fn forecasts_count_exchanges_between_solids() {
+    let said = |interval: f64| {
+        let text = small_on_large(2e3, [2e-3, 1e-3])
+            .replace("interval = 2e-2", &format!("interval = {interval:e}"));
+        forecast(&parse(&text, "scene.toml").unwrap()).run_time()
+    };
+    let [once, often] = [said(0.1), said(0.1 / 64.0)];
+    let alone = {
+        let text = small_on_large(2e3, [2e-3, 1e-3]);
+        let (text, _) = text.split_once("[[coupling]]").unwrap();
+        forecast(&parse(text, "scene.toml").unwrap()).run_time()
+    };
+    assert!(once > 1.2 * alone && often > 20.0 * once, "{alone} {once} {often}");
 }
