@@ -367,3 +367,25 @@ fn a_body_that_yields_is_in_equilibrium_from_the_beginning() {
         }
     }
 }
+
+#[test]
+fn no_part_of_a_body_bears_more_than_its_yield_stress() {
+    // Lead on a default mesh, clamped below and heated in the middle.
+    let material = "model = \"elastoplastic\", density = 11340.0, specific_heat = 129.0, conductivity = 35.0, \
+                    young = 16e9, poisson = 0.44, expansion = 2.9e-5, yield_stress = 12e6, isotropic_hardening = 5e7";
+    let load = "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = { disc = { radius = 5e-4 } }\n\
+                carries = [\"heat_flux\"]\nstart = { heat_flux = 3e6 }\n";
+    let text = body(
+        "disc = { radius = 3e-3, thickness = 1e-3 }",
+        material,
+        295.0,
+        "bottom = { clamped = true }",
+        &(load.to_owned() + &probe("inside", [0.0; 3], "\"stress\"")),
+    );
+    let mut trial = Trial::new(&text);
+    (0..3).for_each(|_| trial.step(0.1));
+    let strained = trial.get("plate.max_plastic_strain");
+    let highest = trial.get("plate.max_von_mises");
+    assert!(strained > 1e-4, "{strained}");
+    assert!((11.9e6..12e6 + 1.5 * 5e7 * strained).contains(&highest), "{highest} {strained}");
+}

@@ -133,8 +133,13 @@ impl SolidMemo {
         if let Some(known) = self.max_stress {
             return Ok(known);
         }
-        let (temperatures, deformation) = self.solve(body, state)?;
-        let value = body.solid.max_stress(temperatures, deformation);
+        let value = match body.max_borne_stress(state, self.heat(body, state))? {
+            Some(value) => value,
+            None => {
+                let (temperatures, deformation) = self.solve(body, state)?;
+                body.solid.max_stress(temperatures, deformation)
+            }
+        };
         self.max_stress = Some(value);
         Ok(value)
     }

@@ -2,6 +2,7 @@
 
 use super::SolidBody;
 use crate::body::{Acts, BodyError};
+use crate::material::stress::{max_principal, von_mises};
 use crate::math::cholesky::SolverError;
 use crate::method::fem::{Deformation, Plan, SolidLoads, Temperatures};
 use crate::method::inelastic::{InelasticError, InelasticProblem, StateLayout};
@@ -13,6 +14,8 @@ pub struct Yielding {
     layout: StateLayout,
     /// Of those that stand twice on every interface, one level along z for each of the mesh.
     levels: Vec<usize>,
+    /// Whether stress has a bound.
+    yields: bool,
 }
 
 /// How often a step that finds no equilibrium is halved.
@@ -22,6 +25,8 @@ impl Yielding {
     /// Nothing where stress follows linearly from deformation and temperature, or is not asked for.
     pub fn of(plan: &Plan, threads: usize) -> Result<Option<Self>, SolverError> {
         let Some(laws) = &plan.inelastic else { return Ok(None) };
+        let start = plan.initial_temperature;
+        let yields = laws.iter().any(|law| (law.yield_stress)(start).is_finite());
         let problem = InelasticProblem::new(&plan.mesh, laws.clone(), &plan.supports, threads);
         let problem = problem.map_err(|error| match error {
             InelasticError::Solver(error) => error,
@@ -30,7 +35,7 @@ impl Yielding {
         let sided = plan.mesh.nodes_of_sided();
         let level = |node: usize| sided.iter().position(|&other| other == node);
         let levels = (0..plan.mesh.axes[2].len()).filter_map(level).collect();
-        Ok(Some(Self { layout: problem.layout(), problem, levels }))
+        Ok(Some(Self { layout: problem.layout(), problem, levels, yields }))
     }
 
     /// The state at time zero: in equilibrium at one temperature [K], without forces. Where there is none, as the first
@@ -176,6 +181,25 @@ impl SolidBody {
         let stress = stress.map_err(|error| self.inelastic_error(error))?;
         let displacement = yielding.problem.displacement(mechanics).to_vec();
         Ok(Some(Deformation::of_nodes(displacement, stress)))
+    }
+
+    /// Highest von Mises and largest principal stress of a body that yields [Pa], at the points where its law holds:
+    /// extrapolated to nodes, stress goes beyond what the body bears. Nothing of other bodies.
+    pub(super) fn max_borne_stress(
+        &self,
+        state: &[f64],
+        temperatures: &Temperatures,
+    ) -> Result<Option<[f64; 2]>, BodyError> {
+        let Some(yielding) = self.yielding.as_ref().filter(|yielding| yielding.yields) else {
+            return Ok(None);
+        };
+        let nodal = self.nodal_temperatures(yielding, temperatures);
+        let points = yielding.problem.points(&state[self.heat_len..], &nodal);
+        let points = points.map_err(|error| self.inelastic_error(error))?;
+        let highest = |measure: fn([f64; 6]) -> f64| {
+            points.iter().map(|point| measure(point.stress)).fold(f64::NEG_INFINITY, f64::max)
+        };
+        Ok(Some([highest(von_mises), highest(max_principal)]))
     }
 
     /// Accumulated plastic strain at the nodes [1]; none where nothing yields.
