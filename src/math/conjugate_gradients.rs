@@ -1,5 +1,6 @@
 //! Conjugate gradients, preconditioned (M. R. Hestenes and E. Stiefel 1952, doi 10.6028/jres.049.044).
 
+use super::parallel::Team;
 use super::separable::dot;
 
 /// A symmetric positive definite system that is known by what it does to a vector.
@@ -33,6 +34,32 @@ fn scale_of(load: &[f64]) -> Option<f64> {
     (largest.is_finite() && largest > 0.0).then(|| largest.log2().floor().exp2())
 }
 
+/// Entries that a thread works on at once; sums are added in their order, so they depend on no number of threads.
+const PIECE: usize = 1 << 12;
+
+/// `aᵀ b`.
+fn product(team: &Team, a: &[f64], b: &[f64]) -> f64 {
+    let piece = |list: &[f64], i: usize| i * PIECE..list.len().min((i + 1) * PIECE);
+    let sums = team.map(a.len().div_ceil(PIECE), |i| dot(&a[piece(a, i)], &b[piece(b, i)]));
+    sums.into_iter().sum()
+}
+
+/// `target += factor source`.
+fn add_scaled(team: &Team, target: &mut [f64], factor: f64, source: &[f64]) {
+    let mut pieces: Vec<_> = target.chunks_mut(PIECE).zip(source.chunks(PIECE)).collect();
+    team.for_each(&mut pieces, |_, (target, source)| {
+        target.iter_mut().zip(*source).for_each(|(t, s)| *t += factor * s);
+    });
+}
+
+/// `direction = improved + part direction`.
+fn turn(team: &Team, direction: &mut [f64], part: f64, improved: &[f64]) {
+    let mut pieces: Vec<_> = direction.chunks_mut(PIECE).zip(improved.chunks(PIECE)).collect();
+    team.for_each(&mut pieces, |_, (direction, improved)| {
+        direction.iter_mut().zip(*improved).for_each(|(d, z)| *d = z + part * *d);
+    });
+}
+
 /// Solves `A x = load` from zero until `√(rᵀ P r)`, P the preconditioner, is below a part of what it was at first;
 /// the solution and how many iterations it took.
 ///
@@ -41,6 +68,7 @@ pub fn solve(
     operator: &impl Operator,
     load: &[f64],
     tolerance: f64,
+    team: &Team,
 ) -> Result<(Vec<f64>, usize), NotConverged> {
     let mut solution = vec![0.0; load.len()];
     let Some(scale) = scale_of(load) else {
@@ -54,9 +82,9 @@ pub fn solve(
     let mut residual: Vec<f64> = load.iter().map(|value| value / scale).collect();
     let mut direction = vec![0.0; load.len()];
     operator.precondition(&residual, &mut direction);
-    let mut energy = dot(&residual, &direction);
+    let mut energy = product(team, &residual, &direction);
     let wanted = tolerance * tolerance * energy;
-    let (mut product, mut improved) = (vec![0.0; load.len()], vec![0.0; load.len()]);
+    let (mut force, mut improved) = (vec![0.0; load.len()], vec![0.0; load.len()]);
     for iteration in 0..MOST_ITERATIONS {
         // Not `energy > wanted`, by which what is no number would count as solved.
         if energy <= wanted {
@@ -66,17 +94,13 @@ pub fn solve(
         if !energy.is_finite() {
             return Err(NotConverged { residual: f64::NAN, iterations: iteration, tolerance });
         }
-        operator.apply(&direction, &mut product);
-        let step = energy / dot(&direction, &product);
-        for (((x, r), d), p) in solution.iter_mut().zip(&mut residual).zip(&direction).zip(&product)
-        {
-            *x += step * d;
-            *r -= step * p;
-        }
+        operator.apply(&direction, &mut force);
+        let step = energy / product(team, &direction, &force);
+        add_scaled(team, &mut solution, step, &direction);
+        add_scaled(team, &mut residual, -step, &force);
         operator.precondition(&residual, &mut improved);
-        let next = dot(&residual, &improved);
-        let part = next / energy;
-        direction.iter_mut().zip(&improved).for_each(|(d, z)| *d = z + part * *d);
+        let next = product(team, &residual, &improved);
+        turn(team, &mut direction, next / energy, &improved);
         energy = next;
     }
     let residual = (energy * tolerance * tolerance / wanted).sqrt();
@@ -107,7 +131,7 @@ mod tests {
     #[test]
     fn a_loaded_rod_is_a_parabola() {
         const N: usize = 40;
-        let (solution, iterations) = solve(&Rod, &[1.0; N], 1e-13).unwrap();
+        let (solution, iterations) = solve(&Rod, &[1.0; N], 1e-13, &Team::new(1)).unwrap();
         assert!(iterations <= N);
         for (i, u) in solution.iter().enumerate() {
             let wanted = 0.5 * (i as f64 + 1.0) * (N - i) as f64;
@@ -117,9 +141,9 @@ mod tests {
 
     #[test]
     fn solutions_are_in_proportion_to_loads_of_any_size() {
-        let (one, _) = solve(&Rod, &[1.0; 9], 1e-13).unwrap();
+        let (one, _) = solve(&Rod, &[1.0; 9], 1e-13, &Team::new(1)).unwrap();
         for size in [1e-300, 1e-160, 1e160, 1e300] {
-            let (solution, _) = solve(&Rod, &[size; 9], 1e-13).unwrap();
+            let (solution, _) = solve(&Rod, &[size; 9], 1e-13, &Team::new(1)).unwrap();
             for (u, one) in solution.iter().zip(&one) {
                 assert!((u / one / size - 1.0).abs() < 1e-12, "{size}");
             }
@@ -128,9 +152,9 @@ mod tests {
 
     #[test]
     fn no_load_is_no_work_and_no_number_is_no_solution() {
-        assert_eq!(solve(&Rod, &[0.0; 5], 1e-10).unwrap(), (vec![0.0; 5], 0));
+        assert_eq!(solve(&Rod, &[0.0; 5], 1e-10, &Team::new(1)).unwrap(), (vec![0.0; 5], 0));
         for odd in [f64::NAN, f64::INFINITY] {
-            let refused = solve(&Rod, &[0.0, odd, 1.0], 1e-10).unwrap_err();
+            let refused = solve(&Rod, &[0.0, odd, 1.0], 1e-10, &Team::new(1)).unwrap_err();
             assert_eq!(refused.iterations, 0);
         }
     }

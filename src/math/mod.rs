@@ -10,6 +10,7 @@ pub mod cholesky;
 pub mod conjugate_gradients;
 pub mod disc_rectangle;
 pub mod eigenvectors;
+pub mod eight;
 pub mod exponential;
 pub mod gauss;
 pub mod lagrange;

@@ -4,10 +4,11 @@
 //! last instance of a unit is gone, and with it the library.
 
 use faer::MatRef;
+use num_traits::Float;
 
-/// `out = left right`, by columns. Every entry is the sum of its terms in ascending order, whatever
+/// `out = left right`, by columns, in single or double precision. Every entry is the sum of its terms in ascending order, whatever
 /// vectors the processor has; rounding differs only where it cannot multiply and add at once.
-pub fn product(out: &mut [f64], left: MatRef<'_, f64>, right: MatRef<'_, f64>) {
+pub fn product<T: Float>(out: &mut [T], left: MatRef<'_, T>, right: MatRef<'_, T>) {
     assert_eq!(left.ncols(), right.nrows(), "matrices disagree in shape");
     assert_eq!(out.len(), left.nrows() * right.ncols(), "the product has another size");
     #[cfg(target_arch = "x86_64")]
@@ -23,59 +24,65 @@ pub fn product(out: &mut [f64], left: MatRef<'_, f64>, right: MatRef<'_, f64>) {
     }
     // Every processor of this kind multiplies and adds at once.
     #[cfg(target_arch = "aarch64")]
-    by_tiles::<8, 6, true>(out, left, right);
+    by_tiles::<T, 8, 6, true>(out, left, right);
     #[cfg(not(target_arch = "aarch64"))]
-    by_tiles::<4, 4, false>(out, left, right);
+    by_tiles::<T, 4, 4, false>(out, left, right);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
-fn product_avx512(out: &mut [f64], left: MatRef<'_, f64>, right: MatRef<'_, f64>) {
-    by_tiles::<16, 6, true>(out, left, right);
+fn product_avx512<T: Float>(out: &mut [T], left: MatRef<'_, T>, right: MatRef<'_, T>) {
+    match size_of::<T>() {
+        4 => by_tiles::<T, 32, 6, true>(out, left, right),
+        _ => by_tiles::<T, 16, 6, true>(out, left, right),
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn product_avx2(out: &mut [f64], left: MatRef<'_, f64>, right: MatRef<'_, f64>) {
-    by_tiles::<8, 6, true>(out, left, right);
+fn product_avx2<T: Float>(out: &mut [T], left: MatRef<'_, T>, right: MatRef<'_, T>) {
+    match size_of::<T>() {
+        4 => by_tiles::<T, 16, 6, true>(out, left, right),
+        _ => by_tiles::<T, 8, 6, true>(out, left, right),
+    }
 }
 
 /// Tiles of `M` rows and `N` columns, whose sums stay in registers. The smaller matrix is laid out by
 /// tiles once, of the other one strip at a time. No closures: these are compiled for every processor.
 #[inline(always)]
-fn by_tiles<const M: usize, const N: usize, const FUSED: bool>(
-    out: &mut [f64],
-    left: MatRef<'_, f64>,
-    right: MatRef<'_, f64>,
+fn by_tiles<T: Float, const M: usize, const N: usize, const FUSED: bool>(
+    out: &mut [T],
+    left: MatRef<'_, T>,
+    right: MatRef<'_, T>,
 ) {
     let (rows, columns, depth) = (left.nrows(), right.ncols(), left.ncols());
     if depth == 0 {
-        return out.fill(0.0);
+        return out.fill(T::zero());
     }
     let right = right.transpose();
     let (panels, strips) = ((0..rows).step_by(M), (0..columns).step_by(N));
     if rows <= columns {
-        let mut all = vec![[0.0; M]; depth * panels.len()];
-        let mut strip = vec![[0.0; N]; depth];
+        let mut all = vec![[T::zero(); M]; depth * panels.len()];
+        let mut strip = vec![[T::zero(); N]; depth];
         for (i, panel) in panels.clone().zip(all.chunks_exact_mut(depth)) {
             lay_out(panel, left, i);
         }
         for j in strips {
             lay_out(&mut strip, right, j);
             for (i, panel) in panels.clone().zip(all.chunks_exact(depth)) {
-                store(out, rows, i, j, &sums::<M, N, FUSED>(panel, &strip));
+                store(out, rows, i, j, &sums::<T, M, N, FUSED>(panel, &strip));
             }
         }
     } else {
-        let mut all = vec![[0.0; N]; depth * strips.len()];
-        let mut panel = vec![[0.0; M]; depth];
+        let mut all = vec![[T::zero(); N]; depth * strips.len()];
+        let mut panel = vec![[T::zero(); M]; depth];
         for (j, strip) in strips.clone().zip(all.chunks_exact_mut(depth)) {
             lay_out(strip, right, j);
         }
         for i in panels {
             lay_out(&mut panel, left, i);
             for (j, strip) in strips.clone().zip(all.chunks_exact(depth)) {
-                store(out, rows, i, j, &sums::<M, N, FUSED>(&panel, strip));
+                store(out, rows, i, j, &sums::<T, M, N, FUSED>(&panel, strip));
             }
         }
     }
@@ -83,24 +90,27 @@ fn by_tiles<const M: usize, const N: usize, const FUSED: bool>(
 
 /// `strip[k]` becomes the rows from `first` on of column k, with zeros beyond the last row.
 #[inline(always)]
-fn lay_out<const N: usize>(strip: &mut [[f64; N]], matrix: MatRef<'_, f64>, first: usize) {
+fn lay_out<T: Float, const N: usize>(strip: &mut [[T; N]], matrix: MatRef<'_, T>, first: usize) {
     assert!(first < matrix.nrows() && strip.len() <= matrix.ncols());
     let count = N.min(matrix.nrows() - first);
     for (k, entries) in strip.iter_mut().enumerate() {
         for (i, entry) in entries.iter_mut().enumerate() {
             // SAFETY: row and column are within the matrix by the assertion above.
-            *entry = if i < count { unsafe { *matrix.get_unchecked(first + i, k) } } else { 0.0 };
+            *entry = match i < count {
+                true => unsafe { *matrix.get_unchecked(first + i, k) },
+                false => T::zero(),
+            };
         }
     }
 }
 
 /// `Σ_k panel[k][i] strip[k][j]` for every column j and row i of a tile.
 #[inline(always)]
-fn sums<const M: usize, const N: usize, const FUSED: bool>(
-    panel: &[[f64; M]],
-    strip: &[[f64; N]],
-) -> [[f64; M]; N] {
-    let mut sums = [[0.0; M]; N];
+fn sums<T: Float, const M: usize, const N: usize, const FUSED: bool>(
+    panel: &[[T; M]],
+    strip: &[[T; N]],
+) -> [[T; M]; N] {
+    let mut sums = [[T::zero(); M]; N];
     for (left, right) in panel.iter().zip(strip) {
         for j in 0..N {
             for i in 0..M {
@@ -114,7 +124,7 @@ fn sums<const M: usize, const N: usize, const FUSED: bool>(
 
 /// Puts a tile at row i and column j of `out`, as far as it lies inside.
 #[inline(always)]
-fn store<const M: usize>(out: &mut [f64], rows: usize, i: usize, j: usize, tile: &[[f64; M]]) {
+fn store<T: Copy, const M: usize>(out: &mut [T], rows: usize, i: usize, j: usize, tile: &[[T; M]]) {
     let high = M.min(rows - i);
     for (sums, column) in tile.iter().zip(out.chunks_exact_mut(rows).skip(j)) {
         column[i..i + high].copy_from_slice(&sums[..high]);
@@ -159,8 +169,8 @@ mod tests {
             by_tiles(&mut out, left.as_ref(), right.as_ref());
             out
         };
-        let wide = run(by_tiles::<16, 6, true>);
-        assert!(wide == run(by_tiles::<8, 6, true>));
-        assert!(run(by_tiles::<16, 6, false>) == run(by_tiles::<4, 4, false>));
+        let wide = run(by_tiles::<f64, 16, 6, true>);
+        assert!(wide == run(by_tiles::<f64, 8, 6, true>));
+        assert!(run(by_tiles::<f64, 16, 6, false>) == run(by_tiles::<f64, 4, 4, false>));
     }
 }

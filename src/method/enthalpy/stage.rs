@@ -3,6 +3,7 @@
 use super::body::{Body, Drive, Fields, Flow};
 use super::linear::{Coefficients, System};
 use crate::math::allowance::{Allowance, Halt};
+use crate::math::parallel::Team;
 use crate::math::{bicgstab, conjugate_gradients};
 
 /// Newton's steps in a stage; where more are needed, a shorter step costs less.
@@ -135,7 +136,7 @@ impl Stage<'_> {
         let load: Vec<f64> = iterate.residual.iter().enumerate().map(load).collect();
         let tolerance = (0.1 / largest).clamp(1e-10, LINEAR);
         let solved = match self.body.is_symmetric {
-            true => conjugate_gradients::solve(system, &load, tolerance),
+            true => conjugate_gradients::solve(system, &load, tolerance, &Team::new(1)),
             false => bicgstab::solve(system, &load, tolerance),
         };
         let (x, iterations) = solved.map_err(|_| Unsolved::Diverged)?;

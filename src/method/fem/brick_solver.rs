@@ -61,7 +61,8 @@ impl BrickSolver {
             forces.iter_mut().zip(load.iter().skip(c).step_by(3)).for_each(|(sum, f)| *sum += f);
         }
         self.stiffness.hold(&mut apart, &team);
-        let (solution, iterations) = conjugate_gradients::solve(&(self, &team), &apart, TOLERANCE)?;
+        let (solution, iterations) =
+            conjugate_gradients::solve(&(self, &team), &apart, TOLERANCE, &team)?;
         for (node, displacement) in load.chunks_exact_mut(3).enumerate() {
             (0..3).for_each(|c| displacement[c] = solution[c * nodes + node]);
         }
@@ -232,7 +233,7 @@ mod tests {
                 let solver = BrickSolver::new(&mesh, &laws, clamped_below(&mesh), 2);
                 let mut solution = wave(3 * mesh.nodes());
                 let iterations = solver.solve_in_place(&mut solution, &[]).unwrap();
-                let most = if order == 1 { 90 } else { 80 };
+                let most = if order == 1 { 100 } else { 80 };
                 assert!(iterations <= most, "order {order}, {counts:?}, {young}: {iterations}");
             }
         }
@@ -251,6 +252,33 @@ mod tests {
                 load
             };
             assert_eq!(solved(1), solved(3));
+        }
+    }
+
+    #[test]
+    fn all_vectors_give_the_same_bits() {
+        let law = Thermoelastic { young: 200.0, poisson: 0.3, expansion: 1e-3 };
+        for order in [1, 2] {
+            let mesh = graded(order, [11, 3, 2], 1.2);
+            let stiffness = BrickStiffness::new(&mesh, slice::from_ref(&law), clamped_below(&mesh));
+            let x = wave(3 * mesh.nodes());
+            let mut found = vec![0.0; x.len()];
+            stiffness.apply(&x, &mut found, &Team::new(1));
+            assert_eq!(found, stiffness.apply_plainly(&x));
+        }
+    }
+
+    #[test]
+    fn numbers_beyond_single_precision_are_taken_in_double() {
+        for (finest, single) in [(1e-9, false), (1e-2, true)] {
+            let law = Thermoelastic { young: 2e11, poisson: 0.3, expansion: 1e-5 };
+            let mut mesh = graded(2, [4, 4, 3], 1.0);
+            let ends = [0.0, finest, (1e3 * finest).sqrt(), 1e3];
+            mesh.axes = [(); 3].map(|()| Axis::from_element_ends(&ends, 2, Weight::Uniform));
+            let solver = BrickSolver::new(&mesh, slice::from_ref(&law), clamped_below(&mesh), 1);
+            assert_eq!(solver.inverse.is_single(), single, "{finest}");
+            let iterations = solver.solve_in_place(&mut wave(3 * mesh.nodes()), &[]).unwrap();
+            assert!(iterations <= 40, "{finest}: {iterations}");
         }
     }
 }

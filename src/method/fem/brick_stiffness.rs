@@ -1,82 +1,18 @@
-//! Stiffness of all bricks of a box at once, without a matrix.
+//! Stiffness of all bricks of a box at once, without a matrix: a few hundred operations an element (see
+//! [`super::brick_polynomials`]), and nothing is stored.
 //!
-//! In every element, displacements are sums of products of Legendre polynomials along the edges, and so are strains;
-//! as the polynomials are orthogonal, the energy is a sum over them, each with its own moduli:
-//!
-//! `E = ½ V Σ_l n_l [2µ Σ_i ε_ii² + λ_l (Σ_i ε_ii)² + Σ_{i<j} µ_l,ij γ_ij²]`, `n_l = Π 1/(2 l_k + 1)`.
-//!
-//! - Quadratic bricks project their dilatation on linear polynomials (see [`super::dilatation`]): λ_l = λ up to degree 1,
-//!   0 beyond.
-//! - Linear bricks have enhanced strains (see [`super::hexahedron`]) that are free to relieve the stresses of
-//!   their own polynomials: a normal strain along i where l_i = 1, the shear ij for l = e_i and l = e_j. What is left
-//!   are plane and uniaxial stress, and no energy of those shears.
-//!
-//! So an element costs a few hundred operations and nothing is stored.
+//! Sums over nodes go along one axis after another: along z for a layer of elements, along y for a row of them, along
+//! x within the row.
 
 use std::ops::Range;
 
+use super::brick_polynomials::{PolynomialModuli, legendre, moduli};
+use super::brick_row::{Row, RowLengths, RowPlace};
 use crate::material::Thermoelastic;
+use crate::math::eight::{self, Eight};
 use crate::math::parallel::Team;
 use crate::method::mesh::Layering;
 use crate::method::mesh::Mesh;
-
-/// Moduli of one product of Legendre polynomials.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PolynomialModuli {
-    /// Degrees along x, y, z.
-    pub degrees: [usize; 3],
-    /// `n_l`
-    pub norm: f64,
-    /// λ_l [Pa]
-    pub lame: f64,
-    /// µ_l of the shears xy, yz, xz [Pa].
-    pub shear: [f64; 3],
-    /// Normal stress that holds back a degree of heating [Pa/K].
-    pub thermal: f64,
-}
-
-/// The two axes of a shear strain xy, yz, xz.
-const SHEARS: [[usize; 2]; 3] = [[0, 1], [1, 2], [0, 2]];
-
-/// Moduli of all products of Legendre polynomials of an element, x fastest.
-pub fn moduli(order: usize, law: &Thermoelastic) -> Vec<PolynomialModuli> {
-    let (lame, shear) = (law.lame_first(), law.shear_modulus());
-    let n = order + 1;
-    let of = |index: usize| {
-        let degrees = [index % n, index / n % n, index / (n * n)];
-        let total: usize = degrees.iter().sum();
-        let linear = order == 1;
-        let lame = match (linear, total) {
-            (_, 0) | (false, 1) => lame,
-            (true, 1) => 2.0 * lame * shear / (lame + 2.0 * shear),
-            (true, 2) => law.young - 2.0 * shear,
-            _ => 0.0,
-        };
-        let relieved = |[i, j]: [usize; 2]| linear && total == 1 && degrees[i] + degrees[j] == 1;
-        PolynomialModuli {
-            degrees,
-            norm: degrees.iter().map(|&l| 1.0 / (2 * l + 1) as f64).product(),
-            lame,
-            shear: SHEARS.map(|pair| if relieved(pair) { 0.0 } else { shear }),
-            // Of linear bricks, those along axes whose strains are free are relieved.
-            thermal: law.expansion
-                * (2.0 * shear + lame * if linear { 3.0 - total as f64 } else { 3.0 }),
-        }
-    };
-    (0..n * n * n).map(of).collect()
-}
-
-/// Legendre coefficients of a function from its values at the nodes of an element, by rows.
-pub fn legendre(order: usize) -> [[f64; 3]; 3] {
-    match order {
-        1 => [[0.5, 0.5, 0.0], [-0.5, 0.5, 0.0], [0.0; 3]],
-        _ => [
-            [1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0],
-            [-0.5, 0.0, 0.5],
-            [1.0 / 3.0, -2.0 / 3.0, 1.0 / 3.0],
-        ],
-    }
-}
 
 /// What acts on the nodes: the stress of strains or of temperatures.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -91,6 +27,7 @@ pub struct BrickStiffness {
     order: usize,
     /// Lengths of elements along each axis [m].
     lengths: [Vec<f64>; 3],
+    row: RowLengths,
     layering: Layering,
     /// Moduli and 2µ of each layer, from the lowest on.
     moduli: Vec<(Vec<PolynomialModuli>, f64)>,
@@ -98,22 +35,33 @@ pub struct BrickStiffness {
     free: [[Range<usize>; 3]; 3],
 }
 
-/// Room for what one row of elements along x comes to.
+/// Room for what one layer of elements comes to.
 struct Scratch {
-    /// Legendre coefficients along y and z of each component, at the nodes along x: `n² · 3` rows.
+    /// Values of rows of nodes along x that stand above each other, and a sum of such.
+    nodes: Vec<f64>,
+    sums: Vec<f64>,
+    /// Coefficients along z of each component and forces on them: `3 n` planes of rows, corners before middles.
     planes: Vec<f64>,
-    /// Coefficients along all axes, `n³ · 3` rows of elements, and the forces on them.
-    coefficients: Vec<f64>,
     forces: Vec<f64>,
-    /// Six strains, then stresses.
-    strains: [Vec<f64>; 6],
-    volumes: Vec<f64>,
+    /// Coefficients along y and z: `3 n²` such rows.
+    rows: Vec<f64>,
+    row: Row,
+}
+
+/// One layer of elements to add the forces of.
+struct Layer<'a, 'b> {
+    cause: Cause,
+    /// Counted from the lowest.
+    number: usize,
+    values: &'a [f64],
+    /// The planes of nodes of each component, from the lowest node of the layer on.
+    out: &'a mut [&'b mut [f64]; 3],
 }
 
 impl BrickStiffness {
     /// `laws` of the layers, from the lowest on.
     pub fn new(mesh: &Mesh, laws: &[Thermoelastic], free: [[Range<usize>; 3]; 3]) -> Self {
-        let lengths = mesh.axes.each_ref().map(|axis| {
+        let lengths: [Vec<f64>; 3] = mesh.axes.each_ref().map(|axis| {
             let length = |e| {
                 let [a, b] = axis.bounds(e);
                 b - a
@@ -121,8 +69,10 @@ impl BrickStiffness {
             (0..axis.elements()).map(length).collect()
         });
         let order = mesh.order();
+        let row = RowLengths::new(&lengths[0]);
         let moduli = laws.iter().map(|law| (moduli(order, law), 2.0 * law.shear_modulus()));
-        Self { order, lengths, layering: mesh.layering.clone(), moduli: moduli.collect(), free }
+        let layering = mesh.layering.clone();
+        Self { order, lengths, row, layering, moduli: moduli.collect(), free }
     }
 
     fn nodes(&self) -> [usize; 3] {
@@ -150,9 +100,9 @@ impl BrickStiffness {
         for colour in 0..2 {
             let mut layers = self.layers(out, plane, colour);
             team.for_pieces(&mut layers, |_, layers| {
-                let mut scratch = Scratch::new(self.order, columns, self.lengths[0].len());
-                for (layer, out) in layers {
-                    self.add_layer(cause, *layer, x, out, &mut scratch);
+                let mut scratch = self.scratch();
+                for (number, out) in layers {
+                    self.add_layer(Layer { cause, number: *number, values: x, out }, &mut scratch);
                 }
             });
         }
@@ -179,192 +129,136 @@ impl BrickStiffness {
         layers
     }
 
-    fn add_layer(
-        &self,
-        cause: Cause,
-        layer: usize,
-        x: &[f64],
-        out: &mut [&mut [f64]; 3],
-        scratch: &mut Scratch,
-    ) {
+    fn scratch(&self) -> Scratch {
+        let (n, [_, rows, _]) = (self.order + 1, self.nodes());
+        let strands = self.order * self.row.strand();
+        let zeros = |count: usize| vec![0.0; count * strands];
+        Scratch {
+            nodes: zeros(n),
+            sums: zeros(1),
+            planes: zeros(3 * n * rows),
+            forces: zeros(3 * n * rows),
+            rows: zeros(3 * n * n),
+            row: Row::new(&self.row, self.order),
+        }
+    }
+
+    /// As [`Self::apply`], without the instructions of a certain processor.
+    #[cfg(test)]
+    pub fn apply_plainly(&self, x: &[f64]) -> Vec<f64> {
+        let [columns, rows, _] = self.nodes();
+        let mut out = vec![0.0; x.len()];
+        for colour in 0..2 {
+            for (number, mut out) in self.layers(&mut out, columns * rows, colour) {
+                let layer = Layer { cause: Cause::Displacement, number, values: x, out: &mut out };
+                self.layer::<eight::Array>(layer, &mut self.scratch());
+            }
+        }
+        self.hold(&mut out, &Team::new(1));
+        out
+    }
+
+    fn add_layer(&self, layer: Layer, scratch: &mut Scratch) {
         #[cfg(target_arch = "x86_64")]
         {
             if is_x86_feature_detected!("avx512f") {
                 // SAFETY: the processor has what the function asks for.
-                return unsafe { self.layer_avx512(cause, layer, x, out, scratch) };
+                return unsafe { self.layer_avx512(layer, scratch) };
             }
             if is_x86_feature_detected!("avx2") {
                 // SAFETY: the processor has what the function asks for.
-                return unsafe { self.layer_avx2(cause, layer, x, out, scratch) };
+                return unsafe { self.layer_avx2(layer, scratch) };
             }
         }
-        self.layer(cause, layer, x, out, scratch);
+        self.layer::<eight::Array>(layer, scratch);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f")]
-    fn layer_avx512(
-        &self,
-        cause: Cause,
-        layer: usize,
-        x: &[f64],
-        out: &mut [&mut [f64]; 3],
-        scratch: &mut Scratch,
-    ) {
-        self.layer(cause, layer, x, out, scratch);
+    fn layer_avx512(&self, layer: Layer, scratch: &mut Scratch) {
+        self.layer::<eight::Avx512>(layer, scratch);
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn layer_avx2(
-        &self,
-        cause: Cause,
-        layer: usize,
-        x: &[f64],
-        out: &mut [&mut [f64]; 3],
-        scratch: &mut Scratch,
-    ) {
-        self.layer(cause, layer, x, out, scratch);
+    fn layer_avx2(&self, layer: Layer, scratch: &mut Scratch) {
+        self.layer::<eight::Array>(layer, scratch);
     }
 
     #[inline(always)]
-    fn layer(
-        &self,
-        cause: Cause,
-        layer: usize,
-        x: &[f64],
-        out: &mut [&mut [f64]; 3],
-        scratch: &mut Scratch,
-    ) {
-        for row in 0..self.lengths[1].len() {
-            match self.order {
-                1 => self.row::<2>(cause, [row, layer], x, out, scratch),
-                _ => self.row::<3>(cause, [row, layer], x, out, scratch),
-            }
+    fn layer<E: Eight>(&self, layer: Layer, scratch: &mut Scratch) {
+        match self.order {
+            1 => self.add_layer_forces::<E, 2>(layer, scratch),
+            _ => self.add_layer_forces::<E, 3>(layer, scratch),
         }
     }
 
-    /// Adds the forces of a row of elements along x; `N` nodes along an edge.
+    /// Adds the forces of a layer of elements; `N` nodes along an edge.
     #[inline(always)]
-    fn row<const N: usize>(
-        &self,
-        cause: Cause,
-        [row, layer]: [usize; 2],
-        x: &[f64],
-        out: &mut [&mut [f64]; 3],
-        scratch: &mut Scratch,
-    ) {
+    fn add_layer_forces<E: Eight, const N: usize>(&self, layer: Layer, scratch: &mut Scratch) {
+        let Layer { cause, number, values, out } = layer;
         let [columns, rows, _] = self.nodes();
         let (component, plane) = (self.nodes().iter().product::<usize>(), columns * rows);
-        let below = self.layering.layer_of(layer);
+        let below = self.layering.layer_of(number);
         // Of temperatures, nodes on interfaces are there twice.
         let (components, doubled) = match cause {
             Cause::Displacement => (3, 0),
             Cause::Temperature => (1, below),
         };
         let matrix = legendre(N - 1);
-        let Scratch { planes, coefficients, forces, strains, volumes } = scratch;
-        for (c, planes) in planes.chunks_exact_mut(N * N * columns).enumerate().take(components) {
-            planes.fill(0.0);
-            for d in 0..N {
-                for b in 0..N {
-                    let from = c * component
-                        + (layer * (N - 1) + d + doubled) * plane
-                        + (row * (N - 1) + b) * columns;
-                    let nodes = &x[from..from + columns];
-                    for lz in 0..N {
-                        for ly in 0..N {
-                            let weight = matrix[ly][b] * matrix[lz][d];
-                            let target = &mut planes[(ly + N * lz) * columns..][..columns];
-                            add(target, weight, nodes);
-                        }
-                    }
-                }
-            }
-        }
-        let elements = self.lengths[0].len();
-        let given = planes.chunks_exact(columns).take(components * N * N);
-        for (plane, coefficients) in given.zip(coefficients.chunks_exact_mut(N * elements)) {
-            to_elements::<N>(plane, coefficients, &matrix);
-        }
-        let across = [self.lengths[1][row], self.lengths[2][layer]];
-        for (volume, length) in volumes.iter_mut().zip(&self.lengths[0]) {
-            *volume = length * across[0] * across[1];
-        }
+        let (lengths, strand) = (&self.row, self.row.strand());
+        let strands = (N - 1) * strand;
+        let Scratch { nodes, sums, planes, forces, rows: polynomials, row } = scratch;
         forces.fill(0.0);
+        for c in 0..components {
+            let first = c * component + (number * (N - 1) + doubled) * plane;
+            for j in 0..rows {
+                for (d, nodes) in nodes.chunks_exact_mut(strands).enumerate() {
+                    let row = &values[first + d * plane + j * columns..][..columns];
+                    corners_first::<N>(row, nodes, strand);
+                }
+                for (l, weights) in matrix.iter().enumerate().take(N) {
+                    let target = &mut planes[((c * N + l) * rows + j) * strands..][..strands];
+                    let at = |d: usize| &nodes[d * strands..][..strands];
+                    combine::<N>(weights, std::array::from_fn(at), target);
+                }
+            }
+        }
         let (moduli, two_shear) = &self.moduli[below];
-        for moduli in moduli {
+        for element in 0..self.lengths[1].len() {
+            let first = element * (N - 1) * strands;
+            let layers = planes.chunks_exact(rows * strands).take(N * components);
+            for (plane, out) in layers.zip(polynomials.chunks_exact_mut(N * strands)) {
+                let at = |b: usize| &plane[first + b * strands..][..strands];
+                for (weights, out) in matrix.iter().zip(out.chunks_exact_mut(strands)) {
+                    combine::<N>(weights, std::array::from_fn(at), out);
+                }
+            }
+            row.read::<E, N>(lengths, &polynomials[..components * N * N * strands]);
+            let across = [self.lengths[1][element], self.lengths[2][number]];
+            let place = RowPlace { lengths, across, moduli, two_shear: *two_shear };
             match cause {
-                Cause::Displacement => {
-                    self.stresses::<N>(
-                        (moduli, *two_shear),
-                        coefficients,
-                        across,
-                        strains,
-                        volumes,
-                    );
-                }
-                Cause::Temperature => {
-                    thermal_stresses::<N>(moduli, coefficients, strains, volumes);
-                }
+                Cause::Displacement => row.stress::<E, N>(place),
+                Cause::Temperature => row.thermal_stress::<E, N>(place),
             }
-            deposit::<N>(moduli, forces, &self.lengths[0], across, strains);
-        }
-        for (plane, forces) in
-            planes.chunks_exact_mut(columns).zip(forces.chunks_exact(N * elements))
-        {
-            to_nodes::<N>(forces, plane, &matrix);
-        }
-        for (c, planes) in planes.chunks_exact(N * N * columns).enumerate() {
-            for d in 0..N {
-                for b in 0..N {
-                    let target =
-                        &mut out[c][d * plane + (row * (N - 1) + b) * columns..][..columns];
-                    for lz in 0..N {
-                        for ly in 0..N {
-                            let weight = matrix[ly][b] * matrix[lz][d];
-                            add(target, weight, &planes[(ly + N * lz) * columns..][..columns]);
-                        }
-                    }
+            row.write::<E, N>(lengths, polynomials);
+            let targets = forces.chunks_exact_mut(rows * strands);
+            for (plane, from) in targets.zip(polynomials.chunks_exact(N * strands)) {
+                let at = |l: usize| &from[l * strands..][..strands];
+                for (b, target) in plane[first..].chunks_exact_mut(strands).take(N).enumerate() {
+                    let weights = std::array::from_fn(|l| matrix[l][b]);
+                    add_combined::<N>(&weights, std::array::from_fn(at), target);
                 }
             }
         }
-    }
-
-    /// Stresses times volume of one product of polynomials: xx, yy, zz, xy, yz, xz.
-    #[inline(always)]
-    fn stresses<const N: usize>(
-        &self,
-        (moduli, two_shear): (&PolynomialModuli, f64),
-        coefficients: &[f64],
-        across: [f64; 2],
-        strains: &mut [Vec<f64>; 6],
-        volumes: &[f64],
-    ) {
-        let lengths = &self.lengths[0];
-        for strain in strains.iter_mut() {
-            strain.fill(0.0);
-        }
-        for component in 0..3 {
-            for axis in 0..3 {
-                let Some(place) = derived::<N>(moduli.degrees, component, axis) else { continue };
-                let source = &coefficients[place * lengths.len()..][..lengths.len()];
-                let target = &mut strains[strain_of(component, axis)];
-                slope(target, source, factor(moduli.degrees, axis), axis, lengths, across);
-            }
-        }
-        let [xx, yy, zz, shears @ ..] = strains;
-        let (lame, norm) = (moduli.lame, moduli.norm);
-        for (((xx, yy), zz), volume) in xx.iter_mut().zip(yy).zip(zz).zip(volumes) {
-            let pressure = lame * (*xx + *yy + *zz);
-            let weight = norm * volume;
-            *xx = weight * (two_shear * *xx + pressure);
-            *yy = weight * (two_shear * *yy + pressure);
-            *zz = weight * (two_shear * *zz + pressure);
-        }
-        for (shear, modulus) in shears.iter_mut().zip(moduli.shear) {
-            for (strain, volume) in shear.iter_mut().zip(volumes) {
-                *strain *= modulus * norm * volume;
+        for (out, planes) in out.iter_mut().zip(forces.chunks_exact(N * rows * strands)) {
+            for (d, plane) in out.chunks_exact_mut(plane).take(N).enumerate() {
+                let weights = [0, 1, 2].map(|l| matrix[l][d]);
+                for (j, target) in plane.chunks_exact_mut(columns).enumerate() {
+                    let at = |l: usize| &planes[(l * rows + j) * strands..][..strands];
+                    combine::<N>(&weights, std::array::from_fn(at), sums);
+                    add_in_order::<N>(sums, target, strand);
+                }
             }
         }
     }
@@ -391,131 +285,57 @@ impl BrickStiffness {
     }
 }
 
-impl Scratch {
-    fn new(order: usize, columns: usize, elements: usize) -> Self {
-        let n = order + 1;
-        let zeros = |rows: usize, length: usize| vec![0.0; rows * length];
-        Self {
-            planes: zeros(3 * n * n, columns),
-            coefficients: zeros(3 * n * n * n, elements),
-            forces: zeros(3 * n * n * n, elements),
-            strains: [(); 6].map(|()| zeros(1, elements)),
-            volumes: zeros(1, elements),
+/// `target = Σ_d weights_d sources_d`.
+#[inline(always)]
+fn combine<const N: usize>(weights: &[f64; 3], sources: [&[f64]; N], target: &mut [f64]) {
+    let sources = sources.map(|source| &source[..target.len()]);
+    for (i, target) in target.iter_mut().enumerate() {
+        let mut sum = 0.0;
+        for d in 0..N {
+            sum += weights[d] * sources[d][i];
         }
+        *target = sum;
     }
 }
 
-/// Stresses times volume that hold back the expansion of one product of polynomials.
+/// `target += Σ_d weights_d sources_d`.
 #[inline(always)]
-fn thermal_stresses<const N: usize>(
-    moduli: &PolynomialModuli,
-    coefficients: &[f64],
-    stresses: &mut [Vec<f64>; 6],
-    volumes: &[f64],
-) {
-    let [x, y, z] = moduli.degrees;
-    let temperatures = &coefficients[(x + N * (y + N * z)) * volumes.len()..][..volumes.len()];
-    let weight = moduli.norm * moduli.thermal;
-    for (component, stresses) in stresses.iter_mut().enumerate() {
-        // It is the same in all directions, without shear.
-        let weight = if component < 3 { weight } else { 0.0 };
-        for ((stress, temperature), volume) in stresses.iter_mut().zip(temperatures).zip(volumes) {
-            *stress = weight * volume * temperature;
+fn add_combined<const N: usize>(weights: &[f64; N], sources: [&[f64]; N], target: &mut [f64]) {
+    let sources = sources.map(|source| &source[..target.len()]);
+    for (i, target) in target.iter_mut().enumerate() {
+        let mut sum = *target;
+        for d in 0..N {
+            sum += weights[d] * sources[d][i];
         }
+        *target = sum;
     }
 }
 
-/// Index of a component of a symmetric tensor: xx, yy, zz, xy, yz, xz.
-pub fn strain_of(i: usize, j: usize) -> usize {
-    if i == j { i } else { [0, 3, 5, 4][i + j] }
-}
-
-/// Row of the coefficients of a component whose derivative along an axis has these degrees.
+/// A row of nodes with the corners of elements before the middles, which begin at `strand`.
 #[inline(always)]
-fn derived<const N: usize>(degrees: [usize; 3], component: usize, axis: usize) -> Option<usize> {
-    let mut from = degrees;
-    from[axis] += 1;
-    let [x, y, z] = from;
-    (from[axis] < N).then(|| x + N * (y + N * (z + N * component)))
-}
-
-/// `d/dξ` of `P_{l+1}` has the part `2l + 1` of `P_l`; that along an edge of length h is `2/h` times as large.
-fn factor(degrees: [usize; 3], axis: usize) -> f64 {
-    2.0 * (2 * degrees[axis] + 1) as f64
-}
-
-/// `target += factor/h source`.
-#[inline(always)]
-fn slope(
-    target: &mut [f64],
-    source: &[f64],
-    factor: f64,
-    axis: usize,
-    lengths: &[f64],
-    across: [f64; 2],
-) {
-    if axis == 0 {
-        for ((t, s), length) in target.iter_mut().zip(source).zip(lengths) {
-            *t += factor / length * s;
-        }
-    } else {
-        add(target, factor / across[axis - 1], source);
+fn corners_first<const N: usize>(nodes: &[f64], out: &mut [f64], strand: usize) {
+    if N == 2 {
+        return out[..nodes.len()].copy_from_slice(nodes);
     }
+    let (corners, middles) = out.split_at_mut(strand);
+    let (pairs, last) = nodes.as_chunks::<2>();
+    for ((pair, corner), middle) in pairs.iter().zip(&mut *corners).zip(middles) {
+        [*corner, *middle] = *pair;
+    }
+    corners[pairs.len()] = last[0];
 }
 
-/// Adds the forces that stresses put on the coefficients.
+/// The opposite of [`corners_first`], added to what is there.
 #[inline(always)]
-fn deposit<const N: usize>(
-    moduli: &PolynomialModuli,
-    forces: &mut [f64],
-    lengths: &[f64],
-    across: [f64; 2],
-    stresses: &[Vec<f64>; 6],
-) {
-    for component in 0..3 {
-        for axis in 0..3 {
-            let Some(place) = derived::<N>(moduli.degrees, component, axis) else { continue };
-            let target = &mut forces[place * lengths.len()..][..lengths.len()];
-            let stress = &stresses[strain_of(component, axis)];
-            slope(target, stress, factor(moduli.degrees, axis), axis, lengths, across);
-        }
+fn add_in_order<const N: usize>(row: &[f64], nodes: &mut [f64], strand: usize) {
+    if N == 2 {
+        return nodes.iter_mut().zip(row).for_each(|(node, value)| *node += value);
     }
-}
-
-/// `target += weight source`.
-#[inline(always)]
-fn add(target: &mut [f64], weight: f64, source: &[f64]) {
-    if weight != 0.0 {
-        target.iter_mut().zip(source).for_each(|(t, s)| *t += weight * s);
+    let (corners, middles) = row.split_at(strand);
+    let (pairs, last) = nodes.as_chunks_mut::<2>();
+    for ((pair, corner), middle) in pairs.iter_mut().zip(corners).zip(middles) {
+        pair[0] += corner;
+        pair[1] += middle;
     }
-}
-
-/// Legendre coefficients along x of every element, degree after degree.
-#[inline(always)]
-fn to_elements<const N: usize>(nodes: &[f64], out: &mut [f64], matrix: &[[f64; 3]; 3]) {
-    let elements = out.len() / N;
-    for (row, out) in matrix.iter().zip(out.chunks_exact_mut(elements)) {
-        for (e, value) in out.iter_mut().enumerate() {
-            let nodes: &[f64; N] = nodes[e * (N - 1)..][..N].try_into().expect("as many");
-            let mut sum = 0.0;
-            for a in 0..N {
-                sum += row[a] * nodes[a];
-            }
-            *value = sum;
-        }
-    }
-}
-
-/// The adjoint of [`to_elements`].
-#[inline(always)]
-fn to_nodes<const N: usize>(elements: &[f64], out: &mut [f64], matrix: &[[f64; 3]; 3]) {
-    out.fill(0.0);
-    let count = elements.len() / N;
-    for (row, elements) in matrix.iter().zip(elements.chunks_exact(count)) {
-        for (e, value) in elements.iter().enumerate() {
-            for a in 0..N {
-                out[e * (N - 1) + a] += row[a] * value;
-            }
-        }
-    }
+    last[0] += corners[pairs.len()];
 }

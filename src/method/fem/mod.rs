@@ -3,6 +3,8 @@
 pub mod assembly;
 pub mod axisymmetric;
 pub mod brick_inverse;
+mod brick_polynomials;
+mod brick_row;
 mod brick_solver;
 pub mod brick_stiffness;
 mod columns;

@@ -124,7 +124,7 @@ impl TangentSolver {
         if let Some(bricks) = &self.bricks {
             let layers = corrections(grid, bricks, iterate, team);
             let operator = Corrected { grid, bricks, layers: &layers, team };
-            if let Ok(found) = conjugate_gradients::solve(&operator, load, tolerance) {
+            if let Ok(found) = conjugate_gradients::solve(&operator, load, tolerance, team) {
                 return Ok(found);
             }
         }
