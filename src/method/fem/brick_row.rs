@@ -71,13 +71,13 @@ impl Row {
         for (nodes, out) in nodes.zip(self.coefficients.chunks_exact_mut(N * blocks)) {
             for b in 0..blocks {
                 let mut values = [E::splat(0.0); N];
-                for a in 0..N {
-                    values[a] = E::load(lanes(nodes, at::<N>(a, b, strand)));
+                for (a, value) in values.iter_mut().enumerate() {
+                    *value = E::load(lanes(nodes, at::<N>(a, b, strand)));
                 }
-                for l in 0..N {
-                    let mut sum = E::splat(matrix[l][0]) * values[0];
-                    for a in 1..N {
-                        sum = sum + E::splat(matrix[l][a]) * values[a];
+                for (l, weights) in matrix.iter().enumerate().take(N) {
+                    let mut sum = E::splat(weights[0]) * values[0];
+                    for (weight, value) in weights.iter().zip(&values).skip(1) {
+                        sum = sum + E::splat(*weight) * *value;
                     }
                     sum.store(&mut out[l * blocks + b]);
                 }
@@ -95,14 +95,14 @@ impl Row {
         for (nodes, forces) in nodes.zip(self.forces.chunks_exact(N * blocks)) {
             for b in 0..blocks {
                 let mut values = [E::splat(0.0); N];
-                for l in 0..N {
-                    values[l] = E::load(&forces[l * blocks + b]);
+                for (l, value) in values.iter_mut().enumerate() {
+                    *value = E::load(&forces[l * blocks + b]);
                 }
                 for a in 0..N {
                     let nodes = lanes_mut(nodes, at::<N>(a, b, strand));
                     let mut sum = E::load(nodes);
-                    for l in 0..N {
-                        sum = sum + E::splat(matrix[l][a]) * values[l];
+                    for (weights, value) in matrix.iter().zip(&values) {
+                        sum = sum + E::splat(weights[a]) * *value;
                     }
                     sum.store(nodes);
                 }
@@ -232,12 +232,12 @@ impl<const N: usize> Slopes<N> {
         inverse: E,
     ) -> [[E; 3]; 3] {
         let mut gradient = [[E::splat(0.0); 3]; 3];
-        for axis in 0..3 {
+        for (axis, gradient) in gradient.iter_mut().enumerate() {
             if let Some(along) = &self.along[axis] {
                 let slope = along.slope(axis, inverse);
-                for component in 0..3 {
+                for (component, derivative) in gradient.iter_mut().enumerate() {
                     let place = along.place(block, component);
-                    gradient[axis][component] = slope * E::load(&coefficients[place]);
+                    *derivative = slope * E::load(&coefficients[place]);
                 }
             }
         }
@@ -254,12 +254,12 @@ impl<const N: usize> Slopes<N> {
         ([xx, yy, zz], [xy, yz, xz]): ([E; 3], [E; 3]),
     ) {
         let stresses = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-        for axis in 0..3 {
+        for (axis, stresses) in stresses.iter().enumerate() {
             if let Some(along) = &self.along[axis] {
                 let slope = along.slope(axis, inverse);
-                for component in 0..3 {
+                for (component, stress) in stresses.iter().enumerate() {
                     let force = &mut forces[along.place(block, component)];
-                    (E::load(force) + slope * stresses[axis][component]).store(force);
+                    (E::load(force) + slope * *stress).store(force);
                 }
             }
         }

@@ -270,7 +270,7 @@ mod tests {
 
     #[test]
     fn numbers_beyond_single_precision_are_taken_in_double() {
-        for (finest, single) in [(1e-9, false), (1e-2, true)] {
+        for (finest, single) in [(1e-9_f64, false), (1e-2, true)] {
             let law = Thermoelastic { young: 2e11, poisson: 0.3, expansion: 1e-5 };
             let mut mesh = graded(2, [4, 4, 3], 1.0);
             let ends = [0.0, finest, (1e3 * finest).sqrt(), 1e3];
