@@ -11,6 +11,7 @@ mod wendland_c4;
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Sub};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use cubic_spline::CubicSpline;
@@ -81,7 +82,7 @@ pub trait Shape {
 }
 
 /// A kernel by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Kernel {
     /// Also called Wendland's quintic: smooth, cheap and without clumping.
