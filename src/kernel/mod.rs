@@ -88,8 +88,11 @@ pub enum Kernel {
     /// Also called Wendland's quintic: smooth, cheap and without clumping.
     #[default]
     WendlandC2,
+    /// Wendland's kernel of the next order of smoothness.
     WendlandC4,
+    /// The cubic B-spline.
     CubicSpline,
+    /// The quintic B-spline.
     QuinticSpline,
 }
 

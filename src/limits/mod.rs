@@ -231,6 +231,16 @@ impl Limits {
     }
 }
 
+/// The keys that a table may have, where they all take the same.
+#[derive(Debug, Clone, Copy)]
+pub struct Keys<const N: usize>(pub [&'static str; N]);
+
+impl<const N: usize> Transform for Keys<N> {
+    fn transform(&mut self, schema: &mut Schema) {
+        schema.insert("propertyNames".into(), json!({ "enum": self.0.as_slice() }));
+    }
+}
+
 /// Says what the key means that chooses among the alternatives of a schema.
 #[derive(Debug, Clone, Copy)]
 pub struct Tag {

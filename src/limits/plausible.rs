@@ -18,7 +18,7 @@ pub struct Range<'a> {
     pub lowest: f64,
     pub highest: f64,
     /// Units that people write values in by mistake.
-    #[serde(borrow)]
+    #[serde(borrow, default, skip_serializing_if = "<[_]>::is_empty")]
     pub mistakes: Cow<'a, [Mistake<'a>]>,
 }
 
@@ -27,7 +27,12 @@ pub struct Range<'a> {
 pub struct Mistake<'a> {
     pub unit: &'a str,
     pub factor: f64,
+    #[serde(default, skip_serializing_if = "is_zero")]
     pub offset: f64,
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
 }
 
 type Mistakes = Cow<'static, [Mistake<'static>]>;

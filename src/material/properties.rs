@@ -28,6 +28,7 @@ pub struct Properties {
     #[schemars(transform = within(-1.0 + POISSON_MARGIN, 0.5 - POISSON_MARGIN, "1", "")
         .low("Poisson's ratio must stay above minus one", "-1 < poisson < 0.5")
         .high("Poisson's ratio must stay below one half", "-1 < poisson < 0.5")
+        .condition("without these ends")
         .otherwise(NO_STRESS))]
     pub poisson: Option<Property>,
     /// Mean coefficient of linear thermal expansion α from the temperature without stress [1/K].

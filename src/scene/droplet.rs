@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::types::{CellValues, Footprint};
+use super::types::{CellValues, Footprint, IDENTIFIER};
 use crate::kernel::Kernel;
 use crate::limits::{above_zero, length, own_temperature, plausible, whole, within};
 
@@ -104,7 +104,9 @@ pub enum DropletSymmetry {
     /// A quarter, or half of a plane model, where all drops arrive at the origin on a lattice.
     #[default]
     Auto,
+    /// The whole of all drops.
     None,
+    /// A quarter; drops must arrive at the origin.
     Quarter,
 }
 
@@ -161,8 +163,10 @@ pub enum Placement {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Precision {
+    /// 32 bits.
     #[default]
     Single,
+    /// 64 bits.
     Double,
 }
 
@@ -189,7 +193,7 @@ pub struct Arrival {
 #[serde(deny_unknown_fields)]
 pub struct Wall {
     /// First part of the variables' names.
-    #[schemars(extend("condition" = "as that of the scene"))]
+    #[schemars(extend("pattern" = IDENTIFIER, "condition" = "as that of the scene"))]
     pub name: String,
     /// The droplet.
     #[schemars(extend("condition" = "a droplet without coupling"))]
@@ -233,7 +237,7 @@ pub struct Coupling {
     pub to: String,
     /// Heat flux over the difference of temperatures [W/(m² K)], of solids alone.
     #[schemars(transform = within(1e-12, 1e15, "W/(m² K)", "the conductance of the contact")
-        .otherwise("a droplet"))]
+        .otherwise("none below a droplet, needed between solids"))]
     pub conductance: Option<f64>,
     /// Whether pressure and shear of a droplet load the solid.
     #[serde(default = "yes")]

@@ -30,10 +30,11 @@ pub use grid::{Grid, lateral_extents};
 pub use lookup::Place;
 pub use materials::{MaterialChoice, Stratum};
 pub use plausibility::{Measure, Warning, doubt_of_input};
-pub use schema::{SECTIONS, Schema, table};
+pub use schema::{SCHEMA, derived_schema};
 pub use types::*;
 
 use locate::Source;
+use schema::Schema;
 
 /// Reads and checks the scene in a file.
 pub fn read(path: &Path) -> Result<Scene, SceneError> {

@@ -7,17 +7,20 @@ use super::droplet::{Coupling, Droplet, Wall};
 use super::materials::MaterialChoice;
 use crate::kernel::Kernel;
 use crate::limits::{
-    above_zero, any, count, length, not_negative, own_temperature, plausible, tag, temperature,
-    time, whole, within,
+    Keys, above_zero, any, count, length, not_negative, own_temperature, plausible, tag,
+    temperature, time, whole, within,
 };
 use crate::material::Material;
+
+/// The names of variables begin with those of scenes.
+pub(super) const IDENTIFIER: &str = "^[A-Za-z_][A-Za-z0-9_]*$";
 
 /// Everything that a `scene.toml` says.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Name of the model and of its folder `out/NAME`; a C identifier.
-    #[schemars(extend("condition" = "letters, digits and `_`, no digit first"))]
+    #[schemars(extend("pattern" = IDENTIFIER, "condition" = "letters, digits and `_`, no digit first"))]
     pub name: String,
     /// One line for people.
     #[serde(default)]
@@ -36,7 +39,7 @@ pub struct Scene {
     #[serde(default)]
     pub material: BTreeMap<String, Material>,
     /// Tables `[body.NAME]`, each a solid or a droplet.
-    #[schemars(extend("condition" = "at least one"))]
+    #[schemars(extend("minProperties" = 1, "condition" = "at least one"))]
     pub body: BTreeMap<String, Body>,
     /// Tables `[[load]]`: loads on faces, whose amounts become inputs.
     #[serde(default)]
@@ -132,7 +135,10 @@ pub struct Solid {
     pub mesh: Mesh,
     /// Conditions on faces, see below.
     #[serde(default)]
-    #[schemars(extend("otherwise" = "insulated and free"))]
+    #[schemars(
+        extend("otherwise" = "insulated and free"),
+        transform = Keys(FaceName::ALL.map(FaceName::as_str))
+    )]
     pub faces: BTreeMap<FaceName, Face>,
 }
 
@@ -351,7 +357,7 @@ pub struct Radiation {
 #[serde(deny_unknown_fields)]
 pub struct Load {
     /// First part of the inputs' names.
-    #[schemars(extend("condition" = "as that of the scene"))]
+    #[schemars(extend("pattern" = IDENTIFIER, "condition" = "as that of the scene"))]
     pub name: String,
     /// The face, `BODY.FACE`.
     #[schemars(extend("condition" = "`top` or `bottom` of a solid"))]
@@ -518,7 +524,7 @@ pub struct LoadRange {
 #[serde(deny_unknown_fields)]
 pub struct Probe {
     /// First part of the outputs' names.
-    #[schemars(extend("condition" = "as that of the scene"))]
+    #[schemars(extend("pattern" = IDENTIFIER, "condition" = "as that of the scene"))]
     pub name: String,
     /// The body.
     #[serde(rename = "in")]
@@ -539,8 +545,10 @@ pub struct Probe {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
+    /// The side of the layer above.
     #[default]
     Above,
+    /// The side of the layer below.
     Below,
 }
 
@@ -549,7 +557,7 @@ pub enum Side {
 #[serde(deny_unknown_fields)]
 pub struct Field {
     /// First part of the outputs' names.
-    #[schemars(extend("condition" = "as that of the scene"))]
+    #[schemars(extend("pattern" = IDENTIFIER, "condition" = "as that of the scene"))]
     pub name: String,
     /// The face, `BODY.FACE`.
     #[schemars(extend("condition" = "a plane face", "otherwise" = "`in` and `plane`"))]
@@ -562,7 +570,7 @@ pub struct Field {
     #[schemars(transform = any("m").condition("through the body").otherwise("`on`"))]
     pub plane: Option<Plane>,
     /// Number of points along the two axes of the face or section.
-    #[schemars(transform = count().condition("each"))]
+    #[schemars(transform = count())]
     pub grid: [usize; 2],
     /// Extent of the grid along its axes [m], centred.
     #[schemars(transform = length("the extent of a grid").otherwise("the whole").condition("up to the whole"))]
@@ -584,9 +592,11 @@ pub enum Plane {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Gives {
+    /// Temperature [K].
     Temperature,
     /// The six components of the stress tensor and its von Mises value.
     Stress,
+    /// The von Mises stress.
     VonMises,
     /// The largest principal stress, which opens cracks in brittle solids.
     MaxPrincipal,

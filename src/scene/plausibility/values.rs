@@ -8,13 +8,13 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
     let is_cryogenic = is_cryogenic(reviewer.scene);
     let copies = reviewer.scene.copied_materials();
     let mut doubted_list = None;
-    schema.numbers(reviewer.source, &mut |place, number, value| {
+    schema.numbers(reviewer.source, &mut |place, limits, value| {
         // Of a list, the first number that is out of range: the others are hardly better.
         let is_said = place.list().is_some() && place.list() == doubted_list;
-        if number.is_usual(value) || is_said {
+        if limits.is_usual(value) || is_said {
             return;
         }
-        let Some(message) = number.plausible(is_cryogenic).and_then(|range| doubt(&range, value))
+        let Some(message) = limits.plausible(is_cryogenic).and_then(|range| doubt(&range, value))
         else {
             return;
         };

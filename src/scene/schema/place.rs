@@ -4,9 +4,9 @@ use crate::scene::locate::Path;
 #[derive(Default)]
 pub struct Place<'v> {
     steps: Vec<Step<'v>>,
-    /// Lists of any length that the walk has come to, and the depth of the one that it is in.
+    /// Lists of any length that the walk has come to, and whether it is in the last of them.
     lists: usize,
-    list_depth: Option<usize>,
+    is_in_list: bool,
 }
 
 enum Step<'v> {
@@ -22,18 +22,9 @@ impl<'v> Place<'v> {
         })
     }
 
-    /// The key of the value, or of the list that it is in.
-    pub fn key(&self) -> &str {
-        let keys = self.steps.iter().rev().filter_map(|step| match step {
-            Step::Key(key) => Some(*key),
-            Step::Index(_) => None,
-        });
-        keys.into_iter().next().unwrap_or_default()
-    }
-
     /// The number, counted from 1, of the outermost list of any length of numbers that the value is in.
     pub fn list(&self) -> Option<usize> {
-        self.list_depth.map(|_| self.lists)
+        self.is_in_list.then_some(self.lists)
     }
 
     pub(super) fn at_key(&mut self, key: &'v str, then: impl FnOnce(&mut Self)) {
@@ -52,14 +43,14 @@ impl<'v> Place<'v> {
 
     /// Goes through a list of any length of numbers, or of lists of these.
     pub(super) fn in_list(&mut self, then: impl FnOnce(&mut Self)) {
-        let is_outermost = self.list_depth.is_none();
+        let is_outermost = !self.is_in_list;
         if is_outermost {
-            self.list_depth = Some(self.steps.len());
+            self.is_in_list = true;
             self.lists += 1;
         }
         then(self);
         if is_outermost {
-            self.list_depth = None;
+            self.is_in_list = false;
         }
     }
 }

@@ -1,10 +1,9 @@
 //! Finds every number of a scene together with what the schema says of it.
 
-use serde_json::Value;
 use toml::de::{DeTable, DeValue};
 
-use super::{Number, Place, Schema, choices, of_key};
-use crate::limits::is_number;
+use super::node::Node;
+use super::{Limits, Place, Schema};
 use crate::scene::locate::Source;
 
 impl Schema {
@@ -12,24 +11,22 @@ impl Schema {
     pub fn numbers<'s, 'v>(
         &'s self,
         source: &'v Source<'v>,
-        visit: &mut dyn FnMut(&Place<'v>, &Number<'s>, f64),
+        visit: &mut dyn FnMut(&Place<'v>, &'s Limits<'static>, f64),
     ) {
         Walk { schema: self, visit }.value(&mut Place::default(), &self.root, source.root());
     }
 
-    /// Whether a value is of the kind that the schema is of, without a look at what is in it.
-    fn fits(&self, schema: &Value, value: &DeValue) -> bool {
-        let schema = self.resolved(schema);
-        if let Some(list) = choices(schema) {
-            return list.iter().any(|choice| self.fits(choice, value));
+    /// Whether a value is of the kind that the schema is of, without a look at all that is in it.
+    fn fits(&self, node: &Node<'static>, value: &DeValue) -> bool {
+        let node = self.resolved(node);
+        if !node.choices.is_empty() {
+            return node.choices.iter().any(|choice| self.fits(choice, value));
         }
-        match (schema.get("type").and_then(Value::as_str), value) {
-            (Some("object"), DeValue::Table(_)) => is_table(schema, value),
+        match (node.kind, value) {
+            (Some("object"), DeValue::Table(_)) => is_table(node, value),
             (Some("array"), DeValue::Array(list)) => {
-                let items = schema.get("items");
-                list.first()
-                    .zip(items)
-                    .is_none_or(|(first, items)| self.fits(items, first.get_ref()))
+                let first = list.first().zip(node.items.as_deref());
+                first.is_none_or(|(first, items)| self.fits(items, first.get_ref()))
             }
             (Some("number"), DeValue::Float(_) | DeValue::Integer(_)) => true,
             (Some("integer"), DeValue::Integer(_)) => true,
@@ -41,38 +38,45 @@ impl Schema {
 }
 
 /// Whether a table has the keys that it must have, and says what it must say.
-fn is_table(schema: &Value, table: &DeValue) -> bool {
-    let required = schema.get("required").and_then(Value::as_array);
-    required.into_iter().flatten().filter_map(Value::as_str).all(|key| {
-        let Some(value) = table.get(key) else { return false };
-        let said = of_key(schema, key).and_then(|own| own.get("const")).and_then(Value::as_str);
+fn is_table(node: &Node, table: &DeValue) -> bool {
+    node.required.iter().all(|key| {
+        let Some(value) = table.get(*key) else { return false };
+        let said = node.of_key(key).and_then(|own| own.constant);
         said.is_none_or(|said| value.get_ref().as_str() == Some(said))
     })
 }
 
 struct Walk<'w, 's, 'v> {
     schema: &'s Schema,
-    visit: &'w mut dyn FnMut(&Place<'v>, &Number<'s>, f64),
+    visit: &'w mut dyn FnMut(&Place<'v>, &'s Limits<'static>, f64),
 }
 
 impl<'s, 'v> Walk<'_, 's, 'v> {
-    fn value(&mut self, place: &mut Place<'v>, schema: &'s Value, value: &'v DeValue<'v>) {
-        let schema = self.schema.resolved(schema);
-        if let Some(list) = choices(schema) {
-            let chosen = list.iter().find(|choice| self.schema.fits(choice, value));
+    fn value(&mut self, place: &mut Place<'v>, node: &'s Node<'static>, value: &'v DeValue<'v>) {
+        let node = self.schema.resolved(node);
+        if !node.choices.is_empty() {
+            let chosen = node.choices.iter().find(|choice| self.schema.fits(choice, value));
             chosen.into_iter().for_each(|choice| self.value(place, choice, value));
             return;
         }
         match value {
-            DeValue::Table(table) => self.table(place, schema, table),
-            DeValue::Array(list) => self.list(place, schema, list),
-            _ => self.number(place, schema, value),
+            DeValue::Table(table) => self.table(place, node, table),
+            DeValue::Array(list) => self.list(place, node, list),
+            DeValue::Float(float) if node.is_number() => {
+                let value = float.as_str().parse().ok();
+                value.into_iter().for_each(|value| (self.visit)(place, &node.limits, value));
+            }
+            DeValue::Integer(integer) if node.is_number() => {
+                let value = i64::from_str_radix(integer.as_str(), integer.radix()).ok();
+                value.into_iter().for_each(|value| (self.visit)(place, &node.limits, value as f64));
+            }
+            _ => {}
         }
     }
 
-    fn table(&mut self, place: &mut Place<'v>, schema: &'s Value, table: &'v DeTable<'v>) {
+    fn table(&mut self, place: &mut Place<'v>, node: &'s Node<'static>, table: &'v DeTable<'v>) {
         for (key, value) in table {
-            if let Some(own) = of_key(schema, key.get_ref()) {
+            if let Some(own) = node.of_key(key.get_ref()) {
                 place.at_key(key.get_ref(), |place| self.value(place, own, value.get_ref()));
             }
         }
@@ -81,44 +85,21 @@ impl<'s, 'v> Walk<'_, 's, 'v> {
     fn list(
         &mut self,
         place: &mut Place<'v>,
-        schema: &'s Value,
+        node: &'s Node<'static>,
         list: &'v [toml::Spanned<DeValue<'v>>],
     ) {
-        let Some(items) = schema.get("items") else { return };
+        let Some(items) = node.items.as_deref() else { return };
         let items = self.schema.resolved(items);
-        let is_any_length =
-            schema.get("minItems") != schema.get("maxItems") || schema.get("minItems").is_none();
-        let number = items.as_object().filter(|items| is_number(items)).map(Number::new);
+        let holds_numbers = items.is_number() || items.items.is_some();
         let mut elements = |place: &mut Place<'v>| {
             for (i, element) in list.iter().enumerate() {
-                place.at_index(i, |place| match &number {
-                    Some(number) => self.visit_number(place, number, element.get_ref()),
-                    None => self.value(place, items, element.get_ref()),
-                });
+                place.at_index(i, |place| self.value(place, items, element.get_ref()));
             }
         };
-        if is_any_length && (number.is_some() || items.get("items").is_some()) {
+        if node.is_of_any_length() && holds_numbers {
             place.in_list(elements);
         } else {
             elements(place);
         }
-    }
-
-    fn number(&mut self, place: &mut Place<'v>, schema: &'s Value, value: &'v DeValue<'v>) {
-        if let Some(keywords) = schema.as_object().filter(|keywords| is_number(keywords)) {
-            self.visit_number(place, &Number::new(keywords), value);
-        }
-    }
-
-    fn visit_number(&mut self, place: &Place<'v>, number: &Number<'s>, value: &DeValue) {
-        let value = match value {
-            DeValue::Float(float) => float.as_str().parse().ok(),
-            DeValue::Integer(integer) => {
-                let parsed = i64::from_str_radix(integer.as_str(), integer.radix()).ok();
-                parsed.map(|integer| integer as f64)
-            }
-            _ => None,
-        };
-        value.into_iter().for_each(|value| (self.visit)(place, number, value));
     }
 }

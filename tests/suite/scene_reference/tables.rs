@@ -1,10 +1,7 @@
-//! The schema as tables for people: a row for each key.
+//! The schema of scenes as tables for people: a row for each key.
 
+use impinge::limits::keyword;
 use serde_json::Value;
-
-use super::{Schema, choices};
-use crate::limits::keyword;
-use crate::scene::check::number;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
 pub const SECTIONS: [(&str, &str); 26] = [
@@ -36,9 +33,9 @@ pub const SECTIONS: [(&str, &str); 26] = [
     ("`[[coupling]]`", "/$defs/Coupling"),
 ];
 
-/// The keys of the table that stands at `pointer` in the schema, as Markdown; empty where there is none.
-pub fn table(schema: &Schema, pointer: &str) -> String {
-    let Some(table) = schema.json().pointer(pointer) else { return String::new() };
+/// The keys of the table that stands at `pointer` in the schema, as Markdown.
+pub fn table(schema: &Value, pointer: &str) -> String {
+    let table = schema.pointer(pointer).unwrap_or_else(|| panic!("no {pointer}"));
     let mut text =
         String::from("| key | unit | meaning | default | allowed |\n|---|---|---|---|---|\n");
     for row in rows(schema, table) {
@@ -77,7 +74,7 @@ fn spaced(cell: &str) -> String {
 }
 
 /// The rows of a table; where several tables are alternatives, of all their keys, each once.
-fn rows<'s>(schema: &'s Schema, table: &'s Value) -> Vec<Row<'s>> {
+fn rows<'s>(schema: &'s Value, table: &'s Value) -> Vec<Row<'s>> {
     let mut rows: Vec<Row> = Vec::new();
     let alone = std::slice::from_ref(table);
     for alternative in choices(table).map_or(alone, Vec::as_slice) {
@@ -106,7 +103,7 @@ impl Row<'_> {
 }
 
 fn row<'s>(
-    schema: &'s Schema,
+    schema: &'s Value,
     table: &'s Value,
     (key, own): (&'s str, &'s Value),
     around: &'s Value,
@@ -145,10 +142,10 @@ fn shown(value: &Value) -> String {
 }
 
 /// What the schema of a key allows: names, or bounds of numbers.
-fn values(schema: &Schema, own: &Value) -> Vec<String> {
-    let resolved = schema.resolved(own);
+fn values(schema: &Value, own: &Value) -> Vec<String> {
+    let resolved = resolved(schema, own);
     if let Some(list) = choices(resolved) {
-        let all = list.iter().filter(|choice| is_plain(schema.resolved(choice)));
+        let all = list.iter().filter(|choice| is_plain(resolved(schema, choice)));
         let mut found: Vec<String> = Vec::new();
         for value in all.flat_map(|choice| values(schema, choice)) {
             if !found.contains(&value) {
@@ -163,12 +160,39 @@ fn values(schema: &Schema, own: &Value) -> Vec<String> {
     match resolved.get("type").and_then(Value::as_str) {
         Some("boolean") => found = vec!["true".to_owned(), "false".to_owned()],
         Some("array") => {
-            found.extend(resolved.get("items").into_iter().flat_map(|items| values(schema, items)))
+            found.extend(lengths(resolved));
+            let items = resolved.get("items");
+            found.extend(items.into_iter().flat_map(|items| values(schema, items)));
         }
         Some("number" | "integer") => found.extend(bounds(resolved)),
         _ => {}
     }
     found
+}
+
+/// How long a list may be, where it may have several lengths but not any.
+fn lengths(schema: &Value) -> Option<String> {
+    let [least, most] = ["minItems", "maxItems"].map(|key| schema.get(key).and_then(Value::as_u64));
+    let [least, most] = [least?, most?];
+    (least != most).then(|| format!("{least} to {most}"))
+}
+
+/// The schema that a reference leads to, or the schema itself.
+fn resolved<'s>(schema: &'s Value, part: &'s Value) -> &'s Value {
+    let reference = part.get("$ref").and_then(Value::as_str);
+    reference.map_or(part, |reference| &schema.pointer(&reference[1..]).unwrap())
+}
+
+/// The schemas of which a value must follow one.
+fn choices(schema: &Value) -> Option<&Vec<Value>> {
+    schema.get("oneOf").or_else(|| schema.get("anyOf"))?.as_array()
+}
+
+/// A number with six digits, as people write it.
+fn number(value: f64) -> String {
+    let rounded: f64 = format!("{value:.5e}").parse().unwrap();
+    let is_short = rounded == 0.0 || (1e-3..1e4).contains(&rounded.abs());
+    if is_short { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 /// Whether a schema is that of a name, a number or a list.
