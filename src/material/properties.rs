@@ -36,7 +36,7 @@ pub struct Properties {
         .plausible(&plausible::EXPANSION)
         .otherwise(NO_STRESS))]
     pub expansion: Option<Property>,
-    /// What melting takes, see below.
+    /// What melting takes.
     #[schemars(extend("otherwise" = "does not melt"))]
     pub melting: Option<Melting>,
     /// Stress at which the body yields (von Mises) [Pa]; of `elastoplastic`.

@@ -34,7 +34,7 @@ pub struct Droplet {
     #[schemars(transform = within(1e-10, 1e1, "m", "the distance of particles")
         .condition("up to a sixth of the diameter, at most 2e7 particles"))]
     pub spacing: f64,
-    /// What the drops are made of; table, see below.
+    /// What the drops are made of.
     pub fluid: Fluid,
     /// 3, or 2 for a plane model in x and z, of which all is told per metre of depth.
     #[serde(default = "three")]
@@ -80,7 +80,7 @@ pub struct Droplet {
     #[serde(default)]
     #[schemars(extend("otherwise" = "true from a Weber number of 1000 on, or without tension"))]
     pub shifting: Option<bool>,
-    /// A copy of the drop for each entry of the list, see below.
+    /// A copy of the drop for each entry of the list.
     #[serde(default = "one_arrival")]
     #[schemars(
         length(min = 1),
@@ -198,7 +198,7 @@ pub struct Wall {
     /// The droplet.
     #[schemars(extend("condition" = "a droplet without coupling"))]
     pub under: String,
-    /// Cells of the wall, see above, centred on the origin.
+    /// Cells of the wall, centred on the origin.
     #[schemars(extend("condition" = "`rings` (drops at the centre), `tiles`"))]
     pub footprint: Footprint,
     /// √(kρc) of the solid that a master couples [W √s/(m² K)], which bounds the heat of first contact by what the
@@ -208,7 +208,7 @@ pub struct Wall {
         .low("the effusivity √(kρc) of what lies below is positive", "> 0 (W √s/(m² K))")
         .otherwise("none: the wall is held at its temperature"))]
     pub effusivity: Option<f64>,
-    /// Start values, see below.
+    /// Start values.
     #[serde(default)]
     #[schemars(extend("otherwise" = ""))]
     pub start: WallStart,

@@ -35,7 +35,7 @@ pub struct Scene {
     /// How the unit's variables are named: `a.b[1,2]` or `a_b_1_2`.
     #[serde(default)]
     pub naming: Naming,
-    /// Tables `[material.NAME]`, with the keys of [`material`](#material-of-a-solid), that solids and layers name.
+    /// Tables `[material.NAME]` that solids and layers name.
     #[serde(default)]
     pub material: BTreeMap<String, Material>,
     /// Tables `[body.NAME]`, each a solid or a droplet.
@@ -56,11 +56,11 @@ pub struct Scene {
     /// Tables `[[coupling]]`: droplets on solids of the same scene, and solids on solids.
     #[serde(default)]
     pub coupling: Vec<Coupling>,
-    /// How much model the scene wants; table, see below.
+    /// How much model the scene wants.
     #[serde(default)]
     #[schemars(extend("otherwise" = ""))]
     pub fidelity: Fidelity,
-    /// Settings of the solver; table, see below.
+    /// Settings of the solver.
     #[serde(default)]
     #[schemars(extend("otherwise" = ""))]
     pub solver: Solver,
@@ -102,12 +102,12 @@ pub enum Body {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Solid {
-    /// `{ box = [LX, LY, LZ] }` or `{ disc = { radius = R, thickness = T } }`, see below.
+    /// `{ box = [LX, LY, LZ] }` or `{ disc = { radius = R, thickness = T } }`.
     pub shape: Shape,
-    /// What the body is made of: table, see below, or the name of a `[material.NAME]`.
+    /// What the body is made of: a table, or the name of a `[material.NAME]`.
     #[schemars(extend("otherwise" = "`layers`"))]
     pub material: Option<MaterialChoice>,
-    /// Layers from the top, see below, instead of `material`.
+    /// Layers from the top, instead of `material`.
     #[schemars(
         length(min = 1, max = 100),
         extend("condition" = "as thick together as the shape (relative 1e-9)", "otherwise" = "one material")
@@ -122,18 +122,18 @@ pub struct Solid {
     /// What conducts the heat: finite elements or particles.
     #[serde(default)]
     pub heat: HeatMethod,
-    /// How particles conduct heat, see below.
+    /// How particles conduct heat.
     #[schemars(extend("condition" = "with `heat = \"sph\"` only"))]
     pub sph: Option<SphSettings>,
     /// Part of the body that is meshed; no load is neglected.
     #[serde(default)]
     #[schemars(extend("condition" = "a box is not `axisymmetric`, a disc is"))]
     pub symmetry: Symmetry,
-    /// The mesh; table, see below.
+    /// The mesh.
     #[serde(default)]
     #[schemars(extend("otherwise" = "chosen"))]
     pub mesh: Mesh,
-    /// Conditions on faces, see below.
+    /// Conditions on faces.
     #[serde(default)]
     #[schemars(
         extend("otherwise" = "insulated and free"),
@@ -314,10 +314,10 @@ pub struct Face {
     /// Uniform heat flux into the body [W/m²]; an input.
     #[schemars(transform = any("W/m²").plausible(&plausible::HEAT_FLUX).otherwise("insulated"))]
     pub flux: Option<f64>,
-    /// Heat flux by what flows by; table, see below.
+    /// Heat flux by what flows by.
     #[schemars(extend("otherwise" = "insulated"))]
     pub convection: Option<Convection>,
-    /// Heat flux by radiation, beside `flux` or `convection`, or alone; table, see below.
+    /// Heat flux by radiation, beside `flux` or `convection`, or alone.
     pub radiation: Option<Radiation>,
     /// No displacement at all.
     #[serde(default)]
@@ -362,17 +362,17 @@ pub struct Load {
     /// The face, `BODY.FACE`.
     #[schemars(extend("condition" = "`top` or `bottom` of a solid"))]
     pub on: String,
-    /// Where it acts, see below.
+    /// Where it acts.
     #[schemars(extend("condition" = "on its face"))]
     pub footprint: Footprint,
     /// List of what it brings.
-    #[schemars(length(min = 1))]
+    #[schemars(length(min = 1), extend("uniqueItems" = true))]
     pub carries: Vec<Carries>,
-    /// Start values of the inputs, see below.
+    /// Start values of the inputs.
     #[serde(default)]
     #[schemars(extend("otherwise" = "zero, at the centre"))]
     pub start: LoadStart,
-    /// Bounds of the inputs that move the footprint, see below; the mesh is fine wherever they let it go.
+    /// Bounds of the inputs that move the footprint; the mesh is fine wherever they let it go.
     #[serde(default)]
     #[schemars(extend("otherwise" = "where it starts"))]
     pub range: LoadRange,
@@ -537,7 +537,7 @@ pub struct Probe {
     #[schemars(extend("otherwise" = "`above`", "condition" = "at an interface only"))]
     pub side: Option<Side>,
     /// List of outputs.
-    #[schemars(length(min = 1))]
+    #[schemars(length(min = 1), extend("uniqueItems" = true))]
     pub gives: Vec<Gives>,
 }
 
@@ -576,7 +576,7 @@ pub struct Field {
     #[schemars(transform = length("the extent of a grid").otherwise("the whole").condition("up to the whole"))]
     pub size: Option<[f64; 2]>,
     /// List of outputs.
-    #[schemars(length(min = 1))]
+    #[schemars(length(min = 1), extend("uniqueItems" = true))]
     pub gives: Vec<Gives>,
 }
 

@@ -142,8 +142,10 @@ fn descriptions_name_the_units_of_their_keys() {
     fn look(schema: &Value, wrong: &mut Vec<String>) {
         let text = |key: &str| schema.get(key).and_then(Value::as_str);
         if let (Some(unit), Some(description)) = (text("unit"), text("description")) {
-            let named = description.split(" [").skip(1).filter_map(|rest| rest.split_once(']'));
-            if named.into_iter().any(|(named, _)| named != unit) {
+            // What stands between backticks is code.
+            let words: String = description.split('`').step_by(2).collect();
+            let mut named = words.split(" [").skip(1).filter_map(|rest| rest.split_once(']'));
+            if named.any(|(named, _)| named != unit) {
                 wrong.push(format!("{description} ({unit})"));
             }
         }

@@ -59,6 +59,9 @@ impl Row<'_> {
     fn line(&self) -> String {
         let Row { key, unit, meaning, default, values, condition } = self;
         let mut allowed = values.join(", ");
+        if allowed.is_empty() && condition.is_empty() && !unit.is_empty() {
+            allowed += "any";
+        }
         if !allowed.is_empty() && !condition.is_empty() {
             allowed += "; ";
         }
@@ -114,6 +117,10 @@ fn row<'s>(
     };
     let unit = text(keyword::UNIT);
     let meaning = text("description").replace(&format!(" [{unit}]"), "");
+    let mut meaning = meaning.trim_end_matches('.').to_owned();
+    if let Some(heading) = section_of(own) {
+        meaning += &format!(" ([keys](#{}))", anchor(heading));
+    }
     let required = table.get("required").and_then(Value::as_array);
     let is_required = required.is_some_and(|keys| keys.iter().any(|name| name == key));
     let default = match own.get(keyword::OTHERWISE).and_then(Value::as_str) {
@@ -124,11 +131,29 @@ fn row<'s>(
     Row {
         key,
         unit,
-        meaning: meaning.trim_end_matches('.').to_owned(),
+        meaning,
         default,
         values: values(schema, own),
         condition: text(keyword::CONDITION),
     }
+}
+
+/// The heading of the section with the keys of the table, or of each table, that a key takes.
+fn section_of(own: &Value) -> Option<&'static str> {
+    let choices = choices(own).into_iter().flatten();
+    let parts =
+        choices.chain(["items", "additionalProperties"].iter().filter_map(|key| own.get(key)));
+    let mut references = parts.chain([own]).filter_map(|part| part.get("$ref")?.as_str());
+    references.find_map(|reference| {
+        let section = SECTIONS.iter().find(|(_, pointer)| *pointer == &reference[1..]);
+        section.map(|(heading, _)| *heading)
+    })
+}
+
+/// What links to a heading of a page in Markdown name.
+fn anchor(heading: &str) -> String {
+    let kept = heading.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
+    kept.collect::<String>().to_lowercase().replace(' ', "-")
 }
 
 /// A default value.
@@ -143,8 +168,8 @@ fn shown(value: &Value) -> String {
 
 /// What the schema of a key allows: names, or bounds of numbers.
 fn values(schema: &Value, own: &Value) -> Vec<String> {
-    let resolved = resolved(schema, own);
-    if let Some(list) = choices(resolved) {
+    let own = resolved(schema, own);
+    if let Some(list) = choices(own) {
         let all = list.iter().filter(|choice| is_plain(resolved(schema, choice)));
         let mut found: Vec<String> = Vec::new();
         for value in all.flat_map(|choice| values(schema, choice)) {
@@ -154,17 +179,17 @@ fn values(schema: &Value, own: &Value) -> Vec<String> {
         }
         return found;
     }
-    let names = resolved.get("enum").and_then(Value::as_array);
-    let names = names.into_iter().flatten().chain(resolved.get("const"));
+    let names = own.get("enum").and_then(Value::as_array);
+    let names = names.into_iter().flatten().chain(own.get("const"));
     let mut found: Vec<String> = names.map(shown).collect();
-    match resolved.get("type").and_then(Value::as_str) {
+    match own.get("type").and_then(Value::as_str) {
         Some("boolean") => found = vec!["true".to_owned(), "false".to_owned()],
         Some("array") => {
-            found.extend(lengths(resolved));
-            let items = resolved.get("items");
+            found.extend(lengths(own));
+            let items = own.get("items");
             found.extend(items.into_iter().flat_map(|items| values(schema, items)));
         }
-        Some("number" | "integer") => found.extend(bounds(resolved)),
+        Some("number" | "integer") => found.extend(bounds(own)),
         _ => {}
     }
     found
