@@ -649,6 +649,9 @@ pub struct Solver {
     #[serde(default)]
     #[schemars(extend("otherwise" = "`auto`: modes wherever heat is linear"))]
     pub method: SolverMethod,
+    /// Memory that the scene may take of the process [B]: one that is forecast to need more is refused.
+    #[schemars(transform = within(1e6, 1e15, "B", "the memory of a scene").otherwise("all that there is"))]
+    pub memory: Option<usize>,
 }
 
 /// How the heat of solids is advanced.
