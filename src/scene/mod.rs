@@ -8,6 +8,7 @@ mod decode;
 mod droplet;
 mod error;
 mod grid;
+mod load;
 mod locate;
 mod lookup;
 mod materials;
