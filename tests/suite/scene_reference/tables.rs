@@ -205,7 +205,7 @@ fn lengths(schema: &Value) -> Option<String> {
 /// The schema that a reference leads to, or the schema itself.
 fn resolved<'s>(schema: &'s Value, part: &'s Value) -> &'s Value {
     let reference = part.get("$ref").and_then(Value::as_str);
-    reference.map_or(part, |reference| &schema.pointer(&reference[1..]).unwrap())
+    reference.map_or(part, |reference| schema.pointer(&reference[1..]).unwrap())
 }
 
 /// The schemas of which a value must follow one.
