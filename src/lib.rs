@@ -11,11 +11,13 @@ pub mod closed_form;
 
 pub mod math;
 
+pub mod quantity;
+
+pub mod limits;
+
 pub mod material;
 
 pub mod kernel;
-
-pub mod quantity;
 
 pub mod state;
 

@@ -1,4 +1,4 @@
-//! The command line: `impinge check SCENE`, `impinge run SCENE`.
+//! The command line: `impinge check SCENE`, `impinge run SCENE`, `impinge schema`.
 
 mod cli;
 

@@ -5,6 +5,7 @@ mod check;
 mod error;
 mod idle;
 mod run;
+mod schema;
 mod set;
 mod summary;
 mod table;
@@ -31,6 +32,7 @@ struct Arguments {
 enum Command {
     Check(check::Check),
     Run(run::Run),
+    Schema(schema::Schema),
 }
 
 /// Runs the command that the process was called with.
@@ -38,6 +40,7 @@ pub fn main() -> ExitCode {
     let report = match Arguments::parse().command {
         Command::Check(command) => command.execute(),
         Command::Run(command) => command.execute(),
+        Command::Schema(command) => command.execute(),
     };
     match report.and_then(|report| print(&report)) {
         Ok(()) => ExitCode::SUCCESS,

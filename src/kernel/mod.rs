@@ -11,6 +11,7 @@ mod wendland_c4;
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Sub};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use cubic_spline::CubicSpline;
@@ -81,14 +82,17 @@ pub trait Shape {
 }
 
 /// A kernel by name.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Kernel {
     /// Also called Wendland's quintic: smooth, cheap and without clumping.
     #[default]
     WendlandC2,
+    /// Wendland's kernel of the next order of smoothness.
     WendlandC4,
+    /// The cubic B-spline.
     CubicSpline,
+    /// The quintic B-spline.
     QuinticSpline,
 }
 

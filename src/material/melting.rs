@@ -1,14 +1,20 @@
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::limits::{plausible, positive, temperature};
+
 /// Melting between two temperatures, or at one.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Melting {
     /// Temperature at which melting begins [K].
+    #[schemars(transform = temperature().plausible(&plausible::MELTING))]
     pub solidus: f64,
     /// Temperature at which it is over [K]; it may be the solidus.
+    #[schemars(transform = temperature().plausible(&plausible::MELTING).condition("from the solidus on"))]
     pub liquidus: f64,
     /// Heat that it takes, L [J/kg].
+    #[schemars(transform = positive("J/kg", "the latent heat").plausible(&plausible::LATENT_HEAT))]
     pub latent_heat: f64,
 }
 

@@ -5,6 +5,7 @@ mod elastoplastic;
 mod enthalpy;
 mod law;
 mod melting;
+mod parameters;
 mod properties;
 mod property;
 mod radiation;
@@ -18,17 +19,22 @@ pub use elastoplastic::{Elastoplastic, OfTemperature, PointConstants, PointTange
 pub use enthalpy::{Enthalpy, EnthalpyPoint};
 pub use law::{Elastic, History, Law, Response};
 pub use melting::{Melting, MeltingError};
+pub use parameters::{AtStart, MaterialConstant};
 pub use properties::Properties;
 pub use property::{Curve, Property, PropertyError, Table};
 pub use radiation::{radiative_flux, radiative_slope};
 pub use substance::{Substance, SubstanceError};
 pub use thermoelastic::Thermoelastic;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::limits::tag;
+
 /// A constitutive law with its constants.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "model", rename_all = "snake_case", deny_unknown_fields)]
+#[schemars(transform = tag("model", "Constitutive law"))]
 pub enum Material {
     /// Isotropic Fourier conduction and thermo-elasticity.
     Thermoelastic(Properties),

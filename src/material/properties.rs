@@ -1,34 +1,60 @@
 use std::sync::Arc;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use crate::limits::{not_negative, plausible, positive, signed, within};
 
 use super::{Constants, Elastoplastic, Melting, OfTemperature, Property, Substance, constant};
 
 /// Constants of an isotropic body as a scene names them: numbers, or tables over the temperature. Those of elasticity
 /// may be left out where nothing mechanical is asked for.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Properties {
     /// Mass density ρ [kg/m³]: a number, as mass is conserved.
+    #[schemars(transform = positive("kg/m³", "the density").plausible(&plausible::DENSITY))]
     pub density: f64,
     /// Specific heat capacity c [J/(kg K)].
+    #[schemars(transform = positive("J/(kg K)", "the specific heat capacity").plausible(&plausible::SPECIFIC_HEAT))]
     pub specific_heat: Property,
     /// Thermal conductivity k [W/(m K)].
+    #[schemars(transform = positive("W/(m K)", "the thermal conductivity").plausible(&plausible::CONDUCTIVITY))]
     pub conductivity: Property,
     /// Young's modulus E [Pa].
+    #[schemars(transform = positive("Pa", "Young's modulus").plausible(&plausible::YOUNG).otherwise(NO_STRESS))]
     pub young: Option<Property>,
     /// Poisson's ratio ν [1].
+    #[schemars(transform = within(-1.0 + POISSON_MARGIN, 0.5 - POISSON_MARGIN, "1", "")
+        .low("Poisson's ratio must stay above minus one", "-1 < poisson < 0.5")
+        .high("Poisson's ratio must stay below one half", "-1 < poisson < 0.5")
+        .condition("without these ends")
+        .otherwise(NO_STRESS))]
     pub poisson: Option<Property>,
     /// Mean coefficient of linear thermal expansion α from the temperature without stress [1/K].
+    #[schemars(transform = signed("1/K", "the coefficient of expansion")
+        .plausible(&plausible::EXPANSION)
+        .otherwise(NO_STRESS))]
     pub expansion: Option<Property>,
+    /// What melting takes.
+    #[schemars(extend("otherwise" = "does not melt"))]
     pub melting: Option<Melting>,
-    /// Stress at which the body yields [Pa]; of an elastoplastic material.
+    /// Stress at which the body yields (von Mises) [Pa]; of `elastoplastic`.
+    #[schemars(transform = positive("Pa", "the yield stress").plausible(&plausible::YIELD_STRESS).otherwise(""))]
     pub yield_stress: Option<Property>,
-    /// By how much that grows per plastic strain [Pa].
+    /// Growth of that per plastic strain [Pa]; of `elastoplastic`.
+    #[schemars(transform = not_negative("Pa", "").says(SOFTENS, "0 to 1e60").otherwise("0"))]
     pub isotropic_hardening: Option<Property>,
-    /// By how much the middle of elasticity moves per plastic strain [Pa].
+    /// Motion of the middle of elasticity per plastic strain [Pa]; of `elastoplastic`.
+    #[schemars(transform = not_negative("Pa", "").says(SOFTENS, "0 to 1e60").otherwise("0"))]
     pub kinematic_hardening: Option<Property>,
 }
+
+/// What holds where a constant of elasticity is left out.
+const NO_STRESS: &str = "none: no stress";
+/// At −1 and ½ resistance to shear or to compression is lost, and close to these lost in rounding.
+const POISSON_MARGIN: f64 = 1e-9;
+const SOFTENS: &str = "a body that yields does not soften";
 
 impl Properties {
     /// The numbers that hold at a temperature [K], without what melting takes.

@@ -1,24 +1,31 @@
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
+use crate::limits::temperature;
+
 /// A constant of a material that is a number or depends on the temperature.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
 #[serde(untagged)]
+#[schemars(inline)]
 pub enum Property {
     Constant(f64),
     Table(Table),
 }
 
 /// Values over temperatures: linear between them, held outside of them.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(inline)]
 pub struct Table {
     /// Ascending temperatures [K].
+    #[schemars(length(min = 2), transform = temperature())]
     pub temperature: Vec<f64>,
     /// One value for each.
+    #[schemars(length(min = 2))]
     pub value: Vec<f64>,
 }
 

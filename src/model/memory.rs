@@ -47,9 +47,10 @@ struct Need<'a> {
     remedy: &'static str,
 }
 
-/// Refuses a scene that is forecast to need more memory than is `available` [B], or more address space than
-/// the limit of the process leaves.
+/// Refuses a scene that is forecast to need more memory than is `available` [B] or than it says that it may take, or
+/// more address space than the limit of the process leaves.
 pub fn check_memory(scene: &Scene, available: f64) -> Result<(), ModelError> {
+    let available = scene.solver.memory.map_or(available, |limit| available.min(limit as f64));
     let forecast = forecast(scene);
     let needed = forecast.memory();
     let needs = || {

@@ -1,8 +1,9 @@
 //! How outputs at time zero follow the constants of a scene.
 
 use super::{Cache, Model, ModelError};
+use crate::material::AtStart;
 use crate::scene::Scene;
-use crate::variables::{DropletConstant, MaterialConstant, Output, Parameter, Quantity};
+use crate::variables::{DropletConstant, Output, Parameter, Quantity};
 
 /// Weights of the central difference of sixth order at one, two and three steps (B. Fornberg 1988,
 /// doi 10.1090/S0025-5718-1988-0935077-0).
@@ -28,15 +29,12 @@ pub fn start_rates(
         Parameter::ConvectionCoefficient { .. } | Parameter::ContactResistance { .. } => None,
         Parameter::InitialTemperature { .. } => Some(value),
         Parameter::Material { constant, .. } | Parameter::LayerMaterial { constant, .. } => {
-            match constant {
-                MaterialConstant::YieldStress
-                | MaterialConstant::Density
-                | MaterialConstant::SpecificHeat
-                | MaterialConstant::Conductivity => None,
-                MaterialConstant::Young => Some(value),
-                MaterialConstant::Poisson => Some((value + 1.0).min(0.5 - value)),
-                // Outputs are linear in it, so that any step will do; there is no pole.
-                MaterialConstant::Expansion => Some(constant.quantity().nominal()),
+            match constant.start {
+                AtStart::Never => None,
+                AtStart::PoleAtZero => Some(value),
+                AtStart::PolesAt([low, high]) => Some((value - low).min(high - value)),
+                // Any step will do.
+                AtStart::Linear => Some(constant.quantity.nominal()),
             }
         }
         Parameter::Droplet { constant, .. } => match constant {

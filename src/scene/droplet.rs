@@ -1,64 +1,95 @@
 //! Droplets, the walls that make units of them and their couplings to solids.
 
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::types::{CellValues, Footprint};
+use super::types::{CellValues, Footprint, IDENTIFIER};
 use crate::kernel::Kernel;
+use crate::limits::{above_zero, length, own_temperature, plausible, whole, within};
 
 /// Round drops of one fluid that arrive, along −z, above the plane z = 0.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Droplet {
+    /// Weakly compressible smoothed particle hydrodynamics.
     #[serde(default)]
     pub method: DropletMethod,
-    /// [m]
+    /// Diameter [m].
+    #[schemars(transform = within(1e-9, 1e2, "m", "the diameter of a drop").plausible(&plausible::DIAMETER))]
     pub diameter: f64,
     /// Speed towards the wall at the release [m/s].
+    #[schemars(transform = within(0.0, 1e5, "m/s", "the speed towards the wall").plausible(&plausible::SPEED))]
     pub impact_velocity: f64,
     /// Uniform temperature at the release [K].
+    #[schemars(transform = own_temperature())]
     pub initial_temperature: f64,
-    /// Gap between a drop's lowest point and the wall at its release [m]; half a `spacing` if left
-    /// out.
+    /// Gap between a drop's lowest point and the wall at its release [m].
+    #[schemars(transform = within(0.0, 1e3, "m", "the gap between drop and wall")
+        .plausible(&plausible::HEIGHT)
+        .otherwise("half a `spacing`"))]
     pub height: Option<f64>,
-    /// Distance of particles [m].
+    /// Distance of particles Δx [m].
+    #[schemars(transform = within(1e-10, 1e1, "m", "the distance of particles")
+        .condition("up to a sixth of the diameter, at most 2e7 particles"))]
     pub spacing: f64,
+    /// What the drops are made of.
     pub fluid: Fluid,
-    /// 3, or 2 for a plane model in x and z, a metre deep.
+    /// 3, or 2 for a plane model in x and z, of which all is told per metre of depth.
     #[serde(default = "three")]
+    #[schemars(transform = whole(2, 3, "no model of this dimension", "3, 2 (plane)"))]
     pub dimension: usize,
+    /// Part of the drop that is modelled.
     #[serde(default)]
+    #[schemars(extend(
+        "otherwise" = "`auto`: a quarter where that is exact",
+        "condition" = "`quarter` with all drops at x = 0, y = 0"
+    ))]
     pub symmetry: DropletSymmetry,
+    /// Particles on a lattice or at random with a least distance.
     #[serde(default)]
     pub placement: Placement,
-    /// Body force a mass towards −z [m/s²].
+    /// Body force per mass towards −z [m/s²].
     #[serde(default)]
+    #[schemars(transform = within(0.0, 1e7, "m/s²", "gravity, which acts towards the wall,")
+        .plausible(&plausible::GRAVITY))]
     pub gravity: f64,
+    /// Smoothing kernel.
     #[serde(default)]
     pub kernel: Kernel,
-    /// Support radius of the kernel over the distance of particles.
+    /// Support radius of the kernel.
     #[serde(default = "default_support")]
+    #[schemars(transform = within(2.0, 6.0, "distances of particles", "").says(
+        "the support radius of the kernel is out of bounds",
+        "2 <= support <= 6 (distances of particles)",
+    ))]
     pub support: f64,
+    /// Precision of what is computed for pairs of particles.
     #[serde(default)]
     pub precision: Precision,
-    /// δ of the density diffusion.
+    /// δ of the density diffusion [1].
     #[serde(default = "default_density_diffusion")]
+    #[schemars(transform = within(0.0, 1.0, "1", "").says("the density diffusion is out of bounds", "0 to 1"))]
     pub density_diffusion: f64,
     /// Whether renormalised gradients correct the density diffusion, so that it leaves a fluid at
     /// rest under gravity alone.
     #[serde(default = "yes")]
     pub corrected_diffusion: bool,
-    /// Whether particles are moved from crowded places to empty ones. If nothing is said, they are not
-    /// where surface tension rules (up to a Weber number of 1000).
+    /// Whether particles are moved from crowded places to empty ones.
     #[serde(default)]
+    #[schemars(extend("otherwise" = "true from a Weber number of 1000 on, or without tension"))]
     pub shifting: Option<bool>,
-    /// A copy of the drop for each entry.
+    /// A copy of the drop for each entry of the list.
     #[serde(default = "one_arrival")]
+    #[schemars(
+        length(min = 1),
+        extend("otherwise" = "one at time 0", "condition" = "in the order of their times")
+    )]
     pub arrivals: Vec<Arrival>,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DropletMethod {
     /// Weakly compressible smoothed particle hydrodynamics.
@@ -67,40 +98,57 @@ pub enum DropletMethod {
 }
 
 /// How much of the drops is modelled.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DropletSymmetry {
     /// A quarter, or half of a plane model, where all drops arrive at the origin on a lattice.
     #[default]
     Auto,
+    /// The whole of all drops.
     None,
+    /// A quarter; drops must arrive at the origin.
     Quarter,
 }
 
 /// A Newtonian fluid that conducts heat.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fluid {
-    /// At rest [kg/m³].
+    /// Mass density at rest [kg/m³].
+    #[schemars(transform = within(1e-3, 1e6, "kg/m³", "the density").plausible(&plausible::FLUID_DENSITY))]
     pub density: f64,
     /// Dynamic viscosity [Pa s].
+    #[schemars(transform = within(1e-9, 1e6, "Pa s", "the viscosity").plausible(&plausible::VISCOSITY))]
     pub viscosity: f64,
-    /// [J/(kg K)]
+    /// Specific heat capacity [J/(kg K)].
+    #[schemars(transform = within(1e-1, 1e7, "J/(kg K)", "the specific heat capacity")
+        .plausible(&plausible::FLUID_SPECIFIC_HEAT))]
     pub specific_heat: f64,
-    /// [W/(m K)]; 0 leaves heat out.
+    /// Thermal conductivity [W/(m K)]; 0 leaves heat out.
+    #[schemars(transform = within(0.0, 1e6, "W/(m K)", "the thermal conductivity")
+        .plausible(&plausible::FLUID_CONDUCTIVITY))]
     pub conductivity: f64,
-    /// [N/m]
+    /// Surface tension [N/m].
     #[serde(default)]
+    #[schemars(transform = within(0.0, 1e5, "N/m", "the surface tension")
+        .plausible(&plausible::SURFACE_TENSION)
+        .otherwise("0: left out"))]
     pub surface_tension: f64,
-    /// Angle of contact with the wall [rad]; matters with surface tension only.
+    /// Angle of contact with the wall [rad]; matters with tension only.
     #[serde(default = "right_angle")]
+    #[schemars(transform = within(0.0, PI, "rad", "")
+        .says("the angle of contact is out of bounds", "0 to 3.14159 (rad)")
+        .otherwise("π/2, which is 90°"))]
     pub contact_angle: f64,
-    /// Speed of sound of the model [m/s]; ten times [`Droplet::governing_speed`] if left out.
+    /// Artificial speed of sound of the model [m/s]: pressures of the first blow grow with it.
+    #[schemars(transform = within(1e-6, 1e6, "m/s", "the speed of sound")
+        .otherwise("ten times the fastest flow or √(2σ/(ρΔx))")
+        .condition("at least five times these"))]
     pub sound_speed: Option<f64>,
 }
 
 /// How particles are laid out at first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Placement {
     /// On a cubic lattice.
@@ -112,72 +160,95 @@ pub enum Placement {
 
 /// Precision of what is computed for a pair of particles; positions and sums over time are always
 /// double.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Precision {
+    /// 32 bits.
     #[default]
     Single,
+    /// 64 bits.
     Double,
 }
 
 /// When and where a drop is released.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Arrival {
-    /// Since the beginning of the run [s].
+    /// Time of the release [s].
     #[serde(default)]
+    #[schemars(transform = within(0.0, 1e12, "s", "the time of an arrival"))]
     pub time: f64,
     /// Place of the centre [m].
     #[serde(default)]
+    #[schemars(transform = within(-1e3, 1e3, "m", "the place of an arrival"))]
     pub x: f64,
+    /// Place of the centre [m].
     #[serde(default)]
+    #[schemars(transform = within(-1e3, 1e3, "m", "the place of an arrival").condition("0 in a plane model"))]
     pub y: f64,
 }
 
 /// A wall below a droplet whose temperatures are inputs, and heat fluxes and tractions outputs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Wall {
+    /// First part of the variables' names.
+    #[schemars(extend("pattern" = IDENTIFIER, "condition" = "as that of the scene"))]
     pub name: String,
-    /// Name of the droplet.
+    /// The droplet.
+    #[schemars(extend("condition" = "a droplet without coupling"))]
     pub under: String,
-    /// Rings or tiles, centred on the origin.
+    /// Cells of the wall, centred on the origin.
+    #[schemars(extend("condition" = "`rings` (drops at the centre), `tiles`"))]
     pub footprint: Footprint,
-    /// √(kρc) of the solid to which a master takes the heat [W √s/(m² K)], which then bounds the heat of first
-    /// contact by what the solid's surface can answer within a step; left out for a wall whose
-    /// temperature is held.
+    /// √(kρc) of the solid that a master couples [W √s/(m² K)], which bounds the heat of first contact by what the
+    /// solid's surface can answer within a step.
     #[serde(default)]
+    #[schemars(transform = above_zero("W √s/(m² K)")
+        .low("the effusivity √(kρc) of what lies below is positive", "> 0 (W √s/(m² K))")
+        .otherwise("none: the wall is held at its temperature"))]
     pub effusivity: Option<f64>,
+    /// Start values.
     #[serde(default)]
+    #[schemars(extend("otherwise" = ""))]
     pub start: WallStart,
 }
 
 /// Start values of a wall's inputs.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WallStart {
-    /// [K]; the droplet's own temperature if left out.
+    /// Temperature of all cells, or a list for each [K].
+    #[schemars(transform = own_temperature().otherwise("that of the droplet"))]
     pub temperature: Option<CellValues>,
 }
 
 /// Exchange of heat and momentum between a droplet and the top of a solid, or of heat between two solids.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Coupling {
-    /// Name of the droplet, or `SOLID.top` of the solid below.
+    /// The droplet, or the face of the solid below.
+    #[schemars(extend("condition" = "a droplet without wall; `SOLID.top`"))]
     pub from: String,
-    /// `SOLID.top` below a droplet, `SOLID.bottom` of the solid above another.
+    /// The face.
+    #[schemars(extend(
+        "condition" = "`SOLID.top`, not held, below a droplet; `SOLID.bottom` of the solid above"
+    ))]
     pub to: String,
-    /// Heat flux between two solids over the difference of their temperatures there [W/(m² K)].
+    /// Heat flux over the difference of temperatures [W/(m² K)], of solids alone.
+    #[schemars(transform = within(1e-12, 1e15, "W/(m² K)", "the conductance of the contact")
+        .otherwise("none below a droplet, needed between solids"))]
     pub conductance: Option<f64>,
-    /// Whether pressure and shear of the fluid load the solid, too.
+    /// Whether pressure and shear of a droplet load the solid.
     #[serde(default = "yes")]
     pub traction: bool,
-    /// Longest time between two exchanges [s]; chosen from the fluid's motion and the contact's
-    /// heat if left out, that of a communication step between solids.
+    /// Longest time between two exchanges [s].
+    #[schemars(transform = within(1e-30, 1e12, "s", "the time between exchanges")
+        .otherwise("from the flow and the contact; of solids the communication step"))]
     pub interval: Option<f64>,
-    /// The solid's mesh is fine out to this distance from each arrival [m]; as far as the drop is
-    /// expected to spread if left out.
+    /// Distance from each arrival out to which the solid's mesh is fine [m].
+    #[schemars(transform = length("the radius of the fine mesh")
+        .otherwise("as far as the drop is expected to spread"))]
     pub radius: Option<f64>,
 }
 

@@ -14,8 +14,9 @@ const LONGEST_VALUE: usize = 60;
 #[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Path(Vec<Step>);
 
+/// From a value to one in it.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-enum Step {
+pub enum Step {
     Key(String),
     Index(usize),
 }
@@ -47,6 +48,11 @@ impl Path {
             Some(Step::Key(key)) => key,
             _ => "",
         }
+    }
+
+    /// From the root to the value.
+    pub fn steps(&self) -> &[Step] {
+        &self.0
     }
 
     /// Whether this value is part of the value at `other` (or is that value).

@@ -132,7 +132,7 @@ impl Face {
 }
 
 impl FaceName {
-    const ALL: [Self; 7] =
+    pub(super) const ALL: [Self; 7] =
         [Self::Top, Self::Bottom, Self::Sides, Self::Left, Self::Right, Self::Front, Self::Back];
     const OF_BOX: [Self; 6] =
         [Self::Top, Self::Bottom, Self::Left, Self::Right, Self::Front, Self::Back];

@@ -1,7 +1,9 @@
 //! Materials by name, and the layers that solids are made of.
 
+use std::borrow::Cow;
 use std::fmt;
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 use serde::{Serialize, Serializer};
@@ -73,6 +75,20 @@ impl<'de> Deserialize<'de> for MaterialChoice {
         }
 
         deserializer.deserialize_any(Reader)
+    }
+}
+
+impl JsonSchema for MaterialChoice {
+    fn schema_name() -> Cow<'static, str> {
+        "MaterialChoice".into()
+    }
+
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "anyOf": [{ "type": "string" }, generator.subschema_for::<Material>()] })
     }
 }
 
@@ -209,6 +225,23 @@ impl Solid {
 }
 
 impl Scene {
+    /// Places in bodies of materials that are just what their names say, of which a scene's text may hold copies.
+    pub(super) fn copied_materials(&self) -> Vec<Path> {
+        let is_copy = |choice: &MaterialChoice| {
+            let named = choice.name.as_ref().and_then(|name| self.material.get(name));
+            named.is_some_and(|named| named == choice.material())
+        };
+        let of_body = |(name, solid): (&str, &Solid)| {
+            let path = Path::default().key("body").key(name);
+            let layers = solid.layers.iter().flatten().enumerate();
+            let layers = layers.map(|(i, layer)| (path.key("layers").index(i), &layer.material));
+            let own = solid.material.iter().map(|choice| (path.clone(), choice));
+            let copies = own.chain(layers).filter(|(_, choice)| is_copy(choice));
+            copies.map(|(path, _)| path.key("material")).collect::<Vec<_>>()
+        };
+        self.solids().flat_map(of_body).collect()
+    }
+
     /// Where a probe reads its body.
     pub fn point_of(&self, probe: &Probe) -> [f64; 3] {
         let side = probe.side.unwrap_or_default();

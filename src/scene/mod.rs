@@ -8,10 +8,12 @@ mod decode;
 mod droplet;
 mod error;
 mod grid;
+mod load;
 mod locate;
 mod lookup;
 mod materials;
 mod plausibility;
+mod schema;
 mod spelling;
 mod types;
 
@@ -29,9 +31,11 @@ pub use grid::{Grid, lateral_extents};
 pub use lookup::Place;
 pub use materials::{MaterialChoice, Stratum};
 pub use plausibility::{Measure, Warning, doubt_of_input};
+pub use schema::{SCHEMA, derived_schema};
 pub use types::*;
 
 use locate::Source;
+use schema::Schema;
 
 /// Reads and checks the scene in a file.
 pub fn read(path: &Path) -> Result<Scene, SceneError> {
@@ -76,15 +80,20 @@ pub fn text_of(path: &Path, file: &str) -> Result<String, SceneError> {
 /// Reads and checks a scene's text; `file` is the name that messages show.
 pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
     let source = Source::parse(text, file)?;
-    let scene = decode::decode(&source)?;
-    check::check(&scene, &source)?;
+    parse_located(&source, &Schema::of_scenes())
+}
+
+fn parse_located(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
+    let scene = decode::decode(source, schema)?;
+    check::check(&scene, source, schema)?;
     Ok(scene)
 }
 
 /// Reads and checks a scene's text, and finds what is hardly meant in it.
 pub fn parse_with_warnings(text: &str, file: &str) -> Result<(Scene, Vec<Warning>), SceneError> {
-    let scene = parse(text, file)?;
-    let warnings = plausibility::warnings(&scene, &Source::parse(text, file)?);
+    let (source, schema) = (Source::parse(text, file)?, Schema::of_scenes());
+    let scene = parse_located(&source, &schema)?;
+    let warnings = plausibility::warnings(&scene, &source, &schema);
     Ok((scene, warnings))
 }
 
@@ -92,7 +101,7 @@ pub fn parse_with_warnings(text: &str, file: &str) -> Result<(Scene, Vec<Warning
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
     let Ok(text) = toml::to_string(scene) else { return Vec::new() };
     let Ok(source) = Source::parse(&text, CHANGED) else { return Vec::new() };
-    let found = plausibility::warnings(scene, &source);
+    let found = plausibility::warnings(scene, &source, &Schema::of_scenes());
     found.into_iter().map(Warning::without_line).collect()
 }
 
@@ -110,7 +119,7 @@ pub fn check(scene: &Scene) -> Result<(), SceneError> {
         message: format!("cannot be written as text: {error}"),
         allowed: "values that a scene can hold".to_owned(),
     })?;
-    check::check(scene, &Source::parse(&text, file)?).map_err(|mut error| {
+    check::check(scene, &Source::parse(&text, file)?, &Schema::of_scenes()).map_err(|mut error| {
         for problem in &mut error.problems {
             problem.line = None;
         }

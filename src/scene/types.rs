@@ -1,58 +1,75 @@
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::droplet::{Coupling, Droplet, Wall};
 use super::materials::MaterialChoice;
 use crate::kernel::Kernel;
+use crate::limits::{
+    Keys, above_zero, any, count, length, not_negative, own_temperature, plausible, tag,
+    temperature, time, whole, within,
+};
 use crate::material::Material;
 
+pub use super::load::{Carries, CellShape, CellValues, Footprint, Load, LoadRange, LoadStart};
+
+/// The names of variables begin with those of scenes.
+pub(super) const IDENTIFIER: &str = "^[A-Za-z_][A-Za-z0-9_]*$";
+
 /// Everything that a `scene.toml` says.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
-    /// FMI model name and identifier; a C identifier.
+    /// Name of the model and of its folder `out/NAME`; a C identifier.
+    #[schemars(extend("pattern" = IDENTIFIER, "condition" = "letters, digits and `_`, no digit first"))]
     pub name: String,
     /// One line for people.
     #[serde(default)]
+    #[schemars(extend("condition" = "no control characters", "otherwise" = "empty"))]
     pub description: String,
     /// End of the default experiment [s].
+    #[schemars(transform = time("the stop time"))]
     pub stop_time: f64,
     /// Communication step of the default experiment [s].
+    #[schemars(transform = time("the step").condition("up to `stop_time`, at most 1e9 steps"))]
     pub step: f64,
-    /// How the unit's variables are named.
+    /// How the unit's variables are named: `a.b[1,2]` or `a_b_1_2`.
     #[serde(default)]
     pub naming: Naming,
-    /// Materials by name, for bodies and their layers.
+    /// Tables `[material.NAME]` that solids and layers name.
     #[serde(default)]
     pub material: BTreeMap<String, Material>,
-    /// The bodies by name.
+    /// Tables `[body.NAME]`, each a solid or a droplet.
+    #[schemars(extend("minProperties" = 1, "condition" = "at least one"))]
     pub body: BTreeMap<String, Body>,
-    /// Loads on faces; their amounts become FMI inputs.
+    /// Tables `[[load]]`: loads on faces, whose amounts become inputs.
     #[serde(default)]
     pub load: Vec<Load>,
-    /// Points whose values become FMI outputs.
+    /// Tables `[[probe]]`: points whose values become outputs.
     #[serde(default)]
     pub probe: Vec<Probe>,
-    /// Grids of points whose values become arrays of FMI outputs.
+    /// Tables `[[field]]`: grids of points whose values become arrays of outputs.
     #[serde(default)]
     pub field: Vec<Field>,
-    /// Walls below droplets; their temperatures become FMI inputs, what they get FMI outputs.
+    /// Tables `[[wall]]`: walls below droplets, whose temperatures become inputs and what they get outputs.
     #[serde(default)]
     pub wall: Vec<Wall>,
-    /// Droplets on solids of the same scene.
+    /// Tables `[[coupling]]`: droplets on solids of the same scene, and solids on solids.
     #[serde(default)]
     pub coupling: Vec<Coupling>,
     /// How much model the scene wants.
     #[serde(default)]
+    #[schemars(extend("otherwise" = ""))]
     pub fidelity: Fidelity,
-    /// Settings of the solver that change cost but not results.
+    /// Settings of the solver.
     #[serde(default)]
+    #[schemars(extend("otherwise" = ""))]
     pub solver: Solver,
 }
 
 /// Names of a unit's variables.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Naming {
     /// `spot.heat_flux[1,2]`
@@ -73,8 +90,9 @@ impl Naming {
 }
 
 /// A body by kind.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "kind", rename_all = "lowercase", deny_unknown_fields)]
+#[schemars(transform = tag("kind", "What the body is"))]
 pub enum Body {
     /// A solid that conducts heat and deforms elastically.
     Solid(Box<Solid>),
@@ -83,60 +101,88 @@ pub enum Body {
 }
 
 /// A solid body.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Solid {
+    /// `{ box = [LX, LY, LZ] }` or `{ disc = { radius = R, thickness = T } }`.
     pub shape: Shape,
-    /// What the body is made of, unless it has layers.
+    /// What the body is made of: a table, or the name of a `[material.NAME]`.
+    #[schemars(extend("otherwise" = "`layers`"))]
     pub material: Option<MaterialChoice>,
-    /// From the top; together as thick as the shape.
+    /// Layers from the top, instead of `material`.
+    #[schemars(
+        length(min = 1, max = 100),
+        extend("condition" = "as thick together as the shape (relative 1e-9)", "otherwise" = "one material")
+    )]
     pub layers: Option<Vec<Layer>>,
     /// Uniform temperature at time zero [K].
+    #[schemars(transform = own_temperature())]
     pub initial_temperature: f64,
-    /// Temperature at which the body is free of thermal stress [K]; that at time zero if left out.
+    /// Temperature at which the body is free of thermal stress [K].
+    #[schemars(transform = own_temperature().otherwise("that at time zero"))]
     pub stress_free_temperature: Option<f64>,
-    /// Discretisation of the heat equation.
+    /// What conducts the heat: finite elements or particles.
     #[serde(default)]
     pub heat: HeatMethod,
-    /// How particles conduct heat; only with `heat = "sph"`.
+    /// How particles conduct heat.
+    #[schemars(extend("condition" = "with `heat = \"sph\"` only"))]
     pub sph: Option<SphSettings>,
+    /// Part of the body that is meshed; no load is neglected.
     #[serde(default)]
+    #[schemars(extend("condition" = "a box is not `axisymmetric`, a disc is"))]
     pub symmetry: Symmetry,
+    /// The mesh.
     #[serde(default)]
+    #[schemars(extend("otherwise" = "chosen"))]
     pub mesh: Mesh,
-    /// Conditions on faces; a face that is left out is insulated and free.
+    /// Conditions on faces.
     #[serde(default)]
+    #[schemars(
+        extend("otherwise" = "insulated and free"),
+        transform = Keys(FaceName::ALL.map(FaceName::as_str))
+    )]
     pub faces: BTreeMap<FaceName, Face>,
 }
 
 /// A layer of a body, which covers it from side to side.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Layer {
+    /// What the layer is made of: the name of a `[material.NAME]`, or a table as that of a solid.
     pub material: MaterialChoice,
-    /// [m]
+    /// Thickness [m].
+    #[schemars(transform = length("the thickness of a layer").plausible(&plausible::LAYER))]
     pub thickness: f64,
-    /// Thermal resistance of the contact with the layer above [m² K/W]; perfect contact if left out.
+    /// Thermal resistance of the contact with the layer above [m² K/W]; a parameter.
+    #[schemars(transform = not_negative("m² K/W", "a contact resistance")
+        .plausible(&plausible::CONTACT)
+        .otherwise("0: perfect contact")
+        .condition("not on the top layer"))]
     pub contact_resistance: Option<f64>,
 }
 
 /// The shape of a body. The origin is the centre of its top face; z points out of the body.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Shape {
     /// Extents along x, y and z [m].
-    Box([f64; 3]),
-    /// A round plate.
+    Box(
+        #[schemars(transform = length("the extent of a body").plausible(&plausible::EXTENT))]
+        [f64; 3],
+    ),
+    /// A round plate, modelled axisymmetric.
     Disc(Disc),
 }
 
 /// A round plate with its axis along z.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Disc {
-    /// [m]
+    /// Radius [m].
+    #[schemars(transform = length("the radius of a body").plausible(&plausible::EXTENT))]
     pub radius: f64,
-    /// [m]
+    /// Extent along z [m].
+    #[schemars(transform = length("the thickness of a body").plausible(&plausible::EXTENT))]
     pub thickness: f64,
 }
 
@@ -150,7 +196,7 @@ impl Shape {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum HeatMethod {
     /// Finite elements on the mesh of the mechanics.
@@ -161,12 +207,19 @@ pub enum HeatMethod {
 }
 
 /// How particles conduct heat.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SphSettings {
+    /// Exact for quadratics on any mesh, or conservative pair by pair.
+    #[schemars(extend("condition" = "`plain` on a box with equal distances"))]
     pub operator: SphOperator,
+    /// Smoothing kernel.
     pub kernel: Kernel,
-    /// Support radius of the kernel in distances of particles.
+    /// Support radius of the kernel.
+    #[schemars(transform = within(1.0, 5.0, "distances of particles", "").low_open().says(
+        "the support radius, in distances of particles, reaches too few or too many",
+        "1 < support <= 5",
+    ))]
     pub support: f64,
 }
 
@@ -176,7 +229,7 @@ impl Default for SphSettings {
     }
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SphOperator {
     /// Exact for quadratics on any set of particles (Fatehi & Manzari 2011).
@@ -186,7 +239,7 @@ pub enum SphOperator {
     Plain,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Symmetry {
     /// Use whatever symmetry shape and faces have.
@@ -205,18 +258,27 @@ pub enum Symmetry {
 ///
 /// It is fine where something acts: along x and y at loads and at sides that heat passes, along z
 /// below tops and bottoms that are loaded or that heat passes, by whatever kind of condition.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
     /// Distance of nodes along x and y at loads and at heated sides [m], everywhere where there are
     /// neither.
+    #[schemars(transform = above_zero("m").condition("up to half of the width").otherwise("from the loads"))]
     pub spacing: Option<f64>,
-    /// Distance of nodes along z at loaded or heated faces [m], everywhere where there are none;
-    /// `spacing` if only that is given.
+    /// Distance of nodes along z at loaded or heated faces [m], everywhere where there are none.
+    #[schemars(transform = above_zero("m")
+        .condition("up to the thickness")
+        .otherwise("from how deep heat goes in a step; `spacing` if given alone"))]
     pub depth_spacing: Option<f64>,
-    /// Ratio of the sizes of neighbouring elements away from there.
+    /// Ratio of the sizes of neighbouring elements away from there [1].
+    #[schemars(transform = within(1.0, 2.0, "1", "")
+        .says("neighbouring elements grow by a modest ratio", "1 <= growth <= 2")
+        .otherwise("chosen, about 1.4"))]
     pub growth: Option<f64>,
-    /// Order of the shape functions: 1 (linear) or 2 (quadratic).
+    /// Order of the shape functions: linear or quadratic.
+    #[schemars(transform = whole(1, 2, "no shape functions of this order", "1 (linear), 2 (quadratic)")
+        .condition("with `heat = \"sph\"` 1")
+        .otherwise("2; with `heat = \"sph\"` 1"))]
     pub order: Option<usize>,
 }
 
@@ -225,7 +287,9 @@ impl Mesh {
     pub const LATERAL_ELEMENTS: f64 = 12.0;
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize, JsonSchema,
+)]
 #[serde(rename_all = "lowercase")]
 pub enum FaceName {
     Top,
@@ -243,15 +307,19 @@ pub enum FaceName {
 }
 
 /// Conditions on one face: at most one thermal and at most one mechanical.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Face {
-    /// Prescribed temperature [K].
+    /// Prescribed temperature [K]; an input.
+    #[schemars(transform = own_temperature().otherwise("insulated"))]
     pub temperature: Option<f64>,
-    /// Prescribed uniform heat flux into the body [W/m²].
+    /// Uniform heat flux into the body [W/m²]; an input.
+    #[schemars(transform = any("W/m²").plausible(&plausible::HEAT_FLUX).otherwise("insulated"))]
     pub flux: Option<f64>,
+    /// Heat flux by what flows by.
+    #[schemars(extend("otherwise" = "insulated"))]
     pub convection: Option<Convection>,
-    /// Beside a flux or convection, or alone.
+    /// Heat flux by radiation, beside `flux` or `convection`, or alone.
     pub radiation: Option<Radiation>,
     /// No displacement at all.
     #[serde(default)]
@@ -262,189 +330,108 @@ pub struct Face {
 }
 
 /// Heat flux into the body `q = h (T∞ − T)`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Convection {
-    /// Heat transfer coefficient h [W/(m² K)].
+    /// Heat transfer coefficient h [W/(m² K)]; a parameter.
+    #[schemars(transform = not_negative("W/(m² K)", "a heat transfer coefficient")
+        .plausible(&plausible::HEAT_TRANSFER))]
     pub coefficient: f64,
-    /// Ambient temperature T∞ [K].
+    /// Temperature T∞ of what flows by [K]; an input.
+    #[schemars(transform = temperature().plausible(&plausible::AMBIENT).cold())]
     pub ambient: f64,
 }
 
 /// Heat flux into the body `q = ε σ (T∞⁴ − T⁴)`.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Radiation {
     /// Emissivity ε [1].
+    #[schemars(transform = within(0.0, 1.0, "1", "").says("an emissivity is a part", "0 to 1"))]
     pub emissivity: f64,
     /// Temperature of the surroundings T∞ [K].
+    #[schemars(transform = temperature().plausible(&plausible::AMBIENT))]
     pub ambient: f64,
 }
 
-/// Heat and traction on a part of a face.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Load {
-    pub name: String,
-    /// `BODY.top` or `BODY.bottom`.
-    pub on: String,
-    pub footprint: Footprint,
-    pub carries: Vec<Carries>,
-    #[serde(default)]
-    pub start: LoadStart,
-    /// Bounds of the inputs that move the footprint; the mesh is fine wherever they let it go.
-    #[serde(default)]
-    pub range: LoadRange,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase", deny_unknown_fields)]
-pub enum Footprint {
-    /// Uniform inside `radius` [m].
-    Disc { radius: f64 },
-    /// Peak value at the centre, 1/e² of it at `radius` [m].
-    Gaussian { radius: f64 },
-    /// `count` concentric rings of equal width out to `radius` [m], a value each.
-    Rings { count: usize, radius: f64 },
-    /// `count` rectangles over `size` [m], a value each.
-    Tiles { count: [usize; 2], size: [f64; 2] },
-}
-
-impl Footprint {
-    /// Outer radius of round footprints [m].
-    pub fn radius(&self) -> Option<f64> {
-        match *self {
-            Footprint::Disc { radius }
-            | Footprint::Gaussian { radius }
-            | Footprint::Rings { radius, .. } => Some(radius),
-            Footprint::Tiles { .. } => None,
-        }
-    }
-
-    /// Number of cells that have a value of their own, first index running along the first axis;
-    /// `None` for a single value without index.
-    pub fn cells(&self) -> Option<CellShape> {
-        match *self {
-            Footprint::Disc { .. } | Footprint::Gaussian { .. } => None,
-            Footprint::Rings { count, .. } => Some(CellShape::Rings(count)),
-            Footprint::Tiles { count, .. } => Some(CellShape::Tiles(count)),
-        }
-    }
-}
-
-/// Index ranges of a footprint of many values.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CellShape {
-    Rings(usize),
-    Tiles([usize; 2]),
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Carries {
-    /// Heat flux into the body [W/m²].
-    HeatFlux,
-    /// Pressure that acts into the body [Pa].
-    Pressure,
-    /// Shear traction [Pa]: along x and y; radial on rings.
-    Shear,
-}
-
-/// Start values of a load's inputs.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LoadStart {
-    pub heat_flux: Option<CellValues>,
-    pub pressure: Option<CellValues>,
-    pub shear_x: Option<CellValues>,
-    pub shear_y: Option<CellValues>,
-    pub shear_r: Option<CellValues>,
-    /// Place of the footprint's centre [m].
-    pub x: Option<f64>,
-    pub y: Option<f64>,
-    /// Radius of round footprints [m]; the footprint's own if left out.
-    pub radius: Option<f64>,
-}
-
-/// One value for all cells, or one for each.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(
-    untagged,
-    expecting = "a finite number, a list of them (rings) or a list of lists of them (tiles)"
-)]
-pub enum CellValues {
-    Uniform(f64),
-    Rings(Vec<f64>),
-    /// Row i holds the values of the tiles `[i, 1]`, `[i, 2]` …
-    Tiles(Vec<Vec<f64>>),
-}
-
-/// Bounds `[lowest, highest]` of the inputs that move a footprint [m].
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LoadRange {
-    pub x: Option<[f64; 2]>,
-    pub y: Option<[f64; 2]>,
-    pub radius: Option<[f64; 2]>,
-}
-
 /// A point whose values become outputs.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Probe {
+    /// First part of the outputs' names.
+    #[schemars(extend("pattern" = IDENTIFIER, "condition" = "as that of the scene"))]
     pub name: String,
-    /// Name of the body.
+    /// The body.
     #[serde(rename = "in")]
+    #[schemars(extend("condition" = "a solid"))]
     pub body: String,
-    /// Place [m].
+    /// The place `[x, y, z]` [m].
+    #[schemars(transform = any("m").condition("in the body"))]
     pub at: [f64; 3],
-    /// The side that is read of an interface between layers; above if left out.
+    /// Side that is read of an interface between layers.
+    #[schemars(extend("otherwise" = "`above`", "condition" = "at an interface only"))]
     pub side: Option<Side>,
+    /// List of outputs.
+    #[schemars(length(min = 1), extend("uniqueItems" = true))]
     pub gives: Vec<Gives>,
 }
 
 /// A side of an interface between layers.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
+    /// The side of the layer above.
     #[default]
     Above,
+    /// The side of the layer below.
     Below,
 }
 
 /// Points on a regular grid, in the middle of equal cells, over a face or a plane section.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Field {
+    /// First part of the outputs' names.
+    #[schemars(extend("pattern" = IDENTIFIER, "condition" = "as that of the scene"))]
     pub name: String,
-    /// A face, `BODY.FACE`.
+    /// The face, `BODY.FACE`.
+    #[schemars(extend("condition" = "a plane face", "otherwise" = "`in` and `plane`"))]
     pub on: Option<String>,
-    /// A body, together with `plane`.
+    /// The body of a section.
     #[serde(rename = "in")]
+    #[schemars(extend("condition" = "a solid, with `plane`", "otherwise" = "`on`"))]
     pub body: Option<String>,
+    /// The section: `{ x = X }`, `{ y = Y }` or `{ z = Z }` [m].
+    #[schemars(transform = any("m").condition("through the body").otherwise("`on`"))]
     pub plane: Option<Plane>,
     /// Number of points along the two axes of the face or section.
+    #[schemars(transform = count())]
     pub grid: [usize; 2],
-    /// Extent of the grid along its axes [m], centred; the whole face or section if left out.
+    /// Extent of the grid along its axes [m], centred.
+    #[schemars(transform = length("the extent of a grid").otherwise("the whole").condition("up to the whole"))]
     pub size: Option<[f64; 2]>,
+    /// List of outputs.
+    #[schemars(length(min = 1), extend("uniqueItems" = true))]
     pub gives: Vec<Gives>,
 }
 
 /// A section through a body at a constant coordinate [m].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum Plane {
-    X(f64),
-    Y(f64),
-    Z(f64),
+    X(#[schemars(transform = any("m"))] f64),
+    Y(#[schemars(transform = any("m"))] f64),
+    Z(#[schemars(transform = any("m"))] f64),
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Gives {
+    /// Temperature [K].
     Temperature,
     /// The six components of the stress tensor and its von Mises value.
     Stress,
+    /// The von Mises stress.
     VonMises,
     /// The largest principal stress, which opens cracks in brittle solids.
     MaxPrincipal,
@@ -452,13 +439,17 @@ pub enum Gives {
     Displacement,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fidelity {
+    /// How much model is wanted.
     #[serde(default)]
     pub level: FidelityLevel,
-    /// Relative.
+    /// Relative error that `auto` may make [1]; times 100 K, what an inner step of nonlinear heat may err by.
     #[serde(default = "default_tolerance")]
+    #[schemars(transform = within(0.0, 1.0, "1", "")
+        .open()
+        .says("the tolerance is relative", "0 < tolerance < 1"))]
     pub tolerance: f64,
 }
 
@@ -472,7 +463,7 @@ fn default_tolerance() -> f64 {
     1e-3
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum FidelityLevel {
     #[default]
@@ -481,19 +472,25 @@ pub enum FidelityLevel {
     Auto,
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Solver {
-    /// Threads a unit may use; 0 lets the program choose.
+    /// Threads that a unit may use; results do not depend on them.
     #[serde(default)]
+    #[schemars(transform = whole(0, 1024, "too many threads", "0 to 1024 (0 lets the program choose)")
+        .otherwise("0: the program chooses"))]
     pub threads: usize,
-    /// How the heat of solids is advanced.
+    /// How the heat of solids advances: exactly in time by modes, or in inner steps by Newton's method.
     #[serde(default)]
+    #[schemars(extend("otherwise" = "`auto`: modes wherever heat is linear"))]
     pub method: SolverMethod,
+    /// Memory that the scene may take of the process [B]: one that is forecast to need more is refused.
+    #[schemars(transform = within(1e6, 1e15, "B", "the memory of a scene").otherwise("all that there is"))]
+    pub memory: Option<usize>,
 }
 
 /// How the heat of solids is advanced.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SolverMethod {
     /// Exactly in time wherever constants and faces allow it, by Newton's method elsewhere.

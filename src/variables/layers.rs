@@ -47,15 +47,15 @@ fn constants(
             (format!("{body}.layer[{}]", i + 1), owner, LayersOf::Single(i))
         }
     };
-    let given = |constant: &MaterialConstant| constant.is_given(layer.material.properties());
-    for constant in MaterialConstant::ALL.into_iter().filter(given) {
+    let given = |constant: &&MaterialConstant| constant.is_given(layer.material.properties());
+    for constant in MaterialConstant::ALL.iter().filter(given) {
         let (body, layers) = (body.to_owned(), layers.clone());
         add(
-            format!("{prefix}.{}", constant.key()),
-            format!("{} of {owner}", constant.description()),
+            format!("{prefix}.{}", constant.key),
+            format!("{} of {owner}", constant.description),
             Parameter::LayerMaterial { body, layers, constant },
-            constant.quantity(),
-            constant.bounds(),
+            constant.quantity,
+            constant.bounds,
         );
     }
 }

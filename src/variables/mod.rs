@@ -14,8 +14,9 @@ mod parameters;
 mod registry;
 
 pub use crate::inputs::InputLayout;
+pub use crate::material::MaterialConstant;
 pub use crate::quantity::{DisplayUnit, Quantity};
 pub use arrays::{ArrayRegistry, ArrayVariable, Content};
 pub use droplet_constant::DropletConstant;
-pub use parameter::{LayersOf, MaterialConstant, Parameter};
+pub use parameter::{LayersOf, Parameter};
 pub use registry::{Causality, Output, Registry, Slot, Value, Variable};

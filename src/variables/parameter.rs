@@ -1,5 +1,5 @@
-use super::{DropletConstant, Quantity};
-use crate::material::{Properties, Property};
+use super::DropletConstant;
+use crate::material::MaterialConstant;
 use crate::scene::{Body, FaceName, Layer, Scene};
 
 /// A constant of the scene that may be set until initialisation ends.
@@ -7,13 +7,13 @@ use crate::scene::{Body, FaceName, Layer, Scene};
 pub enum Parameter {
     Material {
         body: String,
-        constant: MaterialConstant,
+        constant: &'static MaterialConstant,
     },
     /// Of what some layers of a body are made of.
     LayerMaterial {
         body: String,
         layers: LayersOf,
-        constant: MaterialConstant,
+        constant: &'static MaterialConstant,
     },
     /// Of a layer, counted from 0, with the one above.
     ContactResistance {
@@ -47,90 +47,6 @@ impl LayersOf {
         match self {
             Self::Named(name) => layer.material.name.as_ref() == Some(name),
             Self::Single(single) => *single == index,
-        }
-    }
-}
-
-/// A constant of the thermo-elastic law.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum MaterialConstant {
-    Density,
-    SpecificHeat,
-    Conductivity,
-    Young,
-    Poisson,
-    Expansion,
-    YieldStress,
-}
-
-impl MaterialConstant {
-    pub const ALL: [MaterialConstant; 7] = [
-        MaterialConstant::Density,
-        MaterialConstant::SpecificHeat,
-        MaterialConstant::Conductivity,
-        MaterialConstant::Young,
-        MaterialConstant::Poisson,
-        MaterialConstant::Expansion,
-        MaterialConstant::YieldStress,
-    ];
-
-    /// Key in the scene and last part of the variable's name.
-    pub fn key(self) -> &'static str {
-        match self {
-            MaterialConstant::Density => "density",
-            MaterialConstant::SpecificHeat => "specific_heat",
-            MaterialConstant::Conductivity => "conductivity",
-            MaterialConstant::Young => "young",
-            MaterialConstant::Poisson => "poisson",
-            MaterialConstant::Expansion => "expansion",
-            MaterialConstant::YieldStress => "yield_stress",
-        }
-    }
-
-    /// Whether a material names the constant as a number.
-    pub fn is_given(self, properties: &Properties) -> bool {
-        let property = match self {
-            MaterialConstant::Density => return true,
-            MaterialConstant::SpecificHeat => Some(&properties.specific_heat),
-            MaterialConstant::Conductivity => Some(&properties.conductivity),
-            MaterialConstant::Young => properties.young.as_ref(),
-            MaterialConstant::Poisson => properties.poisson.as_ref(),
-            MaterialConstant::Expansion => properties.expansion.as_ref(),
-            MaterialConstant::YieldStress => properties.yield_stress.as_ref(),
-        };
-        matches!(property, Some(Property::Constant(_)))
-    }
-
-    pub fn description(self) -> &'static str {
-        match self {
-            MaterialConstant::Density => "mass density",
-            MaterialConstant::SpecificHeat => "specific heat capacity",
-            MaterialConstant::Conductivity => "thermal conductivity",
-            MaterialConstant::Young => "Young's modulus",
-            MaterialConstant::Poisson => "Poisson's ratio",
-            MaterialConstant::Expansion => "coefficient of linear thermal expansion",
-            MaterialConstant::YieldStress => "yield stress",
-        }
-    }
-
-    pub fn quantity(self) -> Quantity {
-        match self {
-            MaterialConstant::Density => Quantity::Density,
-            MaterialConstant::SpecificHeat => Quantity::SpecificHeat,
-            MaterialConstant::Conductivity => Quantity::Conductivity,
-            MaterialConstant::Young => Quantity::Modulus,
-            MaterialConstant::Poisson => Quantity::Ratio,
-            MaterialConstant::Expansion => Quantity::Expansion,
-            MaterialConstant::YieldStress => Quantity::Stress,
-        }
-    }
-
-    /// Declared bounds; the scene's own check also refuses the open ends.
-    pub fn bounds(self) -> (Option<f64>, Option<f64>) {
-        match self {
-            MaterialConstant::Poisson => (Some(-1.0), Some(0.5)),
-            MaterialConstant::Expansion => (None, None),
-            _ => (Some(0.0), None),
         }
     }
 }
@@ -177,12 +93,12 @@ impl Parameter {
             }
             (Parameter::Material { constant, .. }, Body::Solid(solid)) => {
                 let own = solid.material.iter_mut();
-                own.map(|choice| constant.place(choice.properties_mut())).collect()
+                own.filter_map(|choice| constant.place(choice.properties_mut())).collect()
             }
             (Parameter::LayerMaterial { layers, constant, .. }, Body::Solid(solid)) => {
                 let all = solid.layers.iter_mut().flatten().enumerate();
                 all.filter(|(i, layer)| layers.contains(*i, layer))
-                    .map(|(_, layer)| constant.place(layer.material.properties_mut()))
+                    .filter_map(|(_, layer)| constant.place(layer.material.properties_mut()))
                     .collect()
             }
             (Parameter::ContactResistance { layer, .. }, Body::Solid(solid)) => {
@@ -194,27 +110,5 @@ impl Parameter {
             }
             _ => panic!("a parameter is registered from a body of its kind"),
         }
-    }
-}
-
-impl MaterialConstant {
-    fn place(self, properties: &mut Properties) -> &mut f64 {
-        match self {
-            MaterialConstant::Density => &mut properties.density,
-            MaterialConstant::SpecificHeat => number(Some(&mut properties.specific_heat)),
-            MaterialConstant::Conductivity => number(Some(&mut properties.conductivity)),
-            MaterialConstant::Young => number(properties.young.as_mut()),
-            MaterialConstant::Poisson => number(properties.poisson.as_mut()),
-            MaterialConstant::Expansion => number(properties.expansion.as_mut()),
-            MaterialConstant::YieldStress => number(properties.yield_stress.as_mut()),
-        }
-    }
-}
-
-/// A constant that may be left out or be a table; parameters are registered where it is a number.
-fn number(constant: Option<&mut Property>) -> &mut f64 {
-    match constant {
-        Some(Property::Constant(value)) => value,
-        _ => panic!("registered from a constant that is a number"),
     }
 }

@@ -15,14 +15,14 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     };
     for (body, solid) in scene.solids() {
         if let Some(choice) = &solid.material {
-            let given = |constant: &MaterialConstant| constant.is_given(choice.properties());
-            for constant in MaterialConstant::ALL.into_iter().filter(given) {
+            let given = |constant: &&MaterialConstant| constant.is_given(choice.properties());
+            for constant in MaterialConstant::ALL.iter().filter(given) {
                 add(
-                    format!("{body}.{}", constant.key()),
-                    format!("{} of {body}", constant.description()),
+                    format!("{body}.{}", constant.key),
+                    format!("{} of {body}", constant.description),
                     Parameter::Material { body: body.to_owned(), constant },
-                    constant.quantity(),
-                    constant.bounds(),
+                    constant.quantity,
+                    constant.bounds,
                 );
             }
         }

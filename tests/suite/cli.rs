@@ -548,6 +548,18 @@ fn a_scene_beyond_the_memory_of_the_machine_is_refused_with_numbers() {
     assert!(!place.path("out").exists(), "a refused run writes nothing");
 }
 
+#[test]
+fn a_scene_may_say_how_much_memory_it_takes() {
+    let place = Workplace::new();
+    let limited = |memory: &str| format!("solver = {{ memory = {memory} }}\n{SCENE}");
+    fs::write(place.path("scene.toml"), limited("1_000_000")).unwrap();
+    let words = ["MB of memory", "have 1.000e0 MB", "larger `mesh.spacing`"];
+    place.call(&["check", "scene.toml"]).fails(1, &words);
+    place.run(&[]).fails(1, &words);
+    fs::write(place.path("scene.toml"), limited("1_000_000_000")).unwrap();
+    place.call(&["check", "scene.toml"]).succeeds();
+}
+
 /// With the address space that the process may have all of its own limits are kept.
 #[cfg(target_os = "linux")]
 #[test]

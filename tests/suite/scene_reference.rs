@@ -1,9 +1,15 @@
-//! `docs/scene.md` has every key that a scene may have, and no other.
+//! `docs/scene.schema.json` is what follows from the types of scenes, the tables of `docs/scene.md` are what follows from
+//! it, and both have every key that a scene may have, and no other. `WRITE_REFERENCE=1` writes both anew.
+
+mod tables;
 
 use std::collections::BTreeSet;
-use std::fs;
+use std::{env, fs};
 
-use impinge::scene::parse;
+use impinge::scene::{SCHEMA, derived_schema, parse};
+use serde::Serialize;
+use serde_json::Value;
+use serde_json::ser::{PrettyFormatter, Serializer};
 
 const PLATE: &str = include_str!("../scenes/plate.toml");
 const DROP: &str = include_str!("../scenes/drop.toml");
@@ -65,8 +71,93 @@ const SECTIONS: [Section; 25] = [
     ("`start` of a wall", DROP, "start = {", "start = { zz = 1,", &[]),
 ];
 
+const PAGE: &str = "docs/scene.md";
+const SCHEMA_FILE: &str = "docs/scene.schema.json";
+
 fn reference() -> String {
-    fs::read_to_string("docs/scene.md").unwrap()
+    fs::read_to_string(PAGE).unwrap()
+}
+
+/// Whether what is checked in is written instead of compared.
+fn writes() -> bool {
+    env::var_os("WRITE_REFERENCE").is_some()
+}
+
+/// The schema that follows from the types, as it is checked in.
+fn schema_text() -> String {
+    let mut text = Vec::new();
+    let formatter = PrettyFormatter::with_indent(b" ");
+    derived_schema().serialize(&mut Serializer::with_formatter(&mut text, formatter)).unwrap();
+    String::from_utf8(text).unwrap() + "\n"
+}
+
+#[test]
+fn the_schema_follows_from_the_types() {
+    let text = schema_text();
+    if writes() {
+        fs::write(SCHEMA_FILE, &text).unwrap();
+    } else {
+        let same = text.lines().zip(SCHEMA.lines()).position(|(new, old)| new != old);
+        let line = same.map_or(text.lines().count().min(SCHEMA.lines().count()), |line| line) + 1;
+        assert!(
+            text == SCHEMA,
+            "{SCHEMA_FILE}:{line} is not what follows; WRITE_REFERENCE=1 writes it"
+        );
+    }
+}
+
+/// The page with the table of each section in place of the one that stands there.
+fn with_tables(page: &str, schema: &Value) -> String {
+    let mut sections = page.split("\n## ").map(str::to_owned).collect::<Vec<_>>();
+    for (heading, pointer) in tables::SECTIONS {
+        let section = sections.iter_mut().find(|text| text.lines().next() == Some(heading));
+        let section = section.unwrap_or_else(|| panic!("no section {heading}"));
+        let is_row = |line: &&str| line.starts_with("| ") || line.starts_with("|-");
+        let old: String = section.split_inclusive('\n').filter(is_row).collect();
+        assert!(section.contains(&old), "the table of {heading} is in parts");
+        *section = section.replace(&old, &tables::table(schema, pointer));
+    }
+    assert_eq!(sections.len(), tables::SECTIONS.len() + 1, "a section has no table");
+    sections.join("\n## ")
+}
+
+#[test]
+fn the_tables_follow_from_the_schema() {
+    let schema = serde_json::from_str(&schema_text()).unwrap();
+    let page = reference();
+    let wanted = with_tables(&page, &schema);
+    if writes() {
+        fs::write(PAGE, wanted).unwrap();
+    } else {
+        for (line, (new, old)) in wanted.lines().zip(page.lines()).enumerate() {
+            assert_eq!(new, old, "{PAGE}:{}; WRITE_REFERENCE=1 writes it", line + 1);
+        }
+        assert_eq!(wanted.len(), page.len());
+    }
+}
+
+/// Every description that names a unit names the one that the key has.
+#[test]
+fn descriptions_name_the_units_of_their_keys() {
+    fn look(schema: &Value, wrong: &mut Vec<String>) {
+        let text = |key: &str| schema.get(key).and_then(Value::as_str);
+        if let (Some(unit), Some(description)) = (text("unit"), text("description")) {
+            // What stands between backticks is code.
+            let words: String = description.split('`').step_by(2).collect();
+            let mut named = words.split(" [").skip(1).filter_map(|rest| rest.split_once(']'));
+            if named.any(|(named, _)| named != unit) {
+                wrong.push(format!("{description} ({unit})"));
+            }
+        }
+        match schema {
+            Value::Object(parts) => parts.values().for_each(|part| look(part, wrong)),
+            Value::Array(parts) => parts.iter().for_each(|part| look(part, wrong)),
+            _ => {}
+        }
+    }
+    let mut wrong = Vec::new();
+    look(&serde_json::from_str(SCHEMA).unwrap(), &mut wrong);
+    assert!(wrong.is_empty(), "{wrong:?}");
 }
 
 /// The text below a heading of the reference.

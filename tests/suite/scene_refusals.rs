@@ -97,6 +97,33 @@ fn scenes_that_make_sense_are_accepted() {
     }
 }
 
+/// Bounds are numbers of a text, which must be read to the last digit.
+#[test]
+fn what_is_at_the_end_of_a_range_is_accepted() {
+    for (from, ends) in [
+        ("density = 3950.0", ["density = 1e-60", "density = 1e60"]),
+        ("expansion = 8.1e-6", ["expansion = -1e60", "expansion = 1e60"]),
+        ("poisson = 0.21", ["poisson = 0.499999999", "poisson = -0.999999999"]),
+        (
+            "initial_temperature = 293.15",
+            ["initial_temperature = 1e-300", "initial_temperature = 1e9"],
+        ),
+    ] {
+        for to in ends {
+            accepted(&edited(PLATE, from, to));
+        }
+    }
+    for (from, ends) in [
+        ("viscosity = 1e-3", ["viscosity = 1e-9", "viscosity = 1e6"]),
+        ("specific_heat = 4180.0", ["specific_heat = 0.1", "specific_heat = 1e7"]),
+        ("surface_tension = 0.07", ["surface_tension = 0.0", "contact_angle = 3.141592653589793"]),
+    ] {
+        for to in ends {
+            accepted(&edited(DROP, from, to));
+        }
+    }
+}
+
 #[test]
 fn droplets_may_be_alone_above_walls_or_on_solids() {
     let (free, _) = DROP.split_once("[[wall]]").unwrap();

@@ -1,19 +1,15 @@
 //! Shape, material, faces, symmetry and mesh of each solid.
 
-use super::{Checker, LARGEST, MOST_ELEMENTS, fits, is_sound, layers, material, nonlinear, number};
+use super::{Checker, MOST_ELEMENTS, fits, is_sound, layers, material, nonlinear, number};
 use crate::material::Material;
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::types::{
-    Convection, Face, FaceName, HeatMethod, Mesh, Radiation, Shape, Solid, SphOperator,
-    SphSettings, Symmetry,
-};
+use crate::scene::types::{Face, FaceName, HeatMethod, Mesh, Shape, Solid, SphOperator, Symmetry};
 
 pub fn check(checker: &mut Checker) {
     material::named(checker);
     for (name, solid) in checker.scene.solids() {
         let path = Path::default().key("body").key(name);
-        shape(checker, &path.at("shape"), &solid.shape);
         layers::check(checker, &path, solid);
         if checker.scene.needs_mechanics(name) {
             for (place, own) in solid.materials(&path) {
@@ -23,35 +19,18 @@ pub fn check(checker: &mut Checker) {
                 }
             }
         }
-        checker.temperature(&path.at("initial_temperature"), solid.initial_temperature);
-        if let Some(temperature) = solid.stress_free_temperature {
-            checker.temperature(&path.at("stress_free_temperature"), temperature);
-        }
         nonlinear::check(checker, &path, solid);
         for (&name, face) in &solid.faces {
             let path = path.at("faces").key(name.as_str());
             place_of_face(checker, &path, solid, name);
             conditions(checker, &path, face);
-            condition_values(checker, &path, face);
             overlap_with_sides(checker, &path, solid, name);
         }
         symmetry(checker, &path.at("symmetry"), solid);
-        mesh(checker, &path.at("mesh"), &solid.mesh, &solid.shape);
+        if is_sound(&solid.shape) {
+            spacing(checker, &path.at("mesh"), &solid.mesh, &solid.shape);
+        }
         sph(checker, &path, solid);
-    }
-}
-
-fn shape(checker: &mut Checker, path: &Path, shape: &Shape) {
-    match shape {
-        Shape::Box(extents) => {
-            for (i, &extent) in extents.iter().enumerate() {
-                checker.length(&path.at("box").index(i), extent, "the extent of a body");
-            }
-        }
-        Shape::Disc(disc) => {
-            checker.length(&path.at("disc.radius"), disc.radius, "the radius of a body");
-            checker.length(&path.at("disc.thickness"), disc.thickness, "the thickness of a body");
-        }
     }
 }
 
@@ -67,34 +46,9 @@ fn conditions(checker: &mut Checker, path: &Path, face: &Face) {
         let message = format!("a face takes one {kind} condition, not {}", keys.join(" and "));
         checker.require(keys.len() <= 1, path, message, format!("one of {}", keys.join(", ")));
     }
-}
-
-fn condition_values(checker: &mut Checker, path: &Path, face: &Face) {
-    if let Some(temperature) = face.temperature {
-        checker.temperature(&path.at("temperature"), temperature);
-    }
-    if let Some(Convection { coefficient, ambient }) = face.convection {
-        let path = path.at("convection");
-        let message = "a heat transfer coefficient is not negative";
-        checker.require(coefficient >= 0.0, &path.at("coefficient"), message, ">= 0");
-        let message = "a heat transfer coefficient is beyond all bounds";
-        let allowed = format!("0 to {LARGEST:e}");
-        checker.require(coefficient <= LARGEST, &path.at("coefficient"), message, allowed);
-        checker.temperature(&path.at("ambient"), ambient);
-    }
-    if let Some(Radiation { emissivity, ambient }) = face.radiation {
-        let path = path.at("radiation");
-        let message = "an emissivity is a part";
-        checker.require(
-            (0.0..=1.0).contains(&emissivity),
-            &path.at("emissivity"),
-            message,
-            "0 to 1",
-        );
-        checker.temperature(&path.at("ambient"), ambient);
-        let message = "a face of prescribed temperature loses whatever it has to";
-        checker.require(face.temperature.is_none(), &path, message, "`temperature` or `radiation`");
-    }
+    let message = "a face of prescribed temperature loses whatever it has to";
+    let fine = face.radiation.is_none() || face.temperature.is_none();
+    checker.require(fine, &path.at("radiation"), message, "`temperature` or `radiation`");
 }
 
 /// One of the four lateral faces and `sides` may both be given, but not with the same kind of
@@ -139,22 +93,6 @@ fn quarter(checker: &mut Checker, path: &Path, solid: &Solid) {
     }
 }
 
-fn mesh(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {
-    if is_sound(shape) {
-        spacing(checker, path, mesh, shape);
-    }
-    if let Some(growth) = mesh.growth {
-        let fine = (1.0..=2.0).contains(&growth);
-        let message = "neighbouring elements grow by a modest ratio";
-        checker.require(fine, &path.at("growth"), message, "1 <= growth <= 2");
-    }
-    if let Some(order) = mesh.order {
-        let fine = order == 1 || order == 2;
-        let message = "no shape functions of this order";
-        checker.require(fine, &path.at("order"), message, "1 (linear), 2 (quadratic)");
-    }
-}
-
 /// What particles ask of a body.
 fn sph(checker: &mut Checker, path: &Path, solid: &Solid) {
     if solid.heat != HeatMethod::Sph {
@@ -167,22 +105,10 @@ fn sph(checker: &mut Checker, path: &Path, solid: &Solid) {
     let message =
         "particles take linear elements, whose nodes have volumes like those of particles";
     checker.require(order == 1, &path.at("mesh.order"), message, "1");
-    let SphSettings { operator, support, .. } = solid.sph.unwrap_or_default();
-    let message = "the support radius, in distances of particles, reaches too few or too many";
-    let fine = 1.0 < support && support <= MOST_SUPPORT;
-    checker.require(
-        fine,
-        &path.at("sph.support"),
-        message,
-        format!("1 < support <= {MOST_SUPPORT}"),
-    );
-    if operator == SphOperator::Plain {
+    if solid.sph.unwrap_or_default().operator == SphOperator::Plain {
         plain_operator(checker, path, solid);
     }
 }
-
-/// Largest support radius in distances of particles: 9³ neighbours a particle in a box.
-const MOST_SUPPORT: f64 = 5.0;
 
 /// The plain operator is wrong by a finite amount wherever distances differ.
 fn plain_operator(checker: &mut Checker, path: &Path, solid: &Solid) {

@@ -1,7 +1,7 @@
 //! Whether couplings join what goes together: a droplet with the top of a solid that can take what it gives, or the
 //! top of a solid with the bottom of another.
 
-use super::{Checker, LENGTHS, TIMES, fits, number};
+use super::{Checker, fits, number};
 use crate::scene::droplet::{Coupling, Droplet};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
@@ -10,24 +10,12 @@ use crate::scene::types::{FaceName, Shape, Solid};
 pub fn check(checker: &mut Checker) {
     for (i, coupling) in checker.scene.coupling.iter().enumerate() {
         let path = Path::default().key("coupling").index(i);
-        for (key, value, range, what) in [
-            ("interval", coupling.interval, TIMES, "the time between exchanges"),
-            ("radius", coupling.radius, LENGTHS, "the radius of the fine mesh"),
-            ("conductance", coupling.conductance, CONDUCTANCES, "the conductance of the contact"),
-        ] {
-            if let Some(value) = value {
-                checker.positive_within(&path.at(key), value, range, what);
-            }
-        }
         match coupling.lower().is_some() {
             true => check_contact(checker, &path, i, coupling),
             false => check_droplet(checker, &path, i, coupling),
         }
     }
 }
-
-/// [W/(m² K)]
-const CONDUCTANCES: [f64; 2] = [1e-12, 1e15];
 
 fn check_droplet(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupling) {
     if checker.scene.solid(&coupling.from).is_some() && coupling.conductance.is_some() {

@@ -10,24 +10,12 @@ pub fn check(checker: &mut Checker) {
     for (i, field) in checker.scene.field.iter().enumerate() {
         let path = Path::default().key("field").index(i);
         checker.distinct(&path.at("gives"), &field.gives);
-        let counts_are_fine = counts(checker, &path.at("grid"), field.grid);
-        let size_is_fine = size(checker, &path.at("size"), field.size);
+        let is_fine = checker.is_fine(&path.at("grid")) && checker.is_fine(&path.at("size"));
         let place = place(checker, &path, field);
-        if let Some((place, solid)) = place.filter(|_| counts_are_fine && size_is_fine) {
+        if let Some((place, solid)) = place.filter(|_| is_fine) {
             extent(checker, &path.at("size"), &Grid::at(place, field, &solid.shape), &solid.shape);
         }
     }
-}
-
-fn counts(checker: &mut Checker, path: &Path, grid: [usize; 2]) -> bool {
-    let first = checker.count(&path.index(0), grid[0]);
-    checker.count(&path.index(1), grid[1]) && first
-}
-
-fn size(checker: &mut Checker, path: &Path, size: Option<[f64; 2]>) -> bool {
-    let Some(size) = size else { return true };
-    let first = checker.length(&path.index(0), size[0], "the extent of a grid");
-    checker.length(&path.index(1), size[1], "the extent of a grid") && first
 }
 
 /// The face or section and the body it belongs to.

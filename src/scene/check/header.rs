@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Checker, TIMES, number};
+use super::{Checker, number};
 use crate::scene::Naming;
 use crate::scene::locate::Path;
 
@@ -10,8 +10,6 @@ use crate::scene::locate::Path;
 const RESERVED: [&str; 2] = ["solver", "output"];
 /// Bytes of a name, at most: files are named after it, whose names have at most 255 bytes with all endings.
 const LONGEST_NAME: usize = 200;
-/// More threads than any machine of today runs well.
-const MOST_THREADS: usize = 1024;
 /// More communication steps than any run takes.
 const MOST_STEPS: f64 = 1e9;
 
@@ -19,7 +17,6 @@ pub fn check(checker: &mut Checker) {
     description(checker);
     times(checker);
     names(checker);
-    settings(checker);
 }
 
 fn description(checker: &mut Checker) {
@@ -31,10 +28,7 @@ fn description(checker: &mut Checker) {
 fn times(checker: &mut Checker) {
     let root = Path::default();
     let (stop_time, step) = (checker.scene.stop_time, checker.scene.step);
-    let stop_is_fine =
-        checker.positive_within(&root.key("stop_time"), stop_time, TIMES, "the stop time");
-    let step_is_fine = checker.positive_within(&root.key("step"), step, TIMES, "the step");
-    if stop_is_fine && step_is_fine {
+    if checker.is_fine(&root.key("stop_time")) && checker.is_fine(&root.key("step")) {
         let message = format!("the run takes {} steps", number((stop_time / step).ceil()));
         let allowed = format!(">= {}, for at most {MOST_STEPS:e}", number(stop_time / MOST_STEPS));
         checker.require(stop_time / step <= MOST_STEPS, &root.key("step"), message, allowed);
@@ -42,17 +36,6 @@ fn times(checker: &mut Checker) {
         let allowed = format!("<= stop_time = {}", number(stop_time));
         checker.require(step <= stop_time, &root.key("step"), message, allowed);
     }
-}
-
-fn settings(checker: &mut Checker) {
-    let root = Path::default();
-    let tolerance = checker.scene.fidelity.tolerance;
-    let fine = 0.0 < tolerance && tolerance < 1.0;
-    let message = "the tolerance is relative";
-    checker.require(fine, &root.at("fidelity.tolerance"), message, "0 < tolerance < 1");
-    let fine = checker.scene.solver.threads <= MOST_THREADS;
-    let allowed = format!("0 to {MOST_THREADS} (0 lets the program choose)");
-    checker.require(fine, &root.at("solver.threads"), "too many threads", allowed);
 }
 
 /// Names become prefixes of FMI variables, so that each must be an identifier of its own.

@@ -1,6 +1,6 @@
 //! What solids are made of: one material, or layers that fill their thickness.
 
-use super::{Checker, LARGEST, is_sound, material, number};
+use super::{Checker, is_sound, material, number};
 use crate::scene::locate::Path;
 use crate::scene::materials::MaterialChoice;
 use crate::scene::types::{FaceName, HeatMethod, Layer, Solid, SolverMethod};
@@ -35,11 +35,11 @@ fn layers(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
     for (i, layer) in list.iter().enumerate() {
         let place = place.index(i);
         own_material(checker, &place.key("material"), &layer.material);
-        let what = "the thickness of a layer";
-        sound &= checker.length(&place.key("thickness"), layer.thickness, what);
-        if let Some(resistance) = layer.contact_resistance {
-            contact(checker, &place.key("contact_resistance"), i, resistance);
-        }
+        sound &= checker.is_fine(&place.key("thickness"));
+        let message = "above the top layer there is none to be in contact with";
+        let fine = i > 0 || layer.contact_resistance.is_none();
+        let place = place.key("contact_resistance");
+        checker.require(fine, &place, message, "a layer below another one");
     }
     if sound && is_sound(&solid.shape) {
         thickness(checker, &place, solid, list);
@@ -60,17 +60,6 @@ fn own_material(checker: &mut Checker, path: &Path, choice: &MaterialChoice) {
     if named != Some(choice.material()) {
         material::check(checker, path, choice.material());
     }
-}
-
-fn contact(checker: &mut Checker, path: &Path, layer: usize, resistance: f64) {
-    let message = "above the top layer there is none to be in contact with";
-    if !checker.require(layer > 0, path, message, "a layer below another one") {
-        return;
-    }
-    let message = "a contact resistance is not negative";
-    checker.require(resistance >= 0.0, path, message, ">= 0");
-    let message = "a contact resistance is beyond all bounds";
-    checker.require(resistance <= LARGEST, path, message, format!("0 to {LARGEST:e}"));
 }
 
 /// Layers fill the shape.

@@ -9,10 +9,9 @@ pub fn check(checker: &mut Checker) {
     for (i, load) in checker.scene.load.iter().enumerate() {
         let path = Path::default().key("load").index(i);
         checker.distinct(&path.at("carries"), &load.carries);
-        let before = checker.problems.len();
-        footprint(checker, &path.at("footprint"), &load.footprint);
         start::check(checker, &path, load);
-        let lengths_are_fine = checker.problems.len() == before;
+        let lengths_are_fine =
+            ["footprint", "start", "range"].iter().all(|key| checker.is_fine(&path.key(key)));
         let Some((face, solid)) = checker.face(&path.at("on"), &load.on, loaded_faces) else {
             continue;
         };
@@ -29,26 +28,6 @@ pub fn check(checker: &mut Checker) {
 
 fn loaded_faces(_: &Shape) -> Vec<FaceName> {
     vec![FaceName::Top, FaceName::Bottom]
-}
-
-/// Whether a footprint has a size and a sensible number of cells.
-pub fn footprint(checker: &mut Checker, path: &Path, footprint: &Footprint) {
-    let path = path.key(footprint.name());
-    if let Some(radius) = footprint.radius() {
-        checker.length(&path.at("radius"), radius, "the radius of a footprint");
-    }
-    match *footprint {
-        Footprint::Disc { .. } | Footprint::Gaussian { .. } => {}
-        Footprint::Rings { count, .. } => {
-            checker.count(&path.at("count"), count);
-        }
-        Footprint::Tiles { count, size } => {
-            for i in 0..2 {
-                checker.count(&path.at("count").index(i), count[i]);
-                checker.length(&path.at("size").index(i), size[i], "the extent of a footprint");
-            }
-        }
-    }
 }
 
 /// What a face is held at, it does not take from a load: it would leave again at once.

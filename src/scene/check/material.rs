@@ -1,7 +1,7 @@
-//! The constants of materials: numbers, tables, melting and yield.
+//! The constants of materials: tables, melting and yield.
 
-use super::{Checker, LARGEST, SMALLEST, number};
-use crate::material::{Material, Melting, Properties, Property, PropertyError};
+use super::{Checker, number};
+use crate::material::{Material, Melting, Properties, Property, PropertyError, Table};
 use crate::scene::locate::Path;
 
 /// The materials that have names.
@@ -13,101 +13,33 @@ pub fn named(checker: &mut Checker) {
 
 pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
     let law = material.properties();
-    checker.constant(&path.at("density"), law.density, "the density");
-    let positive = [
-        ("specific_heat", Some(&law.specific_heat), "the specific heat capacity"),
-        ("conductivity", Some(&law.conductivity), "the thermal conductivity"),
-        ("young", law.young.as_ref(), "Young's modulus"),
-        ("yield_stress", law.yield_stress.as_ref(), "the yield stress"),
-    ];
-    for (key, property, what) in positive {
-        if let Some(property) = property {
-            each(checker, &path.key(key), property, |checker, path, value| {
-                checker.constant(path, value, what);
-            });
+    for (key, property) in law.tables() {
+        if let Some(Property::Table(values)) = property {
+            table(checker, &path.key(key), values);
         }
     }
-    if let Some(property) = &law.expansion {
-        each(checker, &path.key("expansion"), property, expansion);
-    }
-    if let Some(property) = &law.poisson {
-        each(checker, &path.key("poisson"), property, poisson);
-    }
-    for (key, property) in [
-        ("isotropic_hardening", &law.isotropic_hardening),
-        ("kinematic_hardening", &law.kinematic_hardening),
-    ] {
-        if let Some(property) = property {
-            each(checker, &path.key(key), property, hardening);
-        }
-    }
-    if let Some(melting) = &law.melting {
-        check_melting(checker, &path.key("melting"), melting);
+    if let Some(Melting { solidus, liquidus, .. }) = law.melting {
+        let message = "melting ends below where it begins";
+        let allowed = format!("liquidus >= {}", number(solidus));
+        checker.require(liquidus >= solidus, &path.at("melting.liquidus"), message, allowed);
     }
     yields(checker, path, material);
 }
 
-/// Looks at the number, or at the table and each of its values.
-fn each(
-    checker: &mut Checker,
-    path: &Path,
-    property: &Property,
-    value: impl Fn(&mut Checker, &Path, f64),
-) {
-    let Property::Table(table) = property else {
-        return property.values().iter().for_each(|&number| value(checker, path, number));
-    };
-    let ascending = "strictly ascending temperatures, at least two";
-    if let Err(error) = table.check() {
-        // What is allowed stands apart in a scene's errors.
-        let message = error.to_string();
-        let message = message.split(" (allowed").next().unwrap_or_default().to_owned();
-        match error {
-            PropertyError::Lengths { .. } => {
-                checker.refuse(path, message, "one value for each temperature");
-            }
-            _ => checker.refuse(&path.key("temperature"), message, ascending),
+fn table(checker: &mut Checker, path: &Path, table: &Table) {
+    let Err(error) = table.check() else { return };
+    // What is allowed stands apart in a scene's errors.
+    let message = error.to_string();
+    let message = message.split(" (allowed").next().unwrap_or_default().to_owned();
+    match error {
+        PropertyError::Lengths { .. } => {
+            checker.refuse(path, message, "one value for each temperature");
         }
-        return;
+        _ => {
+            let ascending = "strictly ascending temperatures, at least two";
+            checker.refuse(&path.key("temperature"), message, ascending);
+        }
     }
-    for (i, &temperature) in table.temperature.iter().enumerate() {
-        checker.temperature(&path.key("temperature").index(i), temperature);
-    }
-    for (i, &number) in table.value.iter().enumerate() {
-        value(checker, &path.key("value").index(i), number);
-    }
-}
-
-fn expansion(checker: &mut Checker, path: &Path, value: f64) {
-    let message = "the coefficient of expansion is beyond all bounds";
-    checker.require(value.abs() <= LARGEST, path, message, format!("-{LARGEST:e} to {LARGEST:e}"));
-}
-
-fn hardening(checker: &mut Checker, path: &Path, value: f64) {
-    let message = "a body that yields does not soften";
-    checker.require((0.0..=LARGEST).contains(&value), path, message, format!("0 to {LARGEST:e}"));
-}
-
-/// Refuses ratios at which resistance to shear or to compression is lost, or lost in rounding.
-fn poisson(checker: &mut Checker, path: &Path, ratio: f64) {
-    const MARGIN: f64 = 1e-9;
-    let message = match ratio {
-        high if high > 0.5 - MARGIN => "Poisson's ratio must stay below one half",
-        low if low < -1.0 + MARGIN => "Poisson's ratio must stay above minus one",
-        _ => return,
-    };
-    checker.refuse(path, message, "-1 < poisson < 0.5");
-}
-
-fn check_melting(checker: &mut Checker, path: &Path, melting: &Melting) {
-    let Melting { solidus, liquidus, latent_heat } = *melting;
-    checker.temperature(&path.key("solidus"), solidus);
-    checker.temperature(&path.key("liquidus"), liquidus);
-    let message = "melting ends below where it begins";
-    let allowed = format!("liquidus >= {}", number(solidus));
-    checker.require(liquidus >= solidus, &path.key("liquidus"), message, allowed);
-    let bounds = [SMALLEST, LARGEST];
-    checker.positive_within(&path.key("latent_heat"), latent_heat, bounds, "the latent heat");
 }
 
 /// A yield stress goes with the model that has one.

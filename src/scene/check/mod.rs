@@ -6,6 +6,7 @@ mod droplet;
 mod field;
 mod header;
 mod layers;
+mod limits;
 mod material;
 mod nonlinear;
 mod load;
@@ -17,25 +18,15 @@ mod wall;
 
 pub use nonlinear::takes_newton;
 
+use std::collections::BTreeSet;
+
 use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
 use super::locate::{Path, Source};
 use super::lookup::split_place;
+use super::schema::Schema;
 use super::spelling::hint;
 use super::types::{FaceName, Scene, Shape, Solid};
-
-/// Largest number of points, rings or tiles along an axis.
-const MOST_CELLS: usize = 1000;
-
-/// Smallest and largest magnitude of constants: products of a few of them and their squares stay well
-/// within the range of numbers.
-const SMALLEST: f64 = 1e-60;
-const LARGEST: f64 = 1e60;
-
-/// Bounds of what every body has: lengths [m], times [s], temperatures [K].
-const LENGTHS: [f64; 2] = [1e-12, 1e6];
-const TIMES: [f64; 2] = [1e-30, 1e12];
-const HOTTEST: f64 = 1e9;
 
 /// Elements along an axis of a mesh at most, were it as fine throughout as in its finest place.
 const MOST_ELEMENTS: f64 = 1e6;
@@ -44,8 +35,9 @@ const MOST_ELEMENTS: f64 = 1e6;
 const SLACK: f64 = 1e-9;
 
 /// Finds everything that is wrong with a scene whose numbers are all finite.
-pub fn check(scene: &Scene, source: &Source) -> Result<(), SceneError> {
-    let mut checker = Checker { scene, source, problems: Vec::new() };
+pub fn check(scene: &Scene, source: &Source, schema: &Schema) -> Result<(), SceneError> {
+    let mut checker = Checker { scene, source, problems: Vec::new(), refused: BTreeSet::new() };
+    limits::check(&mut checker, schema);
     header::check(&mut checker);
     body::check(&mut checker);
     droplet::check(&mut checker);
@@ -64,12 +56,26 @@ struct Checker<'a> {
     scene: &'a Scene,
     source: &'a Source<'a>,
     problems: Vec<Problem>,
+    /// Where these are.
+    refused: BTreeSet<Path>,
 }
 
 impl<'a> Checker<'a> {
     /// Notes a problem with the value at `path`.
     fn refuse(&mut self, path: &Path, message: impl Into<String>, allowed: impl Into<String>) {
         self.problems.push(self.source.problem(path, message.into(), allowed.into()));
+        self.refused.insert(path.clone());
+    }
+
+    /// The places in the value at `path` that have been refused.
+    fn refused_in(&self, path: &Path) -> impl Iterator<Item = &Path> {
+        let all = path.clone();
+        self.refused.range(path..).take_while(move |refused| refused.is_within(&all))
+    }
+
+    /// Whether nothing in the value at `path` has been refused.
+    fn is_fine(&self, path: &Path) -> bool {
+        self.refused_in(path).next().is_none()
     }
 
     /// Notes a problem unless `fine`; returns `fine`.
@@ -84,48 +90,6 @@ impl<'a> Checker<'a> {
             self.refuse(path, message, allowed);
         }
         fine
-    }
-
-    /// Refuses numbers that are not above zero.
-    fn positive(&mut self, path: &Path, value: f64, what: &str) -> bool {
-        self.require(value > 0.0, path, format!("{what} must be positive"), "> 0")
-    }
-
-    /// Refuses constants that are not above zero, or so small or large that computing with them
-    /// leaves the range of numbers.
-    fn constant(&mut self, path: &Path, value: f64, what: &str) {
-        self.positive_within(path, value, [SMALLEST, LARGEST], what);
-    }
-
-    /// Refuses numbers that are not above zero, or beyond what anything real has; whether it is fine.
-    fn positive_within(&mut self, path: &Path, value: f64, bounds: [f64; 2], what: &str) -> bool {
-        self.positive(path, value, what) && self.within(path, value, bounds, what)
-    }
-
-    /// Refuses numbers beyond what anything real has.
-    fn within(&mut self, path: &Path, value: f64, [low, high]: [f64; 2], what: &str) -> bool {
-        let fine = (low..=high).contains(&value);
-        let allowed = format!("{} to {}", number(low), number(high));
-        self.require(fine, path, format!("{what} is beyond all bounds"), allowed)
-    }
-
-    /// Refuses lengths that are not above zero, or beyond what anything real has.
-    fn length(&mut self, path: &Path, value: f64, what: &str) -> bool {
-        self.positive_within(path, value, LENGTHS, what)
-    }
-
-    /// Refuses kelvins at and below absolute zero, and hotter ones than anything is.
-    fn temperature(&mut self, path: &Path, value: f64) {
-        let allowed = "> 0 (kelvin)";
-        if self.require(value > 0.0, path, "a temperature is above absolute zero", allowed) {
-            self.within(path, value, [0.0, HOTTEST], "a temperature");
-        }
-    }
-
-    /// Refuses counts of nothing and of absurdly many.
-    fn count(&mut self, path: &Path, count: usize) -> bool {
-        let fine = (1..=MOST_CELLS).contains(&count);
-        self.require(fine, path, "the count is out of bounds", format!("1 to {MOST_CELLS}"))
     }
 
     /// Refuses empty lists and repetitions in lists of names.

@@ -86,14 +86,6 @@ fn radius(checker: &mut Checker, path: &Path, load: &Load) {
         ] {
             checker.require(!given, &path.at(key), "tiles have no radius", "x, y");
         }
-    } else {
-        let positive = "the radius of a footprint";
-        if let Some(radius) = load.start.radius {
-            checker.length(&path.at("start.radius"), radius, positive);
-        }
-        if let Some([lowest, _]) = load.range.radius {
-            checker.length(&path.at("range.radius").index(0), lowest, positive);
-        }
     }
 }
 

@@ -15,6 +15,7 @@ use toml::de::{DeFloat, DeValue};
 use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
 use super::locate::{Path, Source};
+use super::schema::Schema;
 use super::spelling::hint;
 use super::types::{Body, Scene, Solid};
 use crate::material::Properties;
@@ -27,8 +28,8 @@ const MOST_PROBLEMS: usize = 100;
 
 /// Reads a scene whose keys, types and numbers are in order; whether they make sense together is
 /// not looked at.
-pub fn decode(source: &Source) -> Result<Scene, SceneError> {
-    let mut decoder = Decoder { source, left_out: BTreeSet::new(), problems: Vec::new() };
+pub fn decode(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
+    let mut decoder = Decoder { source, schema, left_out: BTreeSet::new(), problems: Vec::new() };
     decoder.refuse_numbers_that_are_not_finite(source.root(), &Path::default());
     decoder.read_materials();
     decoder.read_bodies();
@@ -44,6 +45,7 @@ pub fn decode(source: &Source) -> Result<Scene, SceneError> {
 
 struct Decoder<'a> {
     source: &'a Source<'a>,
+    schema: &'a Schema,
     /// What reads as if it were not there.
     left_out: BTreeSet<Path>,
     problems: Vec<Problem>,
@@ -165,7 +167,7 @@ impl Decoder<'_> {
             Misfit::Unexpected { expected } if is_table && expected == "a sequence" => {
                 format!("`[[{place}]]`, with two brackets, once for each")
             }
-            _ => with_unit(allowed, &place),
+            _ => with_unit(allowed, self.schema, &place),
         };
         self.problems.push(self.source.problem(&place, misfit.message(), allowed));
     }
@@ -206,7 +208,7 @@ impl Decoder<'_> {
         match value {
             DeValue::Float(float) if !is_finite(float) => {
                 let message = "not a finite number".to_owned();
-                let allowed = with_unit(expectation("f64"), path);
+                let allowed = with_unit(expectation("f64"), self.schema, path);
                 self.problems.push(self.source.problem(path, message, allowed));
             }
             DeValue::Array(array) => {

@@ -2,7 +2,6 @@
 //! that were forgotten. Nothing here is refused; each finding is a [`Warning`].
 
 mod arrangement;
-mod ranges;
 mod relations;
 mod values;
 
@@ -11,8 +10,9 @@ use std::fmt;
 use super::check::number;
 use super::error::Problem;
 use super::locate::{Path, Source};
+use super::schema::Schema;
 use super::types::Scene;
-use ranges::Range;
+use crate::limits::plausible::{self, Range};
 
 /// Something that a scene says, and that is hardly meant.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -42,9 +42,9 @@ impl Warning {
 }
 
 /// Everything in a checked scene that is hardly meant, in the order of the lines.
-pub(super) fn warnings(scene: &Scene, source: &Source) -> Vec<Warning> {
+pub(super) fn warnings(scene: &Scene, source: &Source, schema: &Schema) -> Vec<Warning> {
     let mut reviewer = Reviewer { scene, source, found: Vec::new() };
-    values::review(&mut reviewer);
+    values::review(&mut reviewer, schema);
     relations::review(&mut reviewer);
     arrangement::review(&mut reviewer);
     reviewer.found.sort_by_key(|warning| warning.problem.line);
@@ -62,13 +62,6 @@ impl Reviewer<'_> {
     fn warn(&mut self, path: &Path, message: String) {
         let problem = self.source.problem(path, message, String::new());
         self.found.push(Warning { problem });
-    }
-
-    /// Warns of a value outside of its plausible range.
-    fn value(&mut self, path: &Path, value: f64, range: &Range) {
-        if let Some(message) = doubt(range, value) {
-            self.warn(path, message);
-        }
     }
 }
 
@@ -100,13 +93,18 @@ pub enum Measure {
 
 /// `NAME = VALUE: why (did you mean …?)` of a value that is hardly meant for an input of a unit of the scene.
 pub fn doubt_of_input(scene: &Scene, name: &str, measure: Measure, value: f64) -> Option<String> {
-    let temperature = values::temperatures(scene);
-    let why = match measure {
-        Measure::Temperature => doubt(&temperature, value),
-        Measure::Ambient => doubt(&Range { lowest: temperature.lowest, ..ranges::AMBIENT }, value),
-        Measure::HeatTransfer => doubt(&ranges::HEAT_TRANSFER, value),
-        Measure::HeatFlux => doubt(&ranges::HEAT_FLUX, value),
-        Measure::Traction => doubt(&ranges::TRACTION, value),
+    let range = match measure {
+        Measure::Temperature => &plausible::TEMPERATURE,
+        Measure::Ambient => &plausible::AMBIENT,
+        Measure::HeatTransfer => &plausible::HEAT_TRANSFER,
+        Measure::HeatFlux => &plausible::HEAT_FLUX,
+        Measure::Traction => &plausible::TRACTION,
     };
+    let is_cold = matches!(measure, Measure::Temperature | Measure::Ambient);
+    let lowest = match is_cold && values::is_cryogenic(scene) {
+        true => plausible::CRYOGENIC,
+        false => range.lowest,
+    };
+    let why = doubt(&Range { lowest, ..range.clone() }, value);
     why.map(|why| format!("{name} = {}: {why}", number(value)))
 }

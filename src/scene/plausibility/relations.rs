@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::Reviewer;
-use super::ranges;
+use crate::limits::plausible;
 use crate::material::Constants;
 use crate::scene::check::number;
 use crate::scene::droplet::Fluid;
@@ -45,7 +45,7 @@ pub fn review(reviewer: &mut Reviewer) {
 }
 
 fn solid(reviewer: &mut Reviewer, path: &Path, law: &Constants) {
-    if !ranges::DENSITY.holds(law.density) {
+    if !plausible::DENSITY.holds(law.density) {
         return;
     }
     if law.density < LIGHT && law.conductivity > LIGHT_CONDUCTS {
@@ -55,7 +55,7 @@ fn solid(reviewer: &mut Reviewer, path: &Path, law: &Constants) {
             number(law.conductivity)
         );
         reviewer.warn(&path.key("density"), message);
-    } else if let Some(young) = law.young.filter(|&young| ranges::YOUNG.holds(young)) {
+    } else if let Some(young) = law.young.filter(|&young| plausible::YOUNG.holds(young)) {
         let sound = (young / law.density).sqrt();
         if sound > FASTEST_SOUND {
             let message = format!(
@@ -78,7 +78,7 @@ fn fluid(reviewer: &mut Reviewer, path: &Path, fluid: &Fluid) {
     } else {
         return;
     };
-    if viscosity >= THIN && ranges::VISCOSITY.holds(viscosity) {
+    if viscosity >= THIN && plausible::VISCOSITY.holds(viscosity) {
         let (meant, given) = (number(1e-3 * viscosity), number(viscosity));
         let message =
             format!("no liquid that {kind} is this viscous; did you mean {meant} ({given} mPa s)?");
@@ -115,7 +115,7 @@ fn flux_of(reviewer: &mut Reviewer, path: &Path, (flux, radius): (f64, f64), sol
     // Of layers, the one that would be heated least.
     let rises = solid.strata().into_iter().map(|layer| half_space(&layer.constants));
     let rise = rises.reduce(|a, b| if b.abs() < a.abs() { b } else { a }).unwrap_or(0.0);
-    if !ranges::HEAT_FLUX.holds(flux) {
+    if !plausible::HEAT_FLUX.holds(flux) {
         return;
     }
     let about = number((rise.abs() / 10.0).round() * 10.0);

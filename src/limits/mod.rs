@@ -1,0 +1,298 @@
+//! What the numbers of a scene may be: units, bounds, plausible ranges and the words that refuse what is beyond them.
+//!
+//! Fields of the scene's types name their [`Limits`] in `#[schemars(transform = …)]`. They go into the JSON schema of
+//! scenes as its own keywords (`minimum`, `exclusiveMinimum`, …) and as those of [`keyword`]; checks, messages and
+//! tables read them from there.
+
+pub mod plausible;
+
+use schemars::{Schema, transform::Transform};
+use serde_json::{Map, Value, json};
+
+use plausible::Range;
+
+/// Keywords beside those of JSON Schema.
+pub mod keyword {
+    /// What a number is measured in; nothing for texts, counts and ratios.
+    pub const UNIT: &str = "unit";
+    /// What a number is, in words, as in "the density".
+    pub const NOUN: &str = "noun";
+    /// Why a number is too small, and what is allowed, where the noun is not enough.
+    pub const TOO_LOW: &str = "tooLow";
+    /// The same of a number that is too large.
+    pub const TOO_HIGH: &str = "tooHigh";
+    /// What holds for the value beside its bounds, in words.
+    pub const CONDITION: &str = "condition";
+    /// What holds where the key is left out, in words.
+    pub const OTHERWISE: &str = "otherwise";
+    /// The range beyond which a value is hardly meant.
+    pub const PLAUSIBLE: &str = "plausible";
+    /// The lowest end of that range in scenes with liquids as light as hydrogen.
+    pub const CRYOGENIC: &str = "cryogenic";
+}
+
+/// A message and what is allowed instead.
+type Words = (&'static str, &'static str);
+
+/// What a number, or each number of a list, may be.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    unit: Option<&'static str>,
+    noun: Option<&'static str>,
+    /// Least and largest value, and whether these are allowed themselves.
+    low: Option<(f64, bool)>,
+    high: Option<(f64, bool)>,
+    too_low: Option<Words>,
+    too_high: Option<Words>,
+    condition: Option<&'static str>,
+    otherwise: Option<&'static str>,
+    plausible: Option<&'static Range<'static>>,
+    is_cold: bool,
+}
+
+/// Smallest and largest magnitude of constants: products of a few of them and their squares stay well
+/// within the range of numbers.
+const SMALLEST: f64 = 1e-60;
+const LARGEST: f64 = 1e60;
+
+/// Largest number of points, rings or tiles along an axis.
+const MOST_CELLS: f64 = 1000.0;
+
+/// Any number of that unit.
+pub const fn any(unit: &'static str) -> Limits {
+    Limits {
+        unit: Some(unit),
+        noun: None,
+        low: None,
+        high: None,
+        too_low: None,
+        too_high: None,
+        condition: None,
+        otherwise: None,
+        plausible: None,
+        is_cold: false,
+    }
+}
+
+/// A number between two others, these included; a range from above zero on holds positive numbers, one from zero on
+/// numbers that are not negative.
+pub const fn within(low: f64, high: f64, unit: &'static str, noun: &'static str) -> Limits {
+    Limits { low: Some((low, true)), high: Some((high, true)), noun: Some(noun), ..any(unit) }
+}
+
+/// A number above zero; other checks say what is wrong with one that is not.
+pub const fn above_zero(unit: &'static str) -> Limits {
+    Limits { low: Some((0.0, false)), ..any(unit) }
+}
+
+/// A length that a body has [m].
+pub const fn length(noun: &'static str) -> Limits {
+    within(1e-12, 1e6, "m", noun)
+}
+
+/// A time that a run can take [s].
+pub const fn time(noun: &'static str) -> Limits {
+    within(1e-30, 1e12, "s", noun).plausible(&plausible::TIME)
+}
+
+/// A temperature above absolute zero [K].
+pub const fn temperature() -> Limits {
+    let limits = within(0.0, 1e9, "K", "a temperature").low_open();
+    limits.low("a temperature is above absolute zero", "> 0 (kelvin)")
+}
+
+/// The temperature of something in the scene [K], which may be as cold as its liquids are.
+pub const fn own_temperature() -> Limits {
+    temperature().plausible(&plausible::TEMPERATURE).cold()
+}
+
+/// A positive constant of a material.
+pub const fn positive(unit: &'static str, noun: &'static str) -> Limits {
+    within(SMALLEST, LARGEST, unit, noun)
+}
+
+/// A constant that may be zero.
+pub const fn not_negative(unit: &'static str, noun: &'static str) -> Limits {
+    within(0.0, LARGEST, unit, noun)
+}
+
+/// A constant of either sign.
+pub const fn signed(unit: &'static str, noun: &'static str) -> Limits {
+    within(-LARGEST, LARGEST, unit, noun)
+}
+
+/// A number of points, rings or tiles.
+pub const fn count() -> Limits {
+    whole(1, MOST_CELLS as u32, "the count is out of bounds", "1 to 1000")
+}
+
+/// A whole number between two others.
+pub const fn whole(low: u32, high: u32, why: &'static str, allowed: &'static str) -> Limits {
+    let limits = within(low as f64, high as f64, "", "").says(why, allowed);
+    Limits { unit: None, noun: None, ..limits }
+}
+
+impl Limits {
+    /// What to say of values beyond either end, with what is allowed.
+    pub const fn says(self, why: &'static str, allowed: &'static str) -> Self {
+        self.low(why, allowed).high(why, allowed)
+    }
+
+    /// What to say of values that are too small.
+    pub const fn low(self, why: &'static str, allowed: &'static str) -> Self {
+        Self { too_low: Some((why, allowed)), ..self }
+    }
+
+    /// What to say of values that are too large.
+    pub const fn high(self, why: &'static str, allowed: &'static str) -> Self {
+        Self { too_high: Some((why, allowed)), ..self }
+    }
+
+    /// The same without the least value.
+    pub const fn low_open(self) -> Self {
+        match self.low {
+            Some((low, _)) => Self { low: Some((low, false)), ..self },
+            None => self,
+        }
+    }
+
+    /// The same without the least and the largest value.
+    pub const fn open(self) -> Self {
+        match self.high {
+            Some((high, _)) => Self { high: Some((high, false)), ..self.low_open() },
+            None => self.low_open(),
+        }
+    }
+
+    /// What else must hold, in words.
+    pub const fn condition(self, condition: &'static str) -> Self {
+        Self { condition: Some(condition), ..self }
+    }
+
+    /// What holds where the key is left out, in words.
+    pub const fn otherwise(self, otherwise: &'static str) -> Self {
+        Self { otherwise: Some(otherwise), ..self }
+    }
+
+    /// The range beyond which a value is hardly meant.
+    pub const fn plausible(self, range: &'static Range<'static>) -> Self {
+        Self { plausible: Some(range), ..self }
+    }
+
+    /// Plausible down to [`plausible::CRYOGENIC`] around liquids as light as hydrogen.
+    pub const fn cold(self) -> Self {
+        Self { is_cold: true, ..self }
+    }
+
+    /// Puts the limits of a number into its schema.
+    fn put(&self, number: &mut Map<String, Value>) {
+        for (bound, closed, open) in
+            [(self.low, "minimum", "exclusiveMinimum"), (self.high, "maximum", "exclusiveMaximum")]
+        {
+            if let Some((value, is_closed)) = bound {
+                number.remove(closed);
+                number.insert(if is_closed { closed } else { open }.into(), plain(value));
+            }
+        }
+        let words = |words: Option<Words>| words.map(|(why, allowed)| json!([why, allowed]));
+        for (key, value) in [
+            (keyword::UNIT, self.unit.map(Value::from)),
+            (keyword::NOUN, self.noun.filter(|noun| !noun.is_empty()).map(Value::from)),
+            (keyword::TOO_LOW, words(self.too_low)),
+            (keyword::TOO_HIGH, words(self.too_high)),
+            (keyword::PLAUSIBLE, self.plausible.map(|range| json!(range))),
+            (keyword::CRYOGENIC, self.is_cold.then(|| json!(plausible::CRYOGENIC))),
+        ] {
+            if let Some(value) = value {
+                number.insert(key.into(), value);
+            }
+        }
+    }
+
+    /// Puts them into the schemas of all numbers that a value is made of.
+    fn put_into_numbers(&self, value: &mut Value) {
+        let Value::Object(schema) = value else { return };
+        if is_number(schema) {
+            return self.put(schema);
+        }
+        for (key, part) in schema {
+            match (key.as_str(), part) {
+                ("items", items) => self.put_into_numbers(items),
+                ("anyOf", Value::Array(list)) => {
+                    list.iter_mut().for_each(|part| self.put_into_numbers(part));
+                }
+                // The values of a table over the temperature.
+                ("properties", Value::Object(keys)) => {
+                    keys.get_mut("value").into_iter().for_each(|part| self.put_into_numbers(part));
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+/// The keys that a table may have, where they all take the same.
+#[derive(Debug, Clone, Copy)]
+pub struct Keys<const N: usize>(pub [&'static str; N]);
+
+impl<const N: usize> Transform for Keys<N> {
+    fn transform(&mut self, schema: &mut Schema) {
+        schema.insert("propertyNames".into(), json!({ "enum": self.0.as_slice() }));
+    }
+}
+
+/// Says what the key means that chooses among the alternatives of a schema.
+#[derive(Debug, Clone, Copy)]
+pub struct Tag {
+    key: &'static str,
+    meaning: &'static str,
+}
+
+/// The key of a table that chooses its type, and what it means.
+pub const fn tag(key: &'static str, meaning: &'static str) -> Tag {
+    Tag { key, meaning }
+}
+
+impl Transform for Tag {
+    fn transform(&mut self, schema: &mut Schema) {
+        let alternatives = schema.get_mut("oneOf").and_then(Value::as_array_mut);
+        for alternative in alternatives.into_iter().flatten() {
+            alternative["properties"][self.key]["description"] = self.meaning.into();
+        }
+    }
+}
+
+/// A number as people write it: 1 instead of 1.0.
+fn plain(value: f64) -> Value {
+    if value.fract() == 0.0 && value.abs() < 1e6 { json!(value as i64) } else { json!(value) }
+}
+
+/// Whether a schema is that of a number.
+pub fn is_number(schema: &Map<String, Value>) -> bool {
+    let names_one = |name: &Value| matches!(name.as_str(), Some("number" | "integer"));
+    match schema.get("type") {
+        Some(Value::Array(list)) => list.iter().any(names_one),
+        Some(name) => names_one(name),
+        None => false,
+    }
+}
+
+impl Transform for Limits {
+    fn transform(&mut self, schema: &mut Schema) {
+        let object = schema.ensure_object();
+        for (key, text) in [
+            (keyword::UNIT, self.unit),
+            (keyword::CONDITION, self.condition),
+            (keyword::OTHERWISE, self.otherwise),
+        ] {
+            if let Some(text) = text {
+                object.insert(key.into(), text.into());
+            }
+        }
+        let mut value = Value::Object(std::mem::take(object));
+        self.put_into_numbers(&mut value);
+        if let Value::Object(filled) = value {
+            *object = filled;
+        }
+    }
+}

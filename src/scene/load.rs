@@ -1,0 +1,174 @@
+//! Loads on faces: where they act, what they bring and how that may change.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::types::IDENTIFIER;
+use crate::limits::{any, count, length, plausible};
+
+/// Heat and traction on a part of a face.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// First part of the inputs' names.
+    #[schemars(extend("pattern" = IDENTIFIER, "condition" = "as that of the scene"))]
+    pub name: String,
+    /// The face, `BODY.FACE`.
+    #[schemars(extend("condition" = "`top` or `bottom` of a solid"))]
+    pub on: String,
+    /// Where it acts.
+    #[schemars(extend("condition" = "on its face"))]
+    pub footprint: Footprint,
+    /// List of what it brings.
+    #[schemars(length(min = 1), extend("uniqueItems" = true))]
+    pub carries: Vec<Carries>,
+    /// Start values of the inputs.
+    #[serde(default)]
+    #[schemars(extend("otherwise" = "zero, at the centre"))]
+    pub start: LoadStart,
+    /// Bounds of the inputs that move the footprint; the mesh is fine wherever they let it go.
+    #[serde(default)]
+    #[schemars(extend("otherwise" = "where it starts"))]
+    pub range: LoadRange,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum Footprint {
+    /// `{ radius = R }`: uniform inside.
+    #[schemars(extend("unit" = "m", "condition" = "of loads"))]
+    Disc {
+        #[schemars(transform = length("the radius of a footprint"))]
+        radius: f64,
+    },
+    /// `{ radius = R }`: the peak at the centre, 1/e² of it at R.
+    #[schemars(extend("unit" = "m", "condition" = "of loads"))]
+    Gaussian {
+        #[schemars(transform = length("the radius of a footprint"))]
+        radius: f64,
+    },
+    /// `{ count = N, radius = R }`: concentric, of equal width, a value each.
+    #[schemars(extend("unit" = "m", "condition" = "count 1 to 1000"))]
+    Rings {
+        #[schemars(transform = count())]
+        count: usize,
+        #[schemars(transform = length("the radius of a footprint"))]
+        radius: f64,
+    },
+    /// `{ count = [NX, NY], size = [LX, LY] }`: rectangles, a value each.
+    #[schemars(extend("unit" = "m", "condition" = "counts 1 to 1000; not on a disc; of a plane drop NY = 1"))]
+    Tiles {
+        #[schemars(transform = count())]
+        count: [usize; 2],
+        #[schemars(transform = length("the extent of a footprint"))]
+        size: [f64; 2],
+    },
+}
+
+impl Footprint {
+    /// Outer radius of round footprints [m].
+    pub fn radius(&self) -> Option<f64> {
+        match *self {
+            Footprint::Disc { radius }
+            | Footprint::Gaussian { radius }
+            | Footprint::Rings { radius, .. } => Some(radius),
+            Footprint::Tiles { .. } => None,
+        }
+    }
+
+    /// Number of cells that have a value of their own, first index running along the first axis;
+    /// `None` for a single value without index.
+    pub fn cells(&self) -> Option<CellShape> {
+        match *self {
+            Footprint::Disc { .. } | Footprint::Gaussian { .. } => None,
+            Footprint::Rings { count, .. } => Some(CellShape::Rings(count)),
+            Footprint::Tiles { count, .. } => Some(CellShape::Tiles(count)),
+        }
+    }
+}
+
+/// Index ranges of a footprint of many values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CellShape {
+    Rings(usize),
+    Tiles([usize; 2]),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Carries {
+    /// Heat flux into the body [W/m²].
+    HeatFlux,
+    /// Pressure that acts into the body [Pa].
+    Pressure,
+    /// Shear traction [Pa]: along x and y; radial on rings.
+    Shear,
+}
+
+/// Start values of a load's inputs.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoadStart {
+    /// Heat flux into the body [W/m²].
+    #[schemars(transform = any("W/m²").plausible(&plausible::HEAT_FLUX).otherwise("0").condition(CARRIED))]
+    pub heat_flux: Option<CellValues>,
+    /// Pressure into the body [Pa].
+    #[schemars(transform = any("Pa").plausible(&plausible::TRACTION).otherwise("0").condition(CARRIED))]
+    pub pressure: Option<CellValues>,
+    /// Shear along x [Pa].
+    #[schemars(transform = any("Pa").plausible(&plausible::TRACTION).otherwise("0").condition("not on rings"))]
+    pub shear_x: Option<CellValues>,
+    /// Shear along y [Pa].
+    #[schemars(transform = any("Pa").plausible(&plausible::TRACTION).otherwise("0").condition("not on rings"))]
+    pub shear_y: Option<CellValues>,
+    /// Shear outward [Pa].
+    #[schemars(transform = any("Pa").plausible(&plausible::TRACTION).otherwise("0").condition("on rings"))]
+    pub shear_r: Option<CellValues>,
+    /// Place of the centre [m].
+    #[schemars(transform = any("m").otherwise("0").condition(ON_THE_FACE))]
+    pub x: Option<f64>,
+    /// Place of the centre [m].
+    #[schemars(transform = any("m").otherwise("0").condition(ON_THE_FACE))]
+    pub y: Option<f64>,
+    /// Radius of a round footprint [m].
+    #[schemars(transform = length("the radius of a footprint")
+        .otherwise("that of the footprint")
+        .condition("on the face"))]
+    pub radius: Option<f64>,
+}
+
+/// What holds for values of what a load may carry.
+const CARRIED: &str = "what `carries` names";
+/// What holds for places of loads.
+const ON_THE_FACE: &str = "on the face; not on a disc";
+/// Where loads may go whose range is left out.
+const UNBOUNDED: &str = "unbounded, mesh fine at the start";
+
+/// One value for all cells, or one for each.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(
+    untagged,
+    expecting = "a finite number, a list of them (rings) or a list of lists of them (tiles)"
+)]
+#[schemars(inline)]
+pub enum CellValues {
+    Uniform(f64),
+    Rings(Vec<f64>),
+    /// Row i holds the values of the tiles `[i, 1]`, `[i, 2]` …
+    Tiles(Vec<Vec<f64>>),
+}
+
+/// Bounds `[lowest, highest]` of the inputs that move a footprint [m].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct LoadRange {
+    /// `[lowest, highest]` place of the centre [m].
+    #[schemars(transform = any("m").otherwise(UNBOUNDED).condition(ON_THE_FACE))]
+    pub x: Option<[f64; 2]>,
+    /// `[lowest, highest]` place of the centre [m].
+    #[schemars(transform = any("m").otherwise(UNBOUNDED).condition(ON_THE_FACE))]
+    pub y: Option<[f64; 2]>,
+    /// `[lowest, highest]` radius [m].
+    #[schemars(transform = length("the radius of a footprint").otherwise(UNBOUNDED).condition("on the face"))]
+    pub radius: Option<[f64; 2]>,
+}

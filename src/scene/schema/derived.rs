@@ -1,0 +1,46 @@
+//! The schema that follows from the types, in the form in which it is kept.
+
+use schemars::Schema;
+use schemars::generate::SchemaSettings;
+use schemars::transform::RecursiveTransform;
+use serde_json::Value;
+
+use crate::scene::types::Scene;
+
+/// The JSON schema that follows from the scene's types: what [`super::SCHEMA`] must be.
+pub fn derived_schema() -> Schema {
+    let settings = SchemaSettings::draft2020_12();
+    let settings = settings.with_transform(RecursiveTransform(simplify));
+    settings.into_generator().into_root_schema_for::<Scene>()
+}
+
+/// Leaves out what TOML and readers of scenes do without: null, formats of numbers, lines of doc comments.
+fn simplify(schema: &mut Schema) {
+    let Some(object) = schema.as_object_mut() else { return };
+    object.remove("format");
+    match object.get_mut("default") {
+        Some(Value::Null) => drop(object.remove("default")),
+        Some(Value::Object(keys)) => keys.retain(|_, value| !value.is_null()),
+        _ => {}
+    }
+    if let Some(Value::String(text)) = object.get_mut("description") {
+        *text = text.replace('\n', " ");
+    }
+    if let Some(Value::Array(types)) = object.get_mut("type") {
+        types.retain(|name| name != "null");
+        if let [only] = &types[..] {
+            let only = only.clone();
+            object.insert("type".into(), only);
+        }
+    }
+    let Some(Value::Array(choices)) = object.get_mut("anyOf") else { return };
+    choices.retain(|choice| choice.get("type").is_none_or(|name| name != "null"));
+    if let [Value::Object(only)] = &mut choices[..] {
+        let only = std::mem::take(only);
+        object.remove("anyOf");
+        // What is said of a key comes before what is said of its type.
+        for (key, value) in only {
+            object.entry(key).or_insert(value);
+        }
+    }
+}

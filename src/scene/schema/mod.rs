@@ -1,0 +1,66 @@
+//! The JSON schema of scenes: what each key is, in one place, for editors, checks, messages and tables.
+//!
+//! It follows from the scene's types: doc comments are descriptions, and [`crate::limits`] says what numbers may be.
+//! What makes it takes more code than all that reads scenes, so units carry its text, which a test compares.
+
+mod derived;
+mod node;
+mod number;
+mod place;
+mod walk;
+
+use super::locate::{Path, Step};
+use node::Node;
+
+pub use derived::derived_schema;
+pub use number::Limits;
+pub use place::Place;
+
+/// The JSON schema of a scene, draft 2020-12.
+pub const SCHEMA: &str = include_str!("../../../docs/scene.schema.json");
+
+/// The schema, read.
+pub struct Schema {
+    root: Node<'static>,
+}
+
+impl Schema {
+    /// # Panics
+    /// If [`SCHEMA`] is no schema.
+    pub fn of_scenes() -> Self {
+        Self { root: serde_json::from_str(SCHEMA).expect("the schema is one") }
+    }
+
+    /// The schema that a reference leads to, or the schema itself.
+    fn resolved<'s>(&'s self, node: &'s Node<'static>) -> &'s Node<'static> {
+        let name = node.reference.and_then(|reference| reference.strip_prefix("#/$defs/"));
+        name.and_then(|name| self.root.definitions.get(name)).unwrap_or(node)
+    }
+
+    /// The schemas of which a value may follow one, those that references lead to among them.
+    fn alternatives<'s>(&'s self, node: &'s Node<'static>) -> Vec<&'s Node<'static>> {
+        let node = self.resolved(node);
+        match &node.choices[..] {
+            [] => vec![node],
+            list => list.iter().flat_map(|choice| self.alternatives(choice)).collect(),
+        }
+    }
+
+    /// What numbers at a place are measured in, or those of the list that it is an element of.
+    pub fn unit_at(&self, path: &Path) -> Option<&'static str> {
+        let mut nodes = self.alternatives(&self.root);
+        let mut unit = None;
+        for step in path.steps() {
+            let below = nodes.into_iter().filter_map(|node| match step {
+                Step::Key(key) => node.of_key(key),
+                Step::Index(_) => node.items.as_deref(),
+            });
+            let below: Vec<_> = below.collect();
+            if let Step::Key(_) = step {
+                unit = below.iter().find_map(|node| node.limits.unit);
+            }
+            nodes = below.into_iter().flat_map(|node| self.alternatives(node)).collect();
+        }
+        unit.filter(|unit| *unit != "1")
+    }
+}

@@ -1,0 +1,105 @@
+//! Finds every number of a scene together with what the schema says of it.
+
+use toml::de::{DeTable, DeValue};
+
+use super::node::Node;
+use super::{Limits, Place, Schema};
+use crate::scene::locate::Source;
+
+impl Schema {
+    /// Calls `visit` with every number of a decoded scene's text.
+    pub fn numbers<'s, 'v>(
+        &'s self,
+        source: &'v Source<'v>,
+        visit: &mut dyn FnMut(&Place<'v>, &'s Limits<'static>, f64),
+    ) {
+        Walk { schema: self, visit }.value(&mut Place::default(), &self.root, source.root());
+    }
+
+    /// Whether a value is of the kind that the schema is of, without a look at all that is in it.
+    fn fits(&self, node: &Node<'static>, value: &DeValue) -> bool {
+        let node = self.resolved(node);
+        if !node.choices.is_empty() {
+            return node.choices.iter().any(|choice| self.fits(choice, value));
+        }
+        match (node.kind, value) {
+            (Some("object"), DeValue::Table(_)) => is_table(node, value),
+            (Some("array"), DeValue::Array(list)) => {
+                let first = list.first().zip(node.items.as_deref());
+                first.is_none_or(|(first, items)| self.fits(items, first.get_ref()))
+            }
+            (Some("number"), DeValue::Float(_) | DeValue::Integer(_)) => true,
+            (Some("integer"), DeValue::Integer(_)) => true,
+            (Some("string"), DeValue::String(_)) => true,
+            (Some("boolean"), DeValue::Boolean(_)) => true,
+            _ => false,
+        }
+    }
+}
+
+/// Whether a table has the keys that it must have, and says what it must say.
+fn is_table(node: &Node, table: &DeValue) -> bool {
+    node.required.iter().all(|key| {
+        let Some(value) = table.get(*key) else { return false };
+        let said = node.of_key(key).and_then(|own| own.constant);
+        said.is_none_or(|said| value.get_ref().as_str() == Some(said))
+    })
+}
+
+struct Walk<'w, 's, 'v> {
+    schema: &'s Schema,
+    visit: &'w mut dyn FnMut(&Place<'v>, &'s Limits<'static>, f64),
+}
+
+impl<'s, 'v> Walk<'_, 's, 'v> {
+    fn value(&mut self, place: &mut Place<'v>, node: &'s Node<'static>, value: &'v DeValue<'v>) {
+        let node = self.schema.resolved(node);
+        if !node.choices.is_empty() {
+            let chosen = node.choices.iter().find(|choice| self.schema.fits(choice, value));
+            chosen.into_iter().for_each(|choice| self.value(place, choice, value));
+            return;
+        }
+        match value {
+            DeValue::Table(table) => self.table(place, node, table),
+            DeValue::Array(list) => self.list(place, node, list),
+            DeValue::Float(float) if node.is_number() => {
+                let value = float.as_str().parse().ok();
+                value.into_iter().for_each(|value| (self.visit)(place, &node.limits, value));
+            }
+            DeValue::Integer(integer) if node.is_number() => {
+                let value = i64::from_str_radix(integer.as_str(), integer.radix()).ok();
+                value.into_iter().for_each(|value| (self.visit)(place, &node.limits, value as f64));
+            }
+            _ => {}
+        }
+    }
+
+    fn table(&mut self, place: &mut Place<'v>, node: &'s Node<'static>, table: &'v DeTable<'v>) {
+        for (key, value) in table {
+            if let Some(own) = node.of_key(key.get_ref()) {
+                place.at_key(key.get_ref(), |place| self.value(place, own, value.get_ref()));
+            }
+        }
+    }
+
+    fn list(
+        &mut self,
+        place: &mut Place<'v>,
+        node: &'s Node<'static>,
+        list: &'v [toml::Spanned<DeValue<'v>>],
+    ) {
+        let Some(items) = node.items.as_deref() else { return };
+        let items = self.schema.resolved(items);
+        let holds_numbers = items.is_number() || items.items.is_some();
+        let mut elements = |place: &mut Place<'v>| {
+            for (i, element) in list.iter().enumerate() {
+                place.at_index(i, |place| self.value(place, items, element.get_ref()));
+            }
+        };
+        if node.is_of_any_length() && holds_numbers {
+            place.in_list(elements);
+        } else {
+            elements(place);
+        }
+    }
+}
