@@ -65,15 +65,6 @@ impl AxisModes {
         (0..self.count()).map(|k| (0..v.len()).map(|i| self.shapes[(i, k)] * v[i]).sum()).collect()
     }
 
-    /// Values of all modes at one place.
-    pub fn at(&self, axis: &Axis, x: f64) -> Vec<f64> {
-        let shape = axis.shape_at(x);
-        let value = |k: usize| {
-            (0..shape.count).map(|i| shape.values[i] * self.shapes[(shape.first + i, k)]).sum()
-        };
-        (0..self.count()).map(value).collect()
-    }
-
     /// Values of all modes at a node.
     pub fn at_node(&self, node: usize) -> Vec<f64> {
         (0..self.count()).map(|k| self.shapes[(node, k)]).collect()
