@@ -90,7 +90,7 @@ impl StencilMatrix {
         }
     }
 
-    /// `out += A x`; `x` holds `block[1]` values a node, `out` holds `block[0]`.
+    /// `out += A x`; `x` holds `block[1]` values per node, `out` holds `block[0]`.
     pub fn add_product(&self, x: &[f64], out: &mut [f64]) {
         let [rows, columns] = self.block;
         for (node, result) in out.chunks_exact_mut(rows).enumerate() {

@@ -27,8 +27,8 @@ pub struct DropletForecast {
 
 /// Memory of a particle with its neighbours [B].
 const PARTICLE_MEMORY: f64 = 1.5e3;
-/// What the solid does in an exchange beyond its own step, a node [s]: measured on boxes of 10 000 to 110 000 nodes, as the
-/// difference to the same droplet above a wall.
+/// Time per node that the solid takes in an exchange beyond its own step [s]: measured on boxes of 10 000 to 110 000
+/// nodes, as the difference to the same droplet above a wall.
 const EXCHANGE: f64 = 2.2e-7;
 
 impl DropletForecast {

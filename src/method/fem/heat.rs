@@ -5,7 +5,7 @@
 //! Modes along the surface and modes along z ([`DepthModes`]) diagonalise them once (R. E. Lynch, J. R. Rice and
 //! D. H. Thomas 1964, doi 10.1007/BF01386067), and each product mode then obeys a scalar equation whose solution under
 //! a load that is a polynomial in time is an exponential and φ-functions. So a step of any length costs a few
-//! operations a node, is L-stable and has no time error; θ is the temperature above the initial one.
+//! operations per node, is L-stable and has no time error; θ is the temperature above the initial one.
 //!
 //! Arrays are modal, `(i, j, mode)`, or mixed: `(i, j, k)` with modes along the surface and coefficients in the basis of
 //! [`DepthModes`] along z.
