@@ -53,7 +53,7 @@ pub struct Unit {
     /// they are what that step ended with, and the next one holds its inputs.
     pub(super) has_set_derivatives: bool,
     pub(super) run: Option<Run>,
-    /// What is hardly meant in the scene as packed.
+    /// What is implausible in the scene as packed.
     warnings: Vec<Warning>,
     /// What the master has been warned of.
     said: BTreeSet<String>,
@@ -323,7 +323,7 @@ impl Unit {
         Ok(Run::new(model))
     }
 
-    /// Says once what is hardly meant in the scene with its parameters, now that they are fixed.
+    /// Warns once of what is implausible in the scene with its parameters, now that they are fixed.
     fn warn_of_scene(&mut self) {
         let changed = self.scene != self.packed;
         let warnings = if changed { scene::warnings(&self.scene) } else { self.warnings.clone() };
