@@ -42,11 +42,11 @@ const STEP_IN_FILM: f64 = 0.50e-6;
 const STEP_WITH_HEAT: f64 = 0.10e-6;
 /// Of a time step with tension, of an impulse of tension for all particles and for those near a surface, and of
 /// listing those anew.
-const TENSE_STEP: f64 = 0.42e-6;
-const TENSE: f64 = 1.2e-6;
-const TENSE_NEAR_SURFACE: f64 = 6.0e-6;
-const TENSE_LISTING: f64 = 0.5e-6;
-const TENSE_LISTING_AT_WALL: f64 = 2.3e-6;
+const TENSION_STEP: f64 = 0.42e-6;
+const TENSION_IMPULSE: f64 = 1.2e-6;
+const TENSION_NEAR_SURFACE: f64 = 6.0e-6;
+const TENSION_LISTING: f64 = 0.5e-6;
+const TENSION_LISTING_AT_WALL: f64 = 2.3e-6;
 /// Layers of particles at a free surface that tension has to do with.
 const LAYERS: f64 = 1.0;
 /// Of the beginning of an advance, and for each particle at the wall with heat; of a reading, for each particle
@@ -120,15 +120,16 @@ fn rates_at(plan: &DropletPlan, method: &Method, rhythm: Rhythm, time: f64) -> E
     let walled = f64::from(u8::from(rhythm.spread.is_some()));
     let heated = if method.conduction > 0.0 { walled } else { 0.0 };
     let pairs = neighbours(plan).powf(BY_NEIGHBOURS) * exact;
-    let tense = if method.surface.is_some() { exact * tension(plan) } else { 0.0 };
+    let tension_factor = if method.surface.is_some() { exact * tension(plan) } else { 0.0 };
     // In a plane model's thin film most particles have images.
     let of_wall = walled * (STEP_AT_WALL + STEP_IN_FILM * at_wall);
     let of_steps = STEP * pairs + of_wall * pairs.max(1.0) + STEP_WITH_HEAT * heated;
-    let tense_listing = TENSE_LISTING + TENSE_LISTING_AT_WALL * walled;
-    let of_advance = steps * (of_steps + TENSE_STEP * tense)
+    let listing = TENSION_LISTING + TENSION_LISTING_AT_WALL * walled;
+    let of_advance = steps * (of_steps + TENSION_STEP * tension_factor)
         + ADVANCE
         + ADVANCE_ABOVE_HEAT * heated * at_wall
-        + tense * (tense_listing + impulses * (TENSE + TENSE_NEAR_SURFACE * near_surface));
+        + tension_factor
+            * (listing + impulses * (TENSION_IMPULSE + TENSION_NEAR_SURFACE * near_surface));
     let of_reading = READING * copies(plan.mirrors) * walled * at_wall;
     let seconds = particles * (of_advance / rhythm.exchange + of_reading / rhythm.reading);
     Effort { steps: steps / rhythm.exchange, seconds }

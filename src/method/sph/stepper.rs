@@ -146,7 +146,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         self.sort();
         self.list(&Ways::none(self.cloud.len()))?;
         self.accelerate(Times::NONE);
-        self.tense();
+        self.apply_tension();
         Ok(())
     }
 
@@ -197,7 +197,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let times = Times { dt: 0.5 * dt, tension: ends };
         self.accelerate(times);
         if ends.is_some() {
-            self.tense();
+            self.apply_tension();
         }
         let motion = self.kick(times);
         self.ledger.time += dt * self.method.units.time();
@@ -293,7 +293,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             annexes: &self.annexes,
             normalisation: method.normalisation,
             diffusion: method.diffusion,
-            tense: method.surface.as_ref().map(|_| method.dimension),
+            tension_dimension: method.surface.as_ref().map(|_| method.dimension),
             conduction: method.conduction / conducting::<MOMENTS>(method, &self.cloud.moment),
         };
         let parts = self.cloud.parts(PART);
@@ -343,7 +343,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
     }
 
     /// Accelerations by surface tension.
-    fn tense(&mut self) {
+    fn apply_tension(&mut self) {
         let method = self.method;
         let Some(setting) = &method.surface else { return };
         let (cloud, team) = (&mut *self.cloud, self.team);
