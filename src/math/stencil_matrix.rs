@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn multiply_meets_the_blocks_that_were_set() {
+    fn multiply_uses_the_blocks_that_were_set() {
         let reach = [1, 2, 1].map(|n| Reach::of_elements(n, 1));
         let mut matrix = StencilMatrix::zeros(reach, [2, 1]);
         matrix.block_mut([0, 0, 0], [1, 1, 1])[1] = 3.0;

@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_convective_end_meets_the_transcendental_equation() {
+    fn a_convective_end_satisfies_the_transcendental_equation() {
         // φ' = −B φ at x = 1 and φ' = 0 at 0: b tan b = B, decay b².
         let modes =
             AxisModes::of(&line(40, 2), [EndCondition::Natural, EndCondition::Convective(2.0)]);
