@@ -81,7 +81,7 @@ impl SurfaceResponse {
 /// temperature that comes back is wrong by.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SurfaceMemory {
-    /// By the heat as it was given in the course of time.
+    /// By the heat as it was given over time.
     pub given: Vec<f64>,
     /// By mean fluxes, held over each step, as they were reported.
     pub reported: Vec<f64>,
