@@ -89,7 +89,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
     /// Whether it is time to sort: particles have mixed, or are to be brought back into a period.
     fn is_untidy(&self) -> bool {
         self.neighbours.surrounded() > GROWTH * self.ledger.surrounded
-            || self.method.images.are_astray(&self.cloud.position)
+            || self.method.images.are_beyond_period(&self.cloud.position)
     }
 
     fn sort(&mut self) {
@@ -404,7 +404,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
                 return Err(self.not_finite("velocity"));
             }
             if self.cloud.position[i].iter().any(|x| x.abs() >= FARTHEST) {
-                return Err(Failure::Astray { time });
+                return Err(Failure::OutOfRange { time });
             }
             let speed = self.cloud.velocity[i].iter().map(|v| v * v).sum::<f64>().sqrt();
             if speed >= FASTEST {
