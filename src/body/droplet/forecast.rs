@@ -5,7 +5,7 @@ use crate::body::solid::{PRODUCT_RATE, plan};
 use crate::body::{link, threads_for};
 use crate::math::chebyshev::products;
 use crate::method::fem::{Plan, particle_cost};
-use crate::method::sph::{DropletSph, Effort, Rhythm};
+use crate::method::sph::{DropletSph, Effort, RunSettings};
 use crate::scene::{Droplet, Scene};
 
 #[derive(Debug, Clone, PartialEq)]
@@ -50,7 +50,7 @@ impl DropletForecast {
         let has_wall = contact.is_some() || scene.wall_under(name).is_some();
         let effort = Effort::of(
             &sph,
-            Rhythm {
+            RunSettings {
                 stop: scene.stop_time,
                 reading: scene.step,
                 exchange,

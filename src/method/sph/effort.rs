@@ -12,9 +12,9 @@ use super::method::Method;
 use super::plan::{DropletPlan, Release};
 use crate::scene::Precision;
 
-/// How a run goes on.
+/// What the effort of a run depends on beside the droplet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rhythm {
+pub struct RunSettings {
     /// End of the run [s].
     pub stop: f64,
     /// Time between two readings of the droplet [s].
@@ -67,10 +67,10 @@ const PRESSED_OUT_IN_PLANE: f64 = 5.0;
 const SAMPLES: usize = 200;
 
 impl Effort {
-    pub fn of(plan: &DropletPlan, rhythm: Rhythm) -> Self {
+    pub fn of(plan: &DropletPlan, run: RunSettings) -> Self {
         let method = Method::of(plan);
-        let length = rhythm.stop / SAMPLES as f64;
-        let rates = |n: usize| rates_at(plan, &method, rhythm, (n as f64 + 0.5) * length);
+        let length = run.stop / SAMPLES as f64;
+        let rates = |n: usize| rates_at(plan, &method, run, (n as f64 + 0.5) * length);
         (0..SAMPLES).map(rates).fold(Self::default(), |sum, rate| Self {
             steps: sum.steps + length * rate.steps,
             seconds: sum.seconds + length * rate.seconds,
@@ -98,10 +98,10 @@ struct Drop {
 }
 
 /// Steps and computing time for a second of the run.
-fn rates_at(plan: &DropletPlan, method: &Method, rhythm: Rhythm, time: f64) -> Effort {
+fn rates_at(plan: &DropletPlan, method: &Method, run: RunSettings, time: f64) -> Effort {
     let released = plan.releases.iter().filter(|release| release.time <= time);
     let drops: Vec<Drop> =
-        released.map(|release| drop_at(plan, release, rhythm.spread, time)).collect();
+        released.map(|release| drop_at(plan, release, run.spread, time)).collect();
     let particles: f64 = drops.iter().map(|drop| drop.particles).sum();
     if particles == 0.0 {
         return Effort::default();
@@ -113,11 +113,11 @@ fn rates_at(plan: &DropletPlan, method: &Method, rhythm: Rhythm, time: f64) -> E
     let fastest = drops.iter().map(|drop| drop.fastest).fold(0.0, f64::max);
     let units = &method.units;
     let stable = method.stable_step(fastest / units.speed, gravity(plan, method)) * units.time();
-    let steps = (rhythm.exchange / stable - 1e-9).ceil().max(1.0);
-    let turn = method.turn(rhythm.exchange / steps / units.time()).min(steps);
+    let steps = (run.exchange / stable - 1e-9).ceil().max(1.0);
+    let turn = method.turn(run.exchange / steps / units.time()).min(steps);
     let impulses = (steps / turn).ceil();
     let exact = if plan.precision == Precision::Double { DOUBLE } else { 1.0 };
-    let walled = f64::from(u8::from(rhythm.spread.is_some()));
+    let walled = f64::from(u8::from(run.spread.is_some()));
     let heated = if method.conduction > 0.0 { walled } else { 0.0 };
     let pairs = neighbours(plan).powf(BY_NEIGHBOURS) * exact;
     let tension_factor = if method.surface.is_some() { exact * tension(plan) } else { 0.0 };
@@ -131,8 +131,8 @@ fn rates_at(plan: &DropletPlan, method: &Method, rhythm: Rhythm, time: f64) -> E
         + tension_factor
             * (listing + impulses * (TENSION_IMPULSE + TENSION_NEAR_SURFACE * near_surface));
     let of_reading = READING * copies(plan.mirrors) * walled * at_wall;
-    let seconds = particles * (of_advance / rhythm.exchange + of_reading / rhythm.reading);
-    Effort { steps: steps / rhythm.exchange, seconds }
+    let seconds = particles * (of_advance / run.exchange + of_reading / run.reading);
+    Effort { steps: steps / run.exchange, seconds }
 }
 
 /// A drop grows on the wall as `√(3 U t/D)` at first, and no wider than it is expected to spread.

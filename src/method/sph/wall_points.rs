@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use super::images::copies;
 use super::plan::{DropletPlan, Extent};
-use super::surface::{Surface, Warmed};
+use super::surface::{CellHeat, Surface};
 use super::wall::{Domain, WallCells, WallExchange};
 
 /// Points along an edge of a page, that is made when fluid first comes there.
@@ -308,9 +308,9 @@ impl<'a> WallPoints<'a> {
     }
 
     /// What the cells got so far that have a column.
-    pub fn warmed(&self) -> impl Iterator<Item = Warmed<'_>> {
+    pub fn cell_heat(&self) -> impl Iterator<Item = CellHeat<'_>> {
         let count = self.surface.response.len();
-        self.columns.iter().enumerate().map(move |(n, column)| Warmed {
+        self.columns.iter().enumerate().map(move |(n, column)| CellHeat {
             cell: column.cell,
             heat: column.heat / column.area,
             amplitudes: &self.amplitudes[n * count..][..count],
