@@ -52,9 +52,9 @@ pub struct Point {
     pub below: Vec<(u32, f64)>,
     /// The part beyond the outermost cells of a wall that goes on there, and the column whose temperature it has.
     pub beyond: Option<(u32, f64)>,
-    /// Mass of the fluid at the wall and its product with the temperature, each over their units.
+    /// Sums over the fluid at the wall of mass, and of mass times temperature, each over their units.
     pub mass: f64,
-    pub warmth: f64,
+    pub temperature_sum: f64,
     /// Mean temperature of the wall [K], and part of its difference to that of the fluid that the latter loses.
     pub wall: f64,
     pub relaxation: f64,
