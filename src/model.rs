@@ -147,7 +147,7 @@ impl Model {
         for s in path.turns(dt).into_iter().chain((!path.is_held()).then_some(dt)) {
             self.check_underway(&path.at(0, s), s)?;
         }
-        cache.meet(self, state);
+        cache.update(self, state);
         let mut bodies = state.bodies.clone();
         self.advance(&mut bodies, cache, (&path, dt), allowance)?;
         state.bodies = bodies;
@@ -188,7 +188,7 @@ impl Model {
         cache: &'a mut Cache,
     ) -> Result<Reader<'a>, ModelError> {
         self.check_inputs(&state.inputs)?;
-        cache.meet(self, state);
+        cache.update(self, state);
         Ok(Reader { model: self, state, cache })
     }
 
@@ -200,7 +200,7 @@ impl Model {
         body: &str,
     ) -> Result<Fields, ModelError> {
         self.check_inputs(&state.inputs)?;
-        cache.meet(self, state);
+        cache.update(self, state);
         let place = self.place(body);
         let fields = self.bodies[place].fields(&state.bodies[place], cache.memo(place))?;
         if let Fields::Nodes(fields) = &fields {

@@ -45,21 +45,21 @@ pub fn main() -> ExitCode {
     match report.and_then(|report| print(&report)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            complain("error", &error);
+            print_message("error", &error);
             ExitCode::FAILURE
         }
     }
 }
 
-/// Says on standard error what is hardly meant in a scene.
+/// Says on standard error what is implausible in a scene.
 fn warn(warnings: &[Warning]) {
     for warning in warnings {
-        complain("warning", warning);
+        print_message("warning", warning);
     }
 }
 
 /// Says something on standard error; where that cannot be written there is nobody to tell.
-fn complain(kind: &str, what: &dyn Display) {
+fn print_message(kind: &str, what: &dyn Display) {
     let _ = writeln!(io::stderr(), "{kind}: {what}");
 }
 

@@ -62,7 +62,7 @@ impl Run {
             model: &model,
         };
         if let Some(note) = idle::note(&scene, &run.state.inputs) {
-            super::complain("note", &note);
+            super::print_message("note", &note);
         }
         let mut record = self.record(&run)?;
         run.finish(&mut record)?;
@@ -83,8 +83,8 @@ impl Run {
         let inputs = set::apply(&mut scene, &self.set)?;
         scene::check(&scene)?;
         super::warn(&if scene == read { warnings } else { scene::warnings(&scene) });
-        for doubt in set::doubts(&scene, &inputs) {
-            super::complain("warning", &doubt);
+        for warning in set::implausible(&scene, &inputs) {
+            super::print_message("warning", &warning);
         }
         Ok((scene, inputs))
     }
@@ -200,7 +200,7 @@ impl Running<'_> {
         let strays = self.model.closing_warnings(&self.state);
         let balances_off = balances.iter().filter_map(summary::Balance::warning);
         for warning in balances_off.chain(overflows).chain(strays) {
-            super::complain("warning", &warning);
+            super::print_message("warning", &warning);
         }
         Ok(format!("{}\n{extremes}", summary::balance_table(&balances)))
     }

@@ -62,7 +62,7 @@ pub fn apply(scene: &mut Scene, assignments: &[Assignment]) -> Result<Vec<InputV
             Ok(variables) => {
                 let results =
                     variables.into_iter().map(|v| put(v, &assignment.value, scene, &mut inputs));
-                // Elements of an array share their bounds, so one complaint stands for all.
+                // Elements of an array share their bounds, so one error stands for all.
                 errors.extend(results.filter_map(Result::err).next());
             }
             Err(error) => errors.push(error),
@@ -71,18 +71,18 @@ pub fn apply(scene: &mut Scene, assignments: &[Assignment]) -> Result<Vec<InputV
     if errors.is_empty() { Ok(inputs) } else { Err(SetErrors(errors)) }
 }
 
-/// What to say of inputs whose values are hardly meant, of one element of an array.
-pub fn doubts(scene: &Scene, inputs: &[InputValue]) -> Vec<String> {
+/// Warnings of implausible values of inputs, one per array.
+pub fn implausible(scene: &Scene, inputs: &[InputValue]) -> Vec<String> {
     let registry = Registry::of(scene);
-    let mut doubted = BTreeSet::new();
-    let mut doubts = Vec::new();
+    let mut warned = BTreeSet::new();
+    let mut warnings = Vec::new();
     for &(index, value) in inputs {
         let is_meant = |variable: &&Variable| variable.slot == Slot::Input(index);
         let Some(variable) = registry.variables.iter().find(is_meant) else { continue };
-        let doubt = variable.doubt(scene, value);
-        doubts.extend(doubt.filter(|_| doubted.insert(variable.family())));
+        let warning = variable.implausible(scene, value);
+        warnings.extend(warning.filter(|_| warned.insert(variable.family())));
     }
-    doubts
+    warnings
 }
 
 /// The variables that a name stands for: at least one, none of them an output.

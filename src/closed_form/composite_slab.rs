@@ -2,7 +2,7 @@
 //!
 //! With ω² the eigenvalues, modes are `C cos φ` in every layer, φ growing by ω √(c/k) along it, and pass a flux
 //! `√(kc) ω C sin φ`. Temperature less resistance times flux, and flux, are continuous where layers meet, which
-//! turns φ within its multiple of π; the condition on the back is a transcendental equation that φ meets once in
+//! turns φ within its multiple of π; the condition on the back is a transcendental equation that φ satisfies once in
 //! every π (C. W. Tittle 1965, doi 10.1063/1.1714335; M. N. Özışık, *Heat Conduction*, 2nd ed., Wiley 1993, ch. 8).
 
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -37,7 +37,7 @@ pub struct CompositeSlab {
     pub back: Back,
 }
 
-/// The condition on the front that modes meet.
+/// The condition on the front that modes satisfy.
 #[derive(Clone, Copy, PartialEq)]
 enum Front {
     Flux,

@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn series_and_images_meet() {
+    fn series_and_images_agree() {
         for z in [0.0, 0.4 * SLAB.thickness, 0.9 * SLAB.thickness] {
             for rise in [HeatedSlab::rise_with_insulated_back, HeatedSlab::rise_with_held_back] {
                 let (early, late) = (time(EARLY * (1.0 - 1e-13)), time(EARLY * (1.0 + 1e-13)));

@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn both_branches_meet() {
+    fn both_branches_agree_where_they_join() {
         let (below, above) = (FRACTION_FROM.next_down(), FRACTION_FROM);
         assert_close(ierfc(below), ierfc(above), 1e-13);
         assert_close(erfcx(below), erfcx(above), 1e-14);

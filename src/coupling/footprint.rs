@@ -39,7 +39,7 @@ impl Placement {
 
 impl Pattern {
     /// Nodal vector on the face with axes `x` and `y` (x fastest) of the load as it stands at the
-    /// mirror image of each point. `values` holds one value a cell, the first index slowest.
+    /// mirror image of each point. `values` holds one value per cell, the first index slowest.
     pub fn on_plane(
         self,
         [x, y]: [&Axis; 2],

@@ -48,7 +48,7 @@ impl Category {
     pub fn description(self) -> &'static str {
         match self {
             Category::Warning => {
-                "What is hardly meant in the scene, and what failed beside the computation"
+                "What is implausible in the scene, and failures beside the computation"
             }
             Category::Discard => "A question that this unit has no answer to",
             Category::Error => "Why a call was refused",

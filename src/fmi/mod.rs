@@ -9,7 +9,6 @@
 
 mod adjoint;
 mod common;
-mod course;
 mod derivatives;
 mod float_environment;
 mod instance;
@@ -23,6 +22,7 @@ mod saved;
 mod state_bytes;
 mod states;
 mod step;
+mod step_control;
 mod types;
 mod unit;
 mod uri;

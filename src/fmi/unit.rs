@@ -8,11 +8,11 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use super::MARK;
-use super::course::Course;
 use super::guid;
 use super::legality::{Function, Phase};
 use super::log::Log;
 use super::saved::SavedStates;
+use super::step_control::StepControl;
 use super::types::{Answer, Refusal, Status};
 use crate::machine::available_memory;
 use crate::math::address_space::{self, PRODUCTS, SPARE};
@@ -53,7 +53,7 @@ pub struct Unit {
     /// they are what that step ended with, and the next one holds its inputs.
     pub(super) has_set_derivatives: bool,
     pub(super) run: Option<Run>,
-    /// What is hardly meant in the scene as packed.
+    /// What is implausible in the scene as packed.
     warnings: Vec<Warning>,
     /// What the master has been warned of.
     said: BTreeSet<String>,
@@ -62,7 +62,7 @@ pub struct Unit {
     /// Ends the step under way, from another thread.
     pub(super) interrupt: Interrupt,
     /// What the host lets a step do besides going to its end.
-    pub(super) course: Rc<Course>,
+    pub(super) control: Rc<StepControl>,
 }
 
 /// The times that fmi2SetupExperiment tells [s].
@@ -159,7 +159,7 @@ impl Unit {
             said: BTreeSet::new(),
             series: None,
             interrupt: Interrupt::default(),
-            course: Rc::default(),
+            control: Rc::default(),
         }
     }
 
@@ -236,12 +236,12 @@ impl Unit {
         self.check_step(point, step)?;
         let registry = Arc::clone(&self.registry);
         let has_set = self.has_set_derivatives;
-        let (interrupt, course) = (self.interrupt.clone(), Rc::clone(&self.course));
+        let (interrupt, control) = (self.interrupt.clone(), Rc::clone(&self.control));
         let (run, state) = self.run()?;
         let past = if has_set { None } else { Some(std::mem::take(&mut state.derivatives)) };
         let stepping = interrupt.begin();
         let stepped =
-            course.advance((&*run.model, &mut run.cache), state, (point, step), &interrupt);
+            control.advance((&*run.model, &mut run.cache), state, (point, step), &interrupt);
         drop(stepping);
         if let Err(error) = stepped {
             let is_cancelled = error.halt() == Some(&Halt::Interrupted);
@@ -323,7 +323,7 @@ impl Unit {
         Ok(Run::new(model))
     }
 
-    /// Says once what is hardly meant in the scene with its parameters, now that they are fixed.
+    /// Warns once of what is implausible in the scene with its parameters, now that they are fixed.
     fn warn_of_scene(&mut self) {
         let changed = self.scene != self.packed;
         let warnings = if changed { scene::warnings(&self.scene) } else { self.warnings.clone() };

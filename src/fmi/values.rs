@@ -123,14 +123,14 @@ impl Unit {
         if let Some(scene) = scene {
             self.set_scene(scene);
         }
-        self.doubt(&variables, values);
+        self.warn_of_implausible(&variables, values);
         Ok(Status::Ok)
     }
 
-    /// Says once of each input, and of one element of an array, that a value is hardly meant.
-    fn doubt(&mut self, variables: &[&Variable], values: &[f64]) {
+    /// Warns once of each input, and of one element of an array, that a value is implausible.
+    fn warn_of_implausible(&mut self, variables: &[&Variable], values: &[f64]) {
         for (variable, &value) in variables.iter().zip(values) {
-            if let Some(message) = variable.doubt(&self.scene, value) {
+            if let Some(message) = variable.implausible(&self.scene, value) {
                 self.warn_once_of(variable.family(), &message);
             }
         }

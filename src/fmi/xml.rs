@@ -76,7 +76,7 @@ fn co_simulation(xml: &mut Xml, scene: &Scene) -> io::Result<()> {
     leaf(xml, "CoSimulation", &attributes)
 }
 
-/// One definition a unit; quantities of one unit may be shown in different ways.
+/// One definition per unit; quantities of one unit may be shown in different ways.
 pub(super) fn units(xml: &mut Xml, used: &BTreeSet<Quantity>) -> io::Result<()> {
     let mut written = BTreeSet::new();
     for quantity in used {

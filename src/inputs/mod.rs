@@ -1,4 +1,4 @@
-//! The inputs of a scene: where each stands in a state, and the course that all take over a step.
+//! The inputs of a scene: where each stands in a state, and the path that all follow over a step.
 
 mod layout;
 mod path;

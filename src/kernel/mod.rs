@@ -1,4 +1,4 @@
-//! Smoothing kernels of particle methods, one a file.
+//! Smoothing kernels of particle methods, one per file.
 //!
 //! One convention everywhere: the smoothing length *H is the support radius*, q = r/H, and
 //! `W(r, H) = σ_d / H^d · w(q)` with w(q) = 0 for q ≥ 1 and ∫ W dV = 1 in d dimensions.

@@ -90,7 +90,7 @@ impl StencilMatrix {
         }
     }
 
-    /// `out += A x`; `x` holds `block[1]` values a node, `out` holds `block[0]`.
+    /// `out += A x`; `x` holds `block[1]` values per node, `out` holds `block[0]`.
     pub fn add_product(&self, x: &[f64], out: &mut [f64]) {
         let [rows, columns] = self.block;
         for (node, result) in out.chunks_exact_mut(rows).enumerate() {
@@ -128,7 +128,7 @@ mod tests {
     }
 
     #[test]
-    fn multiply_meets_the_blocks_that_were_set() {
+    fn multiply_uses_the_blocks_that_were_set() {
         let reach = [1, 2, 1].map(|n| Reach::of_elements(n, 1));
         let mut matrix = StencilMatrix::zeros(reach, [2, 1]);
         matrix.block_mut([0, 0, 0], [1, 1, 1])[1] = 3.0;

@@ -28,7 +28,7 @@ impl Cache {
     }
 
     /// Brings what acts up to date with the inputs and with what bodies gave last.
-    pub(super) fn meet(&mut self, model: &Model, state: &State) {
+    pub(super) fn update(&mut self, model: &Model, state: &State) {
         if self.inputs == state.inputs && self.memos.len() == model.bodies.len() {
             return;
         }
@@ -48,7 +48,7 @@ impl Cache {
         &mut self.memos[place]
     }
 
-    /// Nothing where the cache has met no state.
+    /// `None` before the first update.
     pub(super) fn known(&self, place: usize) -> Option<&Memo> {
         self.memos.get(place)
     }

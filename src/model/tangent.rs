@@ -33,7 +33,7 @@ impl Model {
         let held = vec![0.0; state.inputs.len()];
         let mut tangent = self.input_tangent(state, state.derivatives.first().unwrap_or(&held))?;
         tangent.in_time = true;
-        cache.meet(self, state);
+        cache.update(self, state);
         let path = InputPath::new(&state.inputs, &[]);
         let joints = self.through_joints(&state.bodies, cache, &path)?;
         for (place, body) in self.bodies.iter().enumerate() {
@@ -62,7 +62,7 @@ impl Model {
         Tangent { bodies, cache: change, in_time }: &mut Tangent,
         output: &Output,
     ) -> Result<f64, ModelError> {
-        cache.meet(self, state);
+        cache.update(self, state);
         let place = output.body;
         let rate = match self.bodies[place].linear() {
             Some(linear) => linear.read_rate(

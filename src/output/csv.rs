@@ -7,7 +7,7 @@ use super::OutputError;
 use crate::model::{Cache, Model, State};
 use crate::variables::{Registry, Slot, Variable};
 
-/// All inputs and outputs over time as comma-separated values (RFC 4180), a row a time.
+/// All inputs and outputs over time as comma-separated values (RFC 4180), one row per time.
 ///
 /// Each row goes to the operating system at once, so a run that is cut off loses at most its last
 /// row. Numbers are the shortest that read back to the same bits.

@@ -1,7 +1,7 @@
 //! The scene: plain, checked data that says what to model. Nothing here knows how.
 //!
 //! Text → `locate` (TOML with places) → `decode` (types) → `check` (sense) → [`Scene`]; `plausibility` warns
-//! of what makes sense but is hardly meant.
+//! of what makes sense but is implausible.
 
 mod check;
 mod decode;
@@ -43,7 +43,7 @@ pub fn read(path: &Path) -> Result<Scene, SceneError> {
     parse(&text_of(path, &file)?, &file)
 }
 
-/// The same, with what is hardly meant in it.
+/// The same, with warnings of what is implausible in it.
 pub fn read_with_warnings(path: &Path) -> Result<(Scene, Vec<Warning>), SceneError> {
     let file = path.display().to_string();
     parse_with_warnings(&text_of(path, &file)?, &file)
@@ -89,7 +89,7 @@ fn parse_located(source: &Source, schema: &Schema) -> Result<Scene, SceneError> 
     Ok(scene)
 }
 
-/// Reads and checks a scene's text, and finds what is hardly meant in it.
+/// Reads and checks a scene's text, and warns of what is implausible in it.
 pub fn parse_with_warnings(text: &str, file: &str) -> Result<(Scene, Vec<Warning>), SceneError> {
     let (source, schema) = (Source::parse(text, file)?, Schema::of_scenes());
     let scene = parse_located(&source, &schema)?;
@@ -97,7 +97,7 @@ pub fn parse_with_warnings(text: &str, file: &str) -> Result<(Scene, Vec<Warning
     Ok((scene, warnings))
 }
 
-/// What is hardly meant in a scene whose constants were changed after it was read; no lines are named.
+/// What is implausible in a scene whose constants were changed after it was read; no lines are named.
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
     let Ok(text) = toml::to_string(scene) else { return Vec::new() };
     let Ok(source) = Source::parse(&text, CHANGED) else { return Vec::new() };

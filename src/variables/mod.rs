@@ -4,13 +4,13 @@
 
 mod arrays;
 mod dependencies;
-mod doubt;
 mod droplet_constant;
 mod inputs;
 mod layers;
 mod outputs;
 mod parameter;
 mod parameters;
+mod plausibility;
 mod registry;
 
 pub use crate::inputs::InputLayout;

@@ -28,7 +28,7 @@ fn loaded() -> Unit {
     unit
 }
 
-/// The Jacobian of all outputs with respect to all inputs meets central differences, and is zero
+/// The Jacobian of all outputs with respect to all inputs agrees with central differences, and is zero
 /// where the XML names no dependency.
 #[test]
 fn every_declared_dependency_is_served_exactly_and_no_other() {

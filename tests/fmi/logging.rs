@@ -56,22 +56,22 @@ fn notes_on_the_model_come_when_it_is_built() {
 fn an_input_that_is_hardly_meant_is_warned_of_once() {
     let unit = Unit::running();
     unit.messages.take();
-    let doubts = || {
+    let warnings = || {
         let messages = unit.messages.take();
         let texts = messages.into_iter().filter(|m| m.status == WARNING).map(|m| m.text);
         texts.collect::<Vec<_>>()
     };
     assert_eq!(unit.set("plate.bottom.ambient", 20.0), OK);
-    let said = doubts();
+    let said = warnings();
     assert!(said.len() == 1 && said[0].contains("plate.bottom.ambient = 20:"), "{said:?}");
     assert!(said[0].contains("did you mean 293.15 (20 °C)?"), "{said:?}");
     assert_eq!(unit.set("plate.bottom.ambient", 25.0), OK);
-    assert_eq!(doubts(), [""; 0]);
+    assert_eq!(warnings(), [""; 0]);
     assert_eq!(unit.set("patch.heat_flux[1,1]", 1e15), OK);
     assert_eq!(unit.set("patch.heat_flux[2,1]", 1e15), OK);
-    assert_eq!(doubts().len(), 1, "one for the elements of an array");
+    assert_eq!(warnings().len(), 1, "one for the elements of an array");
     assert_eq!(unit.set("spot.heat_flux", 1e7), OK);
-    assert_eq!(doubts(), [""; 0]);
+    assert_eq!(warnings(), [""; 0]);
 }
 
 #[test]

@@ -407,8 +407,9 @@ fn check_tells_what_a_droplet_costs() {
 #[test]
 fn check_tells_what_decides_a_droplets_results() {
     let place = Workplace::new();
-    let tense = DROP.replace("conductivity = 0.6", "conductivity = 0.6, surface_tension = 0.07");
-    fs::write(place.path("drop.toml"), &tense).unwrap();
+    let with_tension =
+        DROP.replace("conductivity = 0.6", "conductivity = 0.6, surface_tension = 0.07");
+    fs::write(place.path("drop.toml"), &with_tension).unwrap();
     let report = place.call(&["check", "drop.toml"]).succeeds().stdout();
     for words in [
         "contact angle 90°",
@@ -424,7 +425,7 @@ fn check_tells_what_decides_a_droplets_results() {
     ] {
         assert!(report.contains(words), "`{words}` is missing in: {report}");
     }
-    let held = tense.replace("under = \"drop\"", "under = \"drop\"\neffusivity = 6000.0");
+    let held = with_tension.replace("under = \"drop\"", "under = \"drop\"\neffusivity = 6000.0");
     fs::write(place.path("drop.toml"), held).unwrap();
     let report = place.call(&["check", "drop.toml"]).succeeds().stdout();
     assert!(!report.contains("names no `effusivity`"), "{report}");

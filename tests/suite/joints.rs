@@ -379,7 +379,7 @@ fn a_droplet_on_each_of_two_plates_minds_its_own() {
 }
 
 #[test]
-fn faces_of_different_sizes_meet_at_any_conductance_and_step() {
+fn faces_of_different_sizes_touch_at_any_conductance_and_step() {
     let pairs = [(COPPER, COPPER), (MERCURY, GLASS), (AEROGEL, AEROGEL), (DIAMOND, AEROGEL)];
     let shapes = [
         [

@@ -298,7 +298,7 @@ fn heat_balances_in_layers_under_every_condition() {
             &square(1.2e-3, 0.3e-3),
             &layers(stack),
             [1e-2, 1e-3],
-            "mesh = { spacing = 0.1e-3, depth_spacing = 8e-6 }",
+            "mesh = { spacing = 0.2e-3, depth_spacing = 20e-6 }",
             faces,
             &loads(faces),
         );

@@ -1,4 +1,4 @@
-//! What the library and its program do, one subject a file: in one program, so that the tests of all files share the
+//! What the library and its program do, one subject per file: in one program, so that the tests of all files share the
 //! machine's cores. Tests that measure the process they run in have programs of their own beside this folder.
 
 #[path = "../common/capillary.rs"]

@@ -123,7 +123,7 @@ fn constant_constants_give_the_exact_modes_at_second_order() {
             (RIGHT, ThermalFace::Prescribed, Condition::Prescribed, -20.0),
             (BOTTOM, ThermalFace::Convective(8.0), Condition::Convective(8.0), ambient),
         ];
-        let modal = HeatProblem::new(
+        let modal = HeatProblem::homogeneous(
             &mesh,
             capacity,
             conductivity,

@@ -178,7 +178,7 @@ fn a_state_goes_on_where_it_was_saved_and_only_with_the_same_method() {
 }
 
 #[test]
-fn a_disc_flux_on_a_box_and_on_a_disc_meets_the_closed_form_the_better_the_finer() {
+fn a_disc_flux_on_a_box_and_on_a_disc_converges_to_the_closed_form() {
     let body = Conductor { conductivity: 5.0, heat_capacity: 6.0 };
     let exact = DiscFlux { body, flux: 1e3, radius: 0.1 };
     let spot = r#"

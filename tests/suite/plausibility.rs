@@ -1,4 +1,4 @@
-//! Warnings of what is hardly meant: no real material causes one, unit mistakes and forgotten parts do,
+//! Warnings of what is implausible: no real material causes one, unit mistakes and forgotten parts do,
 //! with file, line, key and value.
 
 use impinge::scene::{Warning, parse_with_warnings};

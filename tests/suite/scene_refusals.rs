@@ -157,9 +157,9 @@ fn what_a_droplet_leaves_out_is_chosen() {
     assert_eq!((scene.wall_under("drop"), scene.coupling_from("drop")), (None, Some(0)));
     assert!(scene.droplet("plate").is_none() && scene.solid("drop").is_none());
     // A surface's own speed √(2σ/(ρΔx)) counts where it is the fastest.
-    let tense =
+    let with_tension =
         edited(DROP, "surface_tension = 0.07, sound_speed = 120.0", "surface_tension = 0.7");
-    let sound = accepted(&tense).droplet("drop").unwrap().sound_speed();
+    let sound = accepted(&with_tension).droplet("drop").unwrap().sound_speed();
     assert!((sound / (10.0 * (1.4f64 / 5e-3).sqrt()) - 1.0).abs() < 1e-12, "{sound}");
     // Re = 2000 without surface tension: 0.87 · 2000^(1/5).
     assert!((drop.spread_diameter() / 1e-4 - 3.978).abs() < 1e-3);

@@ -5,7 +5,7 @@ use crate::body::solid::{PRODUCT_RATE, plan};
 use crate::body::{link, threads_for};
 use crate::math::chebyshev::products;
 use crate::method::fem::{Plan, particle_cost};
-use crate::method::sph::{DropletSph, Effort, Rhythm};
+use crate::method::sph::{DropletSph, Effort, RunSettings};
 use crate::scene::{Droplet, Scene};
 
 #[derive(Debug, Clone, PartialEq)]
@@ -27,8 +27,8 @@ pub struct DropletForecast {
 
 /// Memory of a particle with its neighbours [B].
 const PARTICLE_MEMORY: f64 = 1.5e3;
-/// What the solid does in an exchange beyond its own step, a node [s]: measured on boxes of 10 000 to 110 000 nodes, as the
-/// difference to the same droplet above a wall.
+/// Time per node that the solid takes in an exchange beyond its own step [s]: measured on boxes of 10 000 to 110 000
+/// nodes, as the difference to the same droplet above a wall.
 const EXCHANGE: f64 = 2.2e-7;
 
 impl DropletForecast {
@@ -50,7 +50,7 @@ impl DropletForecast {
         let has_wall = contact.is_some() || scene.wall_under(name).is_some();
         let effort = Effort::of(
             &sph,
-            Rhythm {
+            RunSettings {
                 stop: scene.stop_time,
                 reading: scene.step,
                 exchange,

@@ -300,7 +300,7 @@ impl Body for DropletBody {
     fn closing_warning(&self, state: &[f64]) -> Option<String> {
         let totals = self.droplet.totals(state);
         let part = totals.stray_mass / totals.mass;
-        (part > MUCH_ASTRAY).then(|| notes::on_strays(&self.name, part))
+        (part > STRAY_SHARE).then(|| notes::on_stray_mass(&self.name, part))
     }
 
     fn factor_entries(&self) -> usize {
@@ -316,5 +316,5 @@ impl Body for DropletBody {
     }
 }
 
-/// Part of the fluid that may come off without a word.
-const MUCH_ASTRAY: f64 = 0.05;
+/// Share of the fluid that may come off before a warning.
+const STRAY_SHARE: f64 = 0.05;

@@ -125,7 +125,7 @@ pub fn on_overflow(name: &str) -> String {
 }
 
 /// Of a part of the fluid that has come off.
-pub fn on_strays(name: &str, part: f64) -> String {
+pub fn on_stray_mass(name: &str, part: f64) -> String {
     format!(
         "{name}: {:.0} % of the fluid have come off in small lumps (stray_mass): films thinner than some two \
          particles break up, those of a smaller `spacing` later",

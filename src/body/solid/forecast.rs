@@ -44,21 +44,21 @@ pub struct ParticleForecast {
     pub euler_steps: f64,
 }
 
-/// Rates of this kind of machine: entries a second when solving, operations a second when
+/// Rates of this kind of machine: entries per second when solving, operations per second when
 /// factoring, the latter on each thread.
 const SOLVE_RATE: f64 = 1.2e9;
 const FACTOR_RATE: f64 = 1.25e10;
-/// Unknowns of bricks that conjugate gradients solve for a second, on each thread.
+/// Unknowns of bricks per second that conjugate gradients solve for, on each thread.
 const BRICK_RATE: f64 = 7e5;
-/// Products of particles' matrices: entries a second on one thread, and rows built a second.
+/// Products of particles' matrices: entries per second on one thread, and rows built per second.
 pub const PRODUCT_RATE: f64 = 9e8;
 const ROW_RATE: f64 = 2.5e4;
-/// What nonlinear heat takes a node in a communication step, of some ten inner ones or, where something melts, many more [s]; and equilibrium of a body that
-/// yields, where part of it does [s], and memory [B].
+/// Time per node that nonlinear heat takes in a communication step, of some ten inner ones or, where something melts,
+/// many more [s]; the same of the equilibrium of a body part of which yields [s], and its memory per node [B].
 const NONLINEAR_HEAT: f64 = 9e-5;
 const YIELDING: f64 = 1.5e-4;
 const YIELDING_MEMORY: f64 = 8e3;
-/// Modes through layers: cubed numbers of nodes along z a second, on each thread.
+/// Modes through layers: cubed numbers of nodes along z per second, on each thread.
 const COLUMN_RATE: f64 = 1e8;
 
 /// Estimates without building the solid.

@@ -1,6 +1,6 @@
 //! Solids: heat that is linear and exact in time, thermo-elasticity at every moment.
 
-mod course;
+mod advance;
 mod forecast;
 mod linear;
 mod loads;

@@ -1,7 +1,7 @@
 //! From a solid of a scene to its plan: where its mesh is fine, and what of mechanics is asked for.
 
 use crate::body::droplet;
-use crate::method::fem::{Mechanics, Plan, Refinement, Wishes};
+use crate::method::fem::{Mechanics, Plan, PlanRequest, Refinement};
 use crate::scene::{
     Carries, Coupling, FaceName, Footprint, Load, Scene, Solid, lateral_extents, takes_newton,
 };
@@ -22,7 +22,7 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
         (true, true) => Mechanics::Wanted,
     };
     let newton = takes_newton(scene, solid).then_some(TEMPERATURES * scene.fidelity.tolerance);
-    Plan::new(solid, Wishes { mechanics, refinements: &refinements, shortest, newton })
+    Plan::new(solid, PlanRequest { mechanics, refinements: &refinements, shortest, newton })
 }
 
 /// Differences of temperatures that a tolerance is a part of [K].

@@ -11,7 +11,7 @@ use crate::scene::Gives;
 /// A scalar at a point.
 pub struct PointQuantity {
     pub descriptor: Descriptor,
-    /// Wishes of a scene that include it.
+    /// What a scene asks for that includes it.
     pub given_by: &'static [Gives],
     measure: Measure,
 }

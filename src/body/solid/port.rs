@@ -88,7 +88,7 @@ impl Port {
         }
     }
 
-    /// Adds the heat of a step, as it was given in its course, to what acts and its derivatives.
+    /// Adds the heat of a step, as it was given over time, to what acts and its derivatives.
     pub fn add_over_step(&self, derivatives: &mut [SolidLoads], given: &Given) {
         if given.duration <= 0.0 {
             return;

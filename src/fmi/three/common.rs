@@ -11,13 +11,13 @@ use super::types::{
     Preemption, Reference, Text,
 };
 use crate::fmi::common::{text, texts};
-use crate::fmi::course::{Ask, Course};
 use crate::fmi::float_environment;
 use crate::fmi::instance::{call, hand_out, take_back};
 use crate::fmi::legality::Phase;
 use crate::fmi::log::{Log, Sink};
 use crate::fmi::panics;
 use crate::fmi::refused::Reason;
+use crate::fmi::step_control::{Ask, StepControl};
 use crate::fmi::types::{Refusal, Status};
 use crate::fmi::unit::{Experiment, Unit, read};
 
@@ -85,7 +85,7 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     intermediate_update: IntermediateUpdate,
 ) -> Handle {
     let log = Log::new(to_log_message(log_message, instance_environment), logging_on != FALSE);
-    let course = Course {
+    let control = StepControl {
         may_end_early: early_return_allowed != FALSE,
         ask: to_ask(intermediate_update, instance_environment),
     };
@@ -112,7 +112,7 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     match panics::caught(load).unwrap_or_else(|panic| Err(Refusal::error(panic))) {
         Ok(packed) => {
             let mut unit = Unit::new(packed, log);
-            unit.course = Rc::new(course);
+            unit.control = Rc::new(control);
             hand_out::<Fmi3>(unit)
         }
         Err(refusal) => no_instance("fmi3InstantiateCoSimulation", &log, refusal),

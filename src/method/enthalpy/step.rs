@@ -136,7 +136,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn weights_meet_the_conditions_of_their_orders() {
+    fn weights_satisfy_the_conditions_of_their_orders() {
         let sum = |row: usize, power: i32| -> f64 {
             (0..STAGES).map(|j| WEIGHTS[row][j] * TIMES[j].powi(power)).sum()
         };

@@ -29,11 +29,11 @@ pub struct QuadrilateralMatrices {
     pub stiffness: DMatrix<f64>,
     /// `2 n × n` thermal force [N/K]
     pub thermal: DMatrix<f64>,
-    remedy: Remedy,
+    locking: LockingTreatment,
 }
 
 /// What keeps the element from locking.
-enum Remedy {
+enum LockingTreatment {
     Enhanced(Enhanced),
     Projected(Projected),
 }
@@ -95,12 +95,12 @@ impl QuadrilateralMatrices {
             let forces = b.transpose() * volume() * (modulus * point.weight);
             thermal += forces * point.values.transpose();
         }
-        let remedy = match order {
-            1 => Remedy::Enhanced(Enhanced::new(&points, &elastic, modulus)),
-            _ => Remedy::Projected(Projected::new(&points, law)),
+        let locking = match order {
+            1 => LockingTreatment::Enhanced(Enhanced::new(&points, &elastic, modulus)),
+            _ => LockingTreatment::Projected(Projected::new(&points, law)),
         };
-        let mut element = Self { order, rectangle, stiffness, thermal, remedy };
-        element.apply_remedy(&points, &elastic, law);
+        let mut element = Self { order, rectangle, stiffness, thermal, locking };
+        element.treat_locking(&points, &elastic, law);
         element
     }
 
@@ -111,14 +111,14 @@ impl QuadrilateralMatrices {
         let t = DVector::from_column_slice(temperature);
         let compatible = &point.strain * &u;
         let mut strain = [0, 1, 2, 3].map(|i| compatible[i]);
-        match &self.remedy {
-            Remedy::Enhanced(enhanced) => {
+        match &self.locking {
+            LockingTreatment::Enhanced(enhanced) => {
                 let amplitudes = &enhanced.by_displacement * u + &enhanced.by_temperature * t;
                 for (m, (component, f)) in ENHANCED.iter().enumerate() {
                     strain[*component] += amplitudes[m] * (f(xi, eta) - enhanced.means[m]);
                 }
             }
-            Remedy::Projected(projected) => {
+            LockingTreatment::Projected(projected) => {
                 let c = &projected.by_displacement * u + &projected.by_temperature * &t;
                 let thermal = 3.0 * projected.expansion * point.values.dot(&t);
                 let wanted = c[0] + c[1] * xi + c[2] * eta + thermal;
@@ -129,15 +129,15 @@ impl QuadrilateralMatrices {
         strain
     }
 
-    fn apply_remedy(&mut self, points: &[Point], elastic: &Matrix4<f64>, law: &Thermoelastic) {
-        match &self.remedy {
-            Remedy::Enhanced(enhanced) => {
+    fn treat_locking(&mut self, points: &[Point], elastic: &Matrix4<f64>, law: &Thermoelastic) {
+        match &self.locking {
+            LockingTreatment::Enhanced(enhanced) => {
                 // Condensation: K + K_uaᵀ a_u and C − K_uaᵀ a_T with the amplitudes a.
                 let coupling = enhanced.coupling(points, elastic).transpose();
                 self.stiffness += &coupling * &enhanced.by_displacement;
                 self.thermal -= &coupling * &enhanced.by_temperature;
             }
-            Remedy::Projected(projected) => {
+            LockingTreatment::Projected(projected) => {
                 let moments = Projected::dilatation_moments(points).transpose() * law.lame_first();
                 self.stiffness += &moments * &projected.by_displacement;
                 self.thermal -= &moments * &projected.by_temperature;

@@ -1,6 +1,6 @@
 //! The heat of a solid by the method that its scene names.
 
-use super::heat::{HeatLoads, HeatProblem, LayeredHeat, ThermalFace};
+use super::heat::{HeatLoads, HeatProblem, Homogeneous, Layered, ThermalFace};
 use super::nonlinear::{NonlinearFailure, NonlinearHeat};
 use super::plan::Plan;
 use crate::math::allowance::{Allowance, Halt};
@@ -16,9 +16,9 @@ use crate::state::Layout;
 /// The temperature of a solid and how it advances.
 pub enum Conduction {
     /// Finite elements, exact in time by their modes.
-    Modes(Box<HeatProblem>),
+    Modes(Box<HeatProblem<Homogeneous>>),
     /// The same through layers of several materials.
-    Layers(Box<LayeredHeat>),
+    Layers(Box<HeatProblem<Layered>>),
     /// Smoothed particles on the nodes.
     Particles(Box<ParticleHeat>),
     /// Enthalpies of nodes, by Newton's method.
@@ -50,13 +50,13 @@ impl Conduction {
         }
         match particle_setup(plan) {
             Some(setup) => Self::Particles(Box::new(ParticleHeat::new(setup, threads))),
-            None if plan.strata.len() > 1 => Self::Layers(Box::new(LayeredHeat::new(
+            None if plan.strata.len() > 1 => Self::Layers(Box::new(HeatProblem::layered(
                 &plan.mesh,
                 &plan.constants_of_layers(),
                 plan.thermal_faces.clone(),
                 threads,
             ))),
-            None => Self::Modes(Box::new(HeatProblem::new(
+            None => Self::Modes(Box::new(HeatProblem::homogeneous(
                 &plan.mesh,
                 plan.constants.heat_capacity(),
                 plan.constants.conductivity,
@@ -120,8 +120,8 @@ impl Conduction {
         allowance: &Allowance,
     ) -> Result<(), HeatFailure> {
         match self {
+            // One step of any length.
             Self::Modes(problem) => {
-                // Their number is the same for any length of a step.
                 allowance.spend(1.0, "steps", state.len())?;
                 problem.advance(state, loads, dt);
                 Ok(())

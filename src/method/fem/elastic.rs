@@ -55,7 +55,7 @@ struct Factor {
     cholesky: SparseCholesky,
 }
 
-/// What a solution and the stress from it take a node, at most [B].
+/// Memory of a solution and of the stress from it per node, at most [B].
 const SOLUTION: usize = 1 << 10;
 
 impl Factor {

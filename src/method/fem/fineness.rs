@@ -168,21 +168,29 @@ impl<'a> Fineness<'a> {
         let keys = self.keys();
         let named = keys.depth_spacing.or(keys.spacing);
         let size = self.order as f64 * named.unwrap_or(self.lateral);
-        let mut fine = Vec::new();
-        for (top, face, z) in [(true, FaceName::Top, 0.0), (false, FaceName::Bottom, -thickness)] {
-            if self.refinements.iter().any(|r| r.top == top) {
-                fine.push(self.stretch([z - size, z + size], size));
-            }
-            if self.is_heated(face) {
-                fine.push(self.layer_at(z, named));
-            }
-        }
+        let mut fine = self.fine_at_ends(size, |_, z| self.layer_at(z, named));
         if fine.is_empty() && keys.depth_spacing.is_some() {
             fine.push(self.stretch([-thickness, 0.0], size));
         }
         let least = fine.iter().map(|f| f.size).fold(f64::INFINITY, f64::min);
         let usual = (thickness / THICKNESS_ELEMENTS).max(least.min(size));
         graded_ends(-thickness, 0.0, &fine, self.coarsest(usual, least.min(size)))
+    }
+
+    /// Where elements along z are to be fine for loads on the top and the bottom, and, as `heated` says for the one or
+    /// the other at z, for heat that comes through.
+    fn fine_at_ends(&self, size: f64, heated: impl Fn(bool, f64) -> Fine) -> Vec<Fine> {
+        let thickness = self.solid.shape.thickness();
+        let mut fine = Vec::new();
+        for (top, face, z) in [(true, FaceName::Top, 0.0), (false, FaceName::Bottom, -thickness)] {
+            if self.refinements.iter().any(|r| r.top == top) {
+                fine.push(self.stretch([z - size, z + size], size));
+            }
+            if self.is_heated(face) {
+                fine.push(heated(top, z));
+            }
+        }
+        fine
     }
 
     /// Stretches of an axis that loads may act on, with a margin.

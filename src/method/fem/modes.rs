@@ -65,15 +65,6 @@ impl AxisModes {
         (0..self.count()).map(|k| (0..v.len()).map(|i| self.shapes[(i, k)] * v[i]).sum()).collect()
     }
 
-    /// Values of all modes at one place.
-    pub fn at(&self, axis: &Axis, x: f64) -> Vec<f64> {
-        let shape = axis.shape_at(x);
-        let value = |k: usize| {
-            (0..shape.count).map(|i| shape.values[i] * self.shapes[(shape.first + i, k)]).sum()
-        };
-        (0..self.count()).map(value).collect()
-    }
-
     /// Values of all modes at a node.
     pub fn at_node(&self, node: usize) -> Vec<f64> {
         (0..self.count()).map(|k| self.shapes[(node, k)]).collect()
@@ -201,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn a_convective_end_meets_the_transcendental_equation() {
+    fn a_convective_end_satisfies_the_transcendental_equation() {
         // φ' = −B φ at x = 1 and φ' = 0 at 0: b tan b = B, decay b².
         let modes =
             AxisModes::of(&line(40, 2), [EndCondition::Natural, EndCondition::Convective(2.0)]);

@@ -51,9 +51,9 @@ pub struct NewtonPlan {
     pub tolerance: f64,
 }
 
-/// What a scene wants of a solid's plan.
+/// What a scene asks of a solid's plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Wishes<'a> {
+pub struct PlanRequest<'a> {
     pub mechanics: Mechanics,
     /// Where loads act.
     pub refinements: &'a [Refinement],
@@ -105,7 +105,10 @@ impl Mechanics {
 
 impl Plan {
     /// Plans a solid.
-    pub fn new(solid: &Solid, Wishes { mechanics, refinements, shortest, newton }: Wishes) -> Self {
+    pub fn new(
+        solid: &Solid,
+        PlanRequest { mechanics, refinements, shortest, newton }: PlanRequest,
+    ) -> Self {
         let mut strata = solid.strata();
         strata.reverse();
         let constants = strata[strata.len() - 1].constants;

@@ -10,7 +10,7 @@
 //! sampling point to the next and nearly cancel in σ_zz. So not the strains xx, …, xz are recovered but
 //! xx, yy, xy and the stresses zz, yz, xz, which all vary slowly through the depth; the temperature of the
 //! place then gives the rest. On a top or bottom these stresses are the traction there, known from the
-//! loads unless a support holds it, and the polynomials meet it.
+//! loads unless a support holds it, and the polynomials take that value.
 //!
 //! A plane of symmetry is no end: the sampling points go on behind it as images, so half a body recovers
 //! what the whole does. On the axis of a disc the strains rr and tt are one: their mean is recovered as an even

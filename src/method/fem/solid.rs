@@ -492,7 +492,7 @@ impl SolidFem {
     }
 }
 
-/// Weighted sum over a grid of one component of `(component, of how many a point)`; zero for an
+/// Weighted sum over a grid of one component of `(component, of how many per point)`; zero for an
 /// empty field.
 fn weighted(
     field: &[f64],

@@ -36,6 +36,20 @@ pub struct ShapeAt {
     pub slopes: [f64; 3],
 }
 
+impl ShapeAt {
+    /// Value at the place of a function with these values at the nodes.
+    pub fn interpolate(&self, nodal: &[f64]) -> f64 {
+        (0..self.count).map(|i| self.values[i] * nodal[self.first + i]).sum()
+    }
+
+    /// Values at the place of functions whose values at the nodes are the columns of a matrix.
+    pub fn interpolate_columns(&self, nodal: &Mat<f64>) -> Vec<f64> {
+        let value =
+            |k: usize| (0..self.count).map(|i| self.values[i] * nodal[(self.first + i, k)]).sum();
+        (0..nodal.ncols()).map(value).collect()
+    }
+}
+
 impl Axis {
     /// An axis with elements between `ends`, which ascend.
     pub fn from_element_ends(ends: &[f64], order: usize, weight: Weight) -> Self {

@@ -20,10 +20,10 @@ pub struct LatticeAxis {
     pub radial: bool,
 }
 
-/// A particle or an image of one, as a particle sees it along one axis.
+/// A particle or an image of one near another, along one axis.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Sighting {
-    /// Distance along the axis, and the length that belongs to it, in units of the observer's scale.
+pub struct AxisNeighbour {
+    /// Distance along the axis, and the length that belongs to it, in units of the other's scale.
     pub offset: f64,
     pub width: f64,
     /// Its temperature as a sum over particles, `(index, factor)`.
@@ -44,10 +44,10 @@ impl LatticeAxis {
         self.width(i as isize)
     }
 
-    /// All that a node sees within `reach` units of its scale, itself included.
-    pub fn sightings(&self, i: usize, reach: f64) -> Vec<Sighting> {
+    /// All within `reach` units of the scale of a node, itself included.
+    pub fn neighbours(&self, i: usize, reach: f64) -> Vec<AxisNeighbour> {
         if !self.is_modelled() {
-            let own = Sighting {
+            let own = AxisNeighbour {
                 offset: 0.0,
                 width: 1.0,
                 terms: vec![(0, 1.0)],
@@ -60,15 +60,15 @@ impl LatticeAxis {
         let near = |p: &isize| ((self.place(*p) - here) / scale).abs() < reach;
         let below = (1..).map(|steps| i as isize - steps).take_while(near);
         let above = (0..).map(|steps| i as isize + steps).take_while(near);
-        below.chain(above).map(|p| self.sighting(p, here, scale)).collect()
+        below.chain(above).map(|p| self.neighbour(p, here, scale)).collect()
     }
 
-    fn sighting(&self, p: isize, here: f64, scale: f64) -> Sighting {
+    fn neighbour(&self, p: isize, here: f64, scale: f64) -> AxisNeighbour {
         let place = self.place(p);
         let (mut terms, mut held) = (Vec::new(), [false; 2]);
         self.unfold(p, 1.0, &mut terms, &mut held);
         let [low, high] = [self.nodes[0], self.nodes[self.nodes.len() - 1]];
-        Sighting {
+        AxisNeighbour {
             offset: (place - here) / scale,
             width: self.width(p) / scale,
             terms,
@@ -137,9 +137,9 @@ mod tests {
         LatticeAxis { nodes, measures: vec![0.5, 1.5, 1.0], ends, radial: false }
     }
 
-    fn value(sighting: &Sighting, f: impl Fn(f64) -> f64) -> f64 {
+    fn value(neighbour: &AxisNeighbour, f: impl Fn(f64) -> f64) -> f64 {
         let nodes = [0.0, 1.0, 3.0];
-        sighting.terms.iter().map(|&(node, factor)| factor * f(nodes[node])).sum()
+        neighbour.terms.iter().map(|&(node, factor)| factor * f(nodes[node])).sum()
     }
 
     #[test]
@@ -147,8 +147,8 @@ mod tests {
         let axis = axis([End::Mirror, End::Held]);
         let scale = axis.scale(1);
         assert_eq!(scale, 1.5);
-        let sightings = axis.sightings(1, 5.0);
-        let places: Vec<f64> = sightings.iter().map(|s| 1.0 + s.offset * scale).collect();
+        let neighbours = axis.neighbours(1, 5.0);
+        let places: Vec<f64> = neighbours.iter().map(|s| 1.0 + s.offset * scale).collect();
         assert_eq!(
             places,
             [0.0, -1.0, -3.0, -5.0, -6.0, 1.0, 3.0, 5.0, 6.0, 7.0]
@@ -156,13 +156,13 @@ mod tests {
                 .filter(|x: &f64| ((x - 1.0) / scale).abs() < 5.0)
                 .collect::<Vec<_>>()
         );
-        for (sighting, place) in sightings.iter().zip(&places) {
+        for (neighbour, place) in neighbours.iter().zip(&places) {
             // Even about 0 and odd about its value at 3: the triangle wave of period 12.
             let wave = |x: f64| 3.0 - ((x + 6.0).rem_euclid(12.0) - 6.0f64).abs();
-            assert!((value(sighting, wave) - wave(*place)).abs() < 1e-14, "{place}");
+            assert!((value(neighbour, wave) - wave(*place)).abs() < 1e-14, "{place}");
             let beyond = [(-place).max(0.0), (place - 3.0).max(0.0)];
-            assert_eq!(sighting.beyond, beyond);
-            assert_eq!(sighting.held, [false, *place >= 3.0 || *place <= -3.0]);
+            assert_eq!(neighbour.beyond, beyond);
+            assert_eq!(neighbour.held, [false, *place >= 3.0 || *place <= -3.0]);
         }
     }
 

@@ -1,6 +1,6 @@
 //! The second derivative at each particle of a lattice as a list of coefficients.
 
-use super::lattice::{LatticeAxis, Sighting};
+use super::lattice::{AxisNeighbour, LatticeAxis};
 use super::operators::{
     Neighbour, Tensor, conductivity_between, corrected, plain, renormalisation,
 };
@@ -97,7 +97,7 @@ impl Lattice {
     /// that its support holds as many neighbours along every axis however the lattice is graded.
     pub fn row(&self, place: [usize; 3]) -> Row {
         let axes: Vec<usize> = (0..3).filter(|&a| self.axes[a].is_modelled()).collect();
-        let seen = [0, 1, 2].map(|a| self.axes[a].sightings(place[a], self.settings.support));
+        let seen = [0, 1, 2].map(|a| self.axes[a].neighbours(place[a], self.settings.support));
         let mut around = Vec::new();
         for z in &seen[2] {
             for y in &seen[1] {
@@ -114,16 +114,16 @@ impl Lattice {
         let conductivity = conductivity_between(self.conductivity, self.conductivity);
         let mut row = Row::default();
         for part in self.parts(place, &axes) {
-            let (mut neighbours, mut sightings) = (Vec::new(), Vec::new());
+            let (mut neighbours, mut along_axes) = (Vec::new(), Vec::new());
             for &(offset, along) in &around {
                 if let Some(weight) = self.weight(offset, along, &part, axes.len()) {
                     neighbours.push(Neighbour { offset, weight, conductivity });
-                    sightings.push(along);
+                    along_axes.push(along);
                 }
             }
             let (coefficients, is_fallback) = self.coefficients(&neighbours, &part, axes.len());
             row.is_fallback |= is_fallback;
-            for (c, along) in coefficients.into_iter().zip(sightings) {
+            for (c, along) in coefficients.into_iter().zip(along_axes) {
                 self.add(&mut row, place, c, along);
             }
         }
@@ -170,7 +170,7 @@ impl Lattice {
     fn weight(
         &self,
         offset: [f64; 3],
-        along: [&Sighting; 3],
+        along: [&AxisNeighbour; 3],
         part: &Part,
         dimension: usize,
     ) -> Option<f64> {
@@ -203,7 +203,7 @@ impl Lattice {
         (out, is_fallback)
     }
 
-    fn add(&self, row: &mut Row, place: [usize; 3], c: f64, [x, y, z]: [&Sighting; 3]) {
+    fn add(&self, row: &mut Row, place: [usize; 3], c: f64, [x, y, z]: [&AxisNeighbour; 3]) {
         let own = self.index(place);
         let first = row.entries.len();
         row.entries.push((own, -c));
@@ -226,8 +226,8 @@ impl Lattice {
             let other: f64 = along[a].terms.iter().map(distance).sum();
             row.held_slope[a][end] += c * (other - axis.distance(place[a], end));
         }
-        for (gradient, sighting) in row.gradient.iter_mut().zip(along) {
-            for (sum, distance) in gradient.iter_mut().zip(sighting.beyond) {
+        for (gradient, neighbour) in row.gradient.iter_mut().zip(along) {
+            for (sum, distance) in gradient.iter_mut().zip(neighbour.beyond) {
                 // An image beyond an end that passes a gradient g is warmer by 2 g d.
                 *sum += 2.0 * c * distance;
             }

@@ -43,7 +43,7 @@ pub struct Continuity<'a, const HEAT: bool, const MOMENTS: bool> {
     /// δ.
     pub diffusion: f64,
     /// Number of dimensions where free surfaces have tension.
-    pub tense: Option<usize>,
+    pub tension_dimension: Option<usize>,
     /// κ = k/(ρ₀ c c₀ H).
     pub conduction: f64,
 }
@@ -145,7 +145,9 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
                 *total = scale * sum.sum().into();
             }
         }
-        let part = self.tense.map_or(1.0, |dimension| part_of_diffusion(&rates.moment, dimension));
+        let part = self
+            .tension_dimension
+            .map_or(1.0, |dimension| part_of_diffusion(&rates.moment, dimension));
         rates.density = scale * dense * sums.divergence.sum().into()
             - part * scale * self.diffusion * sums.diffusion.sum().into();
         rates

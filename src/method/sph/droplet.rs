@@ -234,7 +234,7 @@ impl DropletSph {
             ledger.heat_to_wall += heat;
             (0..3).for_each(|n| ledger.impulse_to_wall[n] += impulse[n]);
             if !self.below.is_empty() {
-                ledger.memory.advance(&self.below, duration, points.warmed());
+                ledger.memory.advance(&self.below, duration, points.cell_heat());
             }
         }
         flatten(state, &mut ledger, &mut cloud, &team);

@@ -12,9 +12,9 @@ use super::method::Method;
 use super::plan::{DropletPlan, Release};
 use crate::scene::Precision;
 
-/// How a run goes on.
+/// What the effort of a run depends on beside the droplet.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rhythm {
+pub struct RunSettings {
     /// End of the run [s].
     pub stop: f64,
     /// Time between two readings of the droplet [s].
@@ -42,11 +42,11 @@ const STEP_IN_FILM: f64 = 0.50e-6;
 const STEP_WITH_HEAT: f64 = 0.10e-6;
 /// Of a time step with tension, of an impulse of tension for all particles and for those near a surface, and of
 /// listing those anew.
-const TENSE_STEP: f64 = 0.42e-6;
-const TENSE: f64 = 1.2e-6;
-const TENSE_NEAR_SURFACE: f64 = 6.0e-6;
-const TENSE_LISTING: f64 = 0.5e-6;
-const TENSE_LISTING_AT_WALL: f64 = 2.3e-6;
+const TENSION_STEP: f64 = 0.42e-6;
+const TENSION_IMPULSE: f64 = 1.2e-6;
+const TENSION_NEAR_SURFACE: f64 = 6.0e-6;
+const TENSION_LISTING: f64 = 0.5e-6;
+const TENSION_LISTING_AT_WALL: f64 = 2.3e-6;
 /// Layers of particles at a free surface that tension has to do with.
 const LAYERS: f64 = 1.0;
 /// Of the beginning of an advance, and for each particle at the wall with heat; of a reading, for each particle
@@ -67,10 +67,10 @@ const PRESSED_OUT_IN_PLANE: f64 = 5.0;
 const SAMPLES: usize = 200;
 
 impl Effort {
-    pub fn of(plan: &DropletPlan, rhythm: Rhythm) -> Self {
+    pub fn of(plan: &DropletPlan, run: RunSettings) -> Self {
         let method = Method::of(plan);
-        let length = rhythm.stop / SAMPLES as f64;
-        let rates = |n: usize| rates_at(plan, &method, rhythm, (n as f64 + 0.5) * length);
+        let length = run.stop / SAMPLES as f64;
+        let rates = |n: usize| rates_at(plan, &method, run, (n as f64 + 0.5) * length);
         (0..SAMPLES).map(rates).fold(Self::default(), |sum, rate| Self {
             steps: sum.steps + length * rate.steps,
             seconds: sum.seconds + length * rate.seconds,
@@ -98,10 +98,10 @@ struct Drop {
 }
 
 /// Steps and computing time for a second of the run.
-fn rates_at(plan: &DropletPlan, method: &Method, rhythm: Rhythm, time: f64) -> Effort {
+fn rates_at(plan: &DropletPlan, method: &Method, run: RunSettings, time: f64) -> Effort {
     let released = plan.releases.iter().filter(|release| release.time <= time);
     let drops: Vec<Drop> =
-        released.map(|release| drop_at(plan, release, rhythm.spread, time)).collect();
+        released.map(|release| drop_at(plan, release, run.spread, time)).collect();
     let particles: f64 = drops.iter().map(|drop| drop.particles).sum();
     if particles == 0.0 {
         return Effort::default();
@@ -113,25 +113,26 @@ fn rates_at(plan: &DropletPlan, method: &Method, rhythm: Rhythm, time: f64) -> E
     let fastest = drops.iter().map(|drop| drop.fastest).fold(0.0, f64::max);
     let units = &method.units;
     let stable = method.stable_step(fastest / units.speed, gravity(plan, method)) * units.time();
-    let steps = (rhythm.exchange / stable - 1e-9).ceil().max(1.0);
-    let turn = method.turn(rhythm.exchange / steps / units.time()).min(steps);
+    let steps = (run.exchange / stable - 1e-9).ceil().max(1.0);
+    let turn = method.turn(run.exchange / steps / units.time()).min(steps);
     let impulses = (steps / turn).ceil();
     let exact = if plan.precision == Precision::Double { DOUBLE } else { 1.0 };
-    let walled = f64::from(u8::from(rhythm.spread.is_some()));
+    let walled = f64::from(u8::from(run.spread.is_some()));
     let heated = if method.conduction > 0.0 { walled } else { 0.0 };
     let pairs = neighbours(plan).powf(BY_NEIGHBOURS) * exact;
-    let tense = if method.surface.is_some() { exact * tension(plan) } else { 0.0 };
+    let tension_factor = if method.surface.is_some() { exact * tension(plan) } else { 0.0 };
     // In a plane model's thin film most particles have images.
     let of_wall = walled * (STEP_AT_WALL + STEP_IN_FILM * at_wall);
     let of_steps = STEP * pairs + of_wall * pairs.max(1.0) + STEP_WITH_HEAT * heated;
-    let tense_listing = TENSE_LISTING + TENSE_LISTING_AT_WALL * walled;
-    let of_advance = steps * (of_steps + TENSE_STEP * tense)
+    let listing = TENSION_LISTING + TENSION_LISTING_AT_WALL * walled;
+    let of_advance = steps * (of_steps + TENSION_STEP * tension_factor)
         + ADVANCE
         + ADVANCE_ABOVE_HEAT * heated * at_wall
-        + tense * (tense_listing + impulses * (TENSE + TENSE_NEAR_SURFACE * near_surface));
+        + tension_factor
+            * (listing + impulses * (TENSION_IMPULSE + TENSION_NEAR_SURFACE * near_surface));
     let of_reading = READING * copies(plan.mirrors) * walled * at_wall;
-    let seconds = particles * (of_advance / rhythm.exchange + of_reading / rhythm.reading);
-    Effort { steps: steps / rhythm.exchange, seconds }
+    let seconds = particles * (of_advance / run.exchange + of_reading / run.reading);
+    Effort { steps: steps / run.exchange, seconds }
 }
 
 /// A drop grows on the wall as `√(3 U t/D)` at first, and no wider than it is expected to spread.

@@ -19,7 +19,7 @@ pub enum Failure {
     #[error(
         "a particle has flown {FARTHEST:.0e} support radii away at t = {time:.6e} s, beyond which places are lost in rounding"
     )]
-    Astray { time: f64 },
+    OutOfRange { time: f64 },
     #[error(
         "a particle flies at {ratio:.3e} times the speed of sound at t = {time:.6e} s (allowed: less than {FASTEST}): the speed of sound is too low for this flow"
     )]

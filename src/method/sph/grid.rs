@@ -129,7 +129,7 @@ impl Grid {
     }
 
     /// Middles of the quarters of all sheets of a bin about its middle, sheet by sheet. A plane model
-    /// has one sheet a bin, and the others' are points like its.
+    /// has one sheet per bin, and the others' are points like its.
     pub fn quarters(&self) -> Spread {
         let mut quarters = [[0.0; WIDTH]; 3];
         for (n, &(a, _)) in self.axes.iter().enumerate() {

@@ -11,7 +11,7 @@ const WALL: u8 = NEAR << 4;
 /// Shortest period, and least distance of planes, over H: images of images lie out of reach.
 const SHORTEST: f64 = 2.0;
 /// How far beyond its period a particle may go before it is brought back, in periods.
-const ASTRAY: f64 = 0.1;
+const BEYOND: f64 = 0.1;
 
 /// A particle, or an image of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,9 +71,9 @@ impl Image {
         [self.signs[0] * v[0], self.signs[1] * v[1], self.signs[2] * v[2]]
     }
 
-    /// The velocity of an image that sticks to the plane between it and its original.
+    /// The velocity of an image under no slip at the plane between it and its original.
     #[inline(always)]
-    pub fn stuck(&self, [u, v, w]: [f64; 3]) -> [f64; 3] {
+    pub fn no_slip(&self, [u, v, w]: [f64; 3]) -> [f64; 3] {
         // Along z all of these planes turn the velocity round already.
         [self.stick * self.signs[0] * u, self.stick * self.signs[1] * v, self.signs[2] * w]
     }
@@ -202,10 +202,10 @@ impl Images {
 
     /// Whether particles have gone so far beyond a period that it is time to bring them back. Until
     /// then they stay where they are, so that lists of neighbours stay true.
-    pub fn are_astray(&self, points: &[[f64; 3]]) -> bool {
+    pub fn are_beyond_period(&self, points: &[[f64; 3]]) -> bool {
         (0..3).any(|a| match self.ends[a] {
             Ends::Period(period) => {
-                let range = -ASTRAY * period..(1.0 + ASTRAY) * period;
+                let range = -BEYOND * period..(1.0 + BEYOND) * period;
                 points.iter().any(|x| !range.contains(&x[a]))
             }
             Ends::Planes { .. } => false,
@@ -289,7 +289,7 @@ mod tests {
         }
         let [lid, wall] = [1, 2].map(|n| images.codes()[n]);
         assert!(images.is_at_wall(wall) && !images.is_at_wall(lid));
-        assert_eq!(images.get(lid).stuck([1.0, 2.0, 3.0]), [-1.0, -2.0, -3.0]);
+        assert_eq!(images.get(lid).no_slip([1.0, 2.0, 3.0]), [-1.0, -2.0, -3.0]);
     }
 
     #[test]
@@ -302,7 +302,7 @@ mod tests {
         assert_eq!(low, [3.5, -7.0, 0.25]);
         let mut high = [9.0, 7.0, 5.25];
         assert_eq!(images.put_back(&mut high), [1.0, 1.0, -1.0]);
-        assert!(images.are_astray(&[high]) && !images.are_astray(&[low]));
+        assert!(images.are_beyond_period(&[high]) && !images.are_beyond_period(&[low]));
         images.wrap(&mut high);
         assert_eq!(high, [1.0, 7.0, 4.75]);
     }

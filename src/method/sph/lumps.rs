@@ -3,7 +3,7 @@
 /// Largest distance over Δx of two particles that touch: more than √2, to which a film of a cubic lattice may
 /// thin out without holes, and less than the reach of forces.
 const TOUCH: f64 = 2.0;
-/// Share of a drop's mass below which a lump is astray.
+/// Share of a drop's mass below which a lump is stray.
 const LEAST: f64 = 0.1;
 
 /// Whether each particle belongs to the body of fluid: to a lump of particles that touch with at least a tenth
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn small_lumps_are_astray_and_drops_are_not() {
+    fn small_lumps_are_stray_and_drops_are_not() {
         let mut positions = cube(6, [0.0; 3]);
         positions.extend(cube(6, [0.0, 0.0, 30.0]));
         positions.extend(cube(2, [20.0, 0.0, 0.0]));

@@ -46,7 +46,7 @@ mod wall_points;
 pub use crate::scene::Precision;
 pub use cover::Cover;
 pub use droplet::{DropletSph, DropletTotals, ParticleFields};
-pub use effort::{Effort, Rhythm};
+pub use effort::{Effort, RunSettings};
 pub use failure::Failure;
 pub use plan::{DropletPlan, Extent, Fluid, Placement, Release, Wall};
 pub use surface::{Surface, SurfaceResponse};

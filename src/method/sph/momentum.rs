@@ -57,7 +57,7 @@ impl PairSum for Momentum<'_> {
         let image = self.images.get(source.code());
         let [x, y, z, u, v, w, volume, pressure] = self.records[source.particle()];
         let pressure = pressure + image.overpressure([x, y, z]);
-        let ([x, y, z], [u, v, w]) = (image.place([x, y, z]), image.stuck([u, v, w]));
+        let ([x, y, z], [u, v, w]) = (image.place([x, y, z]), image.no_slip([u, v, w]));
         [x, y, z, u, v, w, volume, pressure]
     }
 

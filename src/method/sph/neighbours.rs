@@ -46,9 +46,9 @@ pub struct Block {
     is_crowded: bool,
 }
 
-/// Memory of a search.
+/// Memory that searches share.
 #[derive(Default)]
-struct Desk {
+struct SearchBuffers {
     near_block: Candidates,
     near_group: Candidates,
     places: Vec<u16>,
@@ -123,8 +123,14 @@ impl Block {
 
     /// Finds the neighbours of the block's particles among what is near the block, of which those from
     /// `wall` on are at the wall.
-    fn find_places(&mut self, own: &[[f64; 3]], wall: usize, reach: f64, desk: &mut Desk) {
-        let Desk { near_block, near_group, places } = desk;
+    fn find_places(
+        &mut self,
+        own: &[[f64; 3]],
+        wall: usize,
+        reach: f64,
+        buffers: &mut SearchBuffers,
+    ) {
+        let SearchBuffers { near_block, near_group, places } = buffers;
         let (_, near_block) = near_block.all();
         self.places.clear();
         self.places.reserve(own.len() * 160);
@@ -217,12 +223,12 @@ impl Neighbours {
         let mut worn: Vec<&mut Block> =
             self.blocks.iter_mut().filter(|block| is_worn(block)).collect();
         team.for_pieces(&mut worn, |_, blocks| {
-            let mut desk = Desk::default();
+            let mut buffers = SearchBuffers::default();
             for block in blocks {
                 if block.slack >= MARGIN && search.nothing_came_to(block) {
                     block.clearance = SKINS[1] - motion;
                 } else {
-                    search.list(block, &mut desk);
+                    search.list(block, &mut buffers);
                 }
             }
         });
@@ -267,7 +273,7 @@ impl Search<'_> {
     }
 
     /// Lists what surrounds a block.
-    fn list(&self, block: &mut Block, desk: &mut Desk) {
+    fn list(&self, block: &mut Block, buffers: &mut SearchBuffers) {
         let Search { ways, spots, tree, images, .. } = self;
         let own = self.own(block);
         let bounds = Bounds::of(own.iter().copied());
@@ -288,19 +294,19 @@ impl Search<'_> {
         block.clearance = skin.max(SKINS[1]) - self.motion;
         let mut wall = 0;
         block.sources.clear();
-        desk.near_block.clear();
+        buffers.near_block.clear();
         for &(b, code) in &block.surroundings {
             let near = Near::to(&bounds, reach);
-            desk.near_block.take_images(&spots[b], images.get(code), block.centre, near);
+            buffers.near_block.take_images(&spots[b], images.get(code), block.centre, near);
             let source = |&k: &u32| Source::new(b * BLOCK + k as usize, code);
-            block.sources.extend(desk.near_block.last_numbers().iter().map(source));
+            block.sources.extend(buffers.near_block.last_numbers().iter().map(source));
             if !images.is_at_wall(code) {
                 wall = block.sources.len();
             }
         }
         block.is_crowded = false;
         match block.sources.len() < usize::from(u16::MAX) {
-            true => block.find_places(own, wall, reach, desk),
+            true => block.find_places(own, wall, reach, buffers),
             false => block.give_up(),
         }
     }

@@ -45,8 +45,8 @@ pub struct Stepper<'a, 'p> {
     accelerations: Vec<[[f64; 3]; 2]>,
     /// Free surfaces, where they have tension.
     free_surface: FreeSurface,
-    /// Kicks of which the wall has not got its part yet.
-    owed: Vec<Times>,
+    /// Kicks whose reaction the wall has not received yet.
+    unanswered: Vec<Times>,
 }
 
 /// What the rounds over the particles of a droplet are called.
@@ -82,14 +82,14 @@ impl<'a, 'p> Stepper<'a, 'p> {
             densities: Vec::new(),
             accelerations: Vec::new(),
             free_surface: FreeSurface::default(),
-            owed: Vec::new(),
+            unanswered: Vec::new(),
         }
     }
 
     /// Whether it is time to sort: particles have mixed, or are to be brought back into a period.
     fn is_untidy(&self) -> bool {
         self.neighbours.surrounded() > GROWTH * self.ledger.surrounded
-            || self.method.images.are_astray(&self.cloud.position)
+            || self.method.images.are_beyond_period(&self.cloud.position)
     }
 
     fn sort(&mut self) {
@@ -137,7 +137,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             motion = self.round(dt, turn, steps, allowance)?;
             rest = if turn == steps { 0.0 } else { rest - turn * dt };
         }
-        self.pay(&motion.pushed);
+        self.push_wall(&motion.pushed);
         Ok(())
     }
 
@@ -146,7 +146,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         self.sort();
         self.list(&Ways::none(self.cloud.len()))?;
         self.accelerate(Times::NONE);
-        self.tense();
+        self.apply_tension();
         Ok(())
     }
 
@@ -180,7 +180,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         [begins, ends]: [Option<f64>; 2],
     ) -> Result<Motion, Failure> {
         let motion = self.kick(Times { dt: 0.5 * dt, tension: begins });
-        self.pay(&motion.pushed);
+        self.push_wall(&motion.pushed);
         let speed = motion.root_mean_square_speed(self.cloud.len(), self.method.mirrors);
         self.ledger.way += dt * speed;
         if self.ledger.way > SHIFT_WAY {
@@ -197,7 +197,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let times = Times { dt: 0.5 * dt, tension: ends };
         self.accelerate(times);
         if ends.is_some() {
-            self.tense();
+            self.apply_tension();
         }
         let motion = self.kick(times);
         self.ledger.time += dt * self.method.units.time();
@@ -237,7 +237,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         });
     }
 
-    /// Changes velocities by the accelerations, of which the wall is owed its part.
+    /// Changes velocities by the accelerations; the reaction on the wall waits for [`Self::push_wall`].
     fn kick(&mut self, times: Times) -> Motion {
         let gravity = self.method.gravity;
         let kick = |part: &mut Part| kick(part, times, gravity);
@@ -250,17 +250,17 @@ impl<'a, 'p> Stepper<'a, 'p> {
         for (impulse, gravity) in self.ledger.impulse_of_gravity.iter_mut().zip(gravity) {
             *impulse += images * momentum * motion.mass * times.dt * gravity;
         }
-        self.owed.push(times);
+        self.unanswered.push(times);
         motion
     }
 
-    /// Gives the wall its part of the kicks since that was last done, between which nothing moved, to
-    /// particles that it pushes.
-    fn pay(&mut self, pushed: &[usize]) {
+    /// Gives the wall the reaction to the kicks of the particles that it pushes since that was last done, between
+    /// which nothing moved.
+    fn push_wall(&mut self, pushed: &[usize]) {
         let (method, cloud) = (self.method, &*self.cloud);
-        let owed = std::mem::take(&mut self.owed);
-        let dt: f64 = owed.iter().map(|times| times.dt).sum();
-        let turn: f64 = owed.iter().filter_map(|times| times.tension).sum();
+        let kicks = std::mem::take(&mut self.unanswered);
+        let dt: f64 = kicks.iter().map(|times| times.dt).sum();
+        let turn: f64 = kicks.iter().filter_map(|times| times.tension).sum();
         let momentum = method.units.mass() * method.units.speed;
         let Some(points) = &mut self.points else { return };
         let pushes = self.team.map(pushed.len(), |k| {
@@ -293,7 +293,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             annexes: &self.annexes,
             normalisation: method.normalisation,
             diffusion: method.diffusion,
-            tense: method.surface.as_ref().map(|_| method.dimension),
+            tension_dimension: method.surface.as_ref().map(|_| method.dimension),
             conduction: method.conduction / conducting::<MOMENTS>(method, &self.cloud.moment),
         };
         let parts = self.cloud.parts(PART);
@@ -343,7 +343,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
     }
 
     /// Accelerations by surface tension.
-    fn tense(&mut self) {
+    fn apply_tension(&mut self) {
         let method = self.method;
         let Some(setting) = &method.surface else { return };
         let (cloud, team) = (&mut *self.cloud, self.team);
@@ -404,7 +404,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
                 return Err(self.not_finite("velocity"));
             }
             if self.cloud.position[i].iter().any(|x| x.abs() >= FARTHEST) {
-                return Err(Failure::Astray { time });
+                return Err(Failure::OutOfRange { time });
             }
             let speed = self.cloud.velocity[i].iter().map(|v| v * v).sum::<f64>().sqrt();
             if speed >= FASTEST {

@@ -81,14 +81,14 @@ impl SurfaceResponse {
 /// temperature that comes back is wrong by.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SurfaceMemory {
-    /// By the heat as it was given in the course of time.
+    /// By the heat as it was given over time.
     pub given: Vec<f64>,
     /// By mean fluxes, held over each step, as they were reported.
     pub reported: Vec<f64>,
 }
 
 /// A cell of the wall that got heat during a step.
-pub struct Warmed<'a> {
+pub struct CellHeat<'a> {
     pub cell: usize,
     /// In all, per area [J/m²].
     pub heat: f64,
@@ -108,7 +108,7 @@ impl SurfaceMemory {
         &mut self,
         response: &SurfaceResponse,
         duration: f64,
-        warmed: impl Iterator<Item = Warmed<'a>>,
+        heated: impl Iterator<Item = CellHeat<'a>>,
     ) {
         let count = response.len();
         let weights: Vec<_> =
@@ -118,7 +118,7 @@ impl SurfaceMemory {
                 amplitudes.iter_mut().zip(&weights).for_each(|(a, [decay, ..])| *a *= decay);
             }
         }
-        for Warmed { cell, heat, amplitudes } in warmed {
+        for CellHeat { cell, heat, amplitudes } in heated {
             let places = cell * count..(cell + 1) * count;
             self.given[places.clone()].copy_from_slice(amplitudes);
             let terms = self.reported[places].iter_mut().zip(&weights).zip(&response.gains);
@@ -257,8 +257,8 @@ mod tests {
                 *amplitude = decay * *amplitude + mean * gain * step * part;
             }
         }
-        let warmed = Warmed { cell: 1, heat: flux * step, amplitudes: &given };
-        memory.advance(&response, step, [warmed].into_iter());
+        let heated = CellHeat { cell: 1, heat: flux * step, amplitudes: &given };
+        memory.advance(&response, step, [heated].into_iter());
         let found = [300.0, 300.0 + rise * 4.0 / PI];
         let surface = Surface::remembered(&found, response, &memory);
         let [dry, wet] = surface.free(0.0, step)[..] else { unreachable!() };

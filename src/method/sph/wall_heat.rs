@@ -121,7 +121,7 @@ impl WallHeat {
                 let point = &mut points.points[index];
                 let part = weight * share * mass;
                 point.mass += part;
-                point.warmth += part * temperature;
+                point.temperature_sum += part * temperature;
             }
             stencils.push(stencil);
         }
@@ -175,7 +175,7 @@ impl WallHeat {
             }
         }
         for (point, contact) in points.points.iter_mut().zip(contacts) {
-            (point.mass, point.warmth) = (0.0, 0.0);
+            (point.mass, point.temperature_sum) = (0.0, 0.0);
             point.relaxation = contact.relaxation;
             point.wall = wall_below(point, &walls);
             if let Some((column, part)) = point.beyond {
@@ -193,7 +193,7 @@ impl WallHeat {
             return Contact::default();
         }
         let cover = ((layers - bare) / (covered - bare)).min(1.0);
-        let fluid = point.warmth / point.mass;
+        let fluid = point.temperature_sum / point.mass;
         // The fluid lies as a layer on the part that it covers.
         let thickness = self.spacing * layers / cover;
         let diffusion = self.conduction * dt / (thickness * thickness);

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 use super::images::copies;
 use super::plan::{DropletPlan, Extent};
-use super::surface::{Surface, Warmed};
+use super::surface::{CellHeat, Surface};
 use super::wall::{Domain, WallCells, WallExchange};
 
 /// Points along an edge of a page, that is made when fluid first comes there.
@@ -52,9 +52,9 @@ pub struct Point {
     pub below: Vec<(u32, f64)>,
     /// The part beyond the outermost cells of a wall that goes on there, and the column whose temperature it has.
     pub beyond: Option<(u32, f64)>,
-    /// Mass of the fluid at the wall and its product with the temperature, each over their units.
+    /// Sums over the fluid at the wall of mass, and of mass times temperature, each over their units.
     pub mass: f64,
-    pub warmth: f64,
+    pub temperature_sum: f64,
     /// Mean temperature of the wall [K], and part of its difference to that of the fluid that the latter loses.
     pub wall: f64,
     pub relaxation: f64,
@@ -308,9 +308,9 @@ impl<'a> WallPoints<'a> {
     }
 
     /// What the cells got so far that have a column.
-    pub fn warmed(&self) -> impl Iterator<Item = Warmed<'_>> {
+    pub fn cell_heat(&self) -> impl Iterator<Item = CellHeat<'_>> {
         let count = self.surface.response.len();
-        self.columns.iter().enumerate().map(move |(n, column)| Warmed {
+        self.columns.iter().enumerate().map(move |(n, column)| CellHeat {
             cell: column.cell,
             heat: column.heat / column.area,
             amplitudes: &self.amplitudes[n * count..][..count],

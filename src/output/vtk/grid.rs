@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use quick_xml::Writer;
 
-use super::{AXES, Array, Values, write_file, write_header};
+use super::{AXES, Array, Values, write_file, write_structure};
 use crate::material::stress::{max_principal, von_mises};
 use crate::model::NodalFields;
 
@@ -19,8 +19,12 @@ pub fn write_grid(out: impl Write, time: f64, fields: &NodalFields) -> io::Resul
     let points = point_arrays(temperature, displacement, stress, [&von_mises, &max_principal]);
     let axes: Vec<Array> =
         AXES.iter().zip(&fields.axes).map(|(name, axis)| Array::scalar(name, "m", axis)).collect();
-    let structure =
-        |xml: &mut Writer<_>| write_structure(xml, &extent(fields), &time, &points, &axes);
+    let extent = extent(fields);
+    let structure = |xml: &mut Writer<_>| {
+        let grid = ("RectilinearGrid", &[("WholeExtent", extent.as_str())][..]);
+        let piece = [("Extent", extent.as_str())];
+        write_structure(xml, grid, &piece, (&time, &points), &[("Coordinates", &axes)])
+    };
     let arrays: Vec<&Array> = std::iter::once(&time).chain(&points).chain(&axes).collect();
     write_file(out, "RectilinearGrid", structure, &arrays)
 }
@@ -57,34 +61,6 @@ pub fn point_arrays<'a>(
 fn extent(fields: &NodalFields) -> String {
     let [x, y, z] = fields.axes.each_ref().map(|axis| axis.len().saturating_sub(1));
     format!("0 {x} 0 {y} 0 {z}")
-}
-
-fn write_structure<W: Write>(
-    xml: &mut Writer<W>,
-    extent: &str,
-    time: &Array,
-    points: &[Array],
-    axes: &[Array],
-) -> io::Result<()> {
-    let mut offset = 0;
-    let grid = xml.create_element("RectilinearGrid").with_attribute(("WholeExtent", extent));
-    grid.write_inner_content(|xml| {
-        xml.create_element("FieldData")
-            .write_inner_content(|xml| write_header(xml, time, Some("1"), &mut offset))?;
-        let piece = xml.create_element("Piece").with_attribute(("Extent", extent));
-        piece.write_inner_content(|xml| {
-            let data = xml.create_element("PointData").with_attribute(("Scalars", "temperature"));
-            data.write_inner_content(|xml| {
-                points.iter().try_for_each(|array| write_header(xml, array, None, &mut offset))
-            })?;
-            xml.create_element("Coordinates").write_inner_content(|xml| {
-                axes.iter().try_for_each(|array| write_header(xml, array, None, &mut offset))
-            })?;
-            Ok(())
-        })?;
-        Ok(())
-    })?;
-    Ok(())
 }
 
 #[cfg(test)]

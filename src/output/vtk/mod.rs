@@ -87,6 +87,44 @@ fn write_file<W: Write>(
     xml.write_event(Event::End(BytesEnd::new("VTKFile")))
 }
 
+/// Writes an element, each a name with its attributes, that holds a time and one piece: arrays at points, and further
+/// arrays by the element of the piece that they belong to.
+fn write_structure<W: Write>(
+    xml: &mut Writer<W>,
+    (grid, grid_attributes): (&str, &[(&str, &str)]),
+    piece_attributes: &[(&str, &str)],
+    (time, points): (&Array, &[Array]),
+    others: &[(&str, &[Array])],
+) -> io::Result<()> {
+    let mut offset = 0;
+    let grid = xml.create_element(grid).with_attributes(grid_attributes.iter().copied());
+    grid.write_inner_content(|xml| {
+        xml.create_element("FieldData")
+            .write_inner_content(|xml| write_header(xml, time, Some("1"), &mut offset))?;
+        let piece = xml.create_element("Piece");
+        let piece = piece.with_attributes(piece_attributes.iter().copied());
+        piece.write_inner_content(|xml| {
+            let data = xml.create_element("PointData").with_attribute(("Scalars", "temperature"));
+            data.write_inner_content(|xml| write_headers(xml, points, &mut offset))?;
+            for (name, arrays) in others {
+                let element = xml.create_element(*name);
+                element.write_inner_content(|xml| write_headers(xml, arrays, &mut offset))?;
+            }
+            Ok(())
+        })?;
+        Ok(())
+    })?;
+    Ok(())
+}
+
+fn write_headers<W: Write>(
+    xml: &mut Writer<W>,
+    arrays: &[Array],
+    offset: &mut usize,
+) -> io::Result<()> {
+    arrays.iter().try_for_each(|array| write_header(xml, array, None, offset))
+}
+
 /// Describes an array that begins at `offset` in the appended section, and moves `offset` past it.
 fn write_header<W: Write>(
     xml: &mut Writer<W>,

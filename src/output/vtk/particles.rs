@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use quick_xml::Writer;
 
-use super::{Array, write_file, write_header};
+use super::{Array, write_file, write_structure};
 use crate::model::ParticleFields;
 
 /// Writes the particles of one droplet at `time` [s].
@@ -19,47 +19,19 @@ pub fn write_particles(out: impl Write, time: f64, fields: &ParticleFields) -> i
         Array::scalar("mass", "kg", &fields.mass),
         Array::vector("velocity", "m/s", &fields.velocity),
     ];
-    let places = Array::vector("position", "m", &fields.position);
+    let places = [Array::vector("position", "m", &fields.position)];
     // Viewers draw cells, so each point is one.
     let own: Vec<i64> = (0..count as i64).collect();
     let ends: Vec<i64> = (1..=count as i64).collect();
     let cells = [Array::indices("connectivity", &own), Array::indices("offsets", &ends)];
-    let structure =
-        |xml: &mut Writer<_>| write_structure(xml, count, (&time, &points), (&places, &cells));
-    let all = std::iter::once(&time).chain(&points).chain([&places]).chain(&cells);
-    write_file(out, "PolyData", structure, &all.collect::<Vec<_>>())
-}
-
-fn write_structure<W: Write>(
-    xml: &mut Writer<W>,
-    count: usize,
-    (time, points): (&Array, &[Array]),
-    (places, cells): (&Array, &[Array]),
-) -> io::Result<()> {
-    let mut offset = 0;
     let count = count.to_string();
-    xml.create_element("PolyData").write_inner_content(|xml| {
-        xml.create_element("FieldData")
-            .write_inner_content(|xml| write_header(xml, time, Some("1"), &mut offset))?;
-        let piece = xml
-            .create_element("Piece")
-            .with_attribute(("NumberOfPoints", count.as_str()))
-            .with_attribute(("NumberOfVerts", count.as_str()));
-        piece.write_inner_content(|xml| {
-            let data = xml.create_element("PointData").with_attribute(("Scalars", "temperature"));
-            data.write_inner_content(|xml| {
-                points.iter().try_for_each(|array| write_header(xml, array, None, &mut offset))
-            })?;
-            xml.create_element("Points")
-                .write_inner_content(|xml| write_header(xml, places, None, &mut offset))?;
-            xml.create_element("Verts").write_inner_content(|xml| {
-                cells.iter().try_for_each(|array| write_header(xml, array, None, &mut offset))
-            })?;
-            Ok(())
-        })?;
-        Ok(())
-    })?;
-    Ok(())
+    let structure = |xml: &mut Writer<_>| {
+        let piece = [("NumberOfPoints", count.as_str()), ("NumberOfVerts", count.as_str())];
+        let others = [("Points", &places[..]), ("Verts", &cells)];
+        write_structure(xml, ("PolyData", &[]), &piece, (&time, &points), &others)
+    };
+    let all = std::iter::once(&time).chain(&points).chain(&places).chain(&cells);
+    write_file(out, "PolyData", structure, &all.collect::<Vec<_>>())
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use std::io::{self, Write};
 use quick_xml::Writer;
 
 use super::grid::{invariants, point_arrays};
-use super::{AXES, Array, Values, write_file, write_header};
+use super::{AXES, Array, Values, write_file, write_structure};
 use crate::model::NodalFields;
 
 /// Steps round the axis: with 24 the outline is within 1 % of a circle.
@@ -28,15 +28,19 @@ pub fn write_revolved(out: impl Write, time: f64, fields: &NodalFields) -> io::R
         &whole.stress,
         [&von_mises, &max_principal],
     );
-    let place = Array {
+    let places = [Array {
         name: "position",
         unit: "m",
         components: &AXES,
         values: Values::Real(whole.position.as_flattened()),
-    };
+    }];
     let extent = format!("0 {} 0 {SECTORS} 0 {}", whole.counts[0] - 1, whole.counts[1] - 1);
-    let structure = |xml: &mut Writer<_>| write_structure(xml, &extent, &time, &points, &place);
-    let arrays: Vec<&Array> = std::iter::once(&time).chain(&points).chain([&place]).collect();
+    let structure = |xml: &mut Writer<_>| {
+        let grid = ("StructuredGrid", &[("WholeExtent", extent.as_str())][..]);
+        let piece = [("Extent", extent.as_str())];
+        write_structure(xml, grid, &piece, (&time, &points), &[("Points", &places)])
+    };
+    let arrays: Vec<&Array> = std::iter::once(&time).chain(&points).chain(&places).collect();
     write_file(out, "StructuredGrid", structure, &arrays)
 }
 
@@ -92,33 +96,6 @@ fn turned([rr, tt, zz, rt, tz, rz]: [f64; 6], cos: f64, sin: f64) -> [f64; 6] {
         sin * rz + cos * tz,
         cos * rz - sin * tz,
     ]
-}
-
-fn write_structure<W: Write>(
-    xml: &mut Writer<W>,
-    extent: &str,
-    time: &Array,
-    points: &[Array],
-    place: &Array,
-) -> io::Result<()> {
-    let mut offset = 0;
-    let grid = xml.create_element("StructuredGrid").with_attribute(("WholeExtent", extent));
-    grid.write_inner_content(|xml| {
-        xml.create_element("FieldData")
-            .write_inner_content(|xml| write_header(xml, time, Some("1"), &mut offset))?;
-        let piece = xml.create_element("Piece").with_attribute(("Extent", extent));
-        piece.write_inner_content(|xml| {
-            let data = xml.create_element("PointData").with_attribute(("Scalars", "temperature"));
-            data.write_inner_content(|xml| {
-                points.iter().try_for_each(|array| write_header(xml, array, None, &mut offset))
-            })?;
-            xml.create_element("Points")
-                .write_inner_content(|xml| write_header(xml, place, None, &mut offset))?;
-            Ok(())
-        })?;
-        Ok(())
-    })?;
-    Ok(())
 }
 
 #[cfg(test)]

@@ -46,15 +46,7 @@ impl Fineness<'_> {
         let keys = self.keys();
         let named = keys.depth_spacing.or(keys.spacing);
         let size = self.order as f64 * named.unwrap_or(self.lateral);
-        let mut fine = Vec::new();
-        for (top, face, z) in [(true, FaceName::Top, 0.0), (false, FaceName::Bottom, -thickness)] {
-            if self.refinements.iter().any(|r| r.top == top) {
-                fine.push(self.stretch([z - size, z + size], size));
-            }
-            if self.is_heated(face) {
-                fine.push(self.below(strata, index, top, named));
-            }
-        }
+        let mut fine = self.fine_at_ends(size, |top, _| self.below(strata, index, top, named));
         if self.heats_sides() {
             // Layers warm up at different speeds, so that heat passes from one to the other from the beginning on.
             let own = self.size_in(&strata[index], named);

@@ -1,8 +1,9 @@
 //! Time derivatives of what the heat problem holds, exact: they are what its equations say.
 
-use super::{HeatClass, HeatLoads, HeatProblem, Passage};
+use super::depth::DepthModes;
+use super::{HeatLoads, HeatProblem, Passage, is_zero};
 
-impl HeatProblem {
+impl<D: DepthModes> HeatProblem<D> {
     /// Time derivative of a state, laid out like the state itself: modal heat content of each class,
     /// face values, totals.
     ///
@@ -11,15 +12,21 @@ impl HeatProblem {
     pub fn rates(&self, state: &[f64], loads: &HeatLoads, rates: &HeatLoads) -> Vec<f64> {
         let mut out = Vec::with_capacity(state.len());
         for (index, (class, content)) in self.classes.iter().zip(self.contents(state)).enumerate() {
-            let mut source = self.source(class, &loads.surface[index], &loads.faces[index]);
-            class.add_decay(&mut source, content, self.diffusivity());
+            let values = &loads.faces[index];
+            if is_zero(content, values) && !loads.drive(index) {
+                out.resize(out.len() + content.len(), 0.0);
+                continue;
+            }
+            let mut source = self.source(class, &loads.surface[index], values);
+            self.depth.for_each_mode(class, |at, decay| source[at] -= decay * content[at]);
             out.extend(source);
         }
         let class = &self.classes[0];
+        let modes = self.len(class);
         let (values, value_rates) = (&loads.faces[0], &rates.faces[0]);
         let passage = Passage {
-            change: self.effective(class, &out[..class.len()], value_rates),
-            integral: self.effective(class, &state[..class.len()], values),
+            change: self.effective(class, &out[..modes], value_rates),
+            integral: self.effective(class, &state[..modes], values),
             surface: loads.surface[0].clone(),
             value_change: value_rates.clone(),
             values: values.clone(),
@@ -28,21 +35,5 @@ impl HeatProblem {
         out.extend(value_rates);
         out.extend([totals.brought_in, totals.lost]);
         out
-    }
-}
-
-impl HeatClass {
-    /// Adds `−λ d` to the rate of the content `d`.
-    fn add_decay(&self, rate: &mut [f64], content: &[f64], diffusivity: f64) {
-        let [x, y, z] = self.modes.each_ref().map(|m| &m.decay);
-        let mut at = 0;
-        for decay_z in z {
-            for decay_y in y {
-                for decay_x in x {
-                    rate[at] -= diffusivity * (decay_x + decay_y + decay_z) * content[at];
-                    at += 1;
-                }
-            }
-        }
     }
 }

@@ -18,7 +18,7 @@ impl SolidFem {
         for image in self.images(&present(temperatures, change)) {
             let values = self.rise_of_image(temperatures, image);
             for (value, rate) in values.into_iter().zip(self.rise_of_image(change, image)) {
-                highest.meet(value, || rate);
+                highest.include(value, || rate);
             }
         }
         highest.rate
@@ -37,8 +37,8 @@ impl SolidFem {
             let stresses = self.stress_of_image(temperatures, &nodal, image);
             let rates = self.stress_of_image(temperature_change, &nodal_change, image);
             for (stress, rate) in stresses.into_iter().zip(rates) {
-                highest[0].meet(von_mises(stress), || von_mises_rate(stress, rate));
-                highest[1].meet(max_principal(stress), || max_principal_rate(stress, rate));
+                highest[0].include(von_mises(stress), || von_mises_rate(stress, rate));
+                highest[1].include(max_principal(stress), || max_principal_rate(stress, rate));
             }
         }
         highest.map(|highest| highest.rate)
@@ -59,7 +59,7 @@ impl Default for Highest {
 }
 
 impl Highest {
-    fn meet(&mut self, value: f64, rate: impl FnOnce() -> f64) {
+    fn include(&mut self, value: f64, rate: impl FnOnce() -> f64) {
         if value > self.value {
             *self = Self { value, rate: rate() };
         } else if value == self.value {

@@ -1,11 +1,11 @@
-//! Values of inputs that are hardly meant.
+//! Plausibility of the values of inputs.
 
 use super::{Quantity, Slot, Variable};
 use crate::scene::{Measure, Scene, doubt_of_input};
 
 impl Variable {
-    /// What to say of a value that an input is hardly meant to have, in the words that a scene's constants get.
-    pub fn doubt(&self, scene: &Scene, value: f64) -> Option<String> {
+    /// The warning of a value that is implausible for an input, in the words that a scene's constants get.
+    pub fn implausible(&self, scene: &Scene, value: f64) -> Option<String> {
         let Slot::Input(_) = self.slot else { return None };
         let measure = match self.quantity? {
             Quantity::Temperature if self.name.ends_with("ambient") => Measure::Ambient,

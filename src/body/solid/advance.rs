@@ -31,7 +31,7 @@ impl SolidBody {
 
     /// Advances under inputs that follow a path.
     ///
-    /// Over each part of the step, loads are the quadratics in time that meet them at its beginning,
+    /// Over each part of the step, loads are the quadratics in time that equal them at its beginning,
     /// middle and end, and heat is solved exactly under these. So amounts and face values make no
     /// time error, the step is then one part. Footprints that move or grow make one of the fourth
     /// order; they go by at most an eighth of their radius (a ring's width, a tile's smaller side) in

@@ -12,7 +12,7 @@ pub type Ask = Box<dyn Fn(f64, bool) -> Option<f64>>;
 
 /// What a host lets a step do.
 #[derive(Default)]
-pub struct Course {
+pub struct StepControl {
     pub may_end_early: bool,
     pub ask: Option<Ask>,
 }
@@ -20,7 +20,7 @@ pub struct Course {
 /// Least part of a step that is tried after a longer one was too long.
 const LEAST: f64 = 1e-12;
 
-impl Course {
+impl StepControl {
     /// Advances a state from `point` by `step` [s]. Its time afterwards is the sum of both, or an earlier one where
     /// the step ended early. An error leaves it as it was.
     pub fn advance(
@@ -132,12 +132,12 @@ fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivi
             assert!(asked.interrupt());
             None
         });
-        let course = Course { may_end_early: true, ask: Some(ask) };
+        let control = StepControl { may_end_early: true, ask: Some(ask) };
         let mut state = model.initial_state();
         let before = state.clone();
         let under_way = interrupt.begin();
         let advance =
-            course.advance((&model, &mut Cache::default()), &mut state, (0.0, 5e-4), &interrupt);
+            control.advance((&model, &mut Cache::default()), &mut state, (0.0, 5e-4), &interrupt);
         drop(under_way);
         assert_eq!(advance.unwrap_err().halt(), Some(&Halt::Interrupted));
         assert_eq!(state, before);

@@ -1,0 +1,55 @@
+//! What the heat problem asks of the modes along z.
+
+use std::borrow::Cow;
+
+use faer::Mat;
+
+use super::class::Class;
+
+/// The matrices of a body along z, and its modes there: one set for all modes along the surface where the body is
+/// homogeneous, one set for each pair of them through layers.
+pub trait DepthModes {
+    /// The sets of modes that a symmetry class has for itself.
+    type Columns: Default;
+
+    /// Heat capacity ρc [J/(m³ K)] and conductivity k [W/(m K)] where the matrices leave these out, else 1.
+    fn capacity(&self) -> f64;
+    fn conductivity(&self) -> f64;
+
+    /// `M(ρc)` and `M(k)` between nodes along z.
+    fn mass(&self) -> &Mat<f64>;
+    fn conductance(&self) -> &Mat<f64>;
+
+    /// `K(k) v` of nodal values along z.
+    fn stiffness_times(&self, v: &[f64]) -> Vec<f64>;
+
+    /// The functions along z, by columns at the nodes there, whose coefficients mixed arrays hold: those that turn
+    /// into modes at the least cost.
+    fn basis(&self) -> &Mat<f64>;
+
+    /// Modes along z of each pair of modes along the surface.
+    fn count(&self) -> usize;
+
+    /// `f(place, λ)` of every mode, with its rate of decay λ [1/s].
+    fn for_each_mode(&self, class: &Class<Self::Columns>, f: impl FnMut(usize, f64));
+
+    /// Modal amplitudes of products with the functions of the basis.
+    fn to_modal(&self, class: &Class<Self::Columns>, mixed: Vec<f64>) -> Vec<f64>;
+
+    /// Coefficients in the basis of modal amplitudes.
+    fn to_mixed<'a>(&self, class: &Class<Self::Columns>, modal: &'a [f64]) -> Cow<'a, [f64]>;
+
+    /// Products of a nodal vector along z with the functions of the basis.
+    fn project(&self, v: &[f64]) -> Vec<f64> {
+        let basis = self.basis();
+        let product = |k: usize| (0..v.len()).map(|i| basis[(i, k)] * v[i]).sum();
+        (0..basis.ncols()).map(product).collect()
+    }
+
+    /// Values of the functions of the basis at the bottom or the top.
+    fn at_end(&self, high: bool) -> Vec<f64> {
+        let basis = self.basis();
+        let node = if high { basis.nrows() - 1 } else { 0 };
+        (0..basis.ncols()).map(|k| basis[(node, k)]).collect()
+    }
+}

@@ -1,0 +1,82 @@
+//! What is read of a state: temperatures, and the heat that they store.
+
+use super::class::{dot, multiply};
+use super::depth::DepthModes;
+use super::{HeatProblem, is_zero};
+use crate::math::separable::{Side, add_product, contract, transform};
+use crate::method::mesh::Mesh;
+
+impl<D: DepthModes> HeatProblem<D> {
+    /// Heat stored since time zero [J].
+    pub fn stored(&self, state: &[f64]) -> f64 {
+        let class = &self.classes[0];
+        let values = &state[state.len() - self.tail()..][..self.faces.len()];
+        let [x, y] = &class.lateral;
+        let masses = [&x.mass, &y.mass, self.depth.mass()]
+            .map(|mass| multiply(mass, &vec![1.0; mass.nrows()]));
+        let rows = [x.project(&masses[0]), y.project(&masses[1]), self.depth.project(&masses[2])];
+        let content = self.effective(class, &state[..self.len(class)], values);
+        let mixed = self.depth.to_mixed(class, &content);
+        let free = contract(&mixed, rows.each_ref().map(Vec::as_slice));
+        let held = |f: usize| {
+            let boundary = &class.drives[f].boundary;
+            values[f] * (0..3).map(|a| dot(&masses[a], &boundary[a])).product::<f64>()
+        };
+        let held = self.prescribed().map(held).sum::<f64>();
+        self.copies * self.depth.capacity() * (free + held)
+    }
+
+    /// Temperature above the initial one at a point of the mesh and its `image` [K], on an interface that of
+    /// the layer above; `faces` holds the present face values of each class.
+    pub fn temperature_at(
+        &self,
+        mesh: &Mesh,
+        state: &[f64],
+        faces: &[Vec<f64>],
+        point: [f64; 3],
+        image: [bool; 2],
+    ) -> f64 {
+        let mut sum = 0.0;
+        let [x, y, _] = &mesh.axes;
+        let shapes = [x.shape_at(point[0]), y.shape_at(point[1]), mesh.sided_shape_at(point[2])];
+        let row_z = shapes[2].interpolate_columns(self.depth.basis());
+        for (class, (content, values)) in self.classes.iter().zip(self.contents(state).zip(faces)) {
+            if is_zero(content, values) {
+                continue;
+            }
+            let [row_x, row_y] =
+                [0, 1].map(|a| shapes[a].interpolate_columns(&class.lateral[a].shapes));
+            let content = self.effective(class, content, values);
+            let mixed = self.depth.to_mixed(class, &content);
+            let mut part = contract(&mixed, [&row_x, &row_y, &row_z]);
+            for f in self.prescribed() {
+                let factor = |a: usize| shapes[a].interpolate(&class.drives[f].boundary[a]);
+                part += values[f] * (0..3).map(factor).product::<f64>();
+            }
+            sum += class.parity.sign(image) * part;
+        }
+        sum
+    }
+
+    /// Temperature above the initial one at all nodes, those on interfaces twice, class by class [K]; empty for
+    /// a class that is zero.
+    pub fn nodal(&self, state: &[f64], faces: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let parts = self.contents(state).zip(faces).zip(&self.classes);
+        parts
+            .map(|((content, values), class)| {
+                if is_zero(content, values) {
+                    return Vec::new();
+                }
+                let content = self.effective(class, content, values);
+                let mixed = self.depth.to_mixed(class, &content);
+                let [x, y] = class.lateral.each_ref().map(|modes| &modes.shapes);
+                let mut nodal = transform(&mixed, [x, y, self.depth.basis()], Side::Direct);
+                for f in self.prescribed() {
+                    let b = class.drives[f].boundary.each_ref().map(Vec::as_slice);
+                    add_product(&mut nodal, values[f], b);
+                }
+                nodal
+            })
+            .collect()
+    }
+}
