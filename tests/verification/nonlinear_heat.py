@@ -1,0 +1,167 @@
+"""A steel box that a spot melts, in impinge and in scikit-fem on the same nodes.
+
+Specific heat and conductivity are tables, melting takes latent heat over a range of temperatures,
+the top radiates. On two meshes: both codes are of second order, so their difference must fall.
+Exit code 1 if it does not, or if they differ by more than a percent on the finer one.
+"""
+
+import csv
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from math import log2
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+import vtr
+from enthalpy_peer import AtPoints, Integral, Melt
+
+ROOT = Path(__file__).resolve().parents[2]
+COLD, EMISSIVITY = 300.0, 0.5
+LIMIT = 1.0  # percent, on the finer mesh
+LEAST_ORDER = 1.5
+
+STEEL = Melt(
+    density=7800.0,
+    specific_heat=([300.0, 900.0, 1500.0], [480.0, 800.0, 680.0]),
+    conductivity=([300.0, 1000.0, 1600.0, 1800.0], [52.0, 28.0, 30.0, 34.0]),
+    solidus=1690.0,
+    liquidus=1770.0,
+    latent_heat=2.7e5,
+)
+SIZE = [2.4e-3, 2.4e-3, 0.8e-3]
+FLUX, RADIUS = 2.4e8, 1e-3
+STOP, STEPS = 16e-3, 8
+SPACINGS = [1e-4, 5e-5]
+INNER = 5  # Steps of the peer in one of ours.
+
+
+def toml(table):
+    return f"{{ temperature = {list(table[0])}, value = {list(table[1])} }}"
+
+
+def scene(spacing):
+    mesh = f"spacing = {spacing}, depth_spacing = {spacing}, growth = 1.0, order = 1"
+    return f"""
+name = "Melts"
+stop_time = {STOP}
+step = {STOP / STEPS}
+[body.plate]
+kind = "solid"
+shape = {{ box = {SIZE} }}
+initial_temperature = {COLD}
+mesh = {{ {mesh} }}
+[body.plate.material]
+model = "thermoelastic"
+density = {STEEL.density}
+specific_heat = {toml(STEEL.specific_heat)}
+conductivity = {toml(STEEL.conductivity)}
+[body.plate.material.melting]
+solidus = {STEEL.solidus}
+liquidus = {STEEL.liquidus}
+latent_heat = {STEEL.latent_heat}
+[body.plate.faces]
+top = {{ radiation = {{ emissivity = {EMISSIVITY}, ambient = {COLD} }} }}
+[[load]]
+name = "spot"
+on = "plate.top"
+footprint = {{ gaussian = {{ radius = {RADIUS} }} }}
+carries = ["heat_flux"]
+start = {{ heat_flux = {FLUX} }}
+"""
+
+
+@dataclass
+class Result:
+    """Temperatures as [x, y, z] of the quarter [K], and the liquid volume [m³]."""
+
+    temperature: np.ndarray
+    liquid: float
+
+    def front(self, nodes, values):
+        """Where a line of temperatures that falls passes the middle of the melting range."""
+        middle = 0.5 * (STEEL.solidus + STEEL.liquidus)
+        return float(np.interp(-middle, -values, nodes))
+
+    def fronts(self, axes):
+        """Depth below the centre and radius on the top [m]."""
+        depth = self.front(-axes[2][::-1], self.temperature[0, 0, ::-1])
+        return depth, self.front(axes[0], self.temperature[:, 0, -1])
+
+
+def run_impinge(spacing):
+    with TemporaryDirectory() as folder:
+        folder = Path(folder)
+        (folder / "scene.toml").write_text(scene(spacing))
+        command = [ROOT / "target/release/impinge", "run", folder / "scene.toml"]
+        command += ["--out", folder / "out", "--fields-every", "1"]
+        subprocess.run(command, check=True, capture_output=True)
+        with (folder / "out/outputs.csv").open() as file:
+            *_, last = csv.DictReader(file)
+        grid = vtr.read(max((folder / "out").glob("plate_*.vtr")))
+    shape = [len(grid[axis]) for axis in "zyx"]
+    temperature = grid["temperature"].reshape(shape).transpose(2, 1, 0)
+    first = [np.searchsorted(grid[axis], -1e-12) for axis in "xy"]
+    axes = [grid["x"][first[0] :], grid["y"][first[1] :], grid["z"]]
+    liquid = float(last["plate.liquid_volume [m3]"])
+    return axes, Result(temperature[first[0] :, first[1] :], liquid)
+
+
+def run_peer(axes, kind, inner):
+    problem = kind(axes, STEEL, COLD, EMISSIVITY)
+    problem.heat_by(FLUX, RADIUS)
+    problem.advance(STOP, STEPS * inner)
+    temperature = problem.on_grid(problem.temperature())
+    return Result(temperature, problem.liquid_volume()), problem.newton_steps
+
+
+def differences(ours, theirs, axes):
+    """In percent: of the highest rise, of volume, depth and radius of what has melted."""
+    pairs = zip(ours.fronts(axes), theirs.fronts(axes), strict=True)
+    depth, radius = (a / b - 1 for a, b in pairs)
+    apart = np.abs(ours.temperature - theirs.temperature).max()
+    found = {
+        "temperature": apart / (theirs.temperature.max() - COLD),
+        "liquid volume": ours.liquid / theirs.liquid - 1,
+        "depth": depth,
+        "radius": radius,
+    }
+    return {name: 100 * value for name, value in found.items()}
+
+
+def row(label, found, spent=""):
+    print(f"{label:46}" + "".join(f"{value:15.3f}" for value in found.values()) + spent)
+
+
+def main():
+    print("impinge beside scikit-fem, differences in percent")
+    print(f"{'':46}" + "".join(f"{name:>15}" for name in differences_names()))
+    finest, failed = {}, False
+    for kind in AtPoints, Integral:
+        by_mesh = []
+        for spacing in SPACINGS:
+            begin = time.perf_counter()
+            axes, ours = run_impinge(spacing)
+            theirs, newton = run_peer(axes, kind, INNER)
+            by_mesh.append(differences(ours, theirs, axes))
+            spent = f"   {newton} Newton steps, {time.perf_counter() - begin:.0f} s"
+            nodes = " × ".join(str(len(axis)) for axis in axes)
+            row(f"{nodes} nodes, k {kind.__doc__.split(':')[0][:20]}", by_mesh[-1], spent)
+        finest[kind] = by_mesh[-1]
+        order = log2(by_mesh[0]["temperature"] / by_mesh[1]["temperature"])
+        print(f"temperatures: difference falls at order {order:.2f}")
+        failed |= not order > LEAST_ORDER
+    worst = max(abs(value) for found in finest.values() for value in found.values())
+    failed |= not worst < LIMIT
+    print(f"finer mesh: at most {worst:.3f} % apart: {'more than it may' if failed else 'ok'}")
+    return failed
+
+
+def differences_names():
+    return ["temperature", "liquid volume", "depth", "radius"]
+
+
+if __name__ == "__main__":
+    sys.exit(main())
