@@ -56,7 +56,9 @@ class Antiderivative:
 
     def inverse(self, total):
         """The temperature, and f there."""
-        number = np.clip(np.searchsorted(self.sums, total, side="right") - 1, 0, len(self.values) - 1)
+        number = np.clip(
+            np.searchsorted(self.sums, total, side="right") - 1, 0, len(self.values) - 1
+        )
         begin, value, slope = self._piece(number)
         above = total - self.sums[number]
         end = np.sqrt(value**2 + 2 * slope * above)

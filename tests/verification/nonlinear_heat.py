@@ -1,8 +1,9 @@
 """A steel box that a spot melts, in impinge and in scikit-fem on the same nodes.
 
 Specific heat and conductivity are tables, melting takes latent heat over a range of temperatures,
-the top radiates. On two meshes each: both codes are of second order, so their difference must
-fall. Exit code 1 if it does not, or if they differ by more than a percent on the finest one.
+the top radiates. On two meshes: both codes are of second order, so their difference must
+fall. Exit code 1 if it does not, or if they differ by more than a percent on the finer one or by
+four times that on the coarser.
 """
 
 import csv
@@ -20,7 +21,7 @@ from enthalpy_peer import AtPoints, Integral, Melt
 
 ROOT = Path(__file__).resolve().parents[2]
 COLD, EMISSIVITY = 300.0, 0.5
-LIMIT = 1.0  # percent, on the finest mesh
+LIMIT = 1.0  # percent, on the finer mesh
 LEAST_ORDER = 1.5
 
 STEEL = Melt(
@@ -34,7 +35,7 @@ STEEL = Melt(
 SIZE = [2.4e-3, 2.4e-3, 0.8e-3]
 FLUX, RADIUS = 2.4e8, 1e-3
 STOP, STEPS = 16e-3, 8
-SPACINGS = {AtPoints: [2e-4, 1e-4], Integral: [1e-4, 5e-5]}
+SPACINGS = [1e-4, 5e-5]  # 10 and 20 to the radius; k(T) at Gauss points on the first alone
 LABELS = {AtPoints: "k(T) at Gauss points", Integral: "∫ k dT at nodes"}
 INNER = 5  # Steps of the peer in one of ours.
 
@@ -43,12 +44,13 @@ def toml(table):
     return f"{{ temperature = {list(table[0])}, value = {list(table[1])} }}"
 
 
-def scene(spacing):
+def scene(spacing, tolerance=1e-3):
     mesh = f"spacing = {spacing}, depth_spacing = {spacing}, growth = 1.0, order = 1"
     return f"""
 name = "Melts"
 stop_time = {STOP}
 step = {STOP / STEPS}
+fidelity = {{ tolerance = {tolerance} }}
 [body.plate]
 kind = "solid"
 shape = {{ box = {SIZE} }}
@@ -92,11 +94,11 @@ class Result:
         return depth, self.front(axes[0], self.temperature[:, 0, -1])
 
 
-def run_impinge(spacing, stop=STOP):
+def run_impinge(spacing, stop=STOP, tolerance=1e-3):
     """Nodes along the axes of the quarter, and the result at the end."""
     with TemporaryDirectory() as folder:
         folder = Path(folder)
-        (folder / "scene.toml").write_text(scene(spacing))
+        (folder / "scene.toml").write_text(scene(spacing, tolerance))
         command = [ROOT / "target/release/impinge", "run", folder / "scene.toml"]
         command += ["--out", folder / "out", "--fields-every", "1"]
         command += ["--until", str(stop), "--step", str(min(stop, STOP / STEPS))]
@@ -134,36 +136,37 @@ def differences(ours, theirs, axes):
     return {name: 100 * value for name, value in found.items()}
 
 
-def row(label, found, spent=""):
-    print(f"{label:46}" + "".join(f"{value:15.3f}" for value in found.values()) + spent)
+def compare(spacing, kind):
+    """Prints a row; answers the differences."""
+    begin = time.perf_counter()
+    axes, ours = run_impinge(spacing)
+    theirs, newton = run_peer(axes, kind, INNER)
+    found = differences(ours, theirs, axes)
+    nodes = " × ".join(str(len(axis)) for axis in axes)
+    label = f"{nodes} nodes, {LABELS[kind]}"
+    spent = f"   {newton} Newton steps, {time.perf_counter() - begin:.0f} s"
+    print(f"{label:46}" + "".join(f"{value:15.3f}" for value in found.values()) + spent, flush=True)
+    return found
+
+
+def worst(found):
+    return max(abs(value) for value in found.values())
 
 
 def main():
+    names = ["temperature", "liquid volume", "depth", "radius"]
     print("impinge beside scikit-fem, differences in percent")
-    print(f"{'':46}" + "".join(f"{name:>15}" for name in differences_names()))
-    failed = False
-    for kind, spacings in SPACINGS.items():
-        by_mesh = []
-        for spacing in spacings:
-            begin = time.perf_counter()
-            axes, ours = run_impinge(spacing)
-            theirs, newton = run_peer(axes, kind, INNER)
-            by_mesh.append(differences(ours, theirs, axes))
-            spent = f"   {newton} Newton steps, {time.perf_counter() - begin:.0f} s"
-            nodes = " × ".join(str(len(axis)) for axis in axes)
-            row(f"{nodes} nodes, {LABELS[kind]}", by_mesh[-1], spent)
-        order = log2(by_mesh[0]["temperature"] / by_mesh[1]["temperature"])
-        print(f"temperatures: the difference falls at order {order:.2f}", flush=True)
-        failed |= not order > LEAST_ORDER
-    worst = max(abs(value) for value in by_mesh[-1].values())
-    failed |= not worst < LIMIT
-    verdict = "more than it may" if failed else "ok"
-    print(f"finest mesh: at most {worst:.3f} % apart: {verdict}")
+    print(f"{'':46}" + "".join(f"{name:>15}" for name in names))
+    coarse, fine = SPACINGS
+    first, second = compare(coarse, AtPoints), compare(coarse, Integral)
+    last = compare(fine, Integral)
+    order = log2(second["temperature"] / last["temperature"])
+    failed = not (
+        order > LEAST_ORDER and worst(last) < LIMIT and max(worst(first), worst(second)) < 4 * LIMIT
+    )
+    print(f"temperatures: the difference falls at order {order:.2f}")
+    print(f"finer mesh: at most {worst(last):.3f} %: {'more than it may' if failed else 'ok'}")
     return failed
-
-
-def differences_names():
-    return ["temperature", "liquid volume", "depth", "radius"]
 
 
 if __name__ == "__main__":

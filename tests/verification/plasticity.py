@@ -283,7 +283,7 @@ def compare(case):
 
 def main():
     worst = {case.title: compare(case) for case in CASES}
-    print("\nDifferences: of fields in percent of the largest rise, displacement, von Mises stress.")
+    print("\nFields: in percent of the largest rise, displacement, von Mises stress.")
     for title, difference in worst.items():
         verdict = "ok" if difference < LIMIT else f"more than {LIMIT} %"
         print(f"{title}: at most {difference:.3f} % apart: {verdict}")

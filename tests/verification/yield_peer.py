@@ -1,4 +1,4 @@
-"""Bodies that yield, in scikit-fem: an independent program for the same equations on the same nodes.
+"""Bodies that yield, in scikit-fem: an independent program for the same equations and nodes.
 
 Quadratic elements on the meridian section of a disc or on a quarter of a box, with the mesh, shape
 functions and quadrature of scikit-fem. Heat is linear and advances by an L-stable Runge–Kutta
@@ -125,8 +125,6 @@ def max_principal(stress):
     pairs = [(0, 2)] if stress.shape[-1] == 4 else [(0, 1), (1, 2), (0, 2)]
     for i in range(3):
         tensor[..., i, i] = stress[..., i]
-    if stress.shape[-1] == 4:  # rr, tt, zz, rz
-        tensor = tensor.copy()
     for k, (i, j) in enumerate(pairs):
         tensor[..., i, j] = tensor[..., j, i] = stress[..., 3 + k] / sqrt(2)
     return np.linalg.eigvalsh(tensor)[..., -1]
@@ -257,7 +255,7 @@ class Body:
     # Heat
 
     def flux_under_spot(self, peak, radius):
-        """Heat into the nodes of the top [W] of a Gaussian flux about the axis, 1/e² at the radius."""
+        """Heat into the nodes of the top [W] of a Gaussian flux, 1/e² at the radius."""
         high = self.axes[-1][-1]
         facets = self.basis.mesh.facets_satisfying(lambda x: np.isclose(x[-1], high, atol=1e-12))
         top = FacetBasis(self.basis.mesh, self.basis.elem, facets=facets, intorder=8)
@@ -312,9 +310,7 @@ class Body:
         each = (weighted.reshape(elements, 1, -1) @ matrix)[:, 0, :]
         size = len(self.displacement)
         places = self.element_unknowns.ravel()
-        return tuple(
-            np.bincount(places, x.ravel(), size)[self.free] for x in (each, np.abs(each))
-        )
+        return tuple(np.bincount(places, x.ravel(), size)[self.free] for x in (each, np.abs(each)))
 
     def stiffness(self, tangent):
         elements, points, width, unknowns = self.strains.shape
