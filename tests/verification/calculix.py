@@ -21,7 +21,7 @@ from yield_peer import Body, products, von_mises
 
 LIMIT = 1.0  # percent
 HARDENING = 6e9
-MESH = "spacing = 3.2e-4, depth_spacing = 1.2e-4, growth = 1.2, order = 2"
+MESH = "spacing = 4.5e-4, depth_spacing = 1.5e-4, growth = 1.2, order = 2"
 
 # Corners, then edges, as C3D20 has them, in thirds of an element's nodes along x, y, z.
 CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
