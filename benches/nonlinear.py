@@ -22,8 +22,8 @@ sys.path[:0] = [str(ROOT / "tests/verification"), str(ROOT / "tests/fmpy")]
 
 HEAT_SPACINGS = [4.4e-5, 2.8e-5]
 YIELD_MESHES = [
-    "spacing = 2.6e-4, depth_spacing = 1.2e-4, growth = 1.3, order = 2",
-    "spacing = 2e-4, depth_spacing = 0.9e-4, growth = 1.3, order = 2",
+    "spacing = 1.4e-4, depth_spacing = 0.5e-4, growth = 1.2, order = 2",
+    "spacing = 1e-4, depth_spacing = 0.4e-4, growth = 1.2, order = 2",
 ]
 COARSE = 1e-4
 TIME_ERROR = 0.3  # K
@@ -145,6 +145,7 @@ def main():
     parser.add_argument("--threads", type=int, default=os.cpu_count())
     parser.add_argument("--clock", choices=CLOCKS, default="wall")
     parser.add_argument("--only", choices=["heat", "yield"])
+    parser.add_argument("--sizes", type=int, default=2, help="1: the smaller mesh alone")
     given = parser.parse_args()
     way = Way(given.clock, given.threads, given.repetitions)
     # Read when the libraries are loaded; the batches are of small products.
@@ -154,10 +155,10 @@ def main():
     print("|---|---|---|---|---|---|---|", flush=True)
     if given.only != "yield":
         inner, own, error = errors_in_time()
-        for spacing in HEAT_SPACINGS:
+        for spacing in HEAT_SPACINGS[: given.sizes]:
             bench_heat(spacing, inner, way)
     if given.only != "heat":
-        for mesh in YIELD_MESHES:
+        for mesh in YIELD_MESHES[: given.sizes]:
             bench_yield(mesh, way)
     if given.only != "yield":
         print(f"\nHeat: errors in time of {own:.2f} K and {error:.2f} K at the end of the course;")
