@@ -3,7 +3,8 @@
 CalculiX (`ccx`, Debian's package calculix-ccx) takes the temperatures of impinge at the ends of the
 same increments. Its elements are C3D20R: 20 of the 27 nodes, eight points in each, at which its
 stress and plastic strain are compared with those of scikit-fem's points, taken there in each
-element by the best linear polynomials. CalculiX interpolates temperatures linearly between corners.
+element by the best linear polynomials. CalculiX takes temperatures as linear between corners,
+so the peer is given such ones here; `plasticity.py` compares it with impinge under those of impinge.
 Exit code 1 if they differ; without ccx nothing is compared, and it says so.
 """
 
@@ -21,7 +22,7 @@ from yield_peer import Body, products, von_mises
 
 LIMIT = 1.0  # percent
 HARDENING = 6e9
-MESH = "spacing = 4.5e-4, depth_spacing = 1.5e-4, growth = 1.2, order = 2"
+MESH = "spacing = 6e-4, depth_spacing = 2e-4, growth = 1.2, order = 2"
 
 # Corners, then edges, as C3D20 has them, in thirds of an element's nodes along x, y, z.
 CORNERS = [(0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0), (0, 0, 2), (2, 0, 2), (2, 2, 2), (0, 2, 2)]
@@ -51,6 +52,15 @@ def elements(axes):
     )
     stride = np.array([1, counts[0], counts[0] * counts[1]])
     return first @ stride[:, None] + (np.array(CORNERS + MIDDLES) @ stride)
+
+
+def between_corners(temperature, axes):
+    """Temperatures that are linear between the corners of each element."""
+    grid = temperature.reshape([len(axis) for axis in reversed(axes)]).copy()
+    for axis in range(3):
+        along = np.moveaxis(grid, axis, 0)
+        along[1::2] = 0.5 * (along[:-1:2] + along[2::2])
+    return grid.ravel()
 
 
 def lines(rows):
@@ -139,7 +149,7 @@ def compare(case):
     body = Body(tuple(axes), case.metal, COLD, case.held)
     found = []
     for number, moment in enumerate(moments):
-        body.advance(moment.temperature)
+        body.advance(between_corners(moment.temperature, axes))
         if number + 1 not in (5, len(moments)):
             continue
         displacement, stress, strain = theirs[len(found)]
@@ -153,14 +163,11 @@ def compare(case):
         u = moment.displacement[used]
         found.append(
             {
-                "displacements": np.abs(u - displacement[:, 1:]).max() / np.abs(u).max(),
+                "displacements, impinge": np.abs(u - displacement[:, 1:]).max() / np.abs(u).max(),
                 "stresses (root mean square)": sqrt(((own - stress) ** 2).sum(axis=-1).mean())
                 / largest,
                 "highest von Mises stress": von_mises(stress).max() / largest - 1,
                 "largest plastic strain": strain.max() / plastic.max() - 1,
-                "largest plastic strain, impinge": strain.max()
-                / moment.totals["max_plastic_strain"]
-                - 1,
             }
         )
     return axes, [{name: 100 * value for name, value in part.items()} for part in found]
@@ -176,8 +183,7 @@ def main():
     print(f"{'':34}{'hot':>12}{'cold':>12}")
     for name in hot:
         print(f"{name:34}{hot[name]:12.3f}{cold[name]:12.3f}")
-    asserted = [name for name in hot if "impinge" not in name]
-    worst = max(abs(part[name]) for part in (hot, cold) for name in asserted)
+    worst = max(abs(value) for part in (hot, cold) for value in part.values())
     print(f"at most {worst:.3f} % apart: {'ok' if worst < LIMIT else f'more than {LIMIT} %'}")
     return not worst < LIMIT
 
