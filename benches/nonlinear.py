@@ -20,7 +20,7 @@ from tempfile import TemporaryDirectory
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "tests/verification"), str(ROOT / "tests/fmpy")]
 
-HEAT_SPACINGS = [4.4e-5, 2.8e-5]
+HEAT_SPACINGS = [4.4e-5, 3.4e-5]
 YIELD_MESHES = [
     "spacing = 1.4e-4, depth_spacing = 0.5e-4, growth = 1.2, order = 2",
     "spacing = 1e-4, depth_spacing = 0.4e-4, growth = 1.2, order = 2",
