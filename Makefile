@@ -60,9 +60,13 @@ verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent fin
 	$(BIN)/python tests/verification/tension.py target/tmp out/verification
 	$(BIN)/python tests/verification/spread.py target/tmp out/verification
 	$(BIN)/python tests/verification/independent_code.py
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/verification/plasticity.py
+	OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/verification/calculix.py
+	$(BIN)/python tests/verification/nonlinear_heat.py
 
 bench: build $(VENV)/ready-verify ## time against an independent finite-element code, and units beside those of others
 	$(BIN)/python benches/alumina_plate.py
+	$(BIN)/python benches/nonlinear.py
 	$(BIN)/python benches/units.py
 
 bench-droplet: $(PEERS)/ready ## time droplets against two other particle codes (needs g++ and OpenGL's libraries)

@@ -76,6 +76,31 @@ class Factor:
         self.solve = lambda b: solver.solve(upper, b)
 
 
+class SymmetricFactor:
+    """Factors matrices of one pattern one after another; PARDISO orders only the first.
+
+    Upper triangles in CSR.
+    """
+
+    def __init__(self):
+        self.solver = None
+
+    def solve(self, upper, b):
+        try:
+            from pypardiso import PyPardisoSolver
+        except ImportError:
+            return Factor((upper + sp.triu(upper, 1).T).tocsr()).solve(b)
+        if self.solver is None:
+            self.solver = PyPardisoSolver(mtype=2)
+            self._run(11, upper, b)
+        self._run(22, upper, b)
+        return self._run(33, upper, b)
+
+    def _run(self, phase, upper, b):
+        self.solver.set_phase(phase)
+        return np.ravel(self.solver._call_pardiso(upper, b.reshape(-1, 1)))
+
+
 def ends_of_elements(axes, order):
     """Ends of the elements from the nodes along each axis."""
     for nodes in axes:

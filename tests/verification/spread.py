@@ -8,6 +8,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import NullFormatter
 
 REYNOLDS = 500.0
 COARSE, FINE = 24, 48  # Particles over the diameter.
@@ -105,6 +106,8 @@ def costs(axes, table):
         for run, percent in zip(runs, error, strict=False):
             place = {"xytext": (4, 4), "textcoords": "offset points", "fontsize": 7}
             axes.annotate(f"{run['resolution']:.0f}", (run["seconds"], percent), **place)
+    # Within a decade, all multiples would be labelled, over each other.
+    axes.yaxis.set_minor_formatter(NullFormatter())
     axes.set(
         xlabel="computed in / s, two threads",
         ylabel="off / %",

@@ -126,7 +126,10 @@ impl Study {
             println!("| {label} | {} |", cells.join(" | "));
         }
         let orders: Vec<String> = (0..self.quantities.len())
-            .map(|q| format!("{:.1} ({:.1})", self.order(q), self.overall_order(q)))
+            .map(|q| match self.rows.iter().all(|(.., errors)| errors[q] == 0.0) {
+                true => "exact".into(),
+                false => format!("{:.1} ({:.1})", self.order(q), self.overall_order(q)),
+            })
             .collect();
         println!("| order: last two (first to last) | {} |", orders.join(" | "));
     }

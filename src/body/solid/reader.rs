@@ -66,9 +66,9 @@ impl SolidReader<'_> {
         self.body.solid.liquid_volume(self.body.heat_of(self.state))
     }
 
-    /// Largest accumulated plastic strain at a node [1].
+    /// Largest accumulated plastic strain [1].
     pub fn max_plastic_strain(&self) -> f64 {
-        self.body.plastic_strain(self.state).into_iter().fold(0.0, f64::max)
+        self.body.max_plastic_strain(self.state)
     }
 
     /// Energy that yielding has dissipated [J].

@@ -202,11 +202,12 @@ impl SolidBody {
         Ok(Some([highest(von_mises), highest(max_principal)]))
     }
 
-    /// Accumulated plastic strain at the nodes [1]; none where nothing yields.
-    pub(super) fn plastic_strain(&self, state: &[f64]) -> Vec<f64> {
-        let strain =
-            |yielding: &Yielding| yielding.problem.nodal_plastic_strain(&state[self.heat_len..]);
-        self.yielding.as_ref().map_or(Vec::new(), strain)
+    /// Largest accumulated plastic strain [1], as the highest stress at the points where the law holds: at nodes of
+    /// edges where strain is singular, what is extrapolated goes on without end. Zero where nothing yields.
+    pub(super) fn max_plastic_strain(&self, state: &[f64]) -> f64 {
+        let largest =
+            |yielding: &Yielding| yielding.problem.max_plastic_strain(&state[self.heat_len..]);
+        self.yielding.as_ref().map_or(0.0, largest)
     }
 
     /// Energy that yielding has dissipated [J].

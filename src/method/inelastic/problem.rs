@@ -261,6 +261,12 @@ impl InelasticProblem {
         &state[self.layout().displacement]
     }
 
+    /// Largest accumulated plastic strain of all quadrature points [1].
+    pub fn max_plastic_strain(&self, state: &[f64]) -> f64 {
+        let histories = state[self.layout().history].chunks_exact(History::LEN);
+        histories.map(|history| History::read(history).accumulated).fold(0.0, f64::max)
+    }
+
     /// Energy that the body has dissipated, mirror images included [J].
     pub fn dissipated_energy(&self, state: &[f64]) -> f64 {
         let shapes = &self.grid.kit.shapes;
