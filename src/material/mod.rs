@@ -43,6 +43,11 @@ impl Material {
         }
     }
 
+    /// Whether strain may stay.
+    pub fn yields(&self) -> bool {
+        matches!(self, Self::Elastoplastic(_))
+    }
+
     pub fn properties_mut(&mut self) -> &mut Properties {
         match self {
             Self::Thermoelastic(properties) | Self::Elastoplastic(properties) => properties,

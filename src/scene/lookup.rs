@@ -228,7 +228,7 @@ impl Field {
     }
 
     /// Name of the body, as far as the field says one.
-    fn body(&self) -> Option<&str> {
+    pub(super) fn body(&self) -> Option<&str> {
         match (&self.on, &self.body) {
             (Some(on), _) => split_place(on).map(|(body, _)| body),
             (None, body) => body.as_deref(),

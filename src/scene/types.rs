@@ -450,6 +450,8 @@ pub enum Gives {
     MaxPrincipal,
     /// The three components.
     Displacement,
+    /// Accumulated plastic strain, of bodies that yield.
+    PlasticStrain,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -180,7 +180,11 @@ impl SolidBody {
         let stress = yielding.problem.nodal_stress(mechanics, &nodal);
         let stress = stress.map_err(|error| self.inelastic_error(error))?;
         let displacement = yielding.problem.displacement(mechanics).to_vec();
-        Ok(Some(Deformation::of_nodes(displacement, stress)))
+        let plastic_strain = match yielding.yields {
+            true => self.plastic_strain(state),
+            false => Vec::new(),
+        };
+        Ok(Some(Deformation::of_nodes(displacement, stress, plastic_strain)))
     }
 
     /// Highest von Mises and largest principal stress of a body that yields [Pa], at the points where its law holds:
