@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::math::gauss::{gauss_legendre, gauss_on};
 use crate::method::mesh::{Axis, Weight};
-use crate::scene::Footprint;
+use crate::scene::{Footprint, Profile};
 
 /// Where a footprint lies on its face [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,22 +49,21 @@ impl Pattern {
         image: [bool; 2],
     ) -> Vec<f64> {
         let place = place.mirrored(image);
-        match *footprint {
-            Footprint::Disc { .. } => scaled(disc([x, y], &place, place.radius, self), values[0]),
-            Footprint::Gaussian { .. } => {
-                let along_x = gaussian(x, place.x, place.radius);
-                outer(&scaled(along_x, values[0]), &gaussian(y, place.y, place.radius))
-            }
-            Footprint::Rings { count, .. } => {
+        match footprint.profile(place.radius, values) {
+            Profile::Discs(discs) => {
                 let turned = matches!(self, Pattern::Outward(axis) if image[axis]);
                 let mut sum = vec![0.0; x.len() * y.len()];
-                for (outer_radius, jump) in ring_jumps(count, place.radius, values) {
-                    let part = disc([x, y], &place, outer_radius, self);
-                    add_scaled(&mut sum, &part, if turned { -jump } else { jump });
+                for (radius, value) in discs {
+                    let part = disc([x, y], &place, radius, self);
+                    add_scaled(&mut sum, &part, if turned { -value } else { value });
                 }
                 sum
             }
-            Footprint::Tiles { count, size } => tiles([x, y], &place, count, size, values, image),
+            Profile::Gaussian(value) => {
+                let along_x = gaussian(x, place.x, place.radius);
+                outer(&scaled(along_x, value), &gaussian(y, place.y, place.radius))
+            }
+            Profile::Tiles { count, size } => tiles([x, y], &place, count, size, values, image),
         }
     }
 
@@ -76,30 +75,19 @@ impl Pattern {
         radius: f64,
         values: &[f64],
     ) -> Vec<f64> {
-        match *footprint {
-            Footprint::Disc { .. } => scaled(axis.integrate(0.0, radius, |_| 1.0), values[0]),
-            Footprint::Gaussian { .. } => scaled(gaussian(axis, 0.0, radius), values[0]),
-            Footprint::Rings { count, .. } => {
+        match footprint.profile(radius, values) {
+            Profile::Discs(discs) => {
                 let mut sum = vec![0.0; axis.len()];
-                for (outer_radius, jump) in ring_jumps(count, radius, values) {
-                    add_scaled(&mut sum, &axis.integrate(0.0, outer_radius, |_| 1.0), jump);
+                for (radius, value) in discs {
+                    add_scaled(&mut sum, &axis.integrate(0.0, radius, |_| 1.0), value);
                 }
                 sum
             }
+            Profile::Gaussian(value) => scaled(gaussian(axis, 0.0, radius), value),
             // Scenes with tiles on a disc are refused.
-            Footprint::Tiles { .. } => vec![0.0; axis.len()],
+            Profile::Tiles { .. } => vec![0.0; axis.len()],
         }
     }
-}
-
-/// Rings as a sum of discs: the outer radius of each ring and the drop of the value there.
-fn ring_jumps(count: usize, radius: f64, values: &[f64]) -> impl Iterator<Item = (f64, f64)> + '_ {
-    let width = radius / count as f64;
-    (0..count).filter_map(move |i| {
-        let next = values.get(i + 1).copied().unwrap_or(0.0);
-        let jump = values[i] - next;
-        (jump != 0.0).then_some(((i + 1) as f64 * width, jump))
-    })
 }
 
 /// `∫ N dA` over a disc, by exact integrals along chords and Gauss points over the angle.

@@ -67,7 +67,7 @@ fn load_inputs(
     next: &mut usize,
 ) -> LoadInputs {
     let cells = count(footprint);
-    let radial = matches!(footprint, Footprint::Rings { .. });
+    let radial = footprint.shears_outward();
     let mut take = |wanted: bool, count: usize| {
         wanted.then(|| {
             let range = *next..*next + count;

@@ -172,18 +172,6 @@ impl FaceName {
     }
 }
 
-impl Footprint {
-    /// The name as scenes write it.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Footprint::Disc { .. } => "disc",
-            Footprint::Gaussian { .. } => "gaussian",
-            Footprint::Rings { .. } => "rings",
-            Footprint::Tiles { .. } => "tiles",
-        }
-    }
-}
-
 impl Load {
     /// The body and the face that the load acts on.
     ///

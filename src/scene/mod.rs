@@ -7,6 +7,7 @@ mod check;
 mod decode;
 mod droplet;
 mod error;
+mod footprint;
 mod grid;
 mod locate;
 mod lookup;
@@ -25,6 +26,7 @@ pub use droplet::{
     Precision, Wall, WallStart,
 };
 pub use error::{Problem, SceneError};
+pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
 pub use lookup::Place;
 pub use materials::{MaterialChoice, Stratum};

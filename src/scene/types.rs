@@ -310,28 +310,6 @@ pub enum Footprint {
     Tiles { count: [usize; 2], size: [f64; 2] },
 }
 
-impl Footprint {
-    /// Outer radius of round footprints [m].
-    pub fn radius(&self) -> Option<f64> {
-        match *self {
-            Footprint::Disc { radius }
-            | Footprint::Gaussian { radius }
-            | Footprint::Rings { radius, .. } => Some(radius),
-            Footprint::Tiles { .. } => None,
-        }
-    }
-
-    /// Number of cells that have a value of their own, first index running along the first axis;
-    /// `None` for a single value without index.
-    pub fn cells(&self) -> Option<CellShape> {
-        match *self {
-            Footprint::Disc { .. } | Footprint::Gaussian { .. } => None,
-            Footprint::Rings { count, .. } => Some(CellShape::Rings(count)),
-            Footprint::Tiles { count, .. } => Some(CellShape::Tiles(count)),
-        }
-    }
-}
-
 /// Index ranges of a footprint of many values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CellShape {
