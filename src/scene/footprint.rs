@@ -19,6 +19,7 @@ impl Footprint {
         match self {
             Footprint::Disc { .. } => "disc",
             Footprint::Gaussian { .. } => "gaussian",
+            Footprint::Ring { .. } => "ring",
             Footprint::Rings { .. } => "rings",
             Footprint::Tiles { .. } => "tiles",
         }
@@ -30,6 +31,7 @@ impl Footprint {
             Footprint::Disc { .. } | Footprint::Gaussian { .. } | Footprint::Rings { .. } => {
                 "radius"
             }
+            Footprint::Ring { .. } => "outer",
             Footprint::Tiles { .. } => "size",
         }
     }
@@ -39,6 +41,10 @@ impl Footprint {
         match *self {
             Footprint::Disc { .. } => Profile::Discs(vec![(radius, values[0])]),
             Footprint::Gaussian { .. } => Profile::Gaussian(values[0]),
+            // As a beam out of focus the ring grows as a whole.
+            Footprint::Ring { inner, outer } => {
+                Profile::Discs(vec![(radius, values[0]), (radius * (inner / outer), -values[0])])
+            }
             Footprint::Rings { count, .. } => Profile::Discs(discs_of_rings(count, radius, values)),
             Footprint::Tiles { count, size } => Profile::Tiles { count, size },
         }
@@ -50,6 +56,7 @@ impl Footprint {
             Footprint::Disc { radius }
             | Footprint::Gaussian { radius }
             | Footprint::Rings { radius, .. } => Some(radius),
+            Footprint::Ring { outer, .. } => Some(outer),
             Footprint::Tiles { .. } => None,
         }
     }
@@ -58,7 +65,7 @@ impl Footprint {
     /// `None` for a single value without index.
     pub fn cells(&self) -> Option<CellShape> {
         match *self {
-            Footprint::Disc { .. } | Footprint::Gaussian { .. } => None,
+            Footprint::Disc { .. } | Footprint::Gaussian { .. } | Footprint::Ring { .. } => None,
             Footprint::Rings { count, .. } => Some(CellShape::Rings(count)),
             Footprint::Tiles { count, .. } => Some(CellShape::Tiles(count)),
         }
@@ -85,7 +92,10 @@ impl Footprint {
     /// Half of the least width of what it covers [m].
     pub fn half_width(&self, radius: Option<f64>) -> f64 {
         let [x, y] = self.half_extents(radius);
-        x.min(y)
+        match *self {
+            Footprint::Ring { inner, outer } => 0.5 * x * (1.0 - inner / outer),
+            _ => x.min(y),
+        }
     }
 
     /// Least size of a cell [m].
@@ -93,6 +103,7 @@ impl Footprint {
         let [x, y] = self.half_extents(radius);
         match *self {
             Footprint::Disc { .. } | Footprint::Gaussian { .. } => x,
+            Footprint::Ring { inner, outer } => x * (1.0 - inner / outer),
             Footprint::Rings { count, .. } => x / count as f64,
             Footprint::Tiles { count: [nx, ny], .. } => {
                 (2.0 * x / nx as f64).min(2.0 * y / ny as f64)
@@ -105,6 +116,7 @@ impl Footprint {
         let part = |count: usize| (5.0 / count as f64).min(1.0);
         match *self {
             Footprint::Disc { .. } | Footprint::Gaussian { .. } => least,
+            Footprint::Ring { inner, outer } => least * (2.0 * (1.0 - inner / outer)).min(1.0),
             Footprint::Rings { count, .. } => largest * part(count),
             Footprint::Tiles { count, size } => {
                 (size[0] * part(count[0])).min(size[1] * part(count[1]))
@@ -117,6 +129,9 @@ impl Footprint {
         match *self {
             Footprint::Disc { radius } => format!("disc, radius {}", metres(radius)),
             Footprint::Gaussian { radius } => format!("gaussian, 1/e² radius {}", metres(radius)),
+            Footprint::Ring { inner, outer } => {
+                format!("ring, radii {} and {}", metres(inner), metres(outer))
+            }
             Footprint::Rings { count, radius } => {
                 format!("{count} rings, radius {}", metres(radius))
             }
@@ -132,6 +147,9 @@ impl Footprint {
             Footprint::Disc { radius } => format!("a disc of radius {}", metres(radius)),
             Footprint::Gaussian { radius } => {
                 format!("a Gaussian spot that falls to 1/e² at {}", metres(radius))
+            }
+            Footprint::Ring { inner, outer } => {
+                format!("a ring from {} to {}", metres(inner), metres(outer))
             }
             Footprint::Rings { count, radius } => {
                 format!("{count} rings of equal width out to {}", metres(radius))

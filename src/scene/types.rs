@@ -304,6 +304,8 @@ pub enum Footprint {
     Disc { radius: f64 },
     /// Peak value at the centre, 1/e² of it at `radius` [m].
     Gaussian { radius: f64 },
+    /// Uniform between two radii [m].
+    Ring { inner: f64, outer: f64 },
     /// `count` concentric rings of equal width out to `radius` [m], a value each.
     Rings { count: usize, radius: f64 },
     /// `count` rectangles over `size` [m], a value each.

@@ -15,6 +15,7 @@ mod derivatives;
 mod droplet;
 mod fine_meshes;
 mod flows;
+mod footprints;
 mod impact;
 mod impossible;
 mod joints;

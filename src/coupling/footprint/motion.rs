@@ -329,6 +329,7 @@ mod tests {
         let cases = [
             (Footprint::Disc { radius: 0.29 }, Pattern::Scalar, 1e-7),
             (Footprint::Gaussian { radius: 0.29 }, Pattern::Scalar, 1e-7),
+            (Footprint::Ring { inner: 0.11, outer: 0.29 }, Pattern::Scalar, 1e-6),
             (Footprint::Tiles { count: [2, 3], size: [0.41, 0.57] }, Pattern::Scalar, 1e-7),
             (Footprint::Rings { count: 6, radius: 0.29 }, Pattern::Scalar, 1e-6),
             (Footprint::Rings { count: 2, radius: 0.29 }, Pattern::Outward(0), 3e-5),
@@ -374,6 +375,7 @@ mod tests {
             for footprint in [
                 Footprint::Disc { radius: 0.4 },
                 Footprint::Gaussian { radius: 0.1 },
+                Footprint::Ring { inner: 0.13, outer: 0.4 },
                 Footprint::Rings { count: 3, radius: 0.4 },
             ] {
                 let at = |r| Pattern::Scalar.on_radius(&axis, &footprint, r, &values);

@@ -35,10 +35,21 @@ fn loaded_faces(_: &Shape) -> Vec<FaceName> {
 pub fn footprint(checker: &mut Checker, path: &Path, footprint: &Footprint) {
     let path = path.key(footprint.name());
     if let Some(radius) = footprint.radius() {
-        checker.length(&path.at("radius"), radius, "the radius of a footprint");
+        let path = path.at(footprint.key_of_extent());
+        checker.length(&path, radius, "the radius of a footprint");
     }
     match *footprint {
         Footprint::Disc { .. } | Footprint::Gaussian { .. } => {}
+        Footprint::Ring { inner, outer } => {
+            let path = path.at("inner");
+            let what = "the inner radius of a ring";
+            if outer > 0.0 && checker.length(&path, inner, what) {
+                let most = WIDEST_HOLE * outer;
+                let allowed = format!("0 < inner <= {}", number(most));
+                let message = "the ring is thinner than it can be told";
+                checker.require(fits(inner, most), &path, message, allowed);
+            }
+        }
         Footprint::Rings { count, .. } => {
             checker.count(&path.at("count"), count);
         }
@@ -50,6 +61,9 @@ pub fn footprint(checker: &mut Checker, path: &Path, footprint: &Footprint) {
         }
     }
 }
+
+/// Inner radius of a ring over its outer one, at most: it is the difference of two discs.
+const WIDEST_HOLE: f64 = 0.999;
 
 /// What a face is held at, it does not take from a load: it would leave again at once.
 fn held_face(checker: &mut Checker, path: &Path, load: &Load, name: FaceName, solid: &Solid) {
@@ -79,7 +93,7 @@ fn axisymmetry(checker: &mut Checker, path: &Path, load: &Load) {
     let footprint = &load.footprint;
     if let Footprint::Tiles { .. } = footprint {
         let message = "a disc is modelled axisymmetric, which tiles are not";
-        checker.refuse(&path.at("footprint.tiles"), message, "disc, gaussian, rings");
+        checker.refuse(&path.at("footprint.tiles"), message, "disc, gaussian, ring, rings");
     }
     if !footprint.shears_outward()
         && let Some(i) = load.carries.iter().position(|carries| *carries == Carries::Shear)
