@@ -14,7 +14,8 @@ pub fn of(scene: &Scene) -> Vec<String> {
     let fields = scene.field.iter().map(field);
     let walls = scene.wall.iter().map(wall);
     let couplings = scene.coupling.iter().map(coupling);
-    let bodies = solids.chain(droplets);
+    let lumps = scene.lumps().map(|(name, words)| format!("{name}: {words}."));
+    let bodies = solids.chain(droplets).chain(lumps);
     bodies.chain(loads).chain(probes).chain(fields).chain(walls).chain(couplings).collect()
 }
 

@@ -97,21 +97,27 @@ pub fn joints(
 ) -> Vec<Joint> {
     let joint = |coupling: &Coupling| {
         let ends = [coupling.lower()?, coupling.upper()?];
-        let [from, to] = ends.map(|(name, face)| {
+        let conductor = |name| {
             let body = place(name)?;
-            let conductor = bodies[body].as_ref()?.conductor()?;
-            let cells = conductor.cells(face);
-            let side = Side {
+            Some((body, bodies[body].as_ref()?.conductor()?))
+        };
+        let own = ends.map(|(name, face)| conductor(name)?.1.cells(face));
+        let known = own.iter().flatten().next()?.clone();
+        let own = own.map(|cells| cells.unwrap_or_else(|| known.clone()));
+        let cells = CommonCells::of(own.each_ref())?;
+        let area = cells.areas.iter().sum();
+        let side = |n: usize| {
+            let (name, face) = ends[n];
+            let (body, conductor) = conductor(name)?;
+            Some(Side {
                 body,
                 face,
-                counts: [width(&cells), cells.len()],
-                response: conductor.response(face).clone(),
+                counts: [width(&own[n]), own[n].len()],
+                response: conductor.response(face, area),
                 diffusivity: conductor.diffusivity(face),
-            };
-            Some((side, cells))
-        });
-        let ((from, from_cells), (to, to_cells)) = (from?, to?);
-        let cells = CommonCells::of([&from_cells, &to_cells])?;
+            })
+        };
+        let (from, to) = (side(0)?, side(1)?);
         let conductance = coupling.conductance?;
         // Of the slowest mode, the inverse of the body's heat capacity per area; of the others, its own resistance.
         let slowest = |side: &Side| side.response.gains.first().copied().unwrap_or(0.0);

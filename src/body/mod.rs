@@ -115,8 +115,8 @@ pub trait Body: Send + Sync {
 
 /// A body whose faces answer to heat and force that others give.
 pub trait Conductor {
-    /// How a face answers to heat that is uniform along it.
-    fn response(&self, face: FaceName) -> &SurfaceResponse;
+    /// How a face answers to heat that is uniform along an area of it [m²].
+    fn response(&self, face: FaceName, area: f64) -> SurfaceResponse;
 
     /// Thermal diffusivity beside a face [m²/s].
     fn diffusivity(&self, face: FaceName) -> f64;
@@ -124,8 +124,9 @@ pub trait Conductor {
     /// What temperatures may err by from step to step [K]; nothing where they are exact.
     fn tolerance(&self) -> f64;
 
-    /// The cells through which others exchange with a face.
-    fn cells(&self, face: FaceName) -> WallCells;
+    /// The cells through which others exchange with a face; nothing of a body that is the same all over, which takes
+    /// those of what it touches.
+    fn cells(&self, face: FaceName) -> Option<WallCells>;
 
     /// Each face over a step if nothing is received, and how it answers to heat.
     fn surfaces(
@@ -242,7 +243,7 @@ pub fn build(
             let link = links.iter().find(|link| link.from == index);
             let cells = link.and_then(|link| {
                 let below = built[link.to].as_ref()?.conductor()?;
-                Some((below.cells(link.face), link))
+                Some((below.cells(link.face)?, link))
             });
             let body = DropletBody::new(scene, layout, (name, droplet), cells, threads);
             built[index] = Some(Box::new(body));

@@ -32,6 +32,7 @@ impl Check {
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
         let sections = [
             ("Bodies", bodies(&scene)),
+            ("Bodies without extent", lumps(&scene)),
             ("Droplets", droplets(&scene)),
             ("Faces", faces(&scene)),
             ("Loads", loads(&scene)),
@@ -149,6 +150,11 @@ fn bodies(scene: &Scene) -> String {
         })
         .collect();
     table(["body", "shape", "material", "initially", "heat", "symmetry"], &rows)
+}
+
+fn lumps(scene: &Scene) -> String {
+    let rows: Vec<_> = scene.lumps().map(|(name, words)| [name.to_owned(), words]).collect();
+    table(["body", "what"], &rows)
 }
 
 fn droplets(scene: &Scene) -> String {

@@ -2,6 +2,7 @@
 
 use super::droplet::{Coupling, Droplet};
 use super::types::*;
+use crate::quantity::Quantity;
 
 /// Where a field lies in its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,7 +11,54 @@ pub enum Place {
     Section(Plane),
 }
 
+/// An input of a body as a whole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyInput {
+    /// Last part of the variable's name.
+    pub key: &'static str,
+    pub words: &'static str,
+    pub quantity: Quantity,
+    pub start: f64,
+}
+
+impl Body {
+    /// Uniform temperature at the beginning [K].
+    pub fn initial_temperature(&self) -> f64 {
+        match self {
+            Body::Solid(solid) => solid.initial_temperature,
+            Body::Droplet(droplet) => droplet.initial_temperature,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn initial_temperature_mut(&mut self) -> &mut f64 {
+        match self {
+            Body::Solid(solid) => &mut solid.initial_temperature,
+            Body::Droplet(droplet) => &mut droplet.initial_temperature,
+        }
+    }
+
+    /// Inputs beside those of loads, faces and walls.
+    pub fn inputs(&self) -> Vec<BodyInput> {
+        match self {
+            Body::Solid(_) | Body::Droplet(_) => Vec::new(),
+        }
+    }
+
+    /// A body that has no extent, in words.
+    fn lump(&self) -> Option<String> {
+        match self {
+            Body::Solid(_) | Body::Droplet(_) => None,
+        }
+    }
+}
+
 impl Scene {
+    /// The bodies that have no extent, each in words.
+    pub fn lumps(&self) -> impl Iterator<Item = (&str, String)> {
+        self.body.iter().filter_map(|(name, body)| Some((name.as_str(), body.lump()?)))
+    }
+
     /// The solid body of that name.
     pub fn solid(&self, name: &str) -> Option<&Solid> {
         match self.body.get(name)? {

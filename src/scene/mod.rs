@@ -28,7 +28,7 @@ pub use droplet::{
 pub use error::{Problem, SceneError};
 pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
-pub use lookup::Place;
+pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
 pub use plausibility::{Measure, Warning, doubt_of_input};
 pub use types::*;
