@@ -89,6 +89,26 @@ pub fn linked_faces(scene: &Scene, name: &str) -> Vec<FaceName> {
     faces
 }
 
+/// Most cells of a face that touches a body; `place` tells that of a body.
+pub fn most_cells(
+    scene: &Scene,
+    name: &str,
+    bodies: &[Option<Box<dyn Body>>],
+    place: impl Fn(&str) -> Option<usize>,
+) -> usize {
+    let of_partner = |coupling: &Coupling| {
+        let ends = [coupling.lower()?, coupling.upper()?];
+        let (other, face) = match ends.map(|(body, _)| body == name) {
+            [true, false] => ends[1],
+            [false, true] => ends[0],
+            _ => return None,
+        };
+        let cells = bodies[place(other)?].as_ref()?.conductor()?.cells(face)?;
+        Some(cells.len())
+    };
+    scene.coupling.iter().filter_map(of_partner).max().unwrap_or(0)
+}
+
 /// The joints of a scene; `place` tells that of a body.
 pub fn joints(
     scene: &Scene,

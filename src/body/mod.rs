@@ -7,6 +7,7 @@ mod error;
 mod forecast;
 mod link;
 mod read;
+mod reservoir;
 mod solid;
 
 use std::any::Any;
@@ -25,6 +26,7 @@ use crate::method::sph::{ParticleFields, Surface, SurfaceResponse, WallCells};
 use crate::scene::{self, FaceName, Scene};
 use crate::state::Layout;
 use droplet::DropletBody;
+use reservoir::ReservoirBody;
 use solid::SolidBody;
 
 /// A body of a scene: everything known of it before time starts. What changes is a flat vector, its state.
@@ -248,6 +250,11 @@ pub fn build(
             let body = DropletBody::new(scene, layout, (name, droplet), cells, threads);
             built[index] = Some(Box::new(body));
         }
+    }
+    for (name, reservoir) in scene.reservoirs() {
+        let cells = link::most_cells(scene, name, &built, place);
+        let body = ReservoirBody::new(layout, (name, reservoir), cells);
+        built[place(name).expect("a body of the scene")] = Some(Box::new(body));
     }
     let joints = link::joints(scene, &built, place);
     Ok(Assembly { bodies: built.into_iter().flatten().collect(), links, joints })

@@ -1,6 +1,7 @@
 //! What others ask of a checked scene.
 
 use super::droplet::{Coupling, Droplet};
+use super::reservoir::Reservoir;
 use super::types::*;
 use crate::quantity::Quantity;
 
@@ -27,6 +28,7 @@ impl Body {
         match self {
             Body::Solid(solid) => solid.initial_temperature,
             Body::Droplet(droplet) => droplet.initial_temperature,
+            Body::Reservoir(reservoir) => reservoir.initial_temperature,
         }
     }
 
@@ -35,6 +37,7 @@ impl Body {
         match self {
             Body::Solid(solid) => &mut solid.initial_temperature,
             Body::Droplet(droplet) => &mut droplet.initial_temperature,
+            Body::Reservoir(reservoir) => &mut reservoir.initial_temperature,
         }
     }
 
@@ -42,6 +45,7 @@ impl Body {
     pub fn inputs(&self) -> Vec<BodyInput> {
         match self {
             Body::Solid(_) | Body::Droplet(_) => Vec::new(),
+            Body::Reservoir(reservoir) => reservoir.inputs(),
         }
     }
 
@@ -49,6 +53,7 @@ impl Body {
     fn lump(&self) -> Option<String> {
         match self {
             Body::Solid(_) | Body::Droplet(_) => None,
+            Body::Reservoir(reservoir) => Some(reservoir.words()),
         }
     }
 }
@@ -63,15 +68,23 @@ impl Scene {
     pub fn solid(&self, name: &str) -> Option<&Solid> {
         match self.body.get(name)? {
             Body::Solid(solid) => Some(solid),
-            Body::Droplet(_) => None,
+            _ => None,
         }
     }
 
     /// The droplet of that name.
     pub fn droplet(&self, name: &str) -> Option<&Droplet> {
         match self.body.get(name)? {
-            Body::Solid(_) => None,
             Body::Droplet(droplet) => Some(droplet),
+            _ => None,
+        }
+    }
+
+    /// The reservoir of that name.
+    pub fn reservoir(&self, name: &str) -> Option<&Reservoir> {
+        match self.body.get(name)? {
+            Body::Reservoir(reservoir) => Some(reservoir),
+            _ => None,
         }
     }
 
@@ -83,6 +96,11 @@ impl Scene {
     /// The droplets, in the order of their names.
     pub fn droplets(&self) -> impl Iterator<Item = (&str, &Droplet)> {
         self.body.keys().filter_map(|name| Some((name.as_str(), self.droplet(name)?)))
+    }
+
+    /// The reservoirs, in the order of their names.
+    pub fn reservoirs(&self) -> impl Iterator<Item = (&str, &Reservoir)> {
+        self.body.keys().filter_map(|name| Some((name.as_str(), self.reservoir(name)?)))
     }
 
     /// The index of the wall below a droplet.

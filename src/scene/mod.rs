@@ -13,6 +13,7 @@ mod locate;
 mod lookup;
 mod materials;
 mod plausibility;
+mod reservoir;
 mod spelling;
 mod types;
 
@@ -31,6 +32,7 @@ pub use grid::{Grid, lateral_extents};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
 pub use plausibility::{Measure, Warning, doubt_of_input};
+pub use reservoir::Reservoir;
 pub use types::*;
 
 use locate::Source;

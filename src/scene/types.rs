@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::droplet::{Coupling, Droplet, Wall};
 use super::materials::MaterialChoice;
+use super::reservoir::Reservoir;
 use crate::kernel::Kernel;
 use crate::material::Material;
 
@@ -80,6 +81,8 @@ pub enum Body {
     Solid(Box<Solid>),
     /// Drops of a fluid.
     Droplet(Droplet),
+    /// What has one temperature.
+    Reservoir(Reservoir),
 }
 
 /// A solid body.

@@ -28,6 +28,7 @@ mod output;
 mod particles;
 mod plausibility;
 mod recovered_stress;
+mod reservoirs;
 mod scene_reference;
 mod scene_refusals;
 mod solid;

@@ -28,13 +28,17 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
 /// Differences of temperatures that a tolerance is a part of [K].
 const TEMPERATURES: f64 = 100.0;
 
-/// Where another solid touches this one: heat enters over all that both have in common, most of it at once near the
+/// Where another body touches this one: heat enters over all that both have in common, most of it at once near the
 /// edge of the smaller one.
 fn contacts(scene: &Scene, name: &str, solid: &Solid) -> Vec<Refinement> {
     let refinement = |coupling: &Coupling| {
         let (lower, upper) = (coupling.lower()?, coupling.upper()?);
         let (own, other) = if lower.0 == name { (lower, upper) } else { (upper, lower) };
-        let other = scene.solid(other.0).filter(|_| own.0 == name)?;
+        if own.0 != name {
+            return None;
+        }
+        // What has no extent touches all of the face.
+        let other = scene.solid(other.0).unwrap_or(solid);
         let [one, two] = [solid, other].map(|solid| lateral_extents(&solid.shape));
         let half = [0, 1].map(|axis| 0.5 * one[axis].min(two[axis]));
         let [x, y] = half.map(|half| [-half, half]);

@@ -10,6 +10,7 @@ mod material;
 mod nonlinear;
 mod load;
 mod probe;
+mod reservoir;
 mod start;
 mod support;
 mod values;
@@ -22,7 +23,7 @@ use super::error::{Problem, SceneError};
 use super::locate::{Path, Source};
 use super::lookup::split_place;
 use super::spelling::hint;
-use super::types::{FaceName, Scene, Shape, Solid};
+use super::types::{Body, FaceName, Scene, Shape, Solid};
 
 /// Largest number of points, rings or tiles along an axis.
 const MOST_CELLS: usize = 1000;
@@ -49,6 +50,7 @@ pub fn check(scene: &Scene, source: &Source) -> Result<(), SceneError> {
     header::check(&mut checker);
     body::check(&mut checker);
     droplet::check(&mut checker);
+    reservoir::check(&mut checker);
     load::check(&mut checker);
     probe::check(&mut checker);
     field::check(&mut checker);
@@ -181,12 +183,15 @@ impl<'a> Checker<'a> {
 
     /// What to say of a body that a solid's name was expected for.
     fn not_a_solid(&self, body: &str, otherwise: String) -> String {
-        match self.scene.droplet(body) {
-            Some(_) => format!(
+        match self.scene.body.get(body) {
+            Some(Body::Reservoir(_)) => format!(
+                "`{body}` is a reservoir, whose values are outputs by themselves and which touches solids alone"
+            ),
+            Some(Body::Droplet(_)) => format!(
                 "`{body}` is a droplet, on which nothing else acts and whose values are outputs by \
                  themselves"
             ),
-            None => otherwise,
+            _ => otherwise,
         }
     }
 

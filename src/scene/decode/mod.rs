@@ -15,6 +15,7 @@ use toml::de::{DeFloat, DeValue};
 use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
 use super::locate::{Path, Source};
+use super::reservoir::Reservoir;
 use super::spelling::hint;
 use super::types::{Body, Scene, Solid};
 use crate::material::Properties;
@@ -114,6 +115,7 @@ impl Decoder<'_> {
             }
             self.read_if::<Solid>(&body, "kind", "solid");
             self.read_if::<Droplet>(&body, "kind", "droplet");
+            self.read_if::<Reservoir>(&body, "kind", "reservoir");
         }
     }
 

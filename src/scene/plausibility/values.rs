@@ -27,6 +27,15 @@ pub fn review(reviewer: &mut Reviewer) {
     for (name, body) in scene.droplets() {
         droplet(reviewer, &root.key("body").key(name), body, &temperature);
     }
+    for (name, reservoir) in scene.reservoirs() {
+        let path = root.key("body").key(name);
+        let initial = reservoir.initial_temperature;
+        reviewer.value(&path.key("initial_temperature"), initial, &temperature);
+        if let Some(value) = reservoir.ambient {
+            let ambient = Range { lowest: temperature.lowest, ..ranges::AMBIENT };
+            reviewer.value(&path.key("ambient"), value, &ambient);
+        }
+    }
     for (i, entry) in scene.load.iter().enumerate() {
         load(reviewer, &root.key("load").index(i), entry);
     }
