@@ -14,7 +14,7 @@
 use std::sync::Arc;
 
 use super::Thermoelastic;
-use super::law::{History, Law, Response};
+use super::law::{FlowLaw, History, Law, Response};
 
 /// A constant as a function of temperature [K].
 pub type OfTemperature = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
@@ -220,29 +220,52 @@ impl Law for Elastoplastic {
         &self,
         strain: &[f64; 6],
         temperature: f64,
+        _: f64,
         old: &History,
         new: &mut History,
     ) -> Response {
-        let Some(constants) = self.at(temperature) else {
-            *new = *old;
-            return Response {
-                stress: [f64::NAN; 6],
-                tangent: [[f64::NAN; 6]; 6],
-                dissipation: 0.0,
-            };
-        };
-        let volume = strain[0] + strain[1] + strain[2];
-        let mut shape = *strain;
-        shape[..3].iter_mut().for_each(|e| *e -= volume / 3.0);
-        let (mut stress, tangent) = constants.return_to_yield(&shape, old, new);
-        let pressure = constants.bulk * (volume - 3.0 * constants.thermal_strain);
-        stress[..3].iter_mut().for_each(|s| *s += pressure);
-        // Symmetric: its columns are its rows.
-        let rows = std::array::from_fn(|j| {
-            tangent.of_strain(&std::array::from_fn(|i| f64::from(u8::from(i == j))))
-        });
-        Response { stress, tangent: rows, dissipation: new.dissipated - old.dissipated }
+        respond_at(self.at(temperature), strain, old, new)
     }
+}
+
+impl FlowLaw for Elastoplastic {
+    fn stress_free_temperature(&self) -> f64 {
+        self.stress_free_temperature
+    }
+
+    fn over_step(&self, temperature: f64, _: f64) -> Option<PointConstants> {
+        self.at(temperature)
+    }
+}
+
+impl From<Elastoplastic> for Arc<dyn FlowLaw> {
+    fn from(law: Elastoplastic) -> Self {
+        Arc::new(law)
+    }
+}
+
+/// The response by constants; no number where there are none.
+pub(super) fn respond_at(
+    constants: Option<PointConstants>,
+    strain: &[f64; 6],
+    old: &History,
+    new: &mut History,
+) -> Response {
+    let Some(constants) = constants else {
+        *new = *old;
+        return Response { stress: [f64::NAN; 6], tangent: [[f64::NAN; 6]; 6], dissipation: 0.0 };
+    };
+    let volume = strain[0] + strain[1] + strain[2];
+    let mut shape = *strain;
+    shape[..3].iter_mut().for_each(|e| *e -= volume / 3.0);
+    let (mut stress, tangent) = constants.return_to_yield(&shape, old, new);
+    let pressure = constants.bulk * (volume - 3.0 * constants.thermal_strain);
+    stress[..3].iter_mut().for_each(|s| *s += pressure);
+    // Symmetric: its columns are its rows.
+    let rows = std::array::from_fn(|j| {
+        tangent.of_strain(&std::array::from_fn(|i| f64::from(u8::from(i == j))))
+    });
+    Response { stress, tangent: rows, dissipation: new.dissipated - old.dissipated }
 }
 
 #[cfg(test)]

@@ -16,7 +16,7 @@ mod thermoelastic;
 pub use constants::Constants;
 pub use elastoplastic::{Elastoplastic, OfTemperature, PointConstants, PointTangent, constant};
 pub use enthalpy::{Enthalpy, EnthalpyPoint};
-pub use law::{Elastic, History, Law, Response};
+pub use law::{Elastic, FlowLaw, History, Law, Response};
 pub use melting::{Melting, MeltingError};
 pub use properties::Properties;
 pub use property::{Curve, Property, PropertyError, Table};

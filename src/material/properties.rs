@@ -2,7 +2,9 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Constants, Elastoplastic, Melting, OfTemperature, Property, Substance, constant};
+use super::{
+    Constants, Elastoplastic, FlowLaw, Melting, OfTemperature, Property, Substance, constant,
+};
 
 /// Constants of an isotropic body as a scene names them: numbers, or tables over the temperature. Those of elasticity
 /// may be left out where nothing mechanical is asked for.
@@ -90,6 +92,11 @@ impl Properties {
             kinematic: or(&self.kinematic_hardening, 0.0),
             stress_free_temperature,
         }
+    }
+
+    /// The law by which the body deforms, as [`Self::elastoplastic`].
+    pub fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {
+        Arc::new(self.elastoplastic(stress_free_temperature))
     }
 
     /// Whether heat obeys a linear equation.

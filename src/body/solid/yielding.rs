@@ -1,7 +1,10 @@
 //! Solids whose stress depends on what they went through: their mechanics advances with their heat.
 
+use std::sync::Arc;
+
 use super::SolidBody;
 use crate::body::{Acts, BodyError};
+use crate::material::FlowLaw;
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::cholesky::SolverError;
 use crate::method::fem::{Deformation, Plan, SolidLoads, Temperatures};
@@ -26,7 +29,10 @@ impl Yielding {
     pub fn of(plan: &Plan, threads: usize) -> Result<Option<Self>, SolverError> {
         let Some(laws) = &plan.inelastic else { return Ok(None) };
         let start = plan.initial_temperature;
-        let yields = laws.iter().any(|law| (law.yield_stress)(start).is_finite());
+        let is_bounded = |law: &Arc<dyn FlowLaw>| {
+            law.over_step(start, 0.0).is_some_and(|constants| constants.yield_stress.is_finite())
+        };
+        let yields = laws.iter().any(is_bounded);
         let problem = InelasticProblem::new(&plan.mesh, laws.clone(), &plan.supports, threads);
         let problem = problem.map_err(|error| match error {
             InelasticError::Solver(error) => error,
