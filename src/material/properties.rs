@@ -3,7 +3,8 @@ use std::sync::Arc;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Constants, Elastoplastic, FlowLaw, Melting, OfTemperature, Property, Substance, constant,
+    Constants, Creep, Elastoplastic, FlowLaw, Melting, OfTemperature, Property, Substance,
+    Viscoplastic, constant,
 };
 
 /// Constants of an isotropic body as a scene names them: numbers, or tables over the temperature. Those of elasticity
@@ -30,6 +31,8 @@ pub struct Properties {
     pub isotropic_hardening: Option<Property>,
     /// By how much the middle of elasticity moves per plastic strain [Pa].
     pub kinematic_hardening: Option<Property>,
+    /// How fast the body flows; of a viscoplastic material.
+    pub creep: Option<Creep>,
 }
 
 impl Properties {
@@ -83,11 +86,13 @@ impl Properties {
             Some(_) => given(property),
             None => constant(other),
         };
+        // What creeps does so under any stress.
+        let never = if self.creep.is_some() { 0.0 } else { f64::INFINITY };
         Elastoplastic {
             young: given(&self.young),
             poisson: given(&self.poisson),
             expansion: given(&self.expansion),
-            yield_stress: or(&self.yield_stress, f64::INFINITY),
+            yield_stress: or(&self.yield_stress, never),
             isotropic: or(&self.isotropic_hardening, 0.0),
             kinematic: or(&self.kinematic_hardening, 0.0),
             stress_free_temperature,
@@ -96,7 +101,11 @@ impl Properties {
 
     /// The law by which the body deforms, as [`Self::elastoplastic`].
     pub fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {
-        Arc::new(self.elastoplastic(stress_free_temperature))
+        let plastic = self.elastoplastic(stress_free_temperature);
+        match self.creep {
+            Some(creep) => Arc::new(Viscoplastic { plastic, creep }),
+            None => Arc::new(plastic),
+        }
     }
 
     /// Whether heat obeys a linear equation.
@@ -110,6 +119,7 @@ impl Properties {
         let [_, _, rest @ ..] = self.tables();
         let is_table = |property: &Property| matches!(property, Property::Table(_));
         self.yield_stress.is_none()
+            && self.creep.is_none()
             && !rest.iter().any(|(_, property)| property.is_some_and(is_table))
     }
 }

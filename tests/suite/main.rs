@@ -11,6 +11,7 @@ mod common;
 mod architecture;
 mod cli;
 mod contact;
+mod creep;
 mod derivatives;
 mod droplet;
 mod fine_meshes;

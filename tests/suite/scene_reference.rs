@@ -13,7 +13,7 @@ const IMPACT: &str = include_str!("../scenes/impact.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 26] = [
+const SECTIONS: [Section; 27] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -32,6 +32,13 @@ const SECTIONS: [Section; 26] = [
         PLATE,
         "density = 3950.0",
         "density = 3950.0, melting = { zz = 1 }",
+        &[],
+    ),
+    (
+        "`creep` of a material",
+        PLATE,
+        "density = 3950.0",
+        "density = 3950.0, creep = { zz = 1 }",
         &[],
     ),
     ("`layers` of a solid", PLATE, "material = {", "layers = [{ zz = 1 }] # {", &[]),

@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::*;
-use crate::material::Elastic;
+use crate::material::{Creep, Elastic, Viscoplastic};
 
 /// Steel, aluminium, copper, hot lead, titanium, glass, and what no metal is: E, ν, α, σ_y, H_i, H_k.
 const MATERIALS: [[f64; 6]; 9] = [
@@ -54,6 +54,23 @@ fn laws() -> Vec<Case> {
                 kinematic: falls(kinematic),
                 stress_free_temperature: 300.0,
             };
+            let unit = yield_stress.max(1e-4 * young);
+            for (exponent, rate, part) in
+                [(1.0, 1e-2, 1.0), (5.0, 1e-6, 0.0), (5.0, 1e3, 1.0), (20.0, 1e-9, 0.1)]
+            {
+                // At twice the unit and 350 K.
+                let logarithm = f64::ln(rate) - exponent * unit.ln() + 4e3 / 350.0;
+                let creep =
+                    Creep { coefficient: logarithm.exp(), exponent, activation_temperature: 4e3 };
+                let plastic =
+                    Elastoplastic { yield_stress: falls(part * yield_stress), ..plastic.clone() };
+                all.push(Case {
+                    name: format!("viscoplastic {young:e}, {fall}, {exponent}"),
+                    law: Box::new(Viscoplastic { plastic, creep }),
+                    plastic: None,
+                    strain: 3.0 * unit / young + 1e-4,
+                });
+            }
             all.push(Case {
                 name: format!("elastoplastic {young:e}, {fall}"),
                 law: Box::new(plastic.clone()),

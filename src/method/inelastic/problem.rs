@@ -28,6 +28,10 @@ pub enum InelasticError {
          is wanted"
     )]
     NoEquilibrium { iterations: usize, residual: f64, tolerance: f64 },
+    #[error(
+        "{steps} inner steps of creep came no further than {done:e} s (allowed: shorter communication steps)"
+    )]
+    TooFast { steps: usize, done: f64 },
     #[error(transparent)]
     Solver(#[from] SolverError),
 }
@@ -94,6 +98,11 @@ impl InelasticProblem {
         Ok(Self { mesh: mesh.clone(), laws, grid, solver, threads })
     }
 
+    /// Whether a part of the body creeps.
+    pub fn creeps(&self) -> bool {
+        self.laws.iter().any(|law| law.creeps())
+    }
+
     pub fn layout(&self) -> StateLayout {
         let displacement = self.grid.unknowns();
         let amplitudes = displacement + self.grid.elements() * self.grid.kit.remedy.modes();
@@ -114,7 +123,7 @@ impl InelasticProblem {
     /// What a step takes, at most, besides the state [B].
     pub fn memory(&self) -> f64 {
         // Constants, tangents twice, histories new and old; of linear bricks the triangle of a matrix.
-        const POINT: f64 = 8.0 * (6.0 + 2.0 * 9.0 + 2.0 * History::LEN as f64);
+        const POINT: f64 = 8.0 * (8.0 + 2.0 * 9.0 + 2.0 * History::LEN as f64);
         // Vectors of Newton's method and of conjugate gradients.
         const VECTORS: f64 = 24.0;
         let unknowns = self.grid.unknowns() as f64;

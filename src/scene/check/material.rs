@@ -1,7 +1,7 @@
 //! The constants of materials: numbers, tables, melting and yield.
 
 use super::{Checker, LARGEST, SMALLEST, number};
-use crate::material::{Material, Melting, Properties, Property, PropertyError};
+use crate::material::{Creep, Material, Melting, Properties, Property, PropertyError};
 use crate::scene::locate::Path;
 
 /// The materials that have names.
@@ -44,7 +44,24 @@ pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
     if let Some(melting) = &law.melting {
         check_melting(checker, &path.key("melting"), melting);
     }
+    if let Some(creep) = &law.creep {
+        check_creep(checker, &path.key("creep"), creep);
+    }
     yields(checker, path, material);
+}
+
+/// Bounds of A, whose unit has a power of Pa in it, of n and of the activation temperature [K].
+const COEFFICIENTS: [f64; 2] = [1e-300, 1e300];
+const EXPONENTS: [f64; 2] = [1.0, 50.0];
+const ACTIVATION: [f64; 2] = [0.0, 1e6];
+
+fn check_creep(checker: &mut Checker, path: &Path, creep: &Creep) {
+    let Creep { coefficient, exponent, activation_temperature } = *creep;
+    let what = "the coefficient of creep";
+    checker.positive_within(&path.key("coefficient"), coefficient, COEFFICIENTS, what);
+    checker.within(&path.key("exponent"), exponent, EXPONENTS, "the exponent of creep");
+    let path = path.key("activation_temperature");
+    checker.within(&path, activation_temperature, ACTIVATION, "the activation temperature");
 }
 
 /// Looks at the number, or at the table and each of its values.
@@ -118,6 +135,11 @@ fn yields(checker: &mut Checker, path: &Path, material: &Material) {
         ("isotropic_hardening", law.isotropic_hardening.is_some()),
         ("kinematic_hardening", law.kinematic_hardening.is_some()),
     ];
+    if !matches!(material, Material::Viscoplastic(_)) {
+        let message = "only a viscoplastic material creeps";
+        let allowed = "model = \"viscoplastic\", or no such key";
+        checker.require(law.creep.is_none(), &path.key("creep"), message, allowed);
+    }
     match material {
         Material::Thermoelastic(_) => {
             for (key, _) in given.iter().filter(|(_, given)| *given) {
@@ -139,6 +161,12 @@ fn yields(checker: &mut Checker, path: &Path, material: &Material) {
                 allowed,
             );
             elasticity(checker, path, law, "an elastoplastic material deforms");
+        }
+        Material::Viscoplastic(_) => {
+            let message = "the key `creep` is missing";
+            let allowed = "creep = { coefficient = A, exponent = n }";
+            checker.require(law.creep.is_some(), &path.key("creep"), message, allowed);
+            elasticity(checker, path, law, "a viscoplastic material deforms");
         }
     }
 }

@@ -62,7 +62,7 @@ impl Decoder<'_> {
 
     /// Reads the table of a material, whatever its model.
     fn read_material(&mut self, path: &Path) {
-        for model in ["thermoelastic", "elastoplastic"] {
+        for model in ["thermoelastic", "elastoplastic", "viscoplastic"] {
             self.read_if::<Properties>(path, "model", model);
         }
     }
