@@ -1,6 +1,6 @@
 //! The unit's icon: a section through the first loaded body, to scale around its loads.
 
-use impinge::scene::{Droplet, FaceName, Footprint, Load, Scene, Shape};
+use impinge::scene::{Droplet, FaceName, Load, Scene, Shape};
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
 const WIDTH: f32 = 400.0;
@@ -75,12 +75,7 @@ impl Drop {
 
 impl Spot {
     fn of(load: &Load) -> Self {
-        let reach = match load.footprint {
-            Footprint::Tiles { size, .. } => size[0] / 2.0,
-            Footprint::Disc { radius }
-            | Footprint::Gaussian { radius }
-            | Footprint::Rings { radius, .. } => load.start.radius.unwrap_or(radius),
-        };
+        let [reach, _] = load.footprint.half_extents(load.start.radius);
         let on_top = load.body_and_face().1 != FaceName::Bottom;
         Self { x: load.start.x.unwrap_or(0.0), reach, on_top, is_load: true }
     }
@@ -237,9 +232,8 @@ fn extents(scene: &Scene, body: Option<&str>, drops: &[Drop]) -> Option<(f64, f6
         return Some((half_width, solid.shape.thickness()));
     }
     let widest = drops.iter().map(|drop| drop.x.abs() + 2.0 * drop.radius).reduce(f64::max)?;
-    match scene.wall.first().map(|wall| wall.footprint) {
-        Some(Footprint::Tiles { size, .. }) => Some((size[0] / 2.0, widest)),
-        Some(footprint) => Some((footprint.radius()?, widest)),
+    match scene.wall.first().map(|wall| wall.footprint.half_extents(None)) {
+        Some([half_width, _]) => Some((half_width, widest)),
         None => Some((widest, 0.0)),
     }
 }

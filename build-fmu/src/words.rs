@@ -1,8 +1,8 @@
 //! A scene in sentences.
 
 use impinge::scene::{
-    Carries, Coupling, Disc, Droplet, Face, FaceName, Field, Footprint, Load, Plane, Probe, Scene,
-    Shape, Solid, Wall,
+    Carries, Coupling, Disc, Droplet, Face, FaceName, Field, Load, Plane, Probe, Scene, Shape,
+    Solid, Wall,
 };
 
 /// One sentence or two for each body, load, probe, field, wall and coupling.
@@ -14,7 +14,8 @@ pub fn of(scene: &Scene) -> Vec<String> {
     let fields = scene.field.iter().map(field);
     let walls = scene.wall.iter().map(wall);
     let couplings = scene.coupling.iter().map(coupling);
-    let bodies = solids.chain(droplets);
+    let lumps = scene.lumps().map(|(name, words)| format!("{name}: {words}."));
+    let bodies = solids.chain(droplets).chain(lumps);
     bodies.chain(loads).chain(probes).chain(fields).chain(walls).chain(couplings).collect()
 }
 
@@ -92,23 +93,8 @@ fn load(load: &Load) -> String {
             Carries::Shear => "shear",
         })
         .collect();
-    let place = footprint(&load.footprint);
+    let place = load.footprint.words(metres);
     format!("{}: {} on {}, over {place}.", load.name, carried.join(", "), load.on)
-}
-
-fn footprint(footprint: &Footprint) -> String {
-    match *footprint {
-        Footprint::Disc { radius } => format!("a disc of radius {}", metres(radius)),
-        Footprint::Gaussian { radius } => {
-            format!("a Gaussian spot that falls to 1/e² at {}", metres(radius))
-        }
-        Footprint::Rings { count, radius } => {
-            format!("{count} rings of equal width out to {}", metres(radius))
-        }
-        Footprint::Tiles { count: [nx, ny], size: [x, y] } => {
-            format!("{nx} × {ny} tiles over {} × {}", metres(x), metres(y))
-        }
-    }
 }
 
 fn droplet(name: &str, droplet: &Droplet) -> String {
@@ -133,7 +119,7 @@ fn wall(wall: &Wall) -> String {
          outputs, on {}.",
         wall.name,
         wall.under,
-        footprint(&wall.footprint)
+        wall.footprint.words(metres)
     )
 }
 

@@ -89,6 +89,26 @@ pub fn linked_faces(scene: &Scene, name: &str) -> Vec<FaceName> {
     faces
 }
 
+/// Most cells of a face that touches a body; `place` tells that of a body.
+pub fn most_cells(
+    scene: &Scene,
+    name: &str,
+    bodies: &[Option<Box<dyn Body>>],
+    place: impl Fn(&str) -> Option<usize>,
+) -> usize {
+    let of_partner = |coupling: &Coupling| {
+        let ends = [coupling.lower()?, coupling.upper()?];
+        let (other, face) = match ends.map(|(body, _)| body == name) {
+            [true, false] => ends[1],
+            [false, true] => ends[0],
+            _ => return None,
+        };
+        let cells = bodies[place(other)?].as_ref()?.conductor()?.cells(face)?;
+        Some(cells.len())
+    };
+    scene.coupling.iter().filter_map(of_partner).max().unwrap_or(0)
+}
+
 /// The joints of a scene; `place` tells that of a body.
 pub fn joints(
     scene: &Scene,
@@ -97,21 +117,27 @@ pub fn joints(
 ) -> Vec<Joint> {
     let joint = |coupling: &Coupling| {
         let ends = [coupling.lower()?, coupling.upper()?];
-        let [from, to] = ends.map(|(name, face)| {
+        let conductor = |name| {
             let body = place(name)?;
-            let conductor = bodies[body].as_ref()?.conductor()?;
-            let cells = conductor.cells(face);
-            let side = Side {
+            Some((body, bodies[body].as_ref()?.conductor()?))
+        };
+        let own = ends.map(|(name, face)| conductor(name)?.1.cells(face));
+        let known = own.iter().flatten().next()?.clone();
+        let own = own.map(|cells| cells.unwrap_or_else(|| known.clone()));
+        let cells = CommonCells::of(own.each_ref())?;
+        let area = cells.areas.iter().sum();
+        let side = |n: usize| {
+            let (name, face) = ends[n];
+            let (body, conductor) = conductor(name)?;
+            Some(Side {
                 body,
                 face,
-                counts: [width(&cells), cells.len()],
-                response: conductor.response(face).clone(),
+                counts: [width(&own[n]), own[n].len()],
+                response: conductor.response(face, area),
                 diffusivity: conductor.diffusivity(face),
-            };
-            Some((side, cells))
-        });
-        let ((from, from_cells), (to, to_cells)) = (from?, to?);
-        let cells = CommonCells::of([&from_cells, &to_cells])?;
+            })
+        };
+        let (from, to) = (side(0)?, side(1)?);
         let conductance = coupling.conductance?;
         // Of the slowest mode, the inverse of the body's heat capacity per area; of the others, its own resistance.
         let slowest = |side: &Side| side.response.gains.first().copied().unwrap_or(0.0);

@@ -7,6 +7,7 @@ mod error;
 mod forecast;
 mod link;
 mod read;
+mod reservoir;
 mod solid;
 
 use std::any::Any;
@@ -25,6 +26,7 @@ use crate::method::sph::{ParticleFields, Surface, SurfaceResponse, WallCells};
 use crate::scene::{self, FaceName, Scene};
 use crate::state::Layout;
 use droplet::DropletBody;
+use reservoir::ReservoirBody;
 use solid::SolidBody;
 
 /// A body of a scene: everything known of it before time starts. What changes is a flat vector, its state.
@@ -115,8 +117,8 @@ pub trait Body: Send + Sync {
 
 /// A body whose faces answer to heat and force that others give.
 pub trait Conductor {
-    /// How a face answers to heat that is uniform along it.
-    fn response(&self, face: FaceName) -> &SurfaceResponse;
+    /// How a face answers to heat that is uniform along an area of it [m²].
+    fn response(&self, face: FaceName, area: f64) -> SurfaceResponse;
 
     /// Thermal diffusivity beside a face [m²/s].
     fn diffusivity(&self, face: FaceName) -> f64;
@@ -124,8 +126,9 @@ pub trait Conductor {
     /// What temperatures may err by from step to step [K]; nothing where they are exact.
     fn tolerance(&self) -> f64;
 
-    /// The cells through which others exchange with a face.
-    fn cells(&self, face: FaceName) -> WallCells;
+    /// The cells through which others exchange with a face; nothing of a body that is the same all over, which takes
+    /// those of what it touches.
+    fn cells(&self, face: FaceName) -> Option<WallCells>;
 
     /// Each face over a step if nothing is received, and how it answers to heat.
     fn surfaces(
@@ -242,11 +245,16 @@ pub fn build(
             let link = links.iter().find(|link| link.from == index);
             let cells = link.and_then(|link| {
                 let below = built[link.to].as_ref()?.conductor()?;
-                Some((below.cells(link.face), link))
+                Some((below.cells(link.face)?, link))
             });
             let body = DropletBody::new(scene, layout, (name, droplet), cells, threads);
             built[index] = Some(Box::new(body));
         }
+    }
+    for (name, reservoir) in scene.reservoirs() {
+        let cells = link::most_cells(scene, name, &built, place);
+        let body = ReservoirBody::new(layout, (name, reservoir), cells);
+        built[place(name).expect("a body of the scene")] = Some(Box::new(body));
     }
     let joints = link::joints(scene, &built, place);
     Ok(Assembly { bodies: built.into_iter().flatten().collect(), links, joints })

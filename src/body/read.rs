@@ -1,6 +1,6 @@
 //! What bodies can be asked for: each quantity stands once, in a table beside the body that has it.
 
-use super::{droplet, solid};
+use super::{droplet, reservoir, solid};
 use crate::quantity::Quantity;
 use crate::scene::{Body, Scene};
 
@@ -42,5 +42,6 @@ pub fn totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     match &scene.body[name] {
         Body::Solid(solid) => solid::offered_totals(scene, (name, solid)),
         Body::Droplet(_) => droplet::offered_totals(scene, name),
+        Body::Reservoir(_) => reservoir::offered_totals(),
     }
 }

@@ -5,7 +5,7 @@ use clap::Args;
 use impinge::machine::available_memory;
 use impinge::model::{ParticleForecast, Timeline, check_memory, forecast};
 use impinge::scene::{
-    self, Coupling, Face, Field, Footprint, Load, MaterialChoice, Probe, Scene, Shape, Solid, Wall,
+    self, Coupling, Face, Field, Load, MaterialChoice, Probe, Scene, Shape, Solid, Wall,
 };
 use impinge::variables::{ArrayRegistry, Causality, Quantity, Registry, Value, Variable};
 use serde::Serialize;
@@ -32,6 +32,7 @@ impl Check {
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
         let sections = [
             ("Bodies", bodies(&scene)),
+            ("Bodies without extent", lumps(&scene)),
             ("Droplets", droplets(&scene)),
             ("Faces", faces(&scene)),
             ("Loads", loads(&scene)),
@@ -151,6 +152,11 @@ fn bodies(scene: &Scene) -> String {
     table(["body", "shape", "material", "initially", "heat", "symmetry"], &rows)
 }
 
+fn lumps(scene: &Scene) -> String {
+    let rows: Vec<_> = scene.lumps().map(|(name, words)| [name.to_owned(), words]).collect();
+    table(["body", "what"], &rows)
+}
+
 fn droplets(scene: &Scene) -> String {
     let rows: Vec<_> = scene
         .droplets()
@@ -176,7 +182,7 @@ fn droplets(scene: &Scene) -> String {
 }
 
 fn walls(scene: &Scene) -> String {
-    let row = |wall: &Wall| [wall.name.clone(), wall.under.clone(), footprint(&wall.footprint)];
+    let row = |wall: &Wall| [wall.name.clone(), wall.under.clone(), wall.footprint.label(metres)];
     let rows: Vec<_> = scene.wall.iter().map(row).collect();
     table(["wall", "under", "cells"], &rows)
 }
@@ -212,7 +218,7 @@ fn faces(scene: &Scene) -> String {
 
 fn loads(scene: &Scene) -> String {
     let row = |load: &Load| {
-        [load.name.clone(), load.on.clone(), footprint(&load.footprint), keys(&load.carries)]
+        [load.name.clone(), load.on.clone(), load.footprint.label(metres), keys(&load.carries)]
     };
     let rows: Vec<_> = scene.load.iter().map(row).collect();
     table(["load", "on", "footprint", "carries"], &rows)
@@ -317,17 +323,6 @@ fn shape(shape: &Shape) -> String {
         Shape::Box(extents) => format!("box {}", extents.map(metres).join(" × ")),
         Shape::Disc(disc) => {
             format!("disc, radius {}, thickness {}", metres(disc.radius), metres(disc.thickness))
-        }
-    }
-}
-
-fn footprint(footprint: &Footprint) -> String {
-    match *footprint {
-        Footprint::Disc { radius } => format!("disc, radius {}", metres(radius)),
-        Footprint::Gaussian { radius } => format!("gaussian, 1/e² radius {}", metres(radius)),
-        Footprint::Rings { count, radius } => format!("{count} rings, radius {}", metres(radius)),
-        Footprint::Tiles { count: [nx, ny], size } => {
-            format!("{nx} × {ny} tiles, {}", size.map(metres).join(" × "))
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Runs in which nothing happens.
 
-use impinge::scene::{Face, Scene, Solid};
+use impinge::scene::{Body, Face, Scene, Solid};
 use impinge::variables::{InputLayout, Quantity, Registry, Slot};
 
 /// What to say where neither an input nor a face nor a droplet acts on anything.
@@ -32,7 +32,7 @@ pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
 
 /// Whether solids warm each other, radiate or are under stress from the beginning.
 fn acts_by_itself(scene: &Scene) -> bool {
-    let start = |name: &str| scene.solid(name).map(|solid| solid.initial_temperature);
+    let start = |name: &str| scene.body.get(name).map(Body::initial_temperature);
     let touches =
         scene.coupling.iter().any(|coupling| match (coupling.lower(), coupling.upper()) {
             (Some((lower, _)), Some((upper, _))) => start(lower) != start(upper),
@@ -49,10 +49,12 @@ fn acts_by_itself(scene: &Scene) -> bool {
 /// The value with which the input at a place does nothing; `None` for inputs that do nothing alone.
 fn rest(scene: &Scene, layout: &InputLayout, (at, quantity): (usize, Quantity)) -> Option<f64> {
     match quantity {
-        Quantity::HeatFlux | Quantity::Stress => Some(0.0),
+        Quantity::HeatFlux | Quantity::HeatFlow | Quantity::Stress => Some(0.0),
         Quantity::Temperature => {
-            let face = layout.faces.iter().find(|face| face.index == at)?;
-            Some(scene.solid(&face.body)?.initial_temperature)
+            let face = layout.faces.iter().find(|face| face.index == at).map(|face| &face.body);
+            let whole = || layout.bodies.iter().find(|(_, range)| range.contains(&at));
+            let body = face.or_else(|| whole().map(|(body, _)| body))?;
+            Some(scene.body.get(body)?.initial_temperature())
         }
         _ => None,
     }

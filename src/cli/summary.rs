@@ -53,7 +53,7 @@ impl Balance {
     }
 }
 
-/// The heat balance of each solid at `state`.
+/// The heat balance of each body that tells one at `state`.
 pub fn balances(
     model: &Model,
     state: &State,
@@ -61,21 +61,22 @@ pub fn balances(
 ) -> Result<Vec<Balance>, ModelError> {
     let mut list = Vec::new();
     let registry = Registry::structured(model.scene());
-    for (body, solid) in model.scene().solids() {
-        let expected = if solid.sph().is_some() { BALANCED_BY_PARTICLES } else { BALANCED };
+    for body in model.scene().body.keys() {
+        let solid = model.scene().solid(body);
+        let by_particles = solid.is_some_and(|solid| solid.sph().is_some());
+        let expected = if by_particles { BALANCED_BY_PARTICLES } else { BALANCED };
         let mut heat = |key: &str| {
-            let variable = registry.find(&format!("{body}.{key}"));
-            let variable = variable.map(|place| &registry.variables[place].slot);
-            let Some(Slot::Output(output)) = variable else { panic!("every solid has {key}") };
-            model.output(state, cache, output)
+            let place = registry.find(&format!("{body}.{key}"))?;
+            let Slot::Output(output) = &registry.variables[place].slot else { return None };
+            Some(model.output(state, cache, output))
         };
-        list.push(Balance {
-            body: body.to_owned(),
-            heat_in: heat("heat_in")?,
-            stored: heat("heat_stored")?,
-            lost: heat("heat_lost")?,
-            expected,
-        });
+        let (Some(heat_in), Some(stored), Some(lost)) =
+            (heat("heat_in"), heat("heat_stored"), heat("heat_lost"))
+        else {
+            continue;
+        };
+        let (heat_in, stored, lost) = (heat_in?, stored?, lost?);
+        list.push(Balance { body: body.to_owned(), heat_in, stored, lost, expected });
     }
     Ok(list)
 }

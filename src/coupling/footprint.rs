@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use crate::math::gauss::{gauss_legendre, gauss_on};
 use crate::method::mesh::{Axis, Weight};
-use crate::scene::Footprint;
+use crate::scene::{Footprint, Profile};
 
 /// Where a footprint lies on its face [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,22 +49,21 @@ impl Pattern {
         image: [bool; 2],
     ) -> Vec<f64> {
         let place = place.mirrored(image);
-        match *footprint {
-            Footprint::Disc { .. } => scaled(disc([x, y], &place, place.radius, self), values[0]),
-            Footprint::Gaussian { .. } => {
-                let along_x = gaussian(x, place.x, place.radius);
-                outer(&scaled(along_x, values[0]), &gaussian(y, place.y, place.radius))
-            }
-            Footprint::Rings { count, .. } => {
+        match footprint.profile(place.radius, values) {
+            Profile::Discs(discs) => {
                 let turned = matches!(self, Pattern::Outward(axis) if image[axis]);
                 let mut sum = vec![0.0; x.len() * y.len()];
-                for (outer_radius, jump) in ring_jumps(count, place.radius, values) {
-                    let part = disc([x, y], &place, outer_radius, self);
-                    add_scaled(&mut sum, &part, if turned { -jump } else { jump });
+                for (radius, value) in discs {
+                    let part = disc([x, y], &place, radius, self);
+                    add_scaled(&mut sum, &part, if turned { -value } else { value });
                 }
                 sum
             }
-            Footprint::Tiles { count, size } => tiles([x, y], &place, count, size, values, image),
+            Profile::Gaussian(value) => {
+                let along_x = gaussian(x, place.x, place.radius);
+                outer(&scaled(along_x, value), &gaussian(y, place.y, place.radius))
+            }
+            Profile::Tiles { count, size } => tiles([x, y], &place, count, size, values, image),
         }
     }
 
@@ -76,30 +75,19 @@ impl Pattern {
         radius: f64,
         values: &[f64],
     ) -> Vec<f64> {
-        match *footprint {
-            Footprint::Disc { .. } => scaled(axis.integrate(0.0, radius, |_| 1.0), values[0]),
-            Footprint::Gaussian { .. } => scaled(gaussian(axis, 0.0, radius), values[0]),
-            Footprint::Rings { count, .. } => {
+        match footprint.profile(radius, values) {
+            Profile::Discs(discs) => {
                 let mut sum = vec![0.0; axis.len()];
-                for (outer_radius, jump) in ring_jumps(count, radius, values) {
-                    add_scaled(&mut sum, &axis.integrate(0.0, outer_radius, |_| 1.0), jump);
+                for (radius, value) in discs {
+                    add_scaled(&mut sum, &axis.integrate(0.0, radius, |_| 1.0), value);
                 }
                 sum
             }
+            Profile::Gaussian(value) => scaled(gaussian(axis, 0.0, radius), value),
             // Scenes with tiles on a disc are refused.
-            Footprint::Tiles { .. } => vec![0.0; axis.len()],
+            Profile::Tiles { .. } => vec![0.0; axis.len()],
         }
     }
-}
-
-/// Rings as a sum of discs: the outer radius of each ring and the drop of the value there.
-fn ring_jumps(count: usize, radius: f64, values: &[f64]) -> impl Iterator<Item = (f64, f64)> + '_ {
-    let width = radius / count as f64;
-    (0..count).filter_map(move |i| {
-        let next = values.get(i + 1).copied().unwrap_or(0.0);
-        let jump = values[i] - next;
-        (jump != 0.0).then_some(((i + 1) as f64 * width, jump))
-    })
 }
 
 /// `∫ N dA` over a disc, by exact integrals along chords and Gauss points over the angle.
@@ -160,7 +148,8 @@ const GAUSS_OVER_ANGLE: usize = 8;
 
 /// Ascending angles between which chords of the disc meet no new node.
 fn chord_angles([x, y]: [&Axis; 2], place: &Placement, radius: f64, pattern: Pattern) -> Vec<f64> {
-    let mut angles = vec![-FRAC_PI_2, FRAC_PI_2];
+    // Over half of a circle, Gauss points would leave 1e-10 of the area.
+    let mut angles = vec![-FRAC_PI_2, 0.0, FRAC_PI_2];
     let ends = |axis: &Axis| (0..=axis.elements()).map(|e| axis.nodes[e * axis.order]).collect();
     let (columns, rows): (Vec<f64>, Vec<f64>) = (ends(x), ends(y));
     for node in rows {
@@ -177,7 +166,6 @@ fn chord_angles([x, y]: [&Axis; 2], place: &Placement, radius: f64, pattern: Pat
     }
     if pattern != Pattern::Scalar {
         // Chords near the centre, where the direction turns ever faster.
-        angles.push(0.0);
         for steps in TURN_STEPS {
             angles.extend([1e-3 * steps, -1e-3 * steps]);
         }
@@ -359,6 +347,39 @@ mod tests {
         let footprint = Footprint::Disc { radius: 0.4 };
         let v = Pattern::Scalar.on_plane([&x, &x], &footprint, &place, &[2.0], NO_IMAGE);
         assert!((total(&v) - 2.0 * PI * 0.04).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_ring_carries_its_area_on_any_mesh_and_of_any_width() {
+        for order in [1, 2] {
+            let (x, r) = (
+                axis(order),
+                Axis::from_element_ends(&[0.0, 0.1, 0.5, 1.0], order, Weight::Radial),
+            );
+            for (inner, outer) in [(0.2, 0.5), (1e-6, 0.3), (0.599, 0.6), (0.01, 0.011)] {
+                let footprint = Footprint::Ring { inner, outer };
+                let area = |scale: f64| PI * scale * scale * (outer - inner) * (outer + inner);
+                // As it is, and grown by its input.
+                for scale in [1.0, 1.3] {
+                    let place = Placement { x: 0.03, y: -0.12, radius: scale * outer };
+                    let v = Pattern::Scalar.on_plane([&x; 2], &footprint, &place, &[2.0], NO_IMAGE);
+                    let whole = 2.0 * area(scale);
+                    let exact = 1e-12 * 2.0 * PI * (scale * outer).powi(2);
+                    assert!(
+                        (total(&v) - whole).abs() < exact,
+                        "{inner} {outer}: {}",
+                        total(&v) - whole
+                    );
+                    assert!((first_moment(&v, &x) - 0.03 * whole).abs() < exact);
+                    let v = Pattern::Scalar.on_radius(&r, &footprint, scale * outer, &[2.0]);
+                    assert!(
+                        (total(&v) - whole).abs() < exact,
+                        "{inner} {outer}: {}",
+                        total(&v) - whole
+                    );
+                }
+            }
+        }
     }
 
     #[test]

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use crate::scene::{Carries, CellShape, FaceName, Footprint, Scene, Shape, Wall};
+use crate::scene::{Body, Carries, CellShape, FaceName, Footprint, Scene, Shape, Wall};
 
 /// Where each input of a scene stands in [`crate::model::State::inputs`].
 #[derive(Debug, Clone, PartialEq)]
@@ -10,6 +10,8 @@ pub struct InputLayout {
     pub faces: Vec<FaceInput>,
     /// Temperatures of the cells of each wall, in the order of the scene's walls.
     pub walls: Vec<Range<usize>>,
+    /// Those of bodies as wholes, in the order of [`crate::scene::Body::inputs`], of the bodies that have any.
+    pub bodies: Vec<(String, Range<usize>)>,
     /// Number of inputs.
     pub len: usize,
 }
@@ -56,7 +58,14 @@ impl InputLayout {
         let loads = loads.collect();
         let faces = face_inputs(scene, &mut next);
         let walls = wall_inputs(scene, &mut next);
-        Self { loads, faces, walls, len: next }
+        let bodies = body_inputs(scene, &mut next);
+        Self { loads, faces, walls, bodies, len: next }
+    }
+
+    /// Those of a body as a whole.
+    pub fn of_body(&self, name: &str) -> Range<usize> {
+        let own = self.bodies.iter().find(|(body, _)| body == name);
+        own.map_or(0..0, |(_, range)| range.clone())
     }
 }
 
@@ -67,7 +76,7 @@ fn load_inputs(
     next: &mut usize,
 ) -> LoadInputs {
     let cells = count(footprint);
-    let radial = matches!(footprint, Footprint::Rings { .. });
+    let radial = footprint.shears_outward();
     let mut take = |wanted: bool, count: usize| {
         wanted.then(|| {
             let range = *next..*next + count;
@@ -104,6 +113,15 @@ fn wall_inputs(scene: &Scene, next: &mut usize) -> Vec<Range<usize>> {
         start..*next
     };
     scene.wall.iter().map(range).collect()
+}
+
+fn body_inputs(scene: &Scene, next: &mut usize) -> Vec<(String, Range<usize>)> {
+    let range = |(name, body): (&String, &Body)| {
+        let start = *next;
+        *next += body.inputs().len();
+        (start < *next).then(|| (name.clone(), start..*next))
+    };
+    scene.body.iter().filter_map(range).collect()
 }
 
 fn face_inputs(scene: &Scene, next: &mut usize) -> Vec<FaceInput> {

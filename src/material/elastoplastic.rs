@@ -14,7 +14,8 @@
 use std::sync::Arc;
 
 use super::Thermoelastic;
-use super::law::{History, Law, Response};
+use super::law::{FlowLaw, History, Law, Response};
+use super::viscoplastic::{Overstress, Parted};
 
 /// A constant as a function of temperature [K].
 pub type OfTemperature = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
@@ -57,6 +58,8 @@ pub struct PointConstants {
     /// Hardening moduli H_i and H_k [Pa].
     pub isotropic: f64,
     pub kinematic: f64,
+    /// What flow takes beyond the yield surface.
+    pub overstress: Overstress,
 }
 
 /// How a point's stress changes: `dσ = K dθ 1 + A de + B n (n:de)` with the change θ of volume and e of shape.
@@ -120,6 +123,7 @@ impl Elastoplastic {
             yield_stress: (self.yield_stress)(temperature),
             isotropic: (self.isotropic)(temperature),
             kinematic: (self.kinematic)(temperature),
+            overstress: Overstress::NONE,
         };
         constants.is_sensible().then_some(constants)
     }
@@ -161,7 +165,7 @@ impl PointConstants {
             return (trial, tangent);
         }
         let modulus = 2.0 * self.shear + (self.isotropic + self.kinematic) / 1.5;
-        let flow = excess / modulus;
+        let Parted { flow, overstress, share } = self.overstress.part(excess, modulus);
         let direction = xi.map(|x| x / size);
         for (i, n) in direction.iter().enumerate() {
             let change = flow * n * if i < 3 { 1.0 } else { 2.0 };
@@ -169,16 +173,28 @@ impl PointConstants {
             new.back_strain[i] += change;
         }
         new.accumulated += ROOT * flow;
-        new.dissipated += self.yield_stress * ROOT * flow;
-        // From the yield surface, not from the trial, which may be far beyond it.
-        let radius = ROOT * (self.yield_stress + self.isotropic * new.accumulated);
+        new.dissipated += (self.yield_stress * ROOT + overstress) * flow;
+        // From the surface of flow, not from the trial, which may be far beyond it.
+        let radius = ROOT * (self.yield_stress + self.isotropic * new.accumulated) + overstress;
         let back = self.back_stress(new);
         let stress = std::array::from_fn(|i| back[i] + radius * direction[i]);
         let kept = 1.0 - 2.0 * self.shear * flow / size;
         tangent.all *= kept;
-        tangent.along = 2.0 * self.shear * (1.0 - kept - 2.0 * self.shear / modulus);
+        tangent.along = 2.0 * self.shear * (1.0 - kept - 2.0 * self.shear * share / modulus);
         tangent.direction = direction;
         (stress, tangent)
+    }
+
+    /// Plastic strain that would accumulate over the step if a stress [Pa] stayed; nothing where flow takes no time.
+    pub fn flow_at(&self, stress: &[f64; 6], history: &History) -> Option<f64> {
+        if self.overstress == Overstress::NONE {
+            return None;
+        }
+        let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
+        let back = self.back_stress(history);
+        let xi = std::array::from_fn(|i| stress[i] - back[i] - if i < 3 { mean } else { 0.0 });
+        let radius = ROOT * (self.yield_stress + self.isotropic * history.accumulated);
+        Some(ROOT * self.overstress.flow(norm(&xi) - radius))
     }
 
     /// Back stress β [Pa].
@@ -220,29 +236,52 @@ impl Law for Elastoplastic {
         &self,
         strain: &[f64; 6],
         temperature: f64,
+        _: f64,
         old: &History,
         new: &mut History,
     ) -> Response {
-        let Some(constants) = self.at(temperature) else {
-            *new = *old;
-            return Response {
-                stress: [f64::NAN; 6],
-                tangent: [[f64::NAN; 6]; 6],
-                dissipation: 0.0,
-            };
-        };
-        let volume = strain[0] + strain[1] + strain[2];
-        let mut shape = *strain;
-        shape[..3].iter_mut().for_each(|e| *e -= volume / 3.0);
-        let (mut stress, tangent) = constants.return_to_yield(&shape, old, new);
-        let pressure = constants.bulk * (volume - 3.0 * constants.thermal_strain);
-        stress[..3].iter_mut().for_each(|s| *s += pressure);
-        // Symmetric: its columns are its rows.
-        let rows = std::array::from_fn(|j| {
-            tangent.of_strain(&std::array::from_fn(|i| f64::from(u8::from(i == j))))
-        });
-        Response { stress, tangent: rows, dissipation: new.dissipated - old.dissipated }
+        respond_at(self.at(temperature), strain, old, new)
     }
+}
+
+impl FlowLaw for Elastoplastic {
+    fn stress_free_temperature(&self) -> f64 {
+        self.stress_free_temperature
+    }
+
+    fn over_step(&self, temperature: f64, _: f64) -> Option<PointConstants> {
+        self.at(temperature)
+    }
+}
+
+impl From<Elastoplastic> for Arc<dyn FlowLaw> {
+    fn from(law: Elastoplastic) -> Self {
+        Arc::new(law)
+    }
+}
+
+/// The response by constants; no number where there are none.
+pub(super) fn respond_at(
+    constants: Option<PointConstants>,
+    strain: &[f64; 6],
+    old: &History,
+    new: &mut History,
+) -> Response {
+    let Some(constants) = constants else {
+        *new = *old;
+        return Response { stress: [f64::NAN; 6], tangent: [[f64::NAN; 6]; 6], dissipation: 0.0 };
+    };
+    let volume = strain[0] + strain[1] + strain[2];
+    let mut shape = *strain;
+    shape[..3].iter_mut().for_each(|e| *e -= volume / 3.0);
+    let (mut stress, tangent) = constants.return_to_yield(&shape, old, new);
+    let pressure = constants.bulk * (volume - 3.0 * constants.thermal_strain);
+    stress[..3].iter_mut().for_each(|s| *s += pressure);
+    // Symmetric: its columns are its rows.
+    let rows = std::array::from_fn(|j| {
+        tangent.of_strain(&std::array::from_fn(|i| f64::from(u8::from(i == j))))
+    });
+    Response { stress, tangent: rows, dissipation: new.dissipated - old.dissipated }
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Laws whose stress depends on what a point went through.
 
-use super::Thermoelastic;
+use super::{PointConstants, Thermoelastic};
 
 /// What a point of a body remembers; shears of strains are engineering shears.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -53,7 +53,8 @@ pub struct Response {
 
 /// A constitutive law.
 pub trait Law: Send + Sync {
-    /// The response to a strain xx, yy, zz, xy, yz, xz (engineering shears) at a temperature [K].
+    /// The response to a strain xx, yy, zz, xy, yz, xz (engineering shears) at a temperature [K] after a step of some
+    /// duration [s].
     ///
     /// `old` is what the last accepted step left; what this one would leave goes into `new`. As `old` never changes, a
     /// strain may be tried and given up at any time.
@@ -61,9 +62,24 @@ pub trait Law: Send + Sync {
         &self,
         strain: &[f64; 6],
         temperature: f64,
+        duration: f64,
         old: &History,
         new: &mut History,
     ) -> Response;
+}
+
+/// A law by which stress returns along its deviator, as equilibrium of whole bodies takes them.
+pub trait FlowLaw: Law {
+    /// Temperature without thermal strain [K].
+    fn stress_free_temperature(&self) -> f64;
+
+    /// The constants at a temperature [K] over a step [s]; nothing where they are none.
+    fn over_step(&self, temperature: f64, duration: f64) -> Option<PointConstants>;
+
+    /// Whether strain goes on under a stress that stays.
+    fn creeps(&self) -> bool {
+        false
+    }
 }
 
 /// Thermo-elasticity as a law that remembers nothing.
@@ -79,6 +95,7 @@ impl Law for Elastic {
         &self,
         strain: &[f64; 6],
         temperature: f64,
+        _: f64,
         old: &History,
         new: &mut History,
     ) -> Response {

@@ -13,11 +13,12 @@ pub mod stress;
 pub mod stress_rate;
 mod substance;
 mod thermoelastic;
+mod viscoplastic;
 
 pub use constants::Constants;
 pub use elastoplastic::{Elastoplastic, OfTemperature, PointConstants, PointTangent, constant};
 pub use enthalpy::{Enthalpy, EnthalpyPoint};
-pub use law::{Elastic, History, Law, Response};
+pub use law::{Elastic, FlowLaw, History, Law, Response};
 pub use melting::{Melting, MeltingError};
 pub use parameters::{AtStart, MaterialConstant};
 pub use properties::Properties;
@@ -25,6 +26,7 @@ pub use property::{Curve, Property, PropertyError, Table};
 pub use radiation::{radiative_flux, radiative_slope};
 pub use substance::{Substance, SubstanceError};
 pub use thermoelastic::Thermoelastic;
+pub use viscoplastic::{Creep, Overstress, Parted, Viscoplastic};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,18 +42,29 @@ pub enum Material {
     Thermoelastic(Properties),
     /// The same, but the body yields: J₂ plasticity with linear hardening.
     Elastoplastic(Properties),
+    /// The same, but flow takes time: creep, or viscoplasticity beyond a yield stress.
+    Viscoplastic(Properties),
 }
 
 impl Material {
     pub fn properties(&self) -> &Properties {
         match self {
-            Self::Thermoelastic(properties) | Self::Elastoplastic(properties) => properties,
+            Self::Thermoelastic(properties)
+            | Self::Elastoplastic(properties)
+            | Self::Viscoplastic(properties) => properties,
         }
+    }
+
+    /// Whether strain may stay.
+    pub fn yields(&self) -> bool {
+        !matches!(self, Self::Thermoelastic(_))
     }
 
     pub fn properties_mut(&mut self) -> &mut Properties {
         match self {
-            Self::Thermoelastic(properties) | Self::Elastoplastic(properties) => properties,
+            Self::Thermoelastic(properties)
+            | Self::Elastoplastic(properties)
+            | Self::Viscoplastic(properties) => properties,
         }
     }
 }

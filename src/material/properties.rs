@@ -5,7 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use crate::limits::{not_negative, plausible, positive, signed, within};
 
-use super::{Constants, Elastoplastic, Melting, OfTemperature, Property, Substance, constant};
+use super::{
+    Constants, Creep, Elastoplastic, FlowLaw, Melting, OfTemperature, Property, Substance,
+    Viscoplastic, constant,
+};
 
 /// Constants of an isotropic body as a scene names them: numbers, or tables over the temperature. Those of elasticity
 /// may be left out where nothing mechanical is asked for.
@@ -39,15 +42,18 @@ pub struct Properties {
     /// What melting takes.
     #[schemars(extend("otherwise" = "does not melt"))]
     pub melting: Option<Melting>,
-    /// Stress at which the body yields (von Mises) [Pa]; of `elastoplastic`.
+    /// Stress at which the body yields (von Mises) [Pa]; of `elastoplastic` and `viscoplastic`.
     #[schemars(transform = positive("Pa", "the yield stress").plausible(&plausible::YIELD_STRESS).otherwise(""))]
     pub yield_stress: Option<Property>,
-    /// Growth of that per plastic strain [Pa]; of `elastoplastic`.
+    /// Growth of that per plastic strain [Pa]; of `elastoplastic` and `viscoplastic`.
     #[schemars(transform = not_negative("Pa", "").says(SOFTENS, "0 to 1e60").otherwise("0"))]
     pub isotropic_hardening: Option<Property>,
-    /// Motion of the middle of elasticity per plastic strain [Pa]; of `elastoplastic`.
+    /// Motion of the middle of elasticity per plastic strain [Pa]; of `elastoplastic` and `viscoplastic`.
     #[schemars(transform = not_negative("Pa", "").says(SOFTENS, "0 to 1e60").otherwise("0"))]
     pub kinematic_hardening: Option<Property>,
+    /// How fast the body flows; of `viscoplastic`.
+    #[schemars(extend("otherwise" = ""))]
+    pub creep: Option<Creep>,
 }
 
 /// What holds where a constant of elasticity is left out.
@@ -107,14 +113,25 @@ impl Properties {
             Some(_) => given(property),
             None => constant(other),
         };
+        // What creeps does so under any stress.
+        let never = if self.creep.is_some() { 0.0 } else { f64::INFINITY };
         Elastoplastic {
             young: given(&self.young),
             poisson: given(&self.poisson),
             expansion: given(&self.expansion),
-            yield_stress: or(&self.yield_stress, f64::INFINITY),
+            yield_stress: or(&self.yield_stress, never),
             isotropic: or(&self.isotropic_hardening, 0.0),
             kinematic: or(&self.kinematic_hardening, 0.0),
             stress_free_temperature,
+        }
+    }
+
+    /// The law by which the body deforms, as [`Self::elastoplastic`].
+    pub fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {
+        let plastic = self.elastoplastic(stress_free_temperature);
+        match self.creep {
+            Some(creep) => Arc::new(Viscoplastic { plastic, creep }),
+            None => Arc::new(plastic),
         }
     }
 
@@ -129,6 +146,7 @@ impl Properties {
         let [_, _, rest @ ..] = self.tables();
         let is_table = |property: &Property| matches!(property, Property::Table(_));
         self.yield_stress.is_none()
+            && self.creep.is_none()
             && !rest.iter().any(|(_, property)| property.is_some_and(is_table))
     }
 }

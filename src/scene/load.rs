@@ -47,6 +47,15 @@ pub enum Footprint {
         #[schemars(transform = length("the radius of a footprint"))]
         radius: f64,
     },
+    /// `{ inner = R1, outer = R2 }`: uniform between both; the input `NAME.radius` is the outer one, with which the inner
+    /// one grows in proportion.
+    #[schemars(extend("unit" = "m", "condition" = "of loads; R1 up to 0.999 R2"))]
+    Ring {
+        #[schemars(transform = length("the inner radius of a ring"))]
+        inner: f64,
+        #[schemars(transform = length("the radius of a footprint"))]
+        outer: f64,
+    },
     /// `{ count = N, radius = R }`: concentric, of equal width, a value each.
     #[schemars(extend("unit" = "m", "condition" = "count 1 to 1000"))]
     Rings {
@@ -63,28 +72,6 @@ pub enum Footprint {
         #[schemars(transform = length("the extent of a footprint"))]
         size: [f64; 2],
     },
-}
-
-impl Footprint {
-    /// Outer radius of round footprints [m].
-    pub fn radius(&self) -> Option<f64> {
-        match *self {
-            Footprint::Disc { radius }
-            | Footprint::Gaussian { radius }
-            | Footprint::Rings { radius, .. } => Some(radius),
-            Footprint::Tiles { .. } => None,
-        }
-    }
-
-    /// Number of cells that have a value of their own, first index running along the first axis;
-    /// `None` for a single value without index.
-    pub fn cells(&self) -> Option<CellShape> {
-        match *self {
-            Footprint::Disc { .. } | Footprint::Gaussian { .. } => None,
-            Footprint::Rings { count, .. } => Some(CellShape::Rings(count)),
-            Footprint::Tiles { count, .. } => Some(CellShape::Tiles(count)),
-        }
-    }
 }
 
 /// Index ranges of a footprint of many values.

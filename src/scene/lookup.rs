@@ -1,7 +1,9 @@
 //! What others ask of a checked scene.
 
 use super::droplet::{Coupling, Droplet};
+use super::reservoir::Reservoir;
 use super::types::*;
+use crate::quantity::Quantity;
 
 /// Where a field lies in its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -10,20 +12,79 @@ pub enum Place {
     Section(Plane),
 }
 
+/// An input of a body as a whole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BodyInput {
+    /// Last part of the variable's name.
+    pub key: &'static str,
+    pub words: &'static str,
+    pub quantity: Quantity,
+    pub start: f64,
+}
+
+impl Body {
+    /// Uniform temperature at the beginning [K].
+    pub fn initial_temperature(&self) -> f64 {
+        match self {
+            Body::Solid(solid) => solid.initial_temperature,
+            Body::Droplet(droplet) => droplet.initial_temperature,
+            Body::Reservoir(reservoir) => reservoir.initial_temperature,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn initial_temperature_mut(&mut self) -> &mut f64 {
+        match self {
+            Body::Solid(solid) => &mut solid.initial_temperature,
+            Body::Droplet(droplet) => &mut droplet.initial_temperature,
+            Body::Reservoir(reservoir) => &mut reservoir.initial_temperature,
+        }
+    }
+
+    /// Inputs beside those of loads, faces and walls.
+    pub fn inputs(&self) -> Vec<BodyInput> {
+        match self {
+            Body::Solid(_) | Body::Droplet(_) => Vec::new(),
+            Body::Reservoir(reservoir) => reservoir.inputs(),
+        }
+    }
+
+    /// A body that has no extent, in words.
+    fn lump(&self) -> Option<String> {
+        match self {
+            Body::Solid(_) | Body::Droplet(_) => None,
+            Body::Reservoir(reservoir) => Some(reservoir.words()),
+        }
+    }
+}
+
 impl Scene {
+    /// The bodies that have no extent, each in words.
+    pub fn lumps(&self) -> impl Iterator<Item = (&str, String)> {
+        self.body.iter().filter_map(|(name, body)| Some((name.as_str(), body.lump()?)))
+    }
+
     /// The solid body of that name.
     pub fn solid(&self, name: &str) -> Option<&Solid> {
         match self.body.get(name)? {
             Body::Solid(solid) => Some(solid),
-            Body::Droplet(_) => None,
+            _ => None,
         }
     }
 
     /// The droplet of that name.
     pub fn droplet(&self, name: &str) -> Option<&Droplet> {
         match self.body.get(name)? {
-            Body::Solid(_) => None,
             Body::Droplet(droplet) => Some(droplet),
+            _ => None,
+        }
+    }
+
+    /// The reservoir of that name.
+    pub fn reservoir(&self, name: &str) -> Option<&Reservoir> {
+        match self.body.get(name)? {
+            Body::Reservoir(reservoir) => Some(reservoir),
+            _ => None,
         }
     }
 
@@ -35,6 +96,11 @@ impl Scene {
     /// The droplets, in the order of their names.
     pub fn droplets(&self) -> impl Iterator<Item = (&str, &Droplet)> {
         self.body.keys().filter_map(|name| Some((name.as_str(), self.droplet(name)?)))
+    }
+
+    /// The reservoirs, in the order of their names.
+    pub fn reservoirs(&self) -> impl Iterator<Item = (&str, &Reservoir)> {
+        self.body.keys().filter_map(|name| Some((name.as_str(), self.reservoir(name)?)))
     }
 
     /// The index of the wall below a droplet.
@@ -172,18 +238,6 @@ impl FaceName {
     }
 }
 
-impl Footprint {
-    /// The name as scenes write it.
-    pub fn name(&self) -> &'static str {
-        match self {
-            Footprint::Disc { .. } => "disc",
-            Footprint::Gaussian { .. } => "gaussian",
-            Footprint::Rings { .. } => "rings",
-            Footprint::Tiles { .. } => "tiles",
-        }
-    }
-}
-
 impl Load {
     /// The body and the face that the load acts on.
     ///
@@ -228,7 +282,7 @@ impl Field {
     }
 
     /// Name of the body, as far as the field says one.
-    fn body(&self) -> Option<&str> {
+    pub(super) fn body(&self) -> Option<&str> {
         match (&self.on, &self.body) {
             (Some(on), _) => split_place(on).map(|(body, _)| body),
             (None, body) => body.as_deref(),

@@ -208,6 +208,11 @@ impl Solid {
         materials.all(|material| material.properties().deforms_linearly())
     }
 
+    /// Whether a part of the body yields.
+    pub fn yields(&self) -> bool {
+        self.materials_of_layers().into_iter().any(Material::yields)
+    }
+
     /// Temperature at which the body is free of thermal stress [K].
     pub fn temperature_without_stress(&self) -> f64 {
         self.stress_free_temperature.unwrap_or(self.initial_temperature)

@@ -7,12 +7,14 @@ mod check;
 mod decode;
 mod droplet;
 mod error;
+mod footprint;
 mod grid;
 mod load;
 mod locate;
 mod lookup;
 mod materials;
 mod plausibility;
+mod reservoir;
 mod schema;
 mod spelling;
 mod types;
@@ -27,10 +29,12 @@ pub use droplet::{
     Precision, Wall, WallStart,
 };
 pub use error::{Problem, SceneError};
+pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
-pub use lookup::Place;
+pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
 pub use plausibility::{Measure, Warning, doubt_of_input};
+pub use reservoir::Reservoir;
 pub use schema::{SCHEMA, derived_schema};
 pub use types::*;
 

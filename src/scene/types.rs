@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::droplet::{Coupling, Droplet, Wall};
 use super::materials::MaterialChoice;
+use super::reservoir::Reservoir;
 use crate::kernel::Kernel;
 use crate::limits::{
     Keys, above_zero, any, count, length, not_negative, own_temperature, plausible, tag,
@@ -40,7 +41,7 @@ pub struct Scene {
     /// Tables `[material.NAME]` that solids and layers name.
     #[serde(default)]
     pub material: BTreeMap<String, Material>,
-    /// Tables `[body.NAME]`, each a solid or a droplet.
+    /// Tables `[body.NAME]`, each a solid, a droplet or a reservoir.
     #[schemars(extend("minProperties" = 1, "condition" = "at least one"))]
     pub body: BTreeMap<String, Body>,
     /// Tables `[[load]]`: loads on faces, whose amounts become inputs.
@@ -98,6 +99,8 @@ pub enum Body {
     Solid(Box<Solid>),
     /// Drops of a fluid.
     Droplet(Droplet),
+    /// A body of one temperature.
+    Reservoir(Reservoir),
 }
 
 /// A solid body.
@@ -437,6 +440,8 @@ pub enum Gives {
     MaxPrincipal,
     /// The three components.
     Displacement,
+    /// Accumulated plastic strain, of bodies that yield.
+    PlasticStrain,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -445,7 +450,8 @@ pub struct Fidelity {
     /// How much model is wanted.
     #[serde(default)]
     pub level: FidelityLevel,
-    /// Relative error that `auto` may make [1]; times 100 K, what an inner step of nonlinear heat may err by.
+    /// Relative error that `auto` may make [1]; times 100 K, what an inner step of nonlinear heat may err by;
+    /// times the largest elastic strain, one of creep.
     #[serde(default = "default_tolerance")]
     #[schemars(transform = within(0.0, 1.0, "1", "")
         .open()

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::registry::{Slot, Value, Variable};
 use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::quantity::Quantity;
-use crate::scene::{CellShape, CellValues, FaceName, Load, LoadRange, Scene, Solid};
+use crate::scene::{BodyInput, CellShape, CellValues, FaceName, Load, LoadRange, Scene, Solid};
 
 /// What comes from outside.
 pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
@@ -19,6 +19,22 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
         list.push(face_variable(&input.body, solid, input.face, input.kind, input.index));
     }
     walls(scene, &layout, list);
+    for (name, range) in &layout.bodies {
+        let inputs = scene.body[name].inputs();
+        list.extend(range.clone().zip(inputs).map(|(at, input)| body_variable(name, &input, at)));
+    }
+}
+
+fn body_variable(body: &str, input: &BodyInput, at: usize) -> Variable {
+    Variable {
+        name: format!("{body}.{}", input.key),
+        description: format!("{} ({body})", input.words),
+        slot: Slot::Input(at),
+        quantity: Some(input.quantity),
+        start: Some(Value::Real(input.start)),
+        min: (input.quantity == Quantity::Temperature).then_some(0.0),
+        max: None,
+    }
 }
 
 fn amounts(load: &Load, places: &LoadInputs, list: &mut Vec<Variable>) {

@@ -25,7 +25,8 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
 /// The bodies: first those that have points.
 fn in_order(scene: &Scene) -> impl Iterator<Item = &str> {
     let solids = scene.solids().map(|(name, _)| name);
-    solids.chain(scene.droplets().map(|(name, _)| name))
+    let others = scene.body.keys().map(String::as_str).filter(|name| scene.solid(name).is_none());
+    solids.chain(others)
 }
 
 fn place(scene: &Scene, body: &str) -> usize {

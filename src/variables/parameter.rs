@@ -81,12 +81,7 @@ impl Parameter {
     /// Where the value stands in its body: once, or in each of some layers.
     fn places<'a>(&self, body: &'a mut Body) -> Vec<&'a mut f64> {
         match (self, body) {
-            (Parameter::InitialTemperature { .. }, Body::Solid(solid)) => {
-                vec![&mut solid.initial_temperature]
-            }
-            (Parameter::InitialTemperature { .. }, Body::Droplet(droplet)) => {
-                vec![&mut droplet.initial_temperature]
-            }
+            (Parameter::InitialTemperature { .. }, body) => vec![body.initial_temperature_mut()],
             (Parameter::ConvectionCoefficient { face, .. }, Body::Solid(solid)) => {
                 let face = solid.faces.get_mut(face).expect("registered from this very face");
                 vec![&mut face.convection.as_mut().expect("registered as convective").coefficient]

@@ -45,6 +45,15 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
             );
         }
     }
+    for (body, _) in scene.lumps() {
+        add(
+            format!("{body}.initial_temperature"),
+            format!("temperature of {body} at time zero"),
+            Parameter::InitialTemperature { body: body.to_owned() },
+            Quantity::Temperature,
+            (Some(0.0), None),
+        );
+    }
     for (body, fluid) in scene.droplets() {
         of_droplet(body, fluid, list);
     }

@@ -158,7 +158,11 @@ fn bar(material: &str, rest: &str) -> String {
             material,
             300.0,
             faces,
-            &(probe("inside", [0.0, 0.0, -5e-3], "\"stress\", \"displacement\"") + rest),
+            &(probe(
+                "inside",
+                [0.0, 0.0, -5e-3],
+                "\"stress\", \"displacement\", \"plastic_strain\"",
+            ) + rest),
         ),
         "spacing = 5e-3, depth_spacing = 5e-3, growth = 1.0",
     )
@@ -187,7 +191,9 @@ fn a_held_bar_yields_when_heated_and_is_in_tension_when_cold_again() {
         assert!(off(hot, wanted) < bound, "{method}: {hot} {wanted}");
         assert!(trial.heat_residual("plate") < 1e-9);
         let strained = trial.get("plate.max_plastic_strain");
-        assert!(off(strained, plastic / (young + hardening)) < bound, "{strained}");
+        let accumulated = plastic / (young + hardening);
+        assert!(off(strained, accumulated) < bound, "{strained}");
+        assert!(off(trial.get("inside.plastic_strain"), accumulated) < bound);
         assert!(trial.get("plate.plastic_work") > 0.0);
         // Cooled it is elastic until tension yields at the hardened stress.
         let cold = to(&mut trial, 300.0);
@@ -195,6 +201,51 @@ fn a_held_bar_yields_when_heated_and_is_in_tension_when_cold_again() {
         let limit = -wanted;
         let wanted = if residual > limit { limit + tangent * (residual - limit) } else { residual };
         assert!(off(cold, wanted) < bound, "{method}: {cold} {wanted}");
+        let accumulated = accumulated + (residual - limit).max(0.0) / (young + hardening);
+        assert!(off(trial.get("inside.plastic_strain"), accumulated) < bound);
+        let fields = trial.fields("plate").plastic_strain;
+        assert!(!fields.is_empty() && fields.iter().all(|p| off(*p, accumulated) < bound));
+    }
+}
+
+#[test]
+fn plastic_strain_is_that_of_the_layer_that_yields() {
+    // A stack that is held sideways: each layer is a film of its own.
+    let elastic = "model = \"thermoelastic\", density = 3950.0, specific_heat = 900.0, conductivity = 30.0, \
+                   young = 300e9, poisson = 0.21, expansion = 8.1e-6";
+    let lead = "model = \"elastoplastic\", density = 11340.0, specific_heat = 129.0, conductivity = 35.0, \
+                young = 16e9, poisson = 0.44, expansion = 2.9e-5, yield_stress = 12e6, kinematic_hardening = 5e7";
+    let all = "temperature = 295.0";
+    let rest = probe("above", [0.0, 0.0, -1e-3], "\"plastic_strain\"")
+        + &probe("below", [0.0, 0.0, -1e-3], "\"plastic_strain\"")
+            .replace("gives", "side = \"below\"\ngives")
+        + "[[field]]\nname = \"map\"\nin = \"plate\"\nplane = { x = 0.0 }\ngrid = [2, 2]\ngives = [\"plastic_strain\"]\n";
+    for shape in ["box = [6e-3, 4e-3, 2e-3]", "disc = { radius = 3e-3, thickness = 2e-3 }"] {
+        let faces = format!(
+            "sides = {{ roller = true }}\nbottom = {{ roller = true, {all} }}\ntop = {{ {all} }}"
+        );
+        let text = body(shape, lead, 295.0, &faces, &rest).replace(
+            &format!("material = {{ {lead} }}"),
+            &format!(
+                "layers = [{{ material = {{ {elastic} }}, thickness = 1e-3 }}, {{ material = {{ {lead} }}, thickness = 1e-3 }}]"
+            ),
+        );
+        let text = with_mesh(&text, "spacing = 1e-3, depth_spacing = 5e-4, growth = 1.0");
+        let mut trial = Trial::new(&text);
+        for face in ["top", "bottom"] {
+            trial.set(&format!("plate.{face}.temperature"), 355.0);
+        }
+        (0..3).for_each(|_| trial.step(10.0));
+        // Beyond yield, 2Δe of plastic strain change stress by E/(1 − ν) and kinematic hardening by 2H of the part along.
+        let (modulus, strain) = (16e9 / 0.56, 2.9e-5 * 60.0);
+        let part = (modulus * strain - 12e6) / (modulus + 2.0 * 5e7);
+        let found = trial.get("below.plastic_strain");
+        assert!(off(found, 2.0 * part) < 1e-6, "{shape}: {found} {}", 2.0 * part);
+        assert_eq!(trial.get("above.plastic_strain"), 0.0);
+        // Points of the grid at a quarter and three quarters of the height.
+        assert!(off(trial.get("map.plastic_strain[1,1]"), 2.0 * part) < 1e-6);
+        assert_eq!(trial.get("map.plastic_strain[2,2]"), 0.0);
+        assert!(trial.heat_residual("plate") < 1e-9);
     }
 }
 
@@ -387,6 +438,10 @@ fn no_part_of_a_body_bears_more_than_its_yield_stress() {
     let strained = trial.get("plate.max_plastic_strain");
     let highest = trial.get("plate.max_von_mises");
     assert!(strained > 1e-4, "{strained}");
+    // Beside the edge of what has yielded.
+    let fields = trial.fields("plate").plastic_strain;
+    let lowest = fields.iter().fold(0.0_f64, |low, p| low.min(*p));
+    assert!((-0.1 * strained..0.0).contains(&lowest), "{lowest} {strained}");
     // Both where the law holds, so that the one follows from the other.
     let most = (12e6 + 5e7 * strained) * (1.0 + 1e-9);
     assert!((11.9e6..most).contains(&highest), "{highest} {strained}");

@@ -19,7 +19,7 @@ const IMPACT: &str = include_str!("../scenes/impact.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 25] = [
+const SECTIONS: [Section; 27] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -38,6 +38,13 @@ const SECTIONS: [Section; 25] = [
         PLATE,
         "density = 3950.0",
         "density = 3950.0, melting = { zz = 1 }",
+        &[],
+    ),
+    (
+        "`creep` of a material",
+        PLATE,
+        "density = 3950.0",
+        "density = 3950.0, creep = { zz = 1 }",
         &[],
     ),
     ("`layers` of a solid", PLATE, "material = {", "layers = [{ zz = 1 }] # {", &[]),
@@ -61,6 +68,13 @@ const SECTIONS: [Section; 25] = [
     ("`[body.NAME]` of a droplet", DROP, "diameter =", "zz = 1\ndiameter =", &["kind"]),
     ("`fluid` of a droplet", DROP, "fluid = {", "fluid = { zz = 1,", &[]),
     ("`arrivals` of a droplet", DROP, "arrivals = [{", "arrivals = [{ zz = 1,", &[]),
+    (
+        "`[body.NAME]` of a reservoir",
+        PLATE,
+        "[body.plate]",
+        "[body.chuck]\nkind = \"reservoir\"\nzz = 1\n[body.plate]",
+        &["kind"],
+    ),
     ("`[[load]]`", PLATE, "[[load]]", "[[load]]\nzz = 1", &[]),
     ("`footprint` of a load or wall", DROP, "rings =", "zz =", &[]),
     ("`start` of a load", PLATE, "start = {", "start = { zz = 1,", &[]),

@@ -53,7 +53,7 @@ pub fn cells_of(footprint: &Footprint) -> Option<WallCells> {
     match *footprint {
         Footprint::Rings { count, radius } => Some(WallCells::Rings { count, radius }),
         Footprint::Tiles { count, size } => Some(WallCells::Tiles { count, size }),
-        Footprint::Disc { .. } | Footprint::Gaussian { .. } => None,
+        _ => None,
     }
 }
 

@@ -6,7 +6,7 @@ use crate::body::BodyError;
 use crate::coupling::{Pattern, Placement, split_load};
 use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::method::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
-use crate::scene::{FaceName, Footprint, Load, Scene, Shape};
+use crate::scene::{FaceName, Load, Scene, Shape};
 
 /// Which inputs act on a body, and where.
 pub struct BodyLoads {
@@ -112,13 +112,7 @@ impl BodyLoads {
         let travel = |(load, places): &(Load, LoadInputs)| {
             let moved = [places.x, places.y, places.radius].into_iter().flatten();
             let radius = placement(load, places, &path[0]).radius;
-            let size = match load.footprint {
-                Footprint::Disc { .. } | Footprint::Gaussian { .. } => radius,
-                Footprint::Rings { count, .. } => radius / count as f64,
-                Footprint::Tiles { count, size } => {
-                    (size[0] / count[0] as f64).min(size[1] / count[1] as f64)
-                }
-            };
+            let size = load.footprint.finest(Some(radius));
             moved.map(way).sum::<f64>() / size
         };
         self.loads.iter().map(travel).fold(0.0, f64::max)
@@ -253,10 +247,7 @@ impl BodyLoads {
             let message = format!("a radius of {} m; allowed: above zero", place.radius);
             return Err(BodyError::Input { index, message });
         }
-        let half = match load.footprint {
-            Footprint::Tiles { size, .. } => size.map(|s| s / 2.0),
-            _ => [place.radius; 2],
-        };
+        let half = load.footprint.half_extents(Some(place.radius));
         let limits = match self.shape {
             Shape::Box([x, y, _]) => [x / 2.0, y / 2.0],
             Shape::Disc(disc) => [disc.radius; 2],

@@ -68,7 +68,7 @@ impl SolidBody {
         let fem = SolidFem::new(&plan, threads)?;
         let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan);
         let ports = linked.iter().map(|&face| Port::new(face, &plan, &fem)).collect();
-        let yielding = Yielding::of(&plan, threads)?;
+        let yielding = Yielding::of(&plan, scene.fidelity.tolerance, threads)?;
         Ok(Self {
             name: name.into(),
             heat_mesh: heat_mesh(&plan),

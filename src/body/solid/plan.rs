@@ -3,7 +3,7 @@
 use crate::body::droplet;
 use crate::method::fem::{Mechanics, Plan, PlanRequest, Refinement};
 use crate::scene::{
-    Carries, Coupling, FaceName, Footprint, Load, Scene, Solid, lateral_extents, takes_newton,
+    Carries, Coupling, FaceName, Load, Scene, Solid, lateral_extents, takes_newton,
 };
 
 pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
@@ -28,13 +28,17 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
 /// Differences of temperatures that a tolerance is a part of [K].
 const TEMPERATURES: f64 = 100.0;
 
-/// Where another solid touches this one: heat enters over all that both have in common, most of it at once near the
+/// Where another body touches this one: heat enters over all that both have in common, most of it at once near the
 /// edge of the smaller one.
 fn contacts(scene: &Scene, name: &str, solid: &Solid) -> Vec<Refinement> {
     let refinement = |coupling: &Coupling| {
         let (lower, upper) = (coupling.lower()?, coupling.upper()?);
         let (own, other) = if lower.0 == name { (lower, upper) } else { (upper, lower) };
-        let other = scene.solid(other.0).filter(|_| own.0 == name)?;
+        if own.0 != name {
+            return None;
+        }
+        // What has no extent touches all of the face.
+        let other = scene.solid(other.0).unwrap_or(solid);
         let [one, two] = [solid, other].map(|solid| lateral_extents(&solid.shape));
         let half = [0, 1].map(|axis| 0.5 * one[axis].min(two[axis]));
         let [x, y] = half.map(|half| [-half, half]);
@@ -53,20 +57,9 @@ fn refinement(load: &Load) -> Refinement {
     let range = [load.range.x, load.range.y];
     let own = load.footprint.radius().unwrap_or(0.0);
     let [_, radius] = load.range.radius.unwrap_or([0.0, load.start.radius.unwrap_or(own).max(own)]);
-    let half = match load.footprint {
-        Footprint::Disc { .. } | Footprint::Rings { .. } => [radius; 2],
-        Footprint::Gaussian { .. } => [1.5 * radius; 2],
-        Footprint::Tiles { size, .. } => size.map(|s| s / 2.0),
-    };
-    let feature = match load.footprint {
-        Footprint::Disc { .. } | Footprint::Gaussian { .. } => {
-            load.range.radius.map_or(own, |[lowest, _]| lowest)
-        }
-        Footprint::Rings { count, .. } => radius * (5.0 / count as f64).min(1.0),
-        Footprint::Tiles { count, size } => {
-            (0..2).map(|a| size[a] * (5.0 / count[a] as f64).min(1.0)).fold(f64::INFINITY, f64::min)
-        }
-    };
+    let half = load.footprint.half_extents(Some(radius)).map(|half| load.footprint.reach() * half);
+    let least = load.range.radius.map_or(own, |[lowest, _]| lowest);
+    let feature = load.footprint.feature([least, radius]);
     let stretch = |a: usize| {
         let [low, high] = range[a].unwrap_or([start[a]; 2]);
         [low - half[a], high + half[a]]

@@ -23,6 +23,7 @@ enum Measure {
     Stress(usize),
     /// A measure of stress and its rate.
     OfStress(fn([f64; 6]) -> f64, fn([f64; 6], [f64; 6]) -> f64),
+    PlasticStrain,
 }
 
 /// All of them, in the order in which a probe lists them.
@@ -30,7 +31,7 @@ pub fn point_quantities() -> &'static [PointQuantity] {
     &QUANTITIES
 }
 
-const QUANTITIES: [PointQuantity; 12] = [
+const QUANTITIES: [PointQuantity; 13] = [
     PointQuantity {
         descriptor: Descriptor {
             key: "temperature",
@@ -60,6 +61,16 @@ const QUANTITIES: [PointQuantity; 12] = [
     displacement("displacement_x", "displacement along x", 0),
     displacement("displacement_y", "displacement along y", 1),
     displacement("displacement_z", "displacement along z", 2),
+    PointQuantity {
+        descriptor: Descriptor {
+            key: "plastic_strain",
+            words: "accumulated plastic strain",
+            quantity: Quantity::Ratio,
+            direct: Direct::Nothing,
+        },
+        given_by: &[Gives::PlasticStrain],
+        measure: Measure::PlasticStrain,
+    },
 ];
 
 const fn stress(key: &'static str, words: &'static str) -> Descriptor {
@@ -105,6 +116,7 @@ impl PointQuantity {
             Measure::Displacement(axis) => reader.displacement_at(point)?[axis],
             Measure::Stress(place) => reader.stress_at(point)?[place],
             Measure::OfStress(measure, _) => measure(reader.stress_at(point)?),
+            Measure::PlasticStrain => reader.plastic_strain_at(point)?,
         })
     }
 
@@ -119,6 +131,7 @@ impl PointQuantity {
             Measure::Displacement(axis) => change.displacement_at(point)?[axis],
             Measure::Stress(place) => change.stress_at(point)?[place],
             Measure::OfStress(_, rate) => rate(now.stress_at(point)?, change.stress_at(point)?),
+            Measure::PlasticStrain => return Err(BodyError::NoRate),
         })
     }
 }

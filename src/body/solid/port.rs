@@ -157,8 +157,8 @@ impl SolidBody {
 }
 
 impl Conductor for SolidBody {
-    fn response(&self, face: FaceName) -> &SurfaceResponse {
-        &self.port(face).response
+    fn response(&self, face: FaceName, _: f64) -> SurfaceResponse {
+        self.port(face).response.clone()
     }
 
     fn diffusivity(&self, face: FaceName) -> f64 {
@@ -171,8 +171,8 @@ impl Conductor for SolidBody {
         self.solid.tolerance()
     }
 
-    fn cells(&self, face: FaceName) -> WallCells {
-        self.port(face).cells.cells()
+    fn cells(&self, face: FaceName) -> Option<WallCells> {
+        Some(self.port(face).cells.cells())
     }
 
     fn surfaces(

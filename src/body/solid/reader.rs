@@ -37,6 +37,12 @@ impl SolidReader<'_> {
         self.memo.stress_at(self.body, self.state, point)
     }
 
+    /// Accumulated plastic strain [1].
+    pub fn plastic_strain_at(&mut self, point: [f64; 3]) -> Result<f64, BodyError> {
+        let (_, deformation) = self.memo.solve(self.body, self.state)?;
+        Ok(self.body.solid.plastic_strain_at(deformation, point))
+    }
+
     /// [K]
     pub fn max_temperature(&mut self) -> f64 {
         self.memo.max_temperature(self.body, self.state)

@@ -3,7 +3,6 @@
 use super::linear::SolidChange;
 use super::reader::SolidReader;
 use crate::body::{BodyError, Descriptor, Direct};
-use crate::material::Material;
 use crate::quantity::Quantity;
 use crate::scene::{Scene, Solid};
 
@@ -144,11 +143,7 @@ pub fn offered_totals(scene: &Scene, (name, solid): (&str, &Solid)) -> Vec<(usiz
         Offered::Melting => {
             solid.materials_of_layers().iter().any(|own| own.properties().melting.is_some())
         }
-        Offered::Yielding => {
-            let mut materials = solid.materials_of_layers().into_iter();
-            let yields = materials.any(|own| matches!(own, Material::Elastoplastic(_)));
-            yields && scene.asks_mechanics(name)
-        }
+        Offered::Yielding => solid.yields() && scene.asks_mechanics(name),
         Offered::Mechanical => scene.asks_mechanics(name),
     };
     let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));

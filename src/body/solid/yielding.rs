@@ -1,11 +1,14 @@
 //! Solids whose stress depends on what they went through: their mechanics advances with their heat.
 
+use std::sync::Arc;
+
 use super::SolidBody;
 use crate::body::{Acts, BodyError};
+use crate::material::FlowLaw;
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::cholesky::SolverError;
 use crate::method::fem::{Deformation, Plan, SolidLoads, Temperatures};
-use crate::method::inelastic::{InelasticError, InelasticProblem, StateLayout};
+use crate::method::inelastic::{Course, InelasticError, InelasticProblem, StateLayout};
 use crate::state::{Field, Layout, Per};
 
 /// The mechanics of a solid that yields, or whose elastic constants depend on the temperature.
@@ -16,6 +19,8 @@ pub struct Yielding {
     levels: Vec<usize>,
     /// Whether stress has a bound.
     yields: bool,
+    /// What an inner step of creep may err by, over the largest elastic strain.
+    tolerance: f64,
 }
 
 /// How often a step that finds no equilibrium is halved.
@@ -23,10 +28,13 @@ const MOST_HALVES: u32 = 6;
 
 impl Yielding {
     /// Nothing where stress follows linearly from deformation and temperature, or is not asked for.
-    pub fn of(plan: &Plan, threads: usize) -> Result<Option<Self>, SolverError> {
+    pub fn of(plan: &Plan, tolerance: f64, threads: usize) -> Result<Option<Self>, SolverError> {
         let Some(laws) = &plan.inelastic else { return Ok(None) };
         let start = plan.initial_temperature;
-        let yields = laws.iter().any(|law| (law.yield_stress)(start).is_finite());
+        let is_bounded = |law: &Arc<dyn FlowLaw>| {
+            law.over_step(start, 0.0).is_some_and(|constants| constants.yield_stress.is_finite())
+        };
+        let yields = laws.iter().any(is_bounded);
         let problem = InelasticProblem::new(&plan.mesh, laws.clone(), &plan.supports, threads);
         let problem = problem.map_err(|error| match error {
             InelasticError::Solver(error) => error,
@@ -35,7 +43,7 @@ impl Yielding {
         let sided = plan.mesh.nodes_of_sided();
         let level = |node: usize| sided.iter().position(|&other| other == node);
         let levels = (0..plan.mesh.axes[2].len()).filter_map(level).collect();
-        Ok(Some(Self { layout: problem.layout(), problem, levels, yields }))
+        Ok(Some(Self { layout: problem.layout(), problem, levels, yields, tolerance }))
     }
 
     /// The state at time zero: in equilibrium at one temperature [K], without forces. Where there is none, as the first
@@ -88,8 +96,9 @@ impl SolidBody {
             for part in 0..parts {
                 let path = acts.path.from(f64::from(part) * length);
                 let acts = Acts { path: &path, duration: length, ..*acts };
+                let before = state[..self.heat_len].to_vec();
                 heat(&mut state[..self.heat_len], &acts)?;
-                match self.balance(yielding, state, &acts) {
+                match self.balance(yielding, (&before, state), &acts) {
                     Ok(()) => {}
                     // What is received changes over the whole step, so that step is not cut.
                     Err(BodyError::Equilibrium { .. })
@@ -110,20 +119,31 @@ impl SolidBody {
     fn balance(
         &self,
         yielding: &Yielding,
-        state: &mut [f64],
+        (before, state): (&[f64], &mut [f64]),
         acts: &Acts,
     ) -> Result<(), BodyError> {
-        let inputs = acts.path.at(0, acts.duration);
-        let mut loads = self.loads.assemble(&inputs, self.meshes());
-        for received in acts.received {
-            self.port(received.face).add(&mut loads, received.given);
-        }
         let (heat, mechanics) = state.split_at_mut(self.heat_len);
-        let temperatures = self.solid.temperatures(heat, &loads);
-        let nodal = self.nodal_temperatures(yielding, &temperatures);
-        let forces = self.nodal_forces(&loads)?;
-        let advanced = yielding.problem.advance(mechanics, &nodal, &forces);
-        advanced.map(drop).map_err(|error| self.inelastic_error(error))
+        let at = |time: f64, heat: &[f64]| {
+            let inputs = acts.path.at(0, time);
+            let mut loads = self.loads.assemble(&inputs, self.meshes());
+            for received in acts.received {
+                self.port(received.face).add(&mut loads, received.given);
+            }
+            let temperatures = self.solid.temperatures(heat, &loads);
+            let nodal = self.nodal_temperatures(yielding, &temperatures);
+            Ok::<_, BodyError>((nodal, self.nodal_forces(&loads)?))
+        };
+        let end = at(acts.duration, heat)?;
+        // What flows at once knows no time but the end.
+        let start = if yielding.problem.creeps() { at(0.0, before)? } else { end.clone() };
+        let course = Course {
+            temperatures: [&start.0, &end.0],
+            forces: [&start.1, &end.1],
+            duration: acts.duration,
+            tolerance: yielding.tolerance,
+        };
+        let advanced = yielding.problem.advance_along(mechanics, &course);
+        advanced.map_err(|error| self.inelastic_error(error))
     }
 
     fn inelastic_error(&self, error: InelasticError) -> BodyError {
@@ -180,7 +200,11 @@ impl SolidBody {
         let stress = yielding.problem.nodal_stress(mechanics, &nodal);
         let stress = stress.map_err(|error| self.inelastic_error(error))?;
         let displacement = yielding.problem.displacement(mechanics).to_vec();
-        Ok(Some(Deformation::of_nodes(displacement, stress)))
+        let plastic_strain = match yielding.yields {
+            true => yielding.problem.nodal_plastic_strain(mechanics),
+            false => Vec::new(),
+        };
+        Ok(Some(Deformation::of_nodes(displacement, stress, plastic_strain)))
     }
 
     /// Highest von Mises and largest principal stress of a body that yields [Pa], at the points where its law holds:

@@ -5,10 +5,10 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use super::{Pattern, Placement, add_scaled, chord, gaussian, outer, ring_jumps, scaled, tile_sum};
+use super::{Pattern, Placement, add_scaled, chord, gaussian, outer, scaled, tile_sum};
 use crate::math::gauss::gauss_on;
 use crate::method::mesh::Axis;
-use crate::scene::Footprint;
+use crate::scene::{Footprint, Profile};
 
 /// A strip of tiles along an axis, and how it changes.
 type Strip = (Vec<f64>, Vec<f64>);
@@ -24,16 +24,19 @@ impl Pattern {
         image: [bool; 2],
     ) -> Vec<f64> {
         let (place, rate) = (place.mirrored(image), rate.mirrored(image));
-        let discs = |discs: Vec<(f64, f64)>| Motion {
-            axes: [x, y],
-            centre: [place.x, place.y],
-            velocity: [rate.x, rate.y],
-            growth: rate.radius / place.radius,
-            discs,
-        };
-        match *footprint {
-            Footprint::Disc { .. } => discs(vec![(place.radius, values[0])]).of(self),
-            Footprint::Gaussian { .. } => {
+        match footprint.profile(place.radius, values) {
+            Profile::Discs(discs) => {
+                let motion = Motion {
+                    axes: [x, y],
+                    centre: [place.x, place.y],
+                    velocity: [rate.x, rate.y],
+                    growth: rate.radius / place.radius,
+                    discs,
+                };
+                let turned = matches!(self, Pattern::Outward(axis) if image[axis]);
+                scaled(motion.of(self), if turned { -1.0 } else { 1.0 })
+            }
+            Profile::Gaussian(value) => {
                 let along = |axis, centre| gaussian(axis, centre, place.radius);
                 let change = |axis: &Axis, centre, velocity| {
                     gaussian_motion(axis, [centre, velocity], [place.radius, rate.radius])
@@ -42,14 +45,9 @@ impl Pattern {
                 let mut sum = outer(&moved_x, &along(y, place.y));
                 let moved_y = change(y, place.y, rate.y);
                 add_scaled(&mut sum, &outer(&along(x, place.x), &moved_y), 1.0);
-                scaled(sum, values[0])
+                scaled(sum, value)
             }
-            Footprint::Rings { count, .. } => {
-                let turned = matches!(self, Pattern::Outward(axis) if image[axis]);
-                let jumps = ring_jumps(count, place.radius, values).collect();
-                scaled(discs(jumps).of(self), if turned { -1.0 } else { 1.0 })
-            }
-            Footprint::Tiles { count, size } => {
+            Profile::Tiles { count, size } => {
                 let columns = strip_motions(x, [place.x, rate.x], count[0], size[0]);
                 let rows = strip_motions(y, [place.y, rate.y], count[1], size[1]);
                 let pick = |strips: &[Strip], moved: bool| -> Vec<Vec<f64>> {
@@ -83,20 +81,19 @@ impl Pattern {
             }
             out
         };
-        match *footprint {
-            Footprint::Disc { .. } => scaled(circle(radius, growth), values[0]),
-            Footprint::Gaussian { .. } => {
-                scaled(gaussian_motion(axis, [0.0; 2], [radius, growth]), values[0])
-            }
-            Footprint::Rings { count, .. } => {
+        match footprint.profile(radius, values) {
+            Profile::Discs(discs) => {
                 let mut sum = vec![0.0; axis.len()];
-                for (edge, jump) in ring_jumps(count, radius, values) {
-                    add_scaled(&mut sum, &circle(edge, growth * edge / radius), jump);
+                for (edge, value) in discs {
+                    add_scaled(&mut sum, &circle(edge, growth * edge / radius), value);
                 }
                 sum
             }
+            Profile::Gaussian(value) => {
+                scaled(gaussian_motion(axis, [0.0; 2], [radius, growth]), value)
+            }
             // Scenes with tiles on a disc are refused.
-            Footprint::Tiles { .. } => vec![0.0; axis.len()],
+            Profile::Tiles { .. } => vec![0.0; axis.len()],
         }
     }
 }
@@ -332,6 +329,7 @@ mod tests {
         let cases = [
             (Footprint::Disc { radius: 0.29 }, Pattern::Scalar, 1e-7),
             (Footprint::Gaussian { radius: 0.29 }, Pattern::Scalar, 1e-7),
+            (Footprint::Ring { inner: 0.11, outer: 0.29 }, Pattern::Scalar, 1e-6),
             (Footprint::Tiles { count: [2, 3], size: [0.41, 0.57] }, Pattern::Scalar, 1e-7),
             (Footprint::Rings { count: 6, radius: 0.29 }, Pattern::Scalar, 1e-6),
             (Footprint::Rings { count: 2, radius: 0.29 }, Pattern::Outward(0), 3e-5),
@@ -377,6 +375,7 @@ mod tests {
             for footprint in [
                 Footprint::Disc { radius: 0.4 },
                 Footprint::Gaussian { radius: 0.1 },
+                Footprint::Ring { inner: 0.13, outer: 0.4 },
                 Footprint::Rings { count: 3, radius: 0.4 },
             ] {
                 let at = |r| Pattern::Scalar.on_radius(&axis, &footprint, r, &values);

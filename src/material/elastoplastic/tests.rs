@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Rotation3, Vector3};
 
 use super::*;
-use crate::material::Elastic;
+use crate::material::{Creep, Elastic, Viscoplastic};
 
 /// Steel, aluminium, copper, hot lead, titanium, glass, and what no metal is: E, ν, α, σ_y, H_i, H_k.
 const MATERIALS: [[f64; 6]; 9] = [
@@ -17,6 +17,9 @@ const MATERIALS: [[f64; 6]; 9] = [
     [1e6, -0.5, 1e-3, 0.0, 1e3, 1e3],
     [1e6, 0.0, 0.0, 1e3, 1e9, 1e9],
 ];
+
+/// [s]
+const STEP: f64 = 0.5;
 
 struct Case {
     name: String,
@@ -51,6 +54,23 @@ fn laws() -> Vec<Case> {
                 kinematic: falls(kinematic),
                 stress_free_temperature: 300.0,
             };
+            let unit = yield_stress.max(1e-4 * young);
+            for (exponent, rate, part) in
+                [(1.0, 1e-2, 1.0), (5.0, 1e-6, 0.0), (5.0, 1e3, 1.0), (20.0, 1e-9, 0.1)]
+            {
+                // At twice the unit and 350 K.
+                let logarithm = f64::ln(rate) - exponent * unit.ln() + 4e3 / 350.0;
+                let creep =
+                    Creep { coefficient: logarithm.exp(), exponent, activation_temperature: 4e3 };
+                let plastic =
+                    Elastoplastic { yield_stress: falls(part * yield_stress), ..plastic.clone() };
+                all.push(Case {
+                    name: format!("viscoplastic {young:e}, {fall}, {exponent}"),
+                    law: Box::new(Viscoplastic { plastic, creep }),
+                    plastic: None,
+                    strain: 3.0 * unit / young + 1e-4,
+                });
+            }
             all.push(Case {
                 name: format!("elastoplastic {young:e}, {fall}"),
                 law: Box::new(plastic.clone()),
@@ -72,7 +92,7 @@ fn worn(case: &Case, rng: &mut fastrand::Rng) -> History {
     for _ in 0..4 {
         let mut new = History::default();
         let strain = random(rng, 2.0 * case.strain);
-        case.law.respond(&strain, 300.0 + 200.0 * rng.f64(), &history, &mut new);
+        case.law.respond(&strain, 300.0 + 200.0 * rng.f64(), STEP, &history, &mut new);
         history = new;
     }
     history
@@ -113,9 +133,14 @@ fn turned_strains_make_turned_stresses() {
             ..old
         };
         let (mut new, mut turned_new) = (History::default(), History::default());
-        let found =
-            case.law.respond(&turned(&strain, &rotation, 0.5), 350.0, &turned_old, &mut turned_new);
-        let wanted = case.law.respond(&strain, 350.0, &old, &mut new);
+        let found = case.law.respond(
+            &turned(&strain, &rotation, 0.5),
+            350.0,
+            STEP,
+            &turned_old,
+            &mut turned_new,
+        );
+        let wanted = case.law.respond(&strain, 350.0, STEP, &old, &mut new);
         let wanted = turned(&wanted.stress, &rotation, 1.0);
         let stiffness: f64 = found.tangent[0][0].abs() + case.stiffness();
         for (f, w) in found.stress.iter().zip(wanted) {
@@ -133,7 +158,7 @@ impl Case {
     /// The stiffness that rounding of strains meets [Pa].
     fn stiffness(&self) -> f64 {
         let (old, mut new) = (History::default(), History::default());
-        let row = self.law.respond(&[0.0; 6], 300.0, &old, &mut new).tangent[0];
+        let row = self.law.respond(&[0.0; 6], 300.0, STEP, &old, &mut new).tangent[0];
         row.iter().map(|d| d.abs()).sum()
     }
 }
@@ -144,7 +169,7 @@ fn tangents_are_symmetric_and_the_limit_of_differences() {
         let (old, strain) = (worn(case, rng), random(rng, case.strain));
         let respond = |strain: &[f64; 6]| {
             let mut new = History::default();
-            let response = case.law.respond(strain, 400.0, &old, &mut new);
+            let response = case.law.respond(strain, 400.0, STEP, &old, &mut new);
             (response, new.accumulated > old.accumulated)
         };
         let (centre, flows) = respond(&strain);
@@ -178,7 +203,8 @@ fn dissipation_is_never_negative_and_is_what_histories_sum() {
             let mut new = History::default();
             let size = case.strain * 10f64.powf(3.0 * rng.f64() - 1.0);
             let (strain, temperature) = (random(rng, size), 250.0 + 300.0 * rng.f64());
-            let dissipation = case.law.respond(&strain, temperature, &old, &mut new).dissipation;
+            let dissipation =
+                case.law.respond(&strain, temperature, STEP, &old, &mut new).dissipation;
             assert!(dissipation >= 0.0 && new.accumulated >= old.accumulated, "{}", case.name);
             sum += dissipation;
             old = new;
@@ -196,17 +222,17 @@ fn where_nothing_yields_the_way_does_not_matter_and_the_law_is_elasticity() {
         let size = 0.2 * at.yield_stress / at.shear;
         let (first, second) = (random(rng, size), random(rng, size));
         let (old, mut new) = (History::default(), History::default());
-        let direct = plastic.respond(&second, 400.0, &old, &mut new);
+        let direct = plastic.respond(&second, 400.0, STEP, &old, &mut new);
         assert_eq!(new, old);
-        plastic.respond(&first, 400.0, &old, &mut new);
+        plastic.respond(&first, 400.0, STEP, &old, &mut new);
         assert_eq!(new, old);
-        let after = plastic.respond(&second, 400.0, &{ new }, &mut new);
+        let after = plastic.respond(&second, 400.0, STEP, &{ new }, &mut new);
         assert_eq!(direct, after);
         let young = (plastic.young)(400.0);
         let expansion = (plastic.expansion)(400.0);
         let law = Thermoelastic { young, poisson: (plastic.poisson)(400.0), expansion };
         let elastic = Elastic { law, stress_free_temperature: 300.0 };
-        let wanted = elastic.respond(&second, 400.0, &old, &mut new);
+        let wanted = elastic.respond(&second, 400.0, STEP, &old, &mut new);
         let scale = at.bulk * (size + 100.0 * expansion) + at.shear * size;
         for (f, w) in direct.stress.iter().zip(wanted.stress) {
             assert!((f - w).abs() <= 1e-13 * scale, "{}: {f} {w}", case.name);
@@ -224,7 +250,7 @@ fn stress_returns_to_the_yield_surface_however_far_it_was_sent() {
             let temperature = 300.0 + 400.0 * rng.f64();
             let at = plastic.at(temperature).unwrap();
             let mut new = History::default();
-            let response = plastic.respond(&strain, temperature, &old, &mut new);
+            let response = plastic.respond(&strain, temperature, STEP, &old, &mut new);
             let back = at.back_stress(&new);
             let mean = (0..3).map(|i| response.stress[i]).sum::<f64>() / 3.0;
             let xi: [f64; 6] = std::array::from_fn(|i| {
@@ -267,7 +293,7 @@ fn a_bar_goes_the_bilinear_way_to_and_fro() {
             let mut stress = f64::NAN;
             for _ in 0..40 {
                 let six = [side, side, *strain, 0.0, 0.0, 0.0];
-                let response = law.respond(&six, 300.0, &history, &mut new);
+                let response = law.respond(&six, 300.0, STEP, &history, &mut new);
                 side -= response.stress[0] / (response.tangent[0][0] + response.tangent[0][1]);
                 stress = response.stress[2];
             }
@@ -294,6 +320,9 @@ fn constants_that_are_none_are_refused() {
     ] {
         assert!(broken.at(400.0).is_none());
         let mut new = History::default();
-        assert!(broken.respond(&[0.0; 6], 400.0, &History::default(), &mut new).stress[0].is_nan());
+        assert!(
+            broken.respond(&[0.0; 6], 400.0, STEP, &History::default(), &mut new).stress[0]
+                .is_nan()
+        );
     }
 }

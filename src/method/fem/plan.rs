@@ -1,10 +1,12 @@
 //! What will be modelled of a solid, decided before any heavy work: symmetry, mesh, physics.
 
+use std::sync::Arc;
+
 use super::elastic::Support;
 use super::fineness::Fineness;
 use super::heat::ThermalFace;
 use super::solver_choice::note_on_solver;
-use crate::material::{Constants, Elastoplastic, Substance, Thermoelastic};
+use crate::material::{Constants, FlowLaw, Substance, Thermoelastic};
 use crate::method::mesh::{Axis, Weight};
 use crate::method::mesh::{Geometry, Mesh, MeshFace};
 use crate::scene::{
@@ -31,7 +33,7 @@ pub struct Plan {
     /// What Newton's method advances the heat by; `None` where modes or particles do.
     pub newton: Option<NewtonPlan>,
     /// What each layer of elements along z deforms by where that is not linear, from the lowest on.
-    pub inelastic: Option<Vec<Elastoplastic>>,
+    pub inelastic: Option<Vec<Arc<dyn FlowLaw>>>,
     /// Temperature without thermal stress above the initial one [K].
     pub stress_free_rise: f64,
     pub supports: Vec<(MeshFace, Support)>,
@@ -333,12 +335,12 @@ fn newton_plan(solid: &Solid, mesh: &Mesh, tolerance: f64) -> NewtonPlan {
 const NOTE_ON_HISTORY: &str = "stress depends on what the body went through: equilibrium is found at the end of every \
                                communication step, between which each place deforms straight on";
 
-fn inelastic_laws(solid: &Solid, mesh: &Mesh) -> Vec<Elastoplastic> {
+fn inelastic_laws(solid: &Solid, mesh: &Mesh) -> Vec<Arc<dyn FlowLaw>> {
     let mut materials = solid.materials_of_layers();
     materials.reverse();
     let stress_free = solid.temperature_without_stress();
-    let laws: Vec<Elastoplastic> =
-        materials.iter().map(|own| own.properties().elastoplastic(stress_free)).collect();
+    let laws: Vec<Arc<dyn FlowLaw>> =
+        materials.iter().map(|own| own.properties().flow_law(stress_free)).collect();
     let elements = mesh.axes[2].elements();
     (0..elements).map(|element| laws[mesh.layering.layer_of(element)].clone()).collect()
 }

@@ -59,12 +59,19 @@ pub struct Deformation {
     /// Stress at the nodes, those on interfaces twice, of a body whose stress remembers more than its strain [Pa]: xx, yy,
     /// zz, xy, yz, xz, of a section rr, tt, zz, 0, 0, rz.
     stress: Option<Vec<[f64; 6]>>,
+    /// Accumulated plastic strain at these nodes [1]; empty where nothing yields.
+    plastic_strain: Vec<f64>,
 }
 
 impl Deformation {
-    /// Displacements and stress that are known at the nodes, even about planes of symmetry.
-    pub fn of_nodes(displacement: Vec<f64>, stress: Vec<[f64; 6]>) -> Self {
-        Self { displacement: vec![displacement], stress: Some(stress), ..Self::default() }
+    /// Displacements, stress and plastic strain that are known at the nodes, even about planes of symmetry.
+    pub fn of_nodes(
+        displacement: Vec<f64>,
+        stress: Vec<[f64; 6]>,
+        plastic_strain: Vec<f64>,
+    ) -> Self {
+        let (displacement, stress) = (vec![displacement], Some(stress));
+        Self { displacement, stress, plastic_strain, ..Self::default() }
     }
 }
 
@@ -81,13 +88,15 @@ pub struct NodalFields {
     /// xx, yy, zz, xy, yz, xz [Pa] (axisymmetry: rr, tt, zz, 0, 0, rz); empty where mechanics is not
     /// modelled.
     pub stress: Vec<[f64; 6]>,
+    /// Accumulated plastic strain [1]; empty where nothing yields.
+    pub plastic_strain: Vec<f64>,
 }
 
 impl NodalFields {
-    /// All values of temperature, displacement and stress.
+    /// All values at the nodes.
     pub fn values(&self) -> impl Iterator<Item = f64> {
-        let displacements = self.displacement.iter().flatten();
-        self.temperature.iter().chain(displacements).chain(self.stress.iter().flatten()).copied()
+        let vectors = self.displacement.iter().flatten().chain(self.stress.iter().flatten());
+        self.temperature.iter().chain(vectors).chain(&self.plastic_strain).copied()
     }
 }
 
@@ -317,6 +326,14 @@ impl SolidFem {
         total
     }
 
+    /// Accumulated plastic strain at a point [1]; zero where nothing yields.
+    pub fn plastic_strain_at(&self, deformation: &Deformation, point: [f64; 3]) -> f64 {
+        let (place, _) = self.mesh.locate(point);
+        let weights = self.sided_weights(place);
+        let counts = self.mesh.sided_counts();
+        weighted(&deformation.plastic_strain, weights.each_ref(), counts, (0, 1))
+    }
+
     /// Highest nodal temperature [K].
     pub fn max_temperature(&self, temperatures: &Temperatures) -> f64 {
         let mut highest = f64::NEG_INFINITY;
@@ -399,6 +416,7 @@ impl SolidFem {
                         fields.displacement.push(part.displacement[node_of(layer)]);
                         fields.stress.push(part.stress[node]);
                     }
+                    fields.plastic_strain.extend(deformation.plastic_strain.get(node));
                 }
             }
         }

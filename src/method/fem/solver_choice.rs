@@ -2,7 +2,6 @@
 
 use super::brick_solver::BrickSolver;
 use crate::material::Thermoelastic;
-use crate::method::mesh::Axis;
 use crate::method::mesh::{Geometry, Mesh};
 
 /// Entries of the factor of a solid mesh per unknown^(4/3), and of a meridian section per
@@ -33,9 +32,11 @@ const MOST_POISSON: f64 = 0.45;
 /// Ratio of Young's moduli of layers up to which they need up to half as many more: the preconditioner knows the layers
 /// of each component, not how they couple.
 const MOST_CONTRAST: f64 = 1e4;
-/// Ratio of lengths along x or y up to which linear bricks, whose enhanced strains the preconditioner knows on
-/// equal lengths only, need few.
-const MOST_GRADED: f64 = 50.0;
+/// Ratio of lengths along x and y that are equal to rounding.
+const EQUAL: f64 = 1.0 + 1e-6;
+/// Length along x or y over the least length up to which linear bricks on unequal lengths need few: the preconditioner
+/// knows their enhanced strains on equal lengths only, and misses more the flatter they are.
+const FLATTEST: f64 = 50.0;
 
 /// Whether a body is one for conjugate gradients.
 pub fn suits_conjugate_gradients(mesh: &Mesh, laws: &[Thermoelastic]) -> bool {
@@ -57,12 +58,6 @@ fn is_large_box(mesh: &Mesh) -> bool {
 }
 
 fn reason_for_factor(mesh: &Mesh, laws: &[Thermoelastic]) -> Option<&'static str> {
-    let is_even = |axis: &Axis| {
-        let lengths = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
-        let [least, most] =
-            lengths.fold([f64::INFINITY, 0.0_f64], |[l, m], h| [l.min(h), m.max(h)]);
-        most <= MOST_GRADED * least
-    };
     if laws.iter().any(|law| law.poisson > MOST_POISSON) {
         return Some("a Poisson's ratio above 0.45");
     }
@@ -71,8 +66,19 @@ fn reason_for_factor(mesh: &Mesh, laws: &[Thermoelastic]) -> Option<&'static str
     if most > MOST_CONTRAST * least {
         return Some("layers whose Young's moduli differ more than 1:10 000");
     }
-    let is_graded = mesh.order() == 1 && !mesh.axes[..2].iter().all(is_even);
-    is_graded.then_some("linear elements whose lengths along the surface differ more than 1:50")
+    let flat = "linear elements of unequal lengths, more than 50 times as long as thick; `order = 2` would take few";
+    (mesh.order() == 1 && is_unequal_and_flat(mesh)).then_some(flat)
+}
+
+fn is_unequal_and_flat(mesh: &Mesh) -> bool {
+    let lengths = mesh.axes.each_ref().map(|axis| {
+        let lengths = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
+        lengths.fold([f64::INFINITY, 0.0_f64], |[least, most], h| [least.min(h), most.max(h)])
+    });
+    let [x, y, z] = lengths;
+    let longest = x[1].max(y[1]);
+    let is_unequal = [x, y].iter().any(|[least, most]| *most > EQUAL * least);
+    is_unequal && longest > FLATTEST * x[0].min(y[0]).min(z[0])
 }
 
 /// Memory that the solver of one symmetry class takes [B].

@@ -3,6 +3,7 @@
 //! Meshes and elements are those of [`crate::method::fem`]; where nothing yields, so are displacements. What points
 //! remember is part of a flat state, and a step that finds no equilibrium leaves it as it was.
 
+mod course;
 mod element;
 mod grid;
 mod newton;
@@ -13,5 +14,6 @@ mod ring;
 mod shapes;
 mod tangent;
 
+pub use course::Course;
 pub use newton::Progress;
 pub use problem::{InelasticError, InelasticProblem, PointState, StateLayout};

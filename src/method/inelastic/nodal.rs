@@ -86,15 +86,15 @@ impl InelasticProblem {
         Ok(out)
     }
 
-    /// Accumulated plastic strain at the nodes, those on interfaces between layers twice [1].
+    /// Accumulated plastic strain at the nodes, those on interfaces between layers twice [1]. Where it falls to nothing
+    /// within an element, polynomials go below zero.
     pub fn nodal_plastic_strain(&self, state: &[f64]) -> Vec<f64> {
         let histories = state[self.layout().history].chunks_exact(History::LEN);
         let values: Vec<f64> =
             histories.map(|history| History::read(history).accumulated).collect();
         // Even, as xx is.
         let beyond = [0, 1].map(|axis| self.beyond(axis, 0));
-        // Where it falls to nothing, polynomials go below.
-        recover(&self.mesh, &values, beyond).into_iter().map(|p| p.max(0.0)).collect()
+        recover(&self.mesh, &values, beyond)
     }
 
     /// What lies beyond the low end of x or y for a component of stress.

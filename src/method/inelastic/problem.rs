@@ -1,9 +1,11 @@
 //! The problem of a body: what is known before time starts, and steps from one state to the next.
 
+use std::sync::Arc;
+
 use super::grid::{Grid, Iterate};
 use super::newton::{Progress, Step};
 use super::tangent::TangentSolver;
-use crate::material::{Elastoplastic, History, PointConstants};
+use crate::material::{FlowLaw, History, PointConstants};
 use crate::math::address_space;
 use crate::math::cholesky::SolverError;
 use crate::math::parallel::Team;
@@ -26,6 +28,10 @@ pub enum InelasticError {
          is wanted"
     )]
     NoEquilibrium { iterations: usize, residual: f64, tolerance: f64 },
+    #[error(
+        "{steps} inner steps of creep came no further than {done:e} s (allowed: shorter communication steps)"
+    )]
+    TooFast { steps: usize, done: f64 },
     #[error(transparent)]
     Solver(#[from] SolverError),
 }
@@ -66,7 +72,7 @@ pub struct PointState {
 /// Where an axis of the mesh is mirrored, what drives the body must be even about that plane.
 pub struct InelasticProblem {
     pub(super) mesh: Mesh,
-    laws: Vec<Elastoplastic>,
+    laws: Vec<Arc<dyn FlowLaw>>,
     pub(super) grid: Grid,
     solver: TangentSolver,
     threads: usize,
@@ -76,10 +82,11 @@ impl InelasticProblem {
     /// `laws` are those of the layers of elements along z, from the bottom, or one for all of them.
     pub fn new(
         mesh: &Mesh,
-        laws: Vec<Elastoplastic>,
+        laws: Vec<impl Into<Arc<dyn FlowLaw>>>,
         supports: &[(MeshFace, Support)],
         threads: usize,
     ) -> Result<Self, InelasticError> {
+        let laws: Vec<Arc<dyn FlowLaw>> = laws.into_iter().map(Into::into).collect();
         let layers = mesh.element_counts()[2];
         if laws.len() != 1 && laws.len() != layers {
             let what = "the list of laws";
@@ -89,6 +96,11 @@ impl InelasticProblem {
         let reference = reference(&laws)?;
         let solver = aside(|| TangentSolver::new(mesh, &reference, supports, &Team::new(threads)));
         Ok(Self { mesh: mesh.clone(), laws, grid, solver, threads })
+    }
+
+    /// Whether a part of the body creeps.
+    pub fn creeps(&self) -> bool {
+        self.laws.iter().any(|law| law.creeps())
     }
 
     pub fn layout(&self) -> StateLayout {
@@ -111,7 +123,7 @@ impl InelasticProblem {
     /// What a step takes, at most, besides the state [B].
     pub fn memory(&self) -> f64 {
         // Constants, tangents twice, histories new and old; of linear bricks the triangle of a matrix.
-        const POINT: f64 = 8.0 * (6.0 + 2.0 * 9.0 + 2.0 * History::LEN as f64);
+        const POINT: f64 = 8.0 * (8.0 + 2.0 * 9.0 + 2.0 * History::LEN as f64);
         // Vectors of Newton's method and of conjugate gradients.
         const VECTORS: f64 = 24.0;
         let unknowns = self.grid.unknowns() as f64;
@@ -128,16 +140,28 @@ impl InelasticProblem {
             + 8.0 * (VECTORS * unknowns + triangles * self.grid.elements() as f64 + factor)
     }
 
-    /// Advances a state to equilibrium at nodal temperatures [K] under nodal forces [N], laid out as displacements are;
-    /// an empty list of forces stands for none.
-    ///
-    /// The path between the last state and this one is straight at every point. Where no equilibrium is found, as
-    /// under forces that a body cannot bear, the state is left as it was.
+    /// Advances a state to equilibrium at nodal temperatures [K] under nodal forces [N] at once, see
+    /// [`Self::advance_over`].
     pub fn advance(
         &self,
         state: &mut [f64],
         temperatures: &[f64],
         forces: &[f64],
+    ) -> Result<Progress, InelasticError> {
+        self.advance_over(state, temperatures, forces, 0.0)
+    }
+
+    /// Advances a state by a duration [s] to equilibrium at nodal temperatures [K] under nodal forces [N], laid out as
+    /// displacements are; an empty list of forces stands for none.
+    ///
+    /// The path between the last state and this one is straight at every point. Where no equilibrium is found, as
+    /// under forces that a body cannot bear, the state is left as it was.
+    pub fn advance_over(
+        &self,
+        state: &mut [f64],
+        temperatures: &[f64],
+        forces: &[f64],
+        duration: f64,
     ) -> Result<Progress, InelasticError> {
         self.check(state, temperatures)?;
         let unknowns = self.grid.unknowns();
@@ -146,7 +170,7 @@ impl InelasticProblem {
             return Err(InelasticError::Length { what, given: forces.len(), wanted: unknowns });
         }
         address_space::expect(self.memory() as usize).map_err(SolverError::from)?;
-        aside(|| self.advance_here(state, temperatures, forces))
+        aside(|| self.advance_here(state, temperatures, forces, duration))
     }
 
     fn advance_here(
@@ -154,9 +178,10 @@ impl InelasticProblem {
         state: &mut [f64],
         temperatures: &[f64],
         forces: &[f64],
+        duration: f64,
     ) -> Result<Progress, InelasticError> {
         let team = Team::new(self.threads);
-        let constants = self.constants(temperatures, &team)?;
+        let constants = self.constants(temperatures, duration, &team)?;
         let layout = self.layout();
         let mut iterate = self.iterate(state);
         let load = match forces.is_empty() {
@@ -209,14 +234,15 @@ impl InelasticProblem {
         iterate
     }
 
-    pub(super) fn law(&self, layer: usize) -> &Elastoplastic {
-        if self.laws.len() == 1 { &self.laws[0] } else { &self.laws[layer] }
+    fn law(&self, layer: usize) -> &dyn FlowLaw {
+        if self.laws.len() == 1 { &*self.laws[0] } else { &*self.laws[layer] }
     }
 
-    /// Constants of all points.
-    fn constants(
+    /// Constants of all points over a step [s].
+    pub(super) fn constants(
         &self,
         temperatures: &[f64],
+        duration: f64,
         team: &Team,
     ) -> Result<Vec<PointConstants>, InelasticError> {
         let shapes = &self.grid.kit.shapes;
@@ -229,7 +255,7 @@ impl InelasticProblem {
                     self.grid.nodes_of(place).map(|node| temperatures[node]).collect();
                 shapes.interpolate(&nodal, &mut at);
                 for &temperature in &at {
-                    let constants = self.law(layer).at(temperature);
+                    let constants = self.law(layer).over_step(temperature, duration);
                     out.push(constants.ok_or(InelasticError::Constants { layer, temperature })?);
                 }
             }
@@ -250,7 +276,7 @@ impl InelasticProblem {
     ) -> Result<Vec<PointState>, InelasticError> {
         self.check(state, temperatures)?;
         let team = Team::new(self.threads);
-        let constants = self.constants(temperatures, &team)?;
+        let constants = self.constants(temperatures, 0.0, &team)?;
         let iterate = self.iterate(state);
         let history = &state[self.layout().history];
         Ok(self.grid.read(&team, &constants, history, &iterate))
@@ -286,11 +312,13 @@ impl InelasticProblem {
 }
 
 /// Constants that stand for those of all layers: their means at the temperatures without stress.
-fn reference(laws: &[Elastoplastic]) -> Result<PointConstants, InelasticError> {
+fn reference(laws: &[Arc<dyn FlowLaw>]) -> Result<PointConstants, InelasticError> {
     let mut sum: Option<PointConstants> = None;
     for (layer, law) in laws.iter().enumerate() {
-        let temperature = law.stress_free_temperature;
-        let own = law.at(temperature).ok_or(InelasticError::Constants { layer, temperature })?;
+        let temperature = law.stress_free_temperature();
+        let own = law
+            .over_step(temperature, 0.0)
+            .ok_or(InelasticError::Constants { layer, temperature })?;
         let (bulk, shear) = sum.map_or((0.0, 0.0), |sum| (sum.bulk, sum.shear));
         sum = Some(PointConstants { bulk: bulk + own.bulk, shear: shear + own.shear, ..own });
     }

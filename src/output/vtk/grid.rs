@@ -15,8 +15,7 @@ pub fn write_grid(out: impl Write, time: f64, fields: &NodalFields) -> io::Resul
     let [von_mises, max_principal] = invariants(&fields.stress);
     let time = [time];
     let time = Array::scalar("TimeValue", "s", &time);
-    let NodalFields { temperature, displacement, stress, .. } = fields;
-    let points = point_arrays(temperature, displacement, stress, [&von_mises, &max_principal]);
+    let points = point_arrays(fields, [&von_mises, &max_principal]);
     let axes: Vec<Array> =
         AXES.iter().zip(&fields.axes).map(|(name, axis)| Array::scalar(name, "m", axis)).collect();
     let extent = extent(fields);
@@ -36,17 +35,16 @@ pub fn invariants(stress: &[[f64; 6]]) -> [Vec<f64>; 2] {
 
 /// The arrays at the nodes; mechanical ones where mechanics is modelled.
 pub fn point_arrays<'a>(
-    temperature: &'a [f64],
-    displacement: &'a [[f64; 3]],
-    stress: &'a [[f64; 6]],
+    fields: &'a NodalFields,
     [von_mises, max_principal]: [&'a [f64]; 2],
 ) -> Vec<Array<'a>> {
     let all = [
-        ("temperature", "K", &[""][..], temperature),
-        ("displacement", "m", &AXES, displacement.as_flattened()),
-        ("stress", "Pa", &STRESSES, stress.as_flattened()),
+        ("temperature", "K", &[""][..], &fields.temperature[..]),
+        ("displacement", "m", &AXES, fields.displacement.as_flattened()),
+        ("stress", "Pa", &STRESSES, fields.stress.as_flattened()),
         ("von_mises", "Pa", &[""], von_mises),
         ("max_principal", "Pa", &[""], max_principal),
+        ("plastic_strain", "1", &[""], &fields.plastic_strain),
     ];
     all.into_iter()
         .filter(|(.., values)| !values.is_empty())
@@ -77,6 +75,7 @@ mod tests {
             temperature: (0..count).map(|i| 300.0 + value(i, 0)).collect(),
             displacement: (0..count).map(|i| [0, 1, 2].map(|c| 1e-9 * value(i, c))).collect(),
             stress: (0..count).map(|i| [0, 1, 2, 3, 4, 5].map(|c| 1e6 * value(i, c))).collect(),
+            plastic_strain: (0..count).map(|i| 1e-3 * value(i, 0)).collect(),
         }
     }
 
@@ -104,6 +103,7 @@ mod tests {
         let largest = fields.stress.iter().map(|&stress| max_principal(stress));
         assert_eq!(read.arrays["max_principal"].1, largest.collect::<Vec<_>>());
         assert_eq!(read.arrays["von_mises"].1.len(), fields.temperature.len());
+        assert_eq!(read.arrays["plastic_strain"].1, fields.plastic_strain);
         assert!(bytes.ends_with(b"</AppendedData>\n</VTKFile>"));
     }
 
@@ -112,6 +112,7 @@ mod tests {
         let mut fields = fields([vec![0.0, 1.0], vec![0.0, 1.0], vec![-0.1, 0.0]]);
         fields.displacement.clear();
         fields.stress.clear();
+        fields.plastic_strain.clear();
         let read = read(&written(&fields));
         let names: Vec<_> = read.arrays.keys().map(String::as_str).collect();
         assert_eq!(names, ["TimeValue", "temperature", "x", "y", "z"]);

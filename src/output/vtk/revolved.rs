@@ -19,15 +19,10 @@ const SECTORS: usize = 24;
 /// Writes the fields of a disc at `time` [s].
 pub fn write_revolved(out: impl Write, time: f64, fields: &NodalFields) -> io::Result<()> {
     let whole = revolved(fields);
-    let [von_mises, max_principal] = invariants(&whole.stress);
+    let [von_mises, max_principal] = invariants(&whole.fields.stress);
     let time = [time];
     let time = Array::scalar("TimeValue", "s", &time);
-    let points = point_arrays(
-        &whole.temperature,
-        &whole.displacement,
-        &whole.stress,
-        [&von_mises, &max_principal],
-    );
+    let points = point_arrays(&whole.fields, [&von_mises, &max_principal]);
     let places = [Array {
         name: "position",
         unit: "m",
@@ -49,9 +44,8 @@ struct Revolved {
     /// Along the radius and z.
     counts: [usize; 2],
     position: Vec<[f64; 3]>,
-    temperature: Vec<f64>,
-    displacement: Vec<[f64; 3]>,
-    stress: Vec<[f64; 6]>,
+    /// Values there.
+    fields: NodalFields,
 }
 
 /// The section at all angles; the index along the radius runs fastest, then that of the angle, then z.
@@ -63,27 +57,23 @@ fn revolved(fields: &NodalFields) -> Revolved {
         let angle = TAU * (sector % SECTORS) as f64 / SECTORS as f64;
         (angle.cos(), angle.sin())
     };
-    let mut all = Revolved {
-        counts,
-        position: Vec::new(),
-        temperature: Vec::new(),
-        displacement: Vec::new(),
-        stress: Vec::new(),
-    };
+    let mut position = Vec::new();
+    let mut all = NodalFields::default();
     for (k, &z) in heights.iter().enumerate() {
         for (cos, sin) in (0..=SECTORS).map(angle) {
             for (i, &r) in radii.iter().enumerate() {
                 let node = k * counts[0] + i;
-                all.position.push([r * cos, r * sin, z]);
+                position.push([r * cos, r * sin, z]);
                 all.temperature.push(fields.temperature[node]);
                 if let Some(&[u, v, w]) = fields.displacement.get(node) {
                     all.displacement.push([cos * u - sin * v, sin * u + cos * v, w]);
                 }
                 all.stress.extend(fields.stress.get(node).map(|stress| turned(*stress, cos, sin)));
+                all.plastic_strain.extend(fields.plastic_strain.get(node));
             }
         }
     }
-    all
+    Revolved { counts, position, fields: all }
 }
 
 /// Components along x, y, z of a stress rr, tt, zz, rt, tz, rz at an angle to the x axis: σ' = R σ Rᵀ.
@@ -110,6 +100,7 @@ mod tests {
             temperature: (0..6).map(|i| 300.0 + f64::from(i)).collect(),
             displacement: (0..6).map(|i| [f64::from(i), 0.0, -1.0]).collect(),
             stress: vec![[5.0, 3.0, 1.0, 0.0, 0.0, 2.0]; 6],
+            plastic_strain: Vec::new(),
         };
         let mut bytes = Vec::new();
         write_revolved(&mut bytes, 2.5e-6, &fields).unwrap();

@@ -5,6 +5,7 @@ use super::{Checker, fits, number};
 use crate::scene::droplet::{Coupling, Droplet};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
+use crate::scene::lookup::split_place;
 use crate::scene::types::{FaceName, Shape, Solid};
 
 pub fn check(checker: &mut Checker) {
@@ -42,10 +43,21 @@ fn check_droplet(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
     }
 }
 
-/// A contact of two solids.
+/// A contact of two solids, or of a solid and a reservoir.
 fn check_contact(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupling) {
-    let lower = checker.face(&path.at("from"), &coupling.from, |_| vec![FaceName::Top]);
-    let upper = checker.face(&path.at("to"), &coupling.to, |_| vec![FaceName::Bottom]);
+    let below = on_reservoir(checker, &path.at("from"), &coupling.from, FaceName::Top);
+    let above = on_reservoir(checker, &path.at("to"), &coupling.to, FaceName::Bottom);
+    if below && above {
+        let message = "two reservoirs have no area in common";
+        checker.refuse(&path.at("to"), message, "the bottom of a solid");
+        return;
+    }
+    let from = path.at("from");
+    let lower =
+        if below { None } else { checker.face(&from, &coupling.from, |_| vec![FaceName::Top]) };
+    let to = path.at("to");
+    let upper =
+        if above { None } else { checker.face(&to, &coupling.to, |_| vec![FaceName::Bottom]) };
     if coupling.conductance.is_none() {
         let message = "a contact of two solids needs its `conductance`";
         checker.refuse(path, message, "conductance = 5e3, in W/(m2 K), say");
@@ -82,6 +94,19 @@ fn check_contact(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
             checker.refuse(&path.at("to"), message, "another solid");
         }
     }
+}
+
+/// Whether an end of a contact is on a reservoir, at its top if it is below and at its bottom if it is above; any number
+/// of solids may touch it there.
+fn on_reservoir(checker: &mut Checker, path: &Path, place: &str, face: FaceName) -> bool {
+    let Some((body, found)) = split_place(place) else { return false };
+    if checker.scene.reservoir(body).is_none() {
+        return false;
+    }
+    let allowed = format!("{body}.{}", face.as_str());
+    let message = "what is below is touched at its top, what is above at its bottom";
+    checker.require(found == face, path, message, allowed);
+    true
 }
 
 /// Whether an earlier contact of solids has this face.

@@ -1,6 +1,6 @@
 //! Whether fields lie on a face or section of their bodies and give something.
 
-use super::{Checker, fits, is_in_depth, number};
+use super::{Checker, fits, is_in_depth, number, probe};
 use crate::scene::grid::{Grid, lateral_extents, section_size};
 use crate::scene::locate::Path;
 use crate::scene::lookup::Place;
@@ -12,6 +12,10 @@ pub fn check(checker: &mut Checker) {
         checker.distinct(&path.at("gives"), &field.gives);
         let is_fine = checker.is_fine(&path.at("grid")) && checker.is_fine(&path.at("size"));
         let place = place(checker, &path, field);
+        if let Some((_, solid)) = place {
+            let body = field.body().unwrap_or_default();
+            probe::yields(checker, &path.at("gives"), &field.gives, (body, solid));
+        }
         if let Some((place, solid)) = place.filter(|_| is_fine) {
             extent(checker, &path.at("size"), &Grid::at(place, field, &solid.shape), &solid.shape);
         }

@@ -9,6 +9,7 @@ pub fn check(checker: &mut Checker) {
     for (i, load) in checker.scene.load.iter().enumerate() {
         let path = Path::default().key("load").index(i);
         checker.distinct(&path.at("carries"), &load.carries);
+        ring(checker, &path.at("footprint.ring"), &load.footprint);
         start::check(checker, &path, load);
         let lengths_are_fine =
             ["footprint", "start", "range"].iter().all(|key| checker.is_fine(&path.key(key)));
@@ -28,6 +29,19 @@ pub fn check(checker: &mut Checker) {
 
 fn loaded_faces(_: &Shape) -> Vec<FaceName> {
     vec![FaceName::Top, FaceName::Bottom]
+}
+
+/// Inner radius of a ring over its outer one, at most: it is the difference of two discs.
+const WIDEST_HOLE: f64 = 0.999;
+
+fn ring(checker: &mut Checker, path: &Path, footprint: &Footprint) {
+    let Footprint::Ring { inner, outer } = *footprint else { return };
+    if checker.is_fine(path) {
+        let most = WIDEST_HOLE * outer;
+        let allowed = format!("0 < inner <= {}", number(most));
+        let message = "the ring is thinner than it can be told";
+        checker.require(fits(inner, most), &path.at("inner"), message, allowed);
+    }
 }
 
 /// What a face is held at, it does not take from a load: it would leave again at once.
@@ -58,9 +72,9 @@ fn axisymmetry(checker: &mut Checker, path: &Path, load: &Load) {
     let footprint = &load.footprint;
     if let Footprint::Tiles { .. } = footprint {
         let message = "a disc is modelled axisymmetric, which tiles are not";
-        checker.refuse(&path.at("footprint.tiles"), message, "disc, gaussian, rings");
+        checker.refuse(&path.at("footprint.tiles"), message, "disc, gaussian, ring, rings");
     }
-    if !matches!(footprint, Footprint::Rings { .. })
+    if !footprint.shears_outward()
         && let Some(i) = load.carries.iter().position(|carries| *carries == Carries::Shear)
     {
         let message = "a disc is modelled axisymmetric, which shear along x or y is not";
@@ -83,12 +97,11 @@ fn fineness(checker: &mut Checker, path: &Path, load: &Load, solid: &Solid) {
     let [x, y] = lateral_extents(&solid.shape);
     let least = x.max(y) / (0.1 * MOST_ELEMENTS);
     let (key, smallest) = match (load.footprint, load.range.radius) {
-        (Footprint::Rings { count, radius }, None) => ("footprint", radius / count as f64),
-        (Footprint::Tiles { count, size }, _) => {
-            ("footprint", (0..2).map(|a| size[a] / count[a] as f64).fold(f64::INFINITY, f64::min))
+        (Footprint::Rings { .. }, Some([lowest, _])) => ("range.radius", lowest),
+        (footprint, Some([lowest, _])) if footprint.radius().is_some() => {
+            ("range.radius", footprint.finest(Some(lowest)))
         }
-        (_, Some([lowest, _])) => ("range.radius", lowest),
-        (_, None) => ("footprint", load.footprint.radius().unwrap_or(f64::INFINITY)),
+        (footprint, _) => ("footprint", footprint.finest(None)),
     };
     let fine = solid.mesh.spacing.is_some() || smallest >= least;
     let message = format!("a part of this footprint is only {} m wide", number(smallest));
@@ -144,14 +157,10 @@ fn reaches(load: &Load, shape: &Shape) -> Vec<Reach> {
 
 /// Extent of a footprint to both sides of its centre, at the start and at most [m].
 fn half_extents(load: &Load, axis: usize) -> (f64, f64) {
-    match load.footprint {
-        Footprint::Tiles { size, .. } => (size[axis] / 2.0, size[axis] / 2.0),
-        Footprint::Disc { radius }
-        | Footprint::Gaussian { radius }
-        | Footprint::Rings { radius, .. } => {
-            let start = load.start.radius.unwrap_or(radius);
-            (start, load.range.radius.map_or(start, |[_, most]| most.max(start)))
-        }
+    let start = load.footprint.half_extents(load.start.radius)[axis];
+    match (load.footprint.radius(), load.range.radius) {
+        (Some(_), Some([_, most])) => (start, most.max(start)),
+        _ => (start, start),
     }
 }
 
@@ -173,15 +182,12 @@ impl Reach {
     }
 
     fn key_of_start(&self, load: &Load) -> String {
-        let name = load.footprint.name();
         if self.start != 0.0 && fits(self.half_start, self.half) {
             format!("start.{}", self.axis)
         } else if load.start.radius.is_some() {
             "start.radius".to_owned()
-        } else if load.footprint.radius().is_some() {
-            format!("footprint.{name}.radius")
         } else {
-            format!("footprint.{name}.size")
+            format!("footprint.{}.{}", load.footprint.name(), load.footprint.key_of_extent())
         }
     }
 }

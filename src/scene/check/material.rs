@@ -50,6 +50,11 @@ fn yields(checker: &mut Checker, path: &Path, material: &Material) {
         ("isotropic_hardening", law.isotropic_hardening.is_some()),
         ("kinematic_hardening", law.kinematic_hardening.is_some()),
     ];
+    if !matches!(material, Material::Viscoplastic(_)) {
+        let message = "only a viscoplastic material creeps";
+        let allowed = "model = \"viscoplastic\", or no such key";
+        checker.require(law.creep.is_none(), &path.key("creep"), message, allowed);
+    }
     match material {
         Material::Thermoelastic(_) => {
             for (key, _) in given.iter().filter(|(_, given)| *given) {
@@ -71,6 +76,12 @@ fn yields(checker: &mut Checker, path: &Path, material: &Material) {
                 allowed,
             );
             elasticity(checker, path, law, "an elastoplastic material deforms");
+        }
+        Material::Viscoplastic(_) => {
+            let message = "the key `creep` is missing";
+            let allowed = "creep = { coefficient = A, exponent = n }";
+            checker.require(law.creep.is_some(), &path.key("creep"), message, allowed);
+            elasticity(checker, path, law, "a viscoplastic material deforms");
         }
     }
 }

@@ -11,6 +11,7 @@ mod material;
 mod nonlinear;
 mod load;
 mod probe;
+mod reservoir;
 mod start;
 mod support;
 mod values;
@@ -26,7 +27,7 @@ use super::locate::{Path, Source};
 use super::lookup::split_place;
 use super::schema::Schema;
 use super::spelling::hint;
-use super::types::{FaceName, Scene, Shape, Solid};
+use super::types::{Body, FaceName, Scene, Shape, Solid};
 
 /// Elements along an axis of a mesh at most, were it as fine throughout as in its finest place.
 const MOST_ELEMENTS: f64 = 1e6;
@@ -41,6 +42,7 @@ pub fn check(scene: &Scene, source: &Source, schema: &Schema) -> Result<(), Scen
     header::check(&mut checker);
     body::check(&mut checker);
     droplet::check(&mut checker);
+    reservoir::check(&mut checker);
     load::check(&mut checker);
     probe::check(&mut checker);
     field::check(&mut checker);
@@ -145,12 +147,15 @@ impl<'a> Checker<'a> {
 
     /// What to say of a body that a solid's name was expected for.
     fn not_a_solid(&self, body: &str, otherwise: String) -> String {
-        match self.scene.droplet(body) {
-            Some(_) => format!(
+        match self.scene.body.get(body) {
+            Some(Body::Reservoir(_)) => format!(
+                "`{body}` is a reservoir, whose values are outputs by themselves and which touches solids alone"
+            ),
+            Some(Body::Droplet(_)) => format!(
                 "`{body}` is a droplet, on which nothing else acts and whose values are outputs by \
                  themselves"
             ),
-            None => otherwise,
+            _ => otherwise,
         }
     }
 

@@ -3,7 +3,7 @@
 use super::{Checker, fits, is_in_depth, number};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::types::{Disc, Probe, Shape, Solid};
+use crate::scene::types::{Disc, Gives, Probe, Shape, Solid};
 
 pub fn check(checker: &mut Checker) {
     for (i, probe) in checker.scene.probe.iter().enumerate() {
@@ -12,7 +12,17 @@ pub fn check(checker: &mut Checker) {
         if let Some(solid) = checker.body(&path.at("in"), &probe.body) {
             place(checker, &path.at("at"), probe, &solid.shape);
             side(checker, &path.at("side"), probe, solid);
+            yields(checker, &path.at("gives"), &probe.gives, (&probe.body, solid));
         }
+    }
+}
+
+/// Only what yields has plastic strain.
+pub fn yields(checker: &mut Checker, path: &Path, gives: &[Gives], (name, solid): (&str, &Solid)) {
+    let place = gives.iter().position(|gives| *gives == Gives::PlasticStrain);
+    if let Some(place) = place.filter(|_| !solid.yields()) {
+        let message = format!("no part of `{name}` yields");
+        checker.refuse(&path.index(place), message, "what a body without a yield stress gives");
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::{Checker, number};
 use crate::scene::locate::Path;
-use crate::scene::types::{Carries, CellShape, CellValues, Footprint, Load};
+use crate::scene::types::{Carries, CellShape, CellValues, Load};
 
 pub fn check(checker: &mut Checker, path: &Path, load: &Load) {
     amounts(checker, &path.at("start"), load);
@@ -33,24 +33,23 @@ fn amounts(checker: &mut Checker, path: &Path, load: &Load) {
 
 /// The keys of start values that go with what the load carries.
 fn carried_keys(load: &Load) -> String {
-    let keys = load.carries.iter().map(|carries| match (carries, &load.footprint) {
-        (Carries::HeatFlux, _) => "heat_flux",
-        (Carries::Pressure, _) => "pressure",
-        (Carries::Shear, Footprint::Rings { .. }) => "shear_r",
-        (Carries::Shear, _) => "shear_x, shear_y",
+    let keys = load.carries.iter().map(|carries| match carries {
+        Carries::HeatFlux => "heat_flux",
+        Carries::Pressure => "pressure",
+        Carries::Shear if load.footprint.shears_outward() => "shear_r",
+        Carries::Shear => "shear_x, shear_y",
     });
     keys.collect::<Vec<_>>().join(", ")
 }
 
 /// Shear is radial on rings and along x and y elsewhere.
 fn direction(checker: &mut Checker, path: &Path, load: &Load, key: &str) -> bool {
-    match (&load.footprint, key) {
-        (Footprint::Rings { .. }, "shear_x" | "shear_y") => {
+    match (load.footprint.shears_outward(), key) {
+        (true, "shear_x" | "shear_y") => {
             checker.refuse(path, "shear on rings is radial", "shear_r");
             false
         }
-        (Footprint::Rings { .. }, _) => true,
-        (_, "shear_r") => {
+        (false, "shear_r") => {
             checker.refuse(path, "only shear on rings is radial", "shear_x, shear_y");
             false
         }

@@ -15,6 +15,7 @@ use toml::de::{DeFloat, DeValue};
 use super::droplet::Droplet;
 use super::error::{Problem, SceneError};
 use super::locate::{Path, Source};
+use super::reservoir::Reservoir;
 use super::schema::Schema;
 use super::spelling::hint;
 use super::types::{Body, Scene, Solid};
@@ -63,7 +64,7 @@ impl Decoder<'_> {
 
     /// Reads the table of a material, whatever its model.
     fn read_material(&mut self, path: &Path) {
-        for model in ["thermoelastic", "elastoplastic"] {
+        for model in ["thermoelastic", "elastoplastic", "viscoplastic"] {
             self.read_if::<Properties>(path, "model", model);
         }
     }
@@ -116,6 +117,7 @@ impl Decoder<'_> {
             }
             self.read_if::<Solid>(&body, "kind", "solid");
             self.read_if::<Droplet>(&body, "kind", "droplet");
+            self.read_if::<Reservoir>(&body, "kind", "reservoir");
         }
     }
 

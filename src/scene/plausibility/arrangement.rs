@@ -6,7 +6,7 @@ use crate::scene::check::number;
 use crate::scene::droplet::{Arrival, Coupling, Droplet};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::types::{Footprint, Load, Mesh, Solid};
+use crate::scene::types::{Load, Mesh, Solid};
 
 /// Fewest distances of nodes over the radius of a spot or half the size of tiles.
 const NODES_PER_RADIUS: f64 = 2.0;
@@ -146,18 +146,13 @@ fn distance(spacing: f64, solid: &Solid) -> f64 {
 fn seen(reviewer: &mut Reviewer, path: &Path, load: &Load) {
     let Some(solid) = reviewer.scene.solid(load.body_and_face().0) else { return };
     let Some(spacing) = solid.mesh.spacing.map(|spacing| distance(spacing, solid)) else { return };
-    let (key, size) = match load.footprint {
-        Footprint::Tiles { size, .. } => {
-            ("footprint.tiles.size".to_owned(), 0.5 * size[0].min(size[1]))
-        }
-        Footprint::Disc { radius }
-        | Footprint::Gaussian { radius }
-        | Footprint::Rings { radius, .. } => match (load.range.radius, load.start.radius) {
-            (Some([lowest, _]), _) => ("range.radius".to_owned(), lowest),
-            (None, Some(start)) => ("start.radius".to_owned(), start),
-            _ => (format!("footprint.{}.radius", load.footprint.name()), radius),
-        },
+    let footprint = &load.footprint;
+    let (key, radius) = match (load.range.radius, load.start.radius) {
+        (Some([lowest, _]), _) => ("range.radius".to_owned(), Some(lowest)),
+        (None, Some(start)) => ("start.radius".to_owned(), Some(start)),
+        _ => (format!("footprint.{}.{}", footprint.name(), footprint.key_of_extent()), None),
     };
+    let size = footprint.half_width(radius);
     if size < NODES_PER_RADIUS * spacing {
         let message = format!(
             "the mesh does not see a load this small: nodes are {} m apart; did you mean a \

@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 26] = [
+pub const SECTIONS: [(&str, &str); 28] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -13,6 +13,7 @@ pub const SECTIONS: [(&str, &str); 26] = [
     ("`shape.disc`", "/$defs/Disc"),
     ("`material` of a solid", "/$defs/Material"),
     ("`melting` of a material", "/$defs/Melting"),
+    ("`creep` of a material", "/$defs/Creep"),
     ("`layers` of a solid", "/$defs/Layer"),
     ("`sph` of a solid", "/$defs/SphSettings"),
     ("`mesh` of a solid", "/$defs/Mesh"),
@@ -22,6 +23,7 @@ pub const SECTIONS: [(&str, &str); 26] = [
     ("`[body.NAME]` of a droplet", "/$defs/Body/oneOf/1"),
     ("`fluid` of a droplet", "/$defs/Fluid"),
     ("`arrivals` of a droplet", "/$defs/Arrival"),
+    ("`[body.NAME]` of a reservoir", "/$defs/Body/oneOf/2"),
     ("`[[load]]`", "/$defs/Load"),
     ("`footprint` of a load or wall", "/$defs/Footprint"),
     ("`start` of a load", "/$defs/LoadStart"),

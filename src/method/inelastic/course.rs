@@ -1,0 +1,122 @@
+//! Bodies that creep: steps in time that are cut until each errs little.
+//!
+//! Implicit Euler steps err by half of what the rate of flow changes over them times their length. A step is taken where
+//! that is at most a part of the largest elastic strain so far, and the next one is chosen by it. Over the whole,
+//! temperatures and forces go straight on.
+
+use super::problem::{InelasticError, InelasticProblem};
+use crate::material::History;
+use crate::material::stress::von_mises;
+use crate::math::parallel::Team;
+
+/// What acts over a time.
+#[derive(Debug, Clone, Copy)]
+pub struct Course<'a> {
+    /// Of nodes at the beginning and at the end [K].
+    pub temperatures: [&'a [f64]; 2],
+    /// On nodes at the beginning and at the end [N].
+    pub forces: [&'a [f64]; 2],
+    /// [s]
+    pub duration: f64,
+    /// What an inner step may err by, over the largest elastic strain.
+    pub tolerance: f64,
+}
+
+/// Inner steps that a step is given.
+const MOST_STEPS: usize = 10_000;
+/// Shortest of them, over the whole.
+const LEAST_PART: f64 = 1e-24;
+/// Elastic strain below which there is no need to know it [1].
+const LEAST_STRAIN: f64 = 1e-6;
+/// Bounds of the ratio of lengths of two steps, and a margin.
+const LEAST_RATIO: f64 = 0.1;
+const MOST_RATIO: f64 = 4.0;
+const MARGIN: f64 = 0.9;
+
+impl InelasticProblem {
+    /// Advances a state along a course: bodies that do not creep at once to its end, others in as many inner steps as
+    /// the tolerance takes.
+    pub fn advance_along(&self, state: &mut [f64], course: &Course) -> Result<(), InelasticError> {
+        if !self.creeps() || course.duration <= 0.0 {
+            let advanced = self.advance(state, course.temperatures[1], course.forces[1]);
+            return advanced.map(drop);
+        }
+        let mut now = state.to_vec();
+        // What has changed since the last step does so at once.
+        self.advance(&mut now, course.temperatures[0], course.forces[0])?;
+        let (mut done, mut part) = (0.0, 1.0_f64);
+        let mut rates = self.rates(&now, course.temperatures[0])?;
+        let mut strain = rates.strain.max(LEAST_STRAIN);
+        let mut steps = 0;
+        while steps < MOST_STEPS {
+            steps += 1;
+            part = part.min(1.0 - done);
+            let end = if part < 1.0 - done { done + part } else { 1.0 };
+            let temperatures = between(course.temperatures, end);
+            let forces = between(course.forces, end);
+            let mut next = now.clone();
+            let length = part * course.duration;
+            match self.advance_over(&mut next, &temperatures, &forces, length) {
+                Ok(_) => {}
+                Err(InelasticError::NoEquilibrium { .. }) if part > LEAST_PART => {
+                    part *= LEAST_RATIO;
+                    continue;
+                }
+                Err(error) => return Err(error),
+            }
+            let ahead = self.rates(&next, &temperatures)?;
+            strain = strain.max(ahead.strain);
+            let error = self.error([&now, &next], &rates, length) / (course.tolerance * strain);
+            let ratio = if error > 0.0 { MARGIN / error.sqrt() } else { MOST_RATIO };
+            // An error that is no number is that of rates beyond numbers.
+            if error.is_nan() || error > 1.0 {
+                if part < LEAST_PART {
+                    break;
+                }
+                part *= if ratio.is_nan() { LEAST_RATIO } else { ratio.max(LEAST_RATIO) };
+                continue;
+            }
+            (now, rates, done) = (next, ahead, end);
+            if done >= 1.0 {
+                state.copy_from_slice(&now);
+                return Ok(());
+            }
+            part *= ratio.min(MOST_RATIO);
+        }
+        Err(InelasticError::TooFast { steps, done: done * course.duration })
+    }
+
+    /// How fast all points flow.
+    fn rates(&self, state: &[f64], temperatures: &[f64]) -> Result<Rates, InelasticError> {
+        let points = self.points(state, temperatures)?;
+        let constants = self.constants(temperatures, 1.0, &Team::new(1))?;
+        let pairs = || points.iter().zip(&constants);
+        let flow = pairs().map(|(point, own)| own.flow_at(&point.stress, &point.history)).collect();
+        let strains = pairs().map(|(point, own)| von_mises(point.stress) / (3.0 * own.shear));
+        Ok(Rates { flow, strain: strains.fold(0.0, f64::max) })
+    }
+
+    /// Largest error of a step's plastic strain.
+    fn error(&self, states: [&[f64]; 2], rates: &Rates, length: f64) -> f64 {
+        let layout = self.layout();
+        let [before, after] =
+            states.map(|state| state[layout.history.clone()].chunks_exact(History::LEN));
+        let of_point = |((old, new), rate): ((&[f64], &[f64]), &Option<f64>)| {
+            let grown = History::read(new).accumulated - History::read(old).accumulated;
+            rate.map_or(0.0, |rate| 0.5 * (grown - rate * length).abs())
+        };
+        before.zip(after).zip(&rates.flow).map(of_point).fold(0.0, f64::max)
+    }
+}
+
+/// Of all points.
+struct Rates {
+    /// ṗ [1/s]; nothing of what flows at once.
+    flow: Vec<Option<f64>>,
+    /// Largest elastic strain [1].
+    strain: f64,
+}
+
+fn between([start, end]: [&[f64]; 2], part: f64) -> Vec<f64> {
+    start.iter().zip(end).map(|(a, b)| a + part * (b - a)).collect()
+}

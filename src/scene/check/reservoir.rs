@@ -1,0 +1,16 @@
+//! Whether reservoirs have all that losing heat takes.
+
+use super::Checker;
+use crate::scene::locate::Path;
+
+pub fn check(checker: &mut Checker) {
+    for (name, reservoir) in checker.scene.reservoirs() {
+        let (key, message) = match (reservoir.conductance, reservoir.ambient) {
+            (Some(_), None) => ("conductance", "a reservoir loses heat to an `ambient`"),
+            (None, Some(_)) => ("ambient", "a reservoir loses heat by a `conductance`"),
+            _ => continue,
+        };
+        let path = Path::default().key("body").key(name).key(key);
+        checker.refuse(&path, message, "`conductance` and `ambient`, or neither");
+    }
+}

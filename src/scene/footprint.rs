@@ -1,0 +1,173 @@
+//! What others ask of a footprint: only here, in the scene's checks and for walls it is known which kinds there are.
+
+use super::types::{CellShape, Footprint};
+
+/// What a footprint with its values is made of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Profile {
+    /// A sum of uniform discs about its centre, the radius [m] and value of each; all radii grow in proportion.
+    Discs(Vec<(f64, f64)>),
+    /// The value at the centre, 1/e² of it at the radius.
+    Gaussian(f64),
+    /// As many rectangles over a size [m], a value each.
+    Tiles { count: [usize; 2], size: [f64; 2] },
+}
+
+impl Footprint {
+    /// The name as scenes write it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Footprint::Disc { .. } => "disc",
+            Footprint::Gaussian { .. } => "gaussian",
+            Footprint::Ring { .. } => "ring",
+            Footprint::Rings { .. } => "rings",
+            Footprint::Tiles { .. } => "tiles",
+        }
+    }
+
+    /// The key, below that name, of its extent.
+    pub fn key_of_extent(&self) -> &'static str {
+        match self {
+            Footprint::Disc { .. } | Footprint::Gaussian { .. } | Footprint::Rings { .. } => {
+                "radius"
+            }
+            Footprint::Ring { .. } => "outer",
+            Footprint::Tiles { .. } => "size",
+        }
+    }
+
+    /// What it is made of, where its outer radius is another than its own [m].
+    pub fn profile(&self, radius: f64, values: &[f64]) -> Profile {
+        match *self {
+            Footprint::Disc { .. } => Profile::Discs(vec![(radius, values[0])]),
+            Footprint::Gaussian { .. } => Profile::Gaussian(values[0]),
+            // As a beam out of focus the ring grows as a whole.
+            Footprint::Ring { inner, outer } => {
+                Profile::Discs(vec![(radius, values[0]), (radius * (inner / outer), -values[0])])
+            }
+            Footprint::Rings { count, .. } => Profile::Discs(discs_of_rings(count, radius, values)),
+            Footprint::Tiles { count, size } => Profile::Tiles { count, size },
+        }
+    }
+
+    /// Outer radius of round footprints [m].
+    pub fn radius(&self) -> Option<f64> {
+        match *self {
+            Footprint::Disc { radius }
+            | Footprint::Gaussian { radius }
+            | Footprint::Rings { radius, .. } => Some(radius),
+            Footprint::Ring { outer, .. } => Some(outer),
+            Footprint::Tiles { .. } => None,
+        }
+    }
+
+    /// Number of cells that have a value of their own, first index running along the first axis;
+    /// `None` for a single value without index.
+    pub fn cells(&self) -> Option<CellShape> {
+        match *self {
+            Footprint::Disc { .. } | Footprint::Gaussian { .. } | Footprint::Ring { .. } => None,
+            Footprint::Rings { count, .. } => Some(CellShape::Rings(count)),
+            Footprint::Tiles { count, .. } => Some(CellShape::Tiles(count)),
+        }
+    }
+
+    /// Whether shear on it is radial rather than along x and y.
+    pub fn shears_outward(&self) -> bool {
+        matches!(self, Footprint::Rings { .. })
+    }
+
+    /// Extents to both sides of its centre along x and y [m], where round ones have a radius other than their own.
+    pub fn half_extents(&self, radius: Option<f64>) -> [f64; 2] {
+        match *self {
+            Footprint::Tiles { size, .. } => size.map(|size| size / 2.0),
+            _ => [radius.or(self.radius()).unwrap_or_default(); 2],
+        }
+    }
+
+    /// Over its extents, those within which its load matters.
+    pub fn reach(&self) -> f64 {
+        if let Footprint::Gaussian { .. } = self { 1.5 } else { 1.0 }
+    }
+
+    /// Half of the least width of what it covers [m].
+    pub fn half_width(&self, radius: Option<f64>) -> f64 {
+        let [x, y] = self.half_extents(radius);
+        match *self {
+            Footprint::Ring { inner, outer } => 0.5 * x * (1.0 - inner / outer),
+            _ => x.min(y),
+        }
+    }
+
+    /// Least size of a cell [m].
+    pub fn finest(&self, radius: Option<f64>) -> f64 {
+        let [x, y] = self.half_extents(radius);
+        match *self {
+            Footprint::Disc { .. } | Footprint::Gaussian { .. } => x,
+            Footprint::Ring { inner, outer } => x * (1.0 - inner / outer),
+            Footprint::Rings { count, .. } => x / count as f64,
+            Footprint::Tiles { count: [nx, ny], .. } => {
+                (2.0 * x / nx as f64).min(2.0 * y / ny as f64)
+            }
+        }
+    }
+
+    /// Length on which a mesh is to see it, of radii between the least and the largest [m].
+    pub fn feature(&self, [least, largest]: [f64; 2]) -> f64 {
+        let part = |count: usize| (5.0 / count as f64).min(1.0);
+        match *self {
+            Footprint::Disc { .. } | Footprint::Gaussian { .. } => least,
+            Footprint::Ring { inner, outer } => least * (2.0 * (1.0 - inner / outer)).min(1.0),
+            Footprint::Rings { count, .. } => largest * part(count),
+            Footprint::Tiles { count, size } => {
+                (size[0] * part(count[0])).min(size[1] * part(count[1]))
+            }
+        }
+    }
+
+    /// For a table, lengths written by `metres`.
+    pub fn label(&self, metres: impl Fn(f64) -> String) -> String {
+        match *self {
+            Footprint::Disc { radius } => format!("disc, radius {}", metres(radius)),
+            Footprint::Gaussian { radius } => format!("gaussian, 1/e² radius {}", metres(radius)),
+            Footprint::Ring { inner, outer } => {
+                format!("ring, radii {} and {}", metres(inner), metres(outer))
+            }
+            Footprint::Rings { count, radius } => {
+                format!("{count} rings, radius {}", metres(radius))
+            }
+            Footprint::Tiles { count: [nx, ny], size } => {
+                format!("{nx} × {ny} tiles, {}", size.map(metres).join(" × "))
+            }
+        }
+    }
+
+    /// For a sentence.
+    pub fn words(&self, metres: impl Fn(f64) -> String) -> String {
+        match *self {
+            Footprint::Disc { radius } => format!("a disc of radius {}", metres(radius)),
+            Footprint::Gaussian { radius } => {
+                format!("a Gaussian spot that falls to 1/e² at {}", metres(radius))
+            }
+            Footprint::Ring { inner, outer } => {
+                format!("a ring from {} to {}", metres(inner), metres(outer))
+            }
+            Footprint::Rings { count, radius } => {
+                format!("{count} rings of equal width out to {}", metres(radius))
+            }
+            Footprint::Tiles { count: [nx, ny], size: [x, y] } => {
+                format!("{nx} × {ny} tiles over {} × {}", metres(x), metres(y))
+            }
+        }
+    }
+}
+
+/// The outer radius of each ring and the drop of the value there.
+fn discs_of_rings(count: usize, radius: f64, values: &[f64]) -> Vec<(f64, f64)> {
+    let width = radius / count as f64;
+    let disc = |i: usize| {
+        let next = values.get(i + 1).copied().unwrap_or(0.0);
+        let jump = values[i] - next;
+        (jump != 0.0).then_some(((i + 1) as f64 * width, jump))
+    };
+    (0..count).filter_map(disc).collect()
+}

@@ -1,0 +1,147 @@
+//! A ring is an outer disc less an inner one, whatever it carries and wherever it goes.
+
+use std::f64::consts::PI;
+
+use crate::common::{Trial, off};
+
+const ALUMINA: &str = "model = \"thermoelastic\", density = 3950.0, specific_heat = 900.0, conductivity = 30.0, \
+                       young = 300e9, poisson = 0.21, expansion = 8.1e-6";
+const AEROGEL: &str = "model = \"thermoelastic\", density = 100.0, specific_heat = 1000.0, conductivity = 0.02, \
+                       young = 1e6, poisson = 0.2, expansion = 1e-5";
+
+fn load(name: &str, footprint: &str, carries: &str, start: &str) -> String {
+    format!(
+        "[[load]]\nname = \"{name}\"\non = \"plate.top\"\nfootprint = {{ {footprint} }}\ncarries = [{carries}]\n\
+         start = {{ {start} }}\n"
+    )
+}
+
+fn plate(material: &str, shape: &str, mesh: &str, loads: &str) -> String {
+    let probes: String = [[0.0, 0.0, 0.0], [1.1e-4, 4e-5, 0.0], [2e-4, 0.0, -5e-5]]
+        .iter()
+        .enumerate()
+        .map(|(i, at)| {
+            format!(
+                "[[probe]]\nname = \"p{i}\"\nin = \"plate\"\nat = {at:?}\ngives = [\"temperature\", \"stress\", \"displacement\"]\n"
+            )
+        })
+        .collect();
+    format!(
+        "name = \"Plate\"\nstop_time = 1e-3\nstep = 1e-4\n[body.plate]\nkind = \"solid\"\nshape = {{ {shape} }}\n\
+         initial_temperature = 300.0\nmaterial = {{ {material} }}\nmesh = {{ {mesh} }}\n[body.plate.faces]\n\
+         bottom = {{ clamped = true, convection = {{ coefficient = 50.0, ambient = 300.0 }} }}\n{loads}{probes}"
+    )
+}
+
+const BOX: &str = "box = [8e-4, 6e-4, 2e-4]";
+const DISC: &str = "disc = { radius = 4e-4, thickness = 2e-4 }";
+const MESH: &str = "spacing = 4e-5, depth_spacing = 2e-5";
+/// Radii of the ring.
+const INNER: f64 = 6e-5;
+const OUTER: f64 = 1.5e-4;
+
+/// The scene with a ring, and that with two discs, the inner one of the opposite sign.
+fn both(material: &str, shape: &str, place: &str) -> [Trial; 2] {
+    let is_box = shape == BOX;
+    let carries = if is_box {
+        "\"heat_flux\", \"pressure\", \"shear\""
+    } else {
+        "\"heat_flux\", \"pressure\""
+    };
+    let amounts = |sign: f64| {
+        let shear = if is_box {
+            format!(", shear_x = {:e}, shear_y = {:e}", sign * 3e5, sign * -2e5)
+        } else {
+            String::new()
+        };
+        format!("heat_flux = {:e}, pressure = {:e}{shear}{place}", sign * 1e5, sign * 1e6)
+    };
+    let ring = format!("ring = {{ inner = {INNER:e}, outer = {OUTER:e} }}");
+    let one = load("ring", &ring, carries, &amounts(1.0));
+    let two = load("out", &format!("disc = {{ radius = {OUTER:e} }}"), carries, &amounts(1.0))
+        + &load("hole", &format!("disc = {{ radius = {INNER:e} }}"), carries, &amounts(-1.0));
+    [one, two].map(|loads| Trial::new(&plate(material, shape, MESH, &loads)))
+}
+
+/// Largest difference of outputs, over the largest of their kind.
+fn difference(values: [&[f64]; 2], names: &[String]) -> f64 {
+    let kind = |name: &String| name.rsplit('.').next().unwrap()[..4].to_owned();
+    let scale = |name: &String| {
+        let alike = names.iter().zip(values[0]).filter(|(other, _)| kind(other) == kind(name));
+        alike.map(|(_, value)| value.abs()).fold(f64::MIN_POSITIVE, f64::max)
+    };
+    let all = names.iter().zip(values[0].iter().zip(values[1]));
+    all.map(|(name, (a, b))| (a - b).abs() / scale(name)).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_ring_does_what_its_discs_do() {
+    for material in [ALUMINA, AEROGEL] {
+        for (shape, place) in [(BOX, ", x = 5e-5, y = -8e-5"), (BOX, ""), (DISC, "")] {
+            let [mut ring, mut discs] = both(material, shape, place);
+            let names = ring.outputs();
+            for _ in 0..2 {
+                let found = [&mut ring, &mut discs].map(|trial| {
+                    trial.step(1e-4);
+                    assert!(trial.heat_residual("plate") < 1e-9);
+                    names.iter().map(|name| trial.get(name)).collect::<Vec<_>>()
+                });
+                let off = difference([&found[0], &found[1]], &names);
+                assert!(off < 1e-9, "{shape} {place}: {off}");
+            }
+            let heat = 1e5 * PI * (OUTER - INNER) * (OUTER + INNER) * 2e-4;
+            assert!(off(ring.get("plate.heat_in"), heat) < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_ring_that_moves_and_grows_changes_outputs_as_its_discs_do() {
+    for (shape, moves) in
+        [(BOX, &[("x", 0.3), ("y", -0.2), ("radius", 0.1)][..]), (DISC, &[("radius", 0.1)])]
+    {
+        let [mut ring, mut discs] = both(ALUMINA, shape, "");
+        let names = ring.outputs();
+        for (key, rate) in moves {
+            let share = if *key == "radius" { INNER / OUTER } else { 1.0 };
+            ring.set_derivative(&format!("ring.{key}"), 1, *rate);
+            discs.set_derivative(&format!("out.{key}"), 1, *rate);
+            discs.set_derivative(&format!("hole.{key}"), 1, *rate * share);
+        }
+        let found = [&mut ring, &mut discs].map(|trial| trial.rates(&names));
+        let apart = difference([&found[0], &found[1]], &names);
+        assert!(apart < 1e-9, "{shape}: {apart}");
+        // The heat of a whole step is the integral of the area.
+        let radius = |t: f64| 1.0 + 0.1 / OUTER * t;
+        let heat: f64 = {
+            let dt = 2e-4;
+            let mean =
+                (radius(0.0).powi(2) + 4.0 * radius(0.5 * dt).powi(2) + radius(dt).powi(2)) / 6.0;
+            1e5 * PI * (OUTER - INNER) * (OUTER + INNER) * mean * dt
+        };
+        ring.step(2e-4);
+        assert!(off(ring.get("plate.heat_in"), heat) < 1e-10, "{shape}");
+        assert!(ring.heat_residual("plate") < 1e-9);
+    }
+}
+
+#[test]
+fn the_mesh_sees_both_edges_of_a_ring() {
+    for (shape, low) in [(BOX, -OUTER), (DISC, 0.0)] {
+        for (inner, outer) in [(INNER, OUTER), (1.3e-4, OUTER)] {
+            let ring = format!("ring = {{ inner = {inner:e}, outer = {outer:e} }}");
+            let text =
+                plate(ALUMINA, shape, "", &load("ring", &ring, "\"heat_flux\"", "heat_flux = 1e5"));
+            let mut trial = Trial::new(&text);
+            let axes = trial.fields("plate").axes;
+            let widest = axes[0]
+                .windows(2)
+                .filter(|pair| pair[0] >= low && pair[1] <= outer)
+                .map(|pair| pair[1] - pair[0])
+                .fold(0.0, f64::max);
+            // Five nodes over the width of the ring at least, ten over a radius.
+            let wanted = (0.2 * (outer - inner)).min(0.1 * outer);
+            assert!(widest < 1.01 * wanted, "{shape} {inner}: {widest} {wanted}");
+        }
+    }
+}
