@@ -50,7 +50,7 @@ pub trait Body: Send + Sync {
     fn memo(&self, inputs: &[f64], received: &[Received]) -> Memo;
 
     /// Forgets what follows from the state; what acts stays.
-    fn forget_state(&self, memo: &mut Memo);
+    fn forget_state(&self, _memo: &mut Memo) {}
 
     /// Advances a state; what was given through the port below, if there is one. `memo` is that of the inputs at the
     /// beginning, unless these change. A failure leaves the state as it was, or of no use: the caller has a copy.
@@ -63,25 +63,35 @@ pub trait Body: Send + Sync {
     ) -> Result<Option<Given>, BodyError>;
 
     /// Ends a step of `dt` [s] that is known to take too long.
-    fn foresee(&self, state: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError>;
+    fn foresee(&self, _state: &[f64], _dt: f64, _: &Allowance) -> Result<(), BodyError> {
+        Ok(())
+    }
 
     /// Updates of unknowns that `dt` [s] take, about; nothing where any step takes the same.
-    fn updates(&self, dt: f64) -> f64;
+    fn updates(&self, _dt: f64) -> f64 {
+        0.0
+    }
 
     /// Counts what is told as of the last step over that from the state `before`, too.
-    fn join_steps(&self, before: &[f64], state: &mut [f64]);
+    fn join_steps(&self, _before: &[f64], _state: &mut [f64]) {}
 
     /// What was given through the port below during the last step.
-    fn given(&self, state: &[f64]) -> Option<Given>;
+    fn given(&self, _state: &[f64]) -> Option<Given> {
+        None
+    }
 
     /// A value, where the memo is that of what acts and of the state.
     fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError>;
 
     /// Whether a value follows inputs without delay.
-    fn follows_at_once(&self, reading: &Reading) -> bool;
+    fn follows_at_once(&self, _reading: &Reading) -> bool {
+        false
+    }
 
     /// Whether a reading takes more stack than a host's thread need have; nothing is remembered yet without a memo.
-    fn is_deep(&self, memo: Option<&Memo>, reading: &Reading) -> bool;
+    fn is_deep(&self, _memo: Option<&Memo>, _reading: &Reading) -> bool {
+        false
+    }
 
     /// Values at all nodes or particles.
     fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError>;
@@ -97,22 +107,34 @@ pub trait Body: Send + Sync {
     }
 
     /// What was chosen or left out, and why: a sentence each.
-    fn notes(&self) -> Vec<String>;
+    fn notes(&self) -> Vec<String> {
+        Vec::new()
+    }
 
     /// What a user should know of a state, quickly found.
-    fn warning(&self, state: &[f64]) -> Option<String>;
+    fn warning(&self, _state: &[f64]) -> Option<String> {
+        None
+    }
 
     /// What a user should know of the state at the end of a run.
-    fn closing_warning(&self, state: &[f64]) -> Option<String>;
+    fn closing_warning(&self, _state: &[f64]) -> Option<String> {
+        None
+    }
 
     /// Stored entries of all factorisations made so far.
-    fn factor_entries(&self) -> usize;
+    fn factor_entries(&self) -> usize {
+        0
+    }
 
     /// Threads that the body may use.
-    fn threads(&self) -> usize;
+    fn threads(&self) -> usize {
+        1
+    }
 
     /// Whether steps take more stack than a host's thread need have.
-    fn steps_are_deep(&self) -> bool;
+    fn steps_are_deep(&self) -> bool {
+        false
+    }
 }
 
 /// A body whose faces answer to heat and force that others give.

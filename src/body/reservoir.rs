@@ -213,8 +213,6 @@ impl Body for ReservoirBody {
         Box::new(Sources { received, ..self.sources(inputs) })
     }
 
-    fn forget_state(&self, _: &mut Memo) {}
-
     fn advance(
         &self,
         state: &mut Vec<f64>,
@@ -233,30 +231,8 @@ impl Body for ReservoirBody {
         Ok(None)
     }
 
-    fn foresee(&self, _: &[f64], _: f64, _: &Allowance) -> Result<(), BodyError> {
-        Ok(())
-    }
-
-    fn updates(&self, _: f64) -> f64 {
-        0.0
-    }
-
-    fn join_steps(&self, _: &[f64], _: &mut [f64]) {}
-
-    fn given(&self, _: &[f64]) -> Option<Given> {
-        None
-    }
-
     fn read(&self, state: &[f64], _: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
         Ok(self.total(state, self.initial_temperature, reading))
-    }
-
-    fn follows_at_once(&self, _: &Reading) -> bool {
-        false
-    }
-
-    fn is_deep(&self, _: Option<&Memo>, _: &Reading) -> bool {
-        false
     }
 
     fn fields(&self, _: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
@@ -269,30 +245,6 @@ impl Body for ReservoirBody {
 
     fn conductor(&self) -> Option<&dyn Conductor> {
         Some(self)
-    }
-
-    fn notes(&self) -> Vec<String> {
-        Vec::new()
-    }
-
-    fn warning(&self, _: &[f64]) -> Option<String> {
-        None
-    }
-
-    fn closing_warning(&self, _: &[f64]) -> Option<String> {
-        None
-    }
-
-    fn factor_entries(&self) -> usize {
-        0
-    }
-
-    fn threads(&self) -> usize {
-        1
-    }
-
-    fn steps_are_deep(&self) -> bool {
-        false
     }
 }
 

@@ -326,7 +326,10 @@ impl Unit {
     /// Warns once of what is implausible in the scene with its parameters, now that they are fixed.
     fn warn_of_scene(&mut self) {
         let changed = self.scene != self.packed;
-        let warnings = if changed { scene::warnings(&self.scene) } else { self.warnings.clone() };
+        let warnings = match changed {
+            true => aside(|| scene::warnings(&self.scene)),
+            false => self.warnings.clone(),
+        };
         for warning in warnings {
             if self.said.insert(warning.subject()) {
                 self.log.send(Status::Warning, &warning.to_string());

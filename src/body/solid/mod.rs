@@ -179,20 +179,6 @@ impl Body for SolidBody {
         Ok(None)
     }
 
-    fn foresee(&self, _: &[f64], _: f64, _: &Allowance) -> Result<(), BodyError> {
-        Ok(())
-    }
-
-    fn updates(&self, _: f64) -> f64 {
-        0.0
-    }
-
-    fn join_steps(&self, _: &[f64], _: &mut [f64]) {}
-
-    fn given(&self, _: &[f64]) -> Option<Given> {
-        None
-    }
-
     fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
         let mut reader = SolidReader { body: self, state, memo: SolidMemo::of_mut(memo) };
         match *reading {
@@ -252,14 +238,6 @@ impl Body for SolidBody {
         });
         let notes = self.plan.notes.iter().cloned().chain(fallback);
         notes.map(|note| format!("{}: {note}", self.name)).collect()
-    }
-
-    fn warning(&self, _: &[f64]) -> Option<String> {
-        None
-    }
-
-    fn closing_warning(&self, _: &[f64]) -> Option<String> {
-        None
     }
 
     fn factor_entries(&self) -> usize {
