@@ -44,6 +44,13 @@ pub fn read(path: &Path, fmi: Version) -> Result<Vec<u8>, String> {
     if !has(impinge::fmi::MARK.as_bytes()) {
         return refused(format!("is not of version {}", env!("CARGO_PKG_VERSION")));
     }
+    if !has(impinge::scene::SCHEMA.as_bytes()) {
+        return Err(format!(
+            "{} is of another build: it knows other keys of scenes than this program (allowed: what `cargo build \
+             --release --workspace` makes)",
+            path.display()
+        ));
+    }
     Ok(bytes)
 }
 

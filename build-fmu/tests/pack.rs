@@ -92,6 +92,19 @@ fn nothing_is_written_where_something_is_read() {
 }
 
 #[test]
+fn a_library_of_another_build_is_not_packed() {
+    let place = Place::new();
+    let mut bytes = fs::read(library()).unwrap();
+    let key = b"contact_resistance\": {";
+    let places = bytes.windows(key.len()).enumerate().filter(|(_, window)| window == key);
+    let places: Vec<usize> = places.map(|(place, _)| place).collect();
+    assert!(!places.is_empty());
+    places.into_iter().for_each(|place| bytes[place] = b'k');
+    fs::write(place.path("old.so"), bytes).unwrap();
+    place.refused("scene.toml --library old.so", "knows other keys of scenes");
+}
+
+#[test]
 fn only_a_library_of_this_program_is_packed() {
     let place = Place::new();
     fs::write(place.path("notlib.txt"), "fmi2DoStep fmi3DoStep impinge").unwrap();

@@ -29,6 +29,8 @@ pub enum CliError {
         folder.display()
     )]
     Taken { folder: PathBuf },
+    #[error("{} could be one of the files of the run; allowed: another folder (--out)", scene.display())]
+    SceneInFolder { scene: PathBuf },
     #[error("cannot print: {0}")]
     Print(io::Error),
 }

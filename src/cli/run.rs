@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
@@ -16,6 +16,9 @@ use super::units::engineering;
 
 /// Number of times at which fields are written, about, if the user does not say.
 const SNAPSHOTS: usize = 50;
+
+/// Extensions of files that runs write.
+const WRITTEN: [&str; 5] = ["csv", "pvd", "vtp", "vtr", "vtu"];
 
 /// Run a scene, and write its variables and fields over time
 #[derive(Args)]
@@ -89,6 +92,17 @@ impl Run {
         Ok((scene, inputs))
     }
 
+    /// Refuses to write where the scene may be one of the files of the run.
+    fn keep_scene(&self, folder: &Path) -> Result<(), CliError> {
+        let Ok(scene) = self.scene.canonicalize() else { return Ok(()) };
+        let is_there = folder.canonicalize().is_ok_and(|folder| scene.parent() == Some(&folder));
+        let extension = scene.extension().and_then(|extension| extension.to_str());
+        match is_there && extension.is_some_and(|name| WRITTEN.contains(&name)) {
+            true => Err(CliError::SceneInFolder { scene: self.scene.clone() }),
+            false => Ok(()),
+        }
+    }
+
     /// Opens the files of the run.
     fn record(&self, run: &Running) -> Result<Record, CliError> {
         let scene = run.model.scene();
@@ -99,6 +113,7 @@ impl Run {
         if is_taken && !self.overwrite {
             return Err(CliError::Taken { folder });
         }
+        self.keep_scene(&folder)?;
         let every = self.fields_every.unwrap_or(run.timeline.count.div_ceil(SNAPSHOTS));
         let table = CsvTable::create(&table, run.model)?;
         let fields = match every {

@@ -24,8 +24,8 @@ pub enum AtStart {
     PoleAtZero,
     /// Smoothly between two poles.
     PolesAt([f64; 2]),
-    /// Linearly.
-    Linear,
+    /// As a polynomial of low degree.
+    Polynomial,
 }
 
 const ABOVE_ZERO: (Option<f64>, Option<f64>) = (Some(0.0), None);
@@ -77,7 +77,7 @@ impl MaterialConstant {
             description: "coefficient of linear thermal expansion",
             quantity: Quantity::Expansion,
             bounds: (None, None),
-            start: AtStart::Linear,
+            start: AtStart::Polynomial,
             number: |properties| properties.expansion.as_mut()?.number(),
         },
         Self {
@@ -87,6 +87,22 @@ impl MaterialConstant {
             bounds: ABOVE_ZERO,
             start: AtStart::Never,
             number: |properties| properties.yield_stress.as_mut()?.number(),
+        },
+        Self {
+            key: "isotropic_hardening",
+            description: "growth of the yield stress per plastic strain",
+            quantity: Quantity::Stress,
+            bounds: ABOVE_ZERO,
+            start: AtStart::Never,
+            number: |properties| properties.isotropic_hardening.as_mut()?.number(),
+        },
+        Self {
+            key: "kinematic_hardening",
+            description: "motion of the middle of elasticity per plastic strain",
+            quantity: Quantity::Stress,
+            bounds: ABOVE_ZERO,
+            start: AtStart::Never,
+            number: |properties| properties.kinematic_hardening.as_mut()?.number(),
         },
     ];
 

@@ -161,7 +161,11 @@ impl Table {
         }
     }
 
+    /// No number of a table that [`Self::check`] refuses for its lengths.
     fn value(&self, temperature: f64) -> f64 {
+        if self.value.is_empty() || self.value.len() != self.temperature.len() {
+            return f64::NAN;
+        }
         let above = self.temperature.partition_point(|&knot| knot <= temperature);
         if above == 0 {
             return self.value[0];

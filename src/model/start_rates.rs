@@ -3,7 +3,7 @@
 use super::{Cache, Model, ModelError};
 use crate::material::AtStart;
 use crate::scene::Scene;
-use crate::variables::{DropletConstant, Output, Parameter, Quantity};
+use crate::variables::{Output, Parameter, Quantity};
 
 /// Weights of the central difference of sixth order at one, two and three steps (B. Fornberg 1988,
 /// doi 10.1090/S0025-5718-1988-0935077-0).
@@ -12,6 +12,17 @@ const WEIGHTS: [f64; 3] = [0.75, -0.15, 1.0 / 60.0];
 /// Step as a part of the distance to the nearest value at which the solution has a pole: the error
 /// of the difference is then about 1e-11 of the rate, which is what rounding leaves of it too.
 const STEP: f64 = 0.01;
+
+/// Distance to the nearest pole of what outputs at time zero are of a constant; nothing where they do not follow it.
+fn reach_of(start: AtStart, quantity: Quantity, value: f64) -> Option<f64> {
+    match start {
+        AtStart::Never => None,
+        AtStart::PoleAtZero => Some(value),
+        AtStart::PolesAt([low, high]) => Some((value - low).min(high - value)),
+        // Any step will do; the constant may be zero.
+        AtStart::Polynomial => Some(quantity.nominal()),
+    }
+}
 
 /// Rates of outputs at time zero, under these inputs, when a parameter of the scene changes.
 ///
@@ -29,24 +40,9 @@ pub fn start_rates(
         Parameter::ConvectionCoefficient { .. } | Parameter::ContactResistance { .. } => None,
         Parameter::InitialTemperature { .. } => Some(value),
         Parameter::Material { constant, .. } | Parameter::LayerMaterial { constant, .. } => {
-            match constant.start {
-                AtStart::Never => None,
-                AtStart::PoleAtZero => Some(value),
-                AtStart::PolesAt([low, high]) => Some((value - low).min(high - value)),
-                // Any step will do.
-                AtStart::Linear => Some(constant.quantity.nominal()),
-            }
+            reach_of(constant.start, constant.quantity, value)
         }
-        Parameter::Droplet { constant, .. } => match constant {
-            DropletConstant::Diameter | DropletConstant::Density => Some(value),
-            // Outputs are polynomials in it; it may be zero.
-            DropletConstant::ImpactVelocity => Some(Quantity::Velocity.nominal()),
-            DropletConstant::Viscosity
-            | DropletConstant::SpecificHeat
-            | DropletConstant::Conductivity
-            | DropletConstant::SurfaceTension
-            | DropletConstant::SoundSpeed => None,
-        },
+        Parameter::Droplet { constant, .. } => reach_of(constant.start, constant.quantity, value),
     };
     let mut rates = vec![0.0; outputs.len()];
     let Some(reach) = reach else { return Ok(rates) };

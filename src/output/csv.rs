@@ -23,6 +23,10 @@ impl CsvTable {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder).map_err(OutputError::at("create the folder", folder))?;
         }
+        // A link is replaced, not written through.
+        if path.is_symlink() {
+            fs::remove_file(path).map_err(OutputError::at("replace", path))?;
+        }
         let file = File::create(path).map_err(OutputError::at("create", path))?;
         let mut header = vec!["time [s]".to_owned()];
         let mut columns = Vec::new();

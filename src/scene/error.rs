@@ -1,5 +1,6 @@
 //! What is wrong with a scene: place, value, reason and what is allowed instead.
 
+use std::borrow::Cow;
 use std::fmt;
 
 /// One thing that is wrong with a scene.
@@ -39,7 +40,8 @@ impl Problem {
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.write_place(f)?;
-        write!(f, " {}; allowed: {}", self.message, self.allowed)
+        // Names come from the scene as they stand there.
+        write!(f, " {}; allowed: {}", printable(&self.message), printable(&self.allowed))
     }
 }
 
@@ -65,6 +67,18 @@ impl From<Problem> for SceneError {
     fn from(problem: Problem) -> Self {
         Self { problems: vec![problem] }
     }
+}
+
+/// The same with control characters escaped.
+fn printable(text: &str) -> Cow<'_, str> {
+    if !text.contains(char::is_control) {
+        return Cow::Borrowed(text);
+    }
+    let escape = |c: char| match c.is_control() {
+        true => c.escape_default().to_string(),
+        false => c.to_string(),
+    };
+    Cow::Owned(text.chars().map(escape).collect())
 }
 
 fn one_a_line(problems: &[Problem]) -> String {

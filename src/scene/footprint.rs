@@ -14,6 +14,9 @@ pub enum Profile {
 }
 
 impl Footprint {
+    /// Least hole that a chosen mesh sees, over the outer radius.
+    pub const LEAST_HOLE: f64 = 0.05;
+
     /// The name as scenes write it.
     pub fn name(&self) -> &'static str {
         match self {
@@ -89,11 +92,13 @@ impl Footprint {
         if let Footprint::Gaussian { .. } = self { 1.5 } else { 1.0 }
     }
 
-    /// Half of the least width of what it covers [m].
+    /// Half of the least width of what it covers, or the radius of a hole that is less [m].
     pub fn half_width(&self, radius: Option<f64>) -> f64 {
         let [x, y] = self.half_extents(radius);
         match *self {
-            Footprint::Ring { inner, outer } => 0.5 * x * (1.0 - inner / outer),
+            Footprint::Ring { inner, outer } => {
+                x * (0.5 * (1.0 - inner / outer)).min(inner / outer)
+            }
             _ => x.min(y),
         }
     }
@@ -116,7 +121,10 @@ impl Footprint {
         let part = |count: usize| (5.0 / count as f64).min(1.0);
         match *self {
             Footprint::Disc { .. } | Footprint::Gaussian { .. } => least,
-            Footprint::Ring { inner, outer } => least * (2.0 * (1.0 - inner / outer)).min(1.0),
+            Footprint::Ring { inner, outer } => {
+                let hole = inner / outer;
+                least * (2.0 * (1.0 - hole)).min(hole.max(Self::LEAST_HOLE))
+            }
             Footprint::Rings { count, .. } => largest * part(count),
             Footprint::Tiles { count, size } => {
                 (size[0] * part(count[0])).min(size[1] * part(count[1]))

@@ -266,7 +266,7 @@ pub enum Symmetry {
 pub struct Mesh {
     /// Distance of nodes along x and y at loads and at heated sides [m], everywhere where there are
     /// neither.
-    #[schemars(transform = above_zero("m").condition("up to half of the width").otherwise("from the loads"))]
+    #[schemars(transform = above_zero("m").condition("up to half of the width; at least 12 elements from the centre to a side unless `growth` is 1").otherwise("from the loads"))]
     pub spacing: Option<f64>,
     /// Distance of nodes along z at loaded or heated faces [m], everywhere where there are none.
     #[schemars(transform = above_zero("m")

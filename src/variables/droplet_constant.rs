@@ -1,83 +1,94 @@
+//! Which constants of droplets units offer as parameters: a row for each.
+
+use crate::material::AtStart;
 use crate::quantity::Quantity;
 use crate::scene::Droplet;
 
 /// A constant of a droplet.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum DropletConstant {
-    Diameter,
-    ImpactVelocity,
-    Density,
-    Viscosity,
-    SpecificHeat,
-    Conductivity,
-    SurfaceTension,
-    SoundSpeed,
+#[derive(Debug)]
+pub struct DropletConstant {
+    /// Key in the scene and last part of the variable's name.
+    pub key: &'static str,
+    pub(super) description: &'static str,
+    pub quantity: Quantity,
+    pub start: AtStart,
+    place: fn(&mut Droplet) -> &mut f64,
 }
 
 impl DropletConstant {
-    pub const ALL: [DropletConstant; 8] = [
-        DropletConstant::Diameter,
-        DropletConstant::ImpactVelocity,
-        DropletConstant::Density,
-        DropletConstant::Viscosity,
-        DropletConstant::SpecificHeat,
-        DropletConstant::Conductivity,
-        DropletConstant::SurfaceTension,
-        DropletConstant::SoundSpeed,
+    pub const ALL: &[Self] = &[
+        Self {
+            key: "diameter",
+            description: "diameter of a drop",
+            quantity: Quantity::Length,
+            start: AtStart::PoleAtZero,
+            place: |droplet| &mut droplet.diameter,
+        },
+        Self {
+            key: "impact_velocity",
+            description: "speed towards the wall at the release",
+            quantity: Quantity::Velocity,
+            start: AtStart::Polynomial,
+            place: |droplet| &mut droplet.impact_velocity,
+        },
+        Self {
+            key: "density",
+            description: "mass density at rest",
+            quantity: Quantity::Density,
+            start: AtStart::PoleAtZero,
+            place: |droplet| &mut droplet.fluid.density,
+        },
+        Self {
+            key: "viscosity",
+            description: "dynamic viscosity",
+            quantity: Quantity::Viscosity,
+            start: AtStart::Never,
+            place: |droplet| &mut droplet.fluid.viscosity,
+        },
+        Self {
+            key: "specific_heat",
+            description: "specific heat capacity",
+            quantity: Quantity::SpecificHeat,
+            start: AtStart::Never,
+            place: |droplet| &mut droplet.fluid.specific_heat,
+        },
+        Self {
+            key: "conductivity",
+            description: "thermal conductivity",
+            quantity: Quantity::Conductivity,
+            start: AtStart::Never,
+            place: |droplet| &mut droplet.fluid.conductivity,
+        },
+        Self {
+            key: "surface_tension",
+            description: "surface tension",
+            quantity: Quantity::SurfaceTension,
+            start: AtStart::Never,
+            place: |droplet| &mut droplet.fluid.surface_tension,
+        },
+        Self {
+            key: "sound_speed",
+            description: "speed of sound of the model",
+            quantity: Quantity::Velocity,
+            start: AtStart::Never,
+            place: |droplet| {
+                let chosen = droplet.sound_speed();
+                droplet.fluid.sound_speed.get_or_insert(chosen)
+            },
+        },
     ];
 
-    /// Key in the scene and last part of the variable's name.
-    pub fn key(self) -> &'static str {
-        match self {
-            DropletConstant::Diameter => "diameter",
-            DropletConstant::ImpactVelocity => "impact_velocity",
-            DropletConstant::Density => "density",
-            DropletConstant::Viscosity => "viscosity",
-            DropletConstant::SpecificHeat => "specific_heat",
-            DropletConstant::Conductivity => "conductivity",
-            DropletConstant::SurfaceTension => "surface_tension",
-            DropletConstant::SoundSpeed => "sound_speed",
-        }
-    }
-
-    pub(super) fn description(self) -> &'static str {
-        match self {
-            DropletConstant::Diameter => "diameter of a drop",
-            DropletConstant::ImpactVelocity => "speed towards the wall at the release",
-            DropletConstant::Density => "mass density at rest",
-            DropletConstant::Viscosity => "dynamic viscosity",
-            DropletConstant::SpecificHeat => "specific heat capacity",
-            DropletConstant::Conductivity => "thermal conductivity",
-            DropletConstant::SurfaceTension => "surface tension",
-            DropletConstant::SoundSpeed => "speed of sound of the model",
-        }
-    }
-
-    pub(super) fn quantity(self) -> Quantity {
-        match self {
-            DropletConstant::Diameter => Quantity::Length,
-            DropletConstant::ImpactVelocity | DropletConstant::SoundSpeed => Quantity::Velocity,
-            DropletConstant::Density => Quantity::Density,
-            DropletConstant::Viscosity => Quantity::Viscosity,
-            DropletConstant::SpecificHeat => Quantity::SpecificHeat,
-            DropletConstant::Conductivity => Quantity::Conductivity,
-            DropletConstant::SurfaceTension => Quantity::SurfaceTension,
-        }
-    }
-
     /// Where a droplet holds it; a speed of sound that the scene leaves out is put there first.
-    pub(super) fn place(self, droplet: &mut Droplet) -> &mut f64 {
-        let sound_speed = droplet.sound_speed();
-        let fluid = &mut droplet.fluid;
-        match self {
-            DropletConstant::Diameter => &mut droplet.diameter,
-            DropletConstant::ImpactVelocity => &mut droplet.impact_velocity,
-            DropletConstant::Density => &mut fluid.density,
-            DropletConstant::Viscosity => &mut fluid.viscosity,
-            DropletConstant::SpecificHeat => &mut fluid.specific_heat,
-            DropletConstant::Conductivity => &mut fluid.conductivity,
-            DropletConstant::SurfaceTension => &mut fluid.surface_tension,
-            DropletConstant::SoundSpeed => fluid.sound_speed.get_or_insert(sound_speed),
-        }
+    pub(super) fn place<'a>(&self, droplet: &'a mut Droplet) -> &'a mut f64 {
+        (self.place)(droplet)
     }
 }
+
+/// Keys tell constants apart.
+impl PartialEq for DropletConstant {
+    fn eq(&self, other: &Self) -> bool {
+        self.key == other.key
+    }
+}
+
+impl Eq for DropletConstant {}

@@ -29,7 +29,7 @@ pub enum Parameter {
     },
     Droplet {
         body: String,
-        constant: DropletConstant,
+        constant: &'static DropletConstant,
     },
 }
 

@@ -82,10 +82,10 @@ fn of_droplet(body: &str, droplet: &Droplet, list: &mut Vec<Variable>) {
     let mut copy = droplet.clone();
     for constant in DropletConstant::ALL {
         list.push(Variable {
-            name: format!("{body}.{}", constant.key()),
-            description: format!("{} of {body}", constant.description()),
+            name: format!("{body}.{}", constant.key),
+            description: format!("{} of {body}", constant.description),
             slot: Slot::Parameter(Parameter::Droplet { body: body.to_owned(), constant }),
-            quantity: Some(constant.quantity()),
+            quantity: Some(constant.quantity),
             start: Some(Value::Real(*constant.place(&mut copy))),
             min: Some(0.0),
             max: None,

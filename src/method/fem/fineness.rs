@@ -113,6 +113,15 @@ impl<'a> Fineness<'a> {
                 "mesh spacing chosen: {lateral:.3e} m along the surface (a tenth of the finest load)"
             ));
         }
+        let half = lateral_extents(&self.solid.shape).into_iter().fold(0.0_f64, f64::max) / 2.0;
+        let widest = half / (MeshKeys::LATERAL_ELEMENTS * self.order as f64);
+        if self.keys().growth != Some(1.0) && *lateral > 1.01 * widest {
+            notes.push(format!(
+                "nodes along the surface are {widest:.3e} m apart at most: {} elements from the centre to a side, \
+                 unless `mesh.growth` is 1",
+                MeshKeys::LATERAL_ELEMENTS
+            ));
+        }
         if self.chooses_layers() {
             let why = if layer == lateral {
                 "no more than along the surface".to_owned()

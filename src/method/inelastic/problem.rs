@@ -29,7 +29,7 @@ pub enum InelasticError {
     )]
     NoEquilibrium { iterations: usize, residual: f64, tolerance: f64 },
     #[error(
-        "{steps} inner steps of creep came no further than {done:e} s (allowed: shorter communication steps)"
+        "{steps} inner steps of creep came no further than {done:e} s (allowed: shorter communication steps, or slower creep: its coefficient is in 1/(s Paⁿ))"
     )]
     TooFast { steps: usize, done: f64 },
     #[error(transparent)]

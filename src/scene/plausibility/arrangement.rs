@@ -6,7 +6,7 @@ use crate::scene::check::number;
 use crate::scene::droplet::{Arrival, Coupling, Droplet};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::types::{Load, Mesh, Solid};
+use crate::scene::types::{Footprint, Load, Mesh, Solid};
 
 /// Fewest distances of nodes over the radius of a spot or half the size of tiles.
 const NODES_PER_RADIUS: f64 = 2.0;
@@ -145,6 +145,16 @@ fn distance(spacing: f64, solid: &Solid) -> f64 {
 /// Warns of loads that are smaller than the distances of nodes that the scene asks for.
 fn seen(reviewer: &mut Reviewer, path: &Path, load: &Load) {
     let Some(solid) = reviewer.scene.solid(load.body_and_face().0) else { return };
+    if let (None, Footprint::Ring { inner, outer }) = (solid.mesh.spacing, load.footprint)
+        && inner < Footprint::LEAST_HOLE * outer
+    {
+        let message = format!(
+            "a mesh that is chosen does not see a hole this small; did you mean a disc, or a `mesh.spacing` of {} m \
+             or less?",
+            number(inner / NODES_PER_RADIUS)
+        );
+        reviewer.warn(&path.at("footprint.ring.inner"), message);
+    }
     let Some(spacing) = solid.mesh.spacing.map(|spacing| distance(spacing, solid)) else { return };
     let footprint = &load.footprint;
     let (key, radius) = match (load.range.radius, load.start.radius) {
