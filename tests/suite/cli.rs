@@ -660,3 +660,22 @@ fn what_cannot_be_printed_ends_without_a_panic() {
     let piped = shell("check scene.toml | true; echo done").succeeds();
     assert_eq!((piped.stdout().as_str(), piped.stderr().as_str()), ("done\n", ""));
 }
+
+#[test]
+fn a_run_never_writes_over_its_scene_nor_through_links() {
+    let place = Workplace::new();
+    fs::create_dir(place.path("folder")).unwrap();
+    for name in ["outputs.csv", "plate.pvd"] {
+        let scene = format!("folder/{name}");
+        fs::write(place.path(&scene), SCENE).unwrap();
+        let called = place.call(&["run", &scene, "--out", "folder", "--overwrite"]);
+        called.fails(1, &["could be one of the files of the run"]);
+        assert_eq!(fs::read_to_string(place.path(&scene)).unwrap(), SCENE);
+        fs::remove_file(place.path(&scene)).unwrap();
+    }
+    fs::write(place.path("notes"), "kept").unwrap();
+    std::os::unix::fs::symlink("../notes", place.path("folder/outputs.csv")).unwrap();
+    place.run(&["--out", "folder", "--overwrite"]).succeeds();
+    assert_eq!(fs::read_to_string(place.path("notes")).unwrap(), "kept");
+    assert!(place.table("folder").1.len() > 1);
+}

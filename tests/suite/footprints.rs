@@ -2,6 +2,8 @@
 
 use std::f64::consts::PI;
 
+use impinge::closed_form::special::ierfc;
+
 use crate::common::{Trial, off};
 
 const ALUMINA: &str = "model = \"thermoelastic\", density = 3950.0, specific_heat = 900.0, conductivity = 30.0, \
@@ -143,5 +145,40 @@ fn the_mesh_sees_both_edges_of_a_ring() {
             let wanted = (0.2 * (outer - inner)).min(0.1 * outer);
             assert!(widest < 1.01 * wanted, "{shape} {inner}: {widest} {wanted}");
         }
+    }
+}
+
+/// Beside a hole, a chosen mesh is as fine as beside a disc of its radius.
+#[test]
+fn a_chosen_mesh_sees_the_hole_of_a_ring() {
+    let material =
+        "model = \"thermoelastic\", density = 1000.0, specific_heat = 1000.0, conductivity = 1.0";
+    let (inner, outer) = (3e-5_f64, 3e-4_f64);
+    // Heat has come half-way into the hole.
+    let time = (0.47 * inner).powi(2) / 1e-6;
+    for shape in ["box = [2e-3, 2e-3, 4e-4]", "disc = { radius = 1e-3, thickness = 4e-4 }"] {
+        let rise = |loads: &str| {
+            let scene = format!(
+                "name = \"Plate\"\nstop_time = {time:e}\nstep = {time:e}\n[body.plate]\nkind = \"solid\"\n\
+                 shape = {{ {shape} }}\ninitial_temperature = 300.0\nmaterial = {{ {material} }}\n{loads}[[probe]]\n\
+                 name = \"centre\"\nin = \"plate\"\nat = [0.0, 0.0, 0.0]\ngives = [\"temperature\"]\n"
+            );
+            let mut trial = Trial::new(&scene);
+            trial.step(time);
+            trial.get("centre.temperature") - 300.0
+        };
+        let flux = |sign: &str| format!("heat_flux = {sign}1e5");
+        let ring = format!("ring = {{ inner = {inner:e}, outer = {outer:e} }}");
+        let found = rise(&load("ring", &ring, "\"heat_flux\"", &flux("")));
+        // What is under the middle of a wide disc, and what a disc of the hole's size takes from it (H. S. Carslaw
+        // and J. C. Jaeger 1959, §10.5).
+        let length = f64::sqrt(1e-6 * time);
+        let below = |radius: f64| {
+            let z = radius / (2.0 * length);
+            2e5 * length / 1.0 * (ierfc(0.0) - ierfc(z))
+        };
+        let wanted = below(outer) - below(inner);
+        let under = below(outer);
+        assert!((found - wanted).abs() < 0.02 * under, "{shape}: {found}, not {wanted} of {under}");
     }
 }

@@ -237,6 +237,9 @@ fn bounds(schema: &Value) -> Option<String> {
         (Some(low), _, Some(high), _) if is_whole && high - low == 1.0 => {
             format!("{}, {}", number(low), number(high))
         }
+        (Some(low), _, Some(high), _) if is_whole && high >= 1e5 => {
+            format!("whole, {} to {}", number(low), number(high))
+        }
         (Some(low), _, Some(high), _) => format!("{} to {}", number(low), number(high)),
         (_, Some(above), Some(high), _) => format!("above {}, to {}", number(above), number(high)),
         (_, Some(above), _, Some(below)) => {
