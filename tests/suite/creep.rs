@@ -1,5 +1,8 @@
 //! Bodies that creep, against closed forms.
 
+use impinge::math::allowance::{Allowance, Interrupt};
+use impinge::model::Cache;
+
 use crate::common::{Trial, off};
 
 /// E, ν, α, σ_y, and A, n, T_a of lead, tin, copper, steel, glass and aerogel near the temperatures at which they creep
@@ -301,4 +304,27 @@ fn creep_goes_on_to_the_bit_and_what_cannot_be_borne_is_refused() {
     let refused = trial.try_step(1.0).unwrap_err().to_string();
     assert!(refused.contains("bar") && refused.contains("creep"), "{refused}");
     assert_eq!(trial.state.bodies, before.bodies);
+}
+
+/// Inner steps count: a step ends where they come to more than it may take, or when it is cancelled.
+#[test]
+fn steps_in_which_much_creeps_end_as_soon_as_they_are_not_wanted() {
+    let material = &MATERIALS[3];
+    let mut trial = held(material, "", 1e-3);
+    let before = trial.state.clone();
+    let Trial { model, state, .. } = &mut trial;
+    let little = Allowance::of_updates(&Interrupt::default(), 2e6);
+    let halted = model.step_within(&little, state, &mut Cache::default(), material.time());
+    let message = halted.unwrap_err().to_string();
+    assert!(message.contains("iterations of equilibrium"), "{message}");
+    assert_eq!(state.bodies, before.bodies);
+    let interrupt = Interrupt::default();
+    let under_way = interrupt.begin();
+    assert!(interrupt.interrupt());
+    let allowance = Allowance::of_step(&interrupt);
+    let cancelled = model.step_within(&allowance, state, &mut Cache::default(), material.time());
+    assert!(cancelled.unwrap_err().to_string().contains("cancelled"));
+    assert_eq!(state.bodies, before.bodies);
+    drop(under_way);
+    trial.step(material.time());
 }

@@ -170,9 +170,11 @@ impl Body for SolidBody {
         let memo = SolidMemo::of(memo);
         match &self.yielding {
             None => self.advance_here(state, memo, acts, allowance)?,
-            Some(yielding) => self.advance_yielding(yielding, state, acts, |heat, acts| {
-                self.advance_here(heat, memo, acts, allowance)
-            })?,
+            Some(yielding) => {
+                self.advance_yielding(yielding, state, acts, allowance, |heat, acts| {
+                    self.advance_here(heat, memo, acts, allowance)
+                })?
+            }
         }
         let (start, end) = (acts.path.start(), acts.path.at(0, acts.duration));
         self.check_end(state, start, &end)?;

@@ -6,6 +6,7 @@ use super::SolidBody;
 use crate::body::{Acts, BodyError};
 use crate::material::FlowLaw;
 use crate::material::stress::{max_principal, von_mises};
+use crate::math::allowance::Allowance;
 use crate::math::cholesky::SolverError;
 use crate::method::fem::{Deformation, Plan, SolidLoads, Temperatures};
 use crate::method::inelastic::{Course, InelasticError, InelasticProblem, StateLayout};
@@ -86,6 +87,7 @@ impl SolidBody {
         yielding: &Yielding,
         state: &mut [f64],
         acts: &Acts,
+        allowance: &Allowance,
         mut heat: impl FnMut(&mut [f64], &Acts) -> Result<(), BodyError>,
     ) -> Result<(), BodyError> {
         let start = state.to_vec();
@@ -98,11 +100,13 @@ impl SolidBody {
                 let acts = Acts { path: &path, duration: length, ..*acts };
                 let before = state[..self.heat_len].to_vec();
                 heat(&mut state[..self.heat_len], &acts)?;
-                match self.balance(yielding, (&before, state), &acts) {
+                match self.balance(yielding, (&before, state), &acts, allowance) {
                     Ok(()) => {}
-                    // What is received changes over the whole step, so that step is not cut.
+                    // What is received changes over the whole step, so that step is not cut; what creeps has been.
                     Err(BodyError::Equilibrium { .. })
-                        if halves < MOST_HALVES && acts.received.is_empty() =>
+                        if halves < MOST_HALVES
+                            && acts.received.is_empty()
+                            && !yielding.problem.creeps() =>
                     {
                         halves += 1;
                         state.copy_from_slice(&start);
@@ -121,6 +125,7 @@ impl SolidBody {
         yielding: &Yielding,
         (before, state): (&[f64], &mut [f64]),
         acts: &Acts,
+        allowance: &Allowance,
     ) -> Result<(), BodyError> {
         let (heat, mechanics) = state.split_at_mut(self.heat_len);
         let at = |time: f64, heat: &[f64]| {
@@ -141,6 +146,7 @@ impl SolidBody {
             forces: [&start.1, &end.1],
             duration: acts.duration,
             tolerance: yielding.tolerance,
+            allowance,
         };
         let advanced = yielding.problem.advance_along(mechanics, &course);
         advanced.map_err(|error| self.inelastic_error(error))
@@ -149,6 +155,7 @@ impl SolidBody {
     fn inelastic_error(&self, error: InelasticError) -> BodyError {
         match error {
             InelasticError::Solver(error) => error.into(),
+            InelasticError::Halted(halt) => BodyError::Halted { body: self.name.clone(), halt },
             error => BodyError::Equilibrium { body: self.name.clone(), error },
         }
     }

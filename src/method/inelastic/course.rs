@@ -4,9 +4,11 @@
 //! that is at most a part of the largest elastic strain so far, and the next one is chosen by it. Over the whole,
 //! temperatures and forces go straight on.
 
+use super::newton::Progress;
 use super::problem::{InelasticError, InelasticProblem};
 use crate::material::History;
 use crate::material::stress::von_mises;
+use crate::math::allowance::Allowance;
 use crate::math::parallel::Team;
 
 /// What acts over a time.
@@ -20,10 +22,11 @@ pub struct Course<'a> {
     pub duration: f64,
     /// What an inner step may err by, over the largest elastic strain.
     pub tolerance: f64,
+    pub allowance: &'a Allowance,
 }
 
 /// Inner steps that a step is given.
-const MOST_STEPS: usize = 10_000;
+const MOST_STEPS: usize = 2_000;
 /// Shortest of them, over the whole.
 const LEAST_PART: f64 = 1e-24;
 /// Elastic strain below which there is no need to know it [1].
@@ -38,12 +41,12 @@ impl InelasticProblem {
     /// the tolerance takes.
     pub fn advance_along(&self, state: &mut [f64], course: &Course) -> Result<(), InelasticError> {
         if !self.creeps() || course.duration <= 0.0 {
-            let advanced = self.advance(state, course.temperatures[1], course.forces[1]);
-            return advanced.map(drop);
+            let [_, temperatures] = course.temperatures;
+            return self.advance_to(state, temperatures, course.forces[1], 0.0, course).map(drop);
         }
         let mut now = state.to_vec();
         // What has changed since the last step does so at once.
-        self.advance(&mut now, course.temperatures[0], course.forces[0])?;
+        self.advance_to(&mut now, course.temperatures[0], course.forces[0], 0.0, course)?;
         let (mut done, mut part) = (0.0, 1.0_f64);
         let mut rates = self.rates(&now, course.temperatures[0])?;
         let mut strain = rates.strain.max(LEAST_STRAIN);
@@ -56,7 +59,7 @@ impl InelasticProblem {
             let forces = between(course.forces, end);
             let mut next = now.clone();
             let length = part * course.duration;
-            match self.advance_over(&mut next, &temperatures, &forces, length) {
+            match self.advance_to(&mut next, &temperatures, &forces, length, course) {
                 Ok(_) => {}
                 Err(InelasticError::NoEquilibrium { .. }) if part > LEAST_PART => {
                     part *= LEAST_RATIO;
@@ -84,6 +87,17 @@ impl InelasticProblem {
             part *= ratio.min(MOST_RATIO);
         }
         Err(InelasticError::TooFast { steps, done: done * course.duration })
+    }
+
+    fn advance_to(
+        &self,
+        state: &mut [f64],
+        temperatures: &[f64],
+        forces: &[f64],
+        duration: f64,
+        course: &Course,
+    ) -> Result<Progress, InelasticError> {
+        self.advance_within(state, temperatures, forces, duration, course.allowance)
     }
 
     /// How fast all points flow.

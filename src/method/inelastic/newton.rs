@@ -9,6 +9,7 @@ use super::grid::{Grid, Iterate};
 use super::problem::InelasticError;
 use super::tangent::TangentSolver;
 use crate::material::PointConstants;
+use crate::math::allowance::Allowance;
 use crate::math::parallel::Team;
 use crate::math::separable::dot;
 
@@ -29,6 +30,8 @@ const TOLERANCE: f64 = 1e-12;
 const ROUNDED: f64 = 1e-10;
 /// Linear systems that a step is given.
 const MOST_ITERATIONS: usize = 60;
+/// Updates of unknowns that the response of all points to a change and the set-up of a linear system take, about.
+const ROUNDS: f64 = 10.0;
 /// Looks along a change.
 const MOST_LOOKS: usize = 8;
 
@@ -41,6 +44,7 @@ pub struct Step<'a> {
     pub old: &'a [f64],
     /// Nodal forces.
     pub load: &'a [f64],
+    pub allowance: &'a Allowance,
 }
 
 impl Step<'_> {
@@ -70,6 +74,8 @@ impl Step<'_> {
                 self.solver.solve(self.grid, iterate, &left, accuracy, self.team)?;
             progress.iterations += 1;
             progress.linear_iterations += linear;
+            let rounds = ROUNDS + linear as f64;
+            self.allowance.spend(rounds, "iterations of equilibrium", left.len())?;
             self.advance(iterate, &change);
             left = self.left(iterate);
             before = part;

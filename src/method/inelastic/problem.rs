@@ -7,6 +7,7 @@ use super::newton::{Progress, Step};
 use super::tangent::TangentSolver;
 use crate::material::{FlowLaw, History, PointConstants};
 use crate::math::address_space;
+use crate::math::allowance::{Allowance, Halt};
 use crate::math::cholesky::SolverError;
 use crate::math::parallel::Team;
 use crate::math::thread::aside;
@@ -29,9 +30,12 @@ pub enum InelasticError {
     )]
     NoEquilibrium { iterations: usize, residual: f64, tolerance: f64 },
     #[error(
-        "{steps} inner steps of creep came no further than {done:e} s (allowed: shorter communication steps, or slower creep: its coefficient is in 1/(s Paⁿ))"
+        "{steps} inner steps of creep came no further than {done:e} s (allowed: shorter communication steps, or slower \
+         creep: its coefficient is in 1/(s Paⁿ))"
     )]
     TooFast { steps: usize, done: f64 },
+    #[error(transparent)]
+    Halted(#[from] Halt),
     #[error(transparent)]
     Solver(#[from] SolverError),
 }
@@ -163,6 +167,18 @@ impl InelasticProblem {
         forces: &[f64],
         duration: f64,
     ) -> Result<Progress, InelasticError> {
+        self.advance_within(state, temperatures, forces, duration, &Allowance::default())
+    }
+
+    /// As [`Self::advance_over`], as long as it is wanted and may take.
+    pub(super) fn advance_within(
+        &self,
+        state: &mut [f64],
+        temperatures: &[f64],
+        forces: &[f64],
+        duration: f64,
+        allowance: &Allowance,
+    ) -> Result<Progress, InelasticError> {
         self.check(state, temperatures)?;
         let unknowns = self.grid.unknowns();
         if !forces.is_empty() && forces.len() != unknowns {
@@ -170,7 +186,7 @@ impl InelasticProblem {
             return Err(InelasticError::Length { what, given: forces.len(), wanted: unknowns });
         }
         address_space::expect(self.memory() as usize).map_err(SolverError::from)?;
-        aside(|| self.advance_here(state, temperatures, forces, duration))
+        aside(|| self.advance_here(state, temperatures, forces, duration, allowance))
     }
 
     fn advance_here(
@@ -179,6 +195,7 @@ impl InelasticProblem {
         temperatures: &[f64],
         forces: &[f64],
         duration: f64,
+        allowance: &Allowance,
     ) -> Result<Progress, InelasticError> {
         let team = Team::new(self.threads);
         let constants = self.constants(temperatures, duration, &team)?;
@@ -196,6 +213,7 @@ impl InelasticProblem {
                 constants: &constants,
                 old: &state[layout.history.clone()],
                 load: &load,
+                allowance,
             };
             step.balance(&mut iterate)?
         };
