@@ -14,7 +14,7 @@ from weakref import WeakSet
 import numpy as np
 
 from impinge.errors import StepDiscarded, UnitError
-from impinge.unit.access import Access, Reader, Writer
+from impinge.unit.access import Access, PathWriter, Reader, Writer
 from impinge.unit.fmi2 import Fmi2
 from impinge.unit.fmi3 import Fmi3
 from impinge.unit.log import Listener, Log
@@ -215,6 +215,14 @@ class Unit:
     def writer(self, names: Iterable[str]) -> Writer:
         """A call that sets these names from one flat array, over and over."""
         return self._access(Writer, tuple(names))
+
+    def path_writer(self, names: Iterable[str], order: int) -> PathWriter:
+        """A call that sets inputs that follow polynomials in time over the next step."""
+        if not isinstance(self.slave, Fmi2) or not 1 <= order <= self.can.interpolates:
+            raise UnitError(
+                f"{self.name} follows inputs of degree {self.can.interpolates} in time, not {order}"
+            )
+        return PathWriter(self.slave, self.writer(names), order)
 
     def _access(self, kind: Any, names: tuple[str, ...]) -> Any:
         self._must_be_open()
