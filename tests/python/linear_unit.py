@@ -20,7 +20,9 @@ def library(folder):
     return path
 
 
-def make(folder, name, *, u=0.0, interpolates=True, states=True, y_unit=None, u_unit=None, **values):
+def make(
+    folder, name, *, u=0.0, interpolates=True, states=True, y_unit=None, u_unit=None, **values
+):
     """Writes `name.fmu` with these values of parameters; z is told to follow nothing at once."""
     values = {key: 0.0 for key in NAMES} | {"u": u} | values
     rows = []
@@ -57,6 +59,8 @@ def make(folder, name, *, u=0.0, interpolates=True, states=True, y_unit=None, u_
     path = Path(folder) / f"{name}.fmu"
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("modelDescription.xml", text)
-        archive.writestr("resources/start.txt", "\n".join(repr(float(values[key])) for key in NAMES))
+        archive.writestr(
+            "resources/start.txt", "\n".join(repr(float(values[key])) for key in NAMES)
+        )
         archive.write(library(folder), "binaries/linux64/Linear.so")
     return path

@@ -42,8 +42,8 @@ class Balance:
 
     Over a step of length H, what arrives is the mean ū of the path that the target followed; what
     leaves is the mean ȳ that the source gave, of the whole step or of the polynomial through its
-    values at both ends. With flux q and effort e, `residual += H A (ȳ_q ū_e − ū_q ȳ_e)` [J]; without
-    an effort, `H A (ȳ_q − ū_q)`.
+    values at both ends. With flux q and effort e, `residual += H A (ȳ_q ū_e − ū_q ȳ_e)` [J];
+    without an effort, `H A (ȳ_q − ū_q)`.
     S. Sadjina, L. Kyllingstad, S. Skjong, E. Pedersen (2017), doi 10.1007/s00366-016-0492-8.
     """
 
