@@ -104,8 +104,7 @@ fn notes(scene: &Scene) -> String {
             let _ = writeln!(text, "    - {note}");
         }
     }
-    let _ =
-        writeln!(text, "  `impinge run` takes about {}", engineering(run_time.max(0.0) + 0.0, "s"));
+    let _ = writeln!(text, "  `impinge run` takes about {}", engineering(run_time, "s"));
     text
 }
 

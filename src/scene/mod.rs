@@ -33,7 +33,7 @@ pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
-pub use plausibility::{Measure, Warning, doubt_of_input};
+pub use plausibility::{Measure, Warning, implausible_input};
 pub use reservoir::Reservoir;
 pub use schema::{SCHEMA, derived_schema};
 pub use types::*;
