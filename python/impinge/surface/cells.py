@@ -154,16 +154,19 @@ def make_tiles(count, size, at) -> Tiles:
     return Tiles(nodes, corners, (nx, ny), low, step)
 
 
-def make_polygons(nodes: np.ndarray, cells: np.ndarray) -> Polygons:
-    """Cells of three or four corners; those that go round to the right are turned."""
-    cells = np.asarray(cells)
+def check_cells(cells: np.ndarray, nodes: int):
+    """Refuses what is no array of three or four numbers of `nodes` a cell."""
     if cells.ndim != 2 or cells.shape[1] not in (3, 4) or not len(cells):
         raise SurfaceError(f"cells: an array of shape (n, 3) or (n, 4) is needed, not {cells.shape}")
     if not np.issubdtype(cells.dtype, np.integer):
         raise SurfaceError(f"cells: numbers of nodes are needed, not {cells.dtype}")
-    if cells.min() < 0 or cells.max() >= len(nodes):
-        cell = int(np.flatnonzero(((cells < 0) | (cells >= len(nodes))).any(axis=1))[0])
-        raise SurfaceError(f"cells: cell {cell} names node {cells[cell].max()} of {len(nodes)}")
+    if cells.min() < 0 or cells.max() >= nodes:
+        cell = int(np.flatnonzero(((cells < 0) | (cells >= nodes)).any(axis=1))[0])
+        raise SurfaceError(f"cells: cell {cell} names node {cells[cell].max()} of {nodes}")
+
+
+def make_polygons(nodes: np.ndarray, cells: np.ndarray) -> Polygons:
+    """Cells of three or four corners; those that go round to the right are turned."""
     corners = cells if cells.shape[1] == 4 else np.column_stack([cells, cells[:, 2]])
     corners = corners.astype(np.int64)
     area, _ = moments(nodes[corners] - nodes[corners[:, :1]])

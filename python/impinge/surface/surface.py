@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from .cells import Polygons, Rings, Scattered, Tiles, make_polygons, make_rings, make_scattered, make_tiles
+from .cells import Polygons, Rings, Scattered, Tiles, check_cells, make_polygons, make_rings, make_scattered, make_tiles
 from .conservative import conservative, nodal_areas
 from .consistent import consistent
 from .errors import SurfaceError
@@ -94,8 +94,9 @@ class Surface:
         """
         placed = (placement or Placement()).to_face(points)
         corners = np.asarray(cells)
-        polygons = make_polygons(placed[:, :2], corners)
-        return cls(polygons, values, plane(placed, np.unique(corners), tolerance))
+        check_cells(corners, len(placed))
+        z = plane(placed, np.unique(corners), tolerance)
+        return cls(make_polygons(placed[:, :2], corners), values, z)
 
     @classmethod
     def quads(
@@ -133,15 +134,16 @@ class Surface:
         return read_series(path, placement, **options)
 
     @classmethod
-    def of(cls, unit: Any, name: str) -> Surface:
+    def of(cls, unit: Any, name: str, z: float | None = None) -> Surface:
         """The cells or points of a unit's load, wall or field.
 
         `unit` is an :class:`impinge.Unit`, or the path of a unit (.fmu), of a folder of one or of a scene
-        (.toml), of which only the geometry is read; see :func:`impinge.surface.families.family`.
+        (.toml), of which only the geometry is read; `z` the height [m] of a face that is no top. See
+        :func:`impinge.surface.families.family`.
         """
         from .families import family
 
-        return family(unit, name)
+        return family(unit, name, z)
 
     # Properties
 
