@@ -34,7 +34,9 @@ def _search(a, b, ia, ib, low, high, depth) -> list[tuple[np.ndarray, np.ndarray
     shared, first_a, many_a, first_b, many_b = _join(bin_a, bin_b)
     pairs = many_a * many_b
     crowded = (pairs > MOST_PAIRS) & (depth < 12) & (np.prod(count) > 1)
-    found = [_compare(a, b, ia, ib, first_a, many_a, first_b, many_b, shared, low, size, count, ~crowded)]
+    found = [
+        _compare(a, b, ia, ib, first_a, many_a, first_b, many_b, shared, low, size, count, ~crowded)
+    ]
     for k in np.flatnonzero(crowded):
         corner = low + size * np.array(np.unravel_index(shared[k], count))
         inside_a = ia[first_a[k] : first_a[k] + many_a[k]]
@@ -42,7 +44,9 @@ def _search(a, b, ia, ib, low, high, depth) -> list[tuple[np.ndarray, np.ndarray
         if min(len(inside_a), len(inside_b)) < 8:
             one = np.arange(len(shared)) == k
             found.append(
-                _compare(a, b, ia, ib, first_a, many_a, first_b, many_b, shared, low, size, count, one)
+                _compare(
+                    a, b, ia, ib, first_a, many_a, first_b, many_b, shared, low, size, count, one
+                )
             )
             continue
         for i, j in _search(a, b, inside_a, inside_b, corner, corner + size, depth + 1):

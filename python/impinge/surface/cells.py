@@ -110,7 +110,10 @@ class Tiles(Polygons):
     @property
     def edges(self) -> tuple[np.ndarray, np.ndarray]:
         """Lines between them along x and y [m]."""
-        return tuple(low + s * np.arange(n + 1) for low, s, n in zip(self.low, self.size, self.shape, strict=True))
+        return tuple(
+            low + s * np.arange(n + 1)
+            for low, s, n in zip(self.low, self.size, self.shape, strict=True)
+        )
 
     @property
     def middles(self) -> tuple[np.ndarray, np.ndarray]:
@@ -157,7 +160,9 @@ def make_tiles(count, size, at) -> Tiles:
 def check_cells(cells: np.ndarray, nodes: int):
     """Refuses what is no array of three or four numbers of `nodes` a cell."""
     if cells.ndim != 2 or cells.shape[1] not in (3, 4) or not len(cells):
-        raise SurfaceError(f"cells: an array of shape (n, 3) or (n, 4) is needed, not {cells.shape}")
+        raise SurfaceError(
+            f"cells: an array of shape (n, 3) or (n, 4) is needed, not {cells.shape}"
+        )
     if not np.issubdtype(cells.dtype, np.integer):
         raise SurfaceError(f"cells: numbers of nodes are needed, not {cells.dtype}")
     if cells.min() < 0 or cells.max() >= nodes:
@@ -182,7 +187,9 @@ def make_polygons(nodes: np.ndarray, cells: np.ndarray) -> Polygons:
     bent = ~_is_fit(nodes[corners])
     if bent.any():
         cell = int(np.flatnonzero(bent)[0])
-        raise SurfaceError(f"cells: cell {cell} at {nodes[corners[cell, 0]]} m is not convex; cut it into triangles")
+        raise SurfaceError(
+            f"cells: cell {cell} at {nodes[corners[cell, 0]]} m is not convex; cut it into triangles"
+        )
     return Polygons(nodes, corners, (len(corners),))
 
 

@@ -66,7 +66,10 @@ def lens(a: np.ndarray, b: np.ndarray, distance: np.ndarray) -> np.ndarray:
     # 16 times the square of the triangle's area (Heron)
     heron = (a + b + distance) * (a + b - distance) * (distance + a - b) * (distance - a + b)
     height = 0.5 * np.sqrt(np.maximum(heron, 0.0)) / apart
-    foot = ((distance**2 + (a - b) * (a + b)) / (2.0 * apart), (distance**2 + (b - a) * (a + b)) / (2.0 * apart))
+    foot = (
+        (distance**2 + (a - b) * (a + b)) / (2.0 * apart),
+        (distance**2 + (b - a) * (a + b)) / (2.0 * apart),
+    )
     area = np.zeros(a.shape)
     for radius, x in zip((a, b), foot, strict=True):
         angle = np.arctan2(height, x)

@@ -24,7 +24,9 @@ if TYPE_CHECKING:
     from .surface import Surface
 
 
-def conservative(source: Surface, target: Surface, quantity: str, outside: str, tolerance: float) -> Map:
+def conservative(
+    source: Surface, target: Surface, quantity: str, outside: str, tolerance: float
+) -> Map:
     """Builds the map; see :meth:`Surface.map_to`."""
     source_has_nodes, target_has_nodes = _has_nodes(source), _has_nodes(target)
     if isinstance(target.cells, Scattered):
@@ -72,7 +74,9 @@ def nodes_by_cells(
     i, j, area = pieces.i, pieces.j, pieces.area
     moment = pieces.moment + (pieces.about - points[j, 0]) * area[:, None]
     if snap:
-        scale = _snap_scale(*((i, area, cells) if snap == "cells" else (j, area, triangles)), tolerance)
+        scale = _snap_scale(
+            *((i, area, cells) if snap == "cells" else (j, area, triangles)), tolerance
+        )
         area, moment = area * scale, moment * scale[:, None]
     a, b = points[j, 1] - points[j, 0], points[j, 2] - points[j, 0]
     twice = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
@@ -132,7 +136,9 @@ def _points_in_cells(source, target, tolerance):
 
 
 def _snap(pieces: Pieces, cells, tolerance) -> Pieces:
-    return Pieces(pieces.i, pieces.j, pieces.area * _snap_scale(pieces.j, pieces.area, cells, tolerance))
+    return Pieces(
+        pieces.i, pieces.j, pieces.area * _snap_scale(pieces.j, pieces.area, cells, tolerance)
+    )
 
 
 def _snap_scale(j, area, cells, tolerance):

@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     from .surface import Surface
 
 
-def consistent(source: Surface, target: Surface, outside: str, tolerance: float, options: dict) -> Map:
+def consistent(
+    source: Surface, target: Surface, outside: str, tolerance: float, options: dict
+) -> Map:
     """Builds the map; see :meth:`Surface.map_to`."""
     nearest = outside == "nearest"
     if isinstance(source.cells, Scattered):
@@ -47,7 +49,9 @@ def interpolate(source: Surface, target: Surface, tolerance: float, nearest: boo
         cell = source.cells.contains(points)
         off = cell < 0
         r = np.hypot(*(points - source.cells.centre).T)
-        snap = off & (np.abs(r - np.clip(r, source.cells.edges[0], source.cells.edges[-1])) <= tolerance)
+        snap = off & (
+            np.abs(r - np.clip(r, source.cells.edges[0], source.cells.edges[-1])) <= tolerance
+        )
         last = len(source.cells.edges) - 2
         cell = np.where(off, np.where(r > source.cells.edges[-1], last, 0), cell)
         return _rows(cell[:, None], np.ones((len(points), 1)), shape), off & ~snap
@@ -64,7 +68,10 @@ def interpolate(source: Surface, target: Surface, tolerance: float, nearest: boo
         columns = nodes if at_nodes else beside[:, None]
         share = share if at_nodes else np.ones((len(columns), 1))
         some = _rows(columns, share, (int(off.sum()), source.size))
-        place = csr_matrix((np.ones(off.sum()), (np.flatnonzero(off), np.arange(off.sum()))), (len(points), off.sum()))
+        place = csr_matrix(
+            (np.ones(off.sum()), (np.flatnonzero(off), np.arange(off.sum()))),
+            (len(points), off.sum()),
+        )
         matrix = matrix + place @ some
     return csr_matrix(matrix), off
 
@@ -86,11 +93,16 @@ def _means(source, target, tolerance, nearest):
     missing = target.cells.areas - covered
     off = missing > tolerance * target.cells.perimeters
     none = covered <= 0
-    matrix = csr_matrix(diags_array(np.where(none, 0.0, 1.0 / np.where(none, 1.0, covered))) @ shared)
+    matrix = csr_matrix(
+        diags_array(np.where(none, 0.0, 1.0 / np.where(none, 1.0, covered))) @ shared
+    )
     if nearest and none.any():
         centres = target.on_points_of(target.cells.centroids[none])
         some, _ = interpolate(source, centres, tolerance, nearest=True)
-        place = csr_matrix((np.ones(none.sum()), (np.flatnonzero(none), np.arange(none.sum()))), (len(none), none.sum()))
+        place = csr_matrix(
+            (np.ones(none.sum()), (np.flatnonzero(none), np.arange(none.sum()))),
+            (len(none), none.sum()),
+        )
         matrix = csr_matrix(matrix + place @ some)
     return matrix, off
 
@@ -100,7 +112,10 @@ def _mesh_of(source) -> tuple[Polygons, csr_matrix]:
     extrapolation to the edges of their outermost cells."""
     if not isinstance(source.cells, Tiles):
         return source.cells, csr_matrix(diags_array(np.ones(source.size)))
-    lines = [np.concatenate([e[:1], m, e[-1:]]) for e, m in zip(source.cells.edges, source.cells.middles, strict=True)]
+    lines = [
+        np.concatenate([e[:1], m, e[-1:]])
+        for e, m in zip(source.cells.edges, source.cells.middles, strict=True)
+    ]
     nodes = np.stack(np.meshgrid(*lines, indexing="ij"), axis=2).reshape(-1, 2)
     nx, ny = (len(line) for line in lines)
     i, j = np.meshgrid(np.arange(nx - 1), np.arange(ny - 1), indexing="ij")
@@ -147,7 +162,9 @@ def quadrature(target: Surface) -> tuple[np.ndarray, csr_matrix]:
     else:
         corners, who = target.cells.triangles
         a, b = 0.445948490915965, 0.091576213509771
-        bary = np.array([[a, a], [1 - 2 * a, a], [a, 1 - 2 * a], [b, b], [1 - 2 * b, b], [b, 1 - 2 * b]])
+        bary = np.array(
+            [[a, a], [1 - 2 * a, a], [a, 1 - 2 * a], [b, b], [1 - 2 * b, b], [b, 1 - 2 * b]]
+        )
         bary = np.column_stack([1 - bary.sum(axis=1), bary])
         points = np.einsum("qc,tcx->tqx", bary, target.cells.nodes[corners])
         p = target.cells.nodes[corners]

@@ -27,12 +27,14 @@ def read_table(path: Path) -> tuple[list[str], np.ndarray]:
         raise SurfaceError(f"{path}: is empty")
     line, header = lines[0]
     mark = next((m for m in (";", "\t") if m in header), ",")
-    names = [re.sub(r"\s*\[[^\]\d]*[^\]]*\]\s*$", "", n).strip() for n in _cells(header, mark)]
+    names = [re.sub(r"\s+\[[^\]]*\]\s*$", "", n).strip() for n in _cells(header, mark)]
     if len(set(names)) < len(names):
         twice = next(n for n in names if names.count(n) > 1)
         raise SurfaceError(f"{path}: line {line}: column `{twice}` stands twice")
     if all(_is_number(n) for n in names):
-        raise SurfaceError(f"{path}: line {line}: names of columns are needed, such as x,y,heat_flux")
+        raise SurfaceError(
+            f"{path}: line {line}: names of columns are needed, such as x,y,heat_flux"
+        )
     rows = np.empty((len(lines) - 1, len(names)))
     for k, (line, text) in enumerate(lines[1:]):
         rows[k] = numbers(path, line, _cells(text, mark), names)
@@ -53,7 +55,9 @@ def numbers(path: Path, line: int, cells: list[str], names: list[str] | int) -> 
     """Numbers of a line; an error names the column of what is none."""
     columns = names if isinstance(names, list) else [str(k + 1) for k in range(names)]
     if len(cells) != len(columns):
-        raise SurfaceError(f"{path}: line {line}: {len(cells)} columns, where there are {len(columns)}")
+        raise SurfaceError(
+            f"{path}: line {line}: {len(cells)} columns, where there are {len(columns)}"
+        )
     values = []
     for name, text in zip(columns, cells, strict=True):
         if not _is_number(text):

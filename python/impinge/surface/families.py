@@ -79,14 +79,18 @@ def from_cells(cells: dict[str, Any], name: str, z: float | None = None) -> Surf
         case "grid":
             surface = _grid(cells, x, y, name)
         case _:
-            raise SurfaceError(f"{name}: a footprint `{footprint}` has no cells to map to; take rings or tiles")
+            raise SurfaceError(
+                f"{name}: a footprint `{footprint}` has no cells to map to; take rings or tiles"
+            )
     if isinstance(surface.cells, Scattered):
         return surface
     areas = np.asarray(cells.get("area", surface.areas), float).ravel()
     if areas.shape == surface.areas.ravel().shape:
         apart = np.abs(areas / surface.areas.ravel() - 1).max()
         if apart > 1e-9:
-            raise SurfaceError(f"{name}: areas of the unit differ from those of its cells by {apart:.3g} of them")
+            raise SurfaceError(
+                f"{name}: areas of the unit differ from those of its cells by {apart:.3g} of them"
+            )
     return surface
 
 
@@ -118,16 +122,22 @@ def _of_scene(path: Path, name: str) -> Surface:
     except tomllib.TOMLDecodeError as error:
         raise SurfaceError(f"{path}: {error}") from None
     kinds = ("load", "wall", "field")
-    entries = {e.get("name", scene.get("name", "")): e for kind in kinds for e in scene.get(kind, [])}
+    entries = {
+        e.get("name", scene.get("name", "")): e for kind in kinds for e in scene.get(kind, [])
+    }
     if name not in entries:
-        raise SurfaceError(f"{path}: `{name}` is none of its loads, walls and fields: {', '.join(entries)}")
+        raise SurfaceError(
+            f"{path}: `{name}` is none of its loads, walls and fields: {', '.join(entries)}"
+        )
     entry = entries[name]
     start = entry.get("start", {})
     at = float(start.get("x", 0.0)), float(start.get("y", 0.0))
     z = _height(scene, entry, path, name)
     footprint = entry.get("footprint", {})
     if "grid" in entry:
-        return Surface.grid(entry["grid"], entry.get("size") or _extent(scene, entry, path, name)[:2], z=z)
+        return Surface.grid(
+            entry["grid"], entry.get("size") or _extent(scene, entry, path, name)[:2], z=z
+        )
     match footprint:
         case {"rings": {"count": count, "radius": radius}}:
             return Surface.rings(count, radius, at, z=z)
@@ -137,7 +147,9 @@ def _of_scene(path: Path, name: str) -> Surface:
             return Surface.rings(1, radius, at, z=z)
         case {"ring": {"inner": inner, "outer": outer}}:
             return Surface.ring_edges([inner, outer], at, z=z)
-    raise SurfaceError(f"{path}: `{name}` has no rings, tiles, disc or grid to map to, but {footprint or entry}")
+    raise SurfaceError(
+        f"{path}: `{name}` has no rings, tiles, disc or grid to map to, but {footprint or entry}"
+    )
 
 
 def _height(scene, entry, path, name) -> float:
@@ -147,7 +159,9 @@ def _height(scene, entry, path, name) -> float:
         return -_extent(scene, entry, path, name)[2]
     if face == "top" or "under" in entry:
         return 0.0
-    raise SurfaceError(f"{path}: `{name}` lies on {entry.get('on', 'a section')}; surfaces are tops and bottoms")
+    raise SurfaceError(
+        f"{path}: `{name}` lies on {entry.get('on', 'a section')}; surfaces are tops and bottoms"
+    )
 
 
 def _extent(scene, entry, path, name):
@@ -158,4 +172,3 @@ def _extent(scene, entry, path, name):
         case {"disc": {"radius": radius, "thickness": thickness}}:
             return 2 * radius, 2 * radius, thickness
     raise SurfaceError(f"{path}: `{name}`: body `{body}` has no box or disc")
-

@@ -59,8 +59,12 @@ def read(
     surface, series = _read_any(path, placement, values, face, tolerance)
     many = [name for name, one in series.items() if len(one) > 1]
     if many:
-        raise SurfaceError(f"{path}: `{many[0]}` has {len(series[many[0]])} times; read_series reads them")
-    return replace(surface, data={**surface.data, **{name: one.values[0] for name, one in series.items()}})
+        raise SurfaceError(
+            f"{path}: `{many[0]}` has {len(series[many[0]])} times; read_series reads them"
+        )
+    return replace(
+        surface, data={**surface.data, **{name: one.values[0] for name, one in series.items()}}
+    )
 
 
 def read_series(
@@ -115,7 +119,9 @@ class _Maker:
         options = {"values": values, "tolerance": self.tolerance}
         used, corners = np.unique(cells[kept], return_inverse=True)
         try:
-            surface = Surface.triangles(points[used], corners.reshape(-1, cells.shape[1]), self.placement, **options)
+            surface = Surface.triangles(
+                points[used], corners.reshape(-1, cells.shape[1]), self.placement, **options
+            )
         except SurfaceError as error:
             raise SurfaceError(f"{self.path}: {error}") from None
         if values == "cells":
@@ -150,7 +156,9 @@ def _read_csv(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
     times, frame = np.unique(columns["time"], return_inverse=True)
     order = np.lexsort((*places.T[::-1], frame))
     many = len(rows) // len(times)
-    by_frame = places[order].reshape(len(times), -1, len(axes)) if many * len(times) == len(rows) else None
+    by_frame = (
+        places[order].reshape(len(times), -1, len(axes)) if many * len(times) == len(rows) else None
+    )
     if by_frame is None or (np.bincount(frame) != many).any() or (by_frame != by_frame[0]).any():
         raise SurfaceError(f"{path}: times have different places; every time needs all of them")
     surface = make(by_frame[0], None, {}, {})
@@ -162,11 +170,15 @@ def _read_hdf5(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
 
     try:
         with h5py.File(path) as file:
-            content = {name: item[()] for name, item in file.items() if isinstance(item, h5py.Dataset)}
+            content = {
+                name: item[()] for name, item in file.items() if isinstance(item, h5py.Dataset)
+            }
     except OSError as error:
         raise SurfaceError(f"{path}: {error}") from None
     if "points" not in content:
-        raise SurfaceError(f"{path}: no dataset `points` of shape (n, 2 or 3); there are {', '.join(content)}")
+        raise SurfaceError(
+            f"{path}: no dataset `points` of shape (n, 2 or 3); there are {', '.join(content)}"
+        )
     points, cells = content.pop("points"), content.pop("cells", None)
     times = content.pop("time", None)
     frames, still = {}, {}
@@ -177,11 +189,15 @@ def _read_hdf5(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
     fields = {**still, **frames}
     for name, field in fields.items():
         if field.ndim == 0 or len(field) not in (len(points), 0 if cells is None else len(cells)):
-            raise SurfaceError(f"{path}: `{name}` of shape {content[name].shape} fits neither points nor cells")
+            raise SurfaceError(
+                f"{path}: `{name}` of shape {content[name].shape} fits neither points nor cells"
+            )
     at_points = {n: f for n, f in fields.items() if len(f) == len(points)}
     at_cells = {n: f for n, f in fields.items() if n not in at_points}
     surface = make(points, cells, at_points, at_cells)
-    series = {n: Series(times, np.moveaxis(surface.data[n], 1, 0)) for n in frames if n in surface.data}
+    series = {
+        n: Series(times, np.moveaxis(surface.data[n], 1, 0)) for n in frames if n in surface.data
+    }
     return replace(surface, data={n: f for n, f in surface.data.items() if n not in frames}), series
 
 
@@ -207,20 +223,31 @@ def _read_xdmf(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
     return _join(path, [(frame[0], load(frame)) for frame in frames])
 
 
-def _join(path: Path, frames: list[tuple[float, Callable[[], Surface]]]) -> tuple[Surface, dict[str, Series]]:
+def _join(
+    path: Path, frames: list[tuple[float, Callable[[], Surface]]]
+) -> tuple[Surface, dict[str, Series]]:
     """One surface and the series of its fields, of frames each on its own."""
     surface = frames[0][1]()
     data: dict[str, list] = {name: [field] for name, field in surface.data.items()}
     for time, load in frames[1:]:
         other = load()
-        if other.shape != surface.shape or np.abs(other.coordinates - surface.coordinates).max() > 0:
-            raise SurfaceError(f"{path}: the places at {time} s are others than at {frames[0][0]} s")
+        if (
+            other.shape != surface.shape
+            or np.abs(other.coordinates - surface.coordinates).max() > 0
+        ):
+            raise SurfaceError(
+                f"{path}: the places at {time} s are others than at {frames[0][0]} s"
+            )
         if set(other.data) != set(data):
-            raise SurfaceError(f"{path}: at {time} s there are {', '.join(other.data)}, before {', '.join(data)}")
+            raise SurfaceError(
+                f"{path}: at {time} s there are {', '.join(other.data)}, before {', '.join(data)}"
+            )
         for name, field in other.data.items():
             data[name].append(field)
     times = np.array([time for time, _ in frames])
-    return replace(surface, data={}), {name: Series(times, np.array(fields)) for name, fields in data.items()}
+    return replace(surface, data={}), {
+        name: Series(times, np.array(fields)) for name, fields in data.items()
+    }
 
 
 def _read_mesh(path: Path, make: _Maker) -> Surface:
@@ -248,12 +275,19 @@ def _of_mesh(path: Path, mesh: Any, make: _Maker) -> Surface:
         kinds = {block.type for block in mesh.cells}
         if kinds <= {"vertex"}:
             return make(mesh.points, None, at_points, {})
-        raise SurfaceError(f"{path}: no triangles or quadrilaterals, but {', '.join(sorted(kinds))}")
+        raise SurfaceError(
+            f"{path}: no triangles or quadrilaterals, but {', '.join(sorted(kinds))}"
+        )
     cells = []
     for k in blocks:
         corners = mesh.cells[k].data[:, : FACES[mesh.cells[k].type]]
-        cells.append(corners if corners.shape[1] == 4 else np.column_stack([corners, corners[:, 2]]))
-    at_cells = {name: np.concatenate([np.asarray(data[k]) for k in blocks]) for name, data in mesh.cell_data.items()}
+        cells.append(
+            corners if corners.shape[1] == 4 else np.column_stack([corners, corners[:, 2]])
+        )
+    at_cells = {
+        name: np.concatenate([np.asarray(data[k]) for k in blocks])
+        for name, data in mesh.cell_data.items()
+    }
     return make(mesh.points, np.concatenate(cells).astype(np.int64), at_points, at_cells)
 
 

@@ -71,7 +71,10 @@ def _isoparametric(cells, points):
         area = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
         area = np.where(np.abs(area) > 1e-300, area, 1e-300)
         step = np.column_stack(
-            [rest[:, 0] * v[:, 1] - rest[:, 1] * v[:, 0], u[:, 0] * rest[:, 1] - u[:, 1] * rest[:, 0]]
+            [
+                rest[:, 0] * v[:, 1] - rest[:, 1] * v[:, 0],
+                u[:, 0] * rest[:, 1] - u[:, 1] * rest[:, 0],
+            ]
         )
         step = np.clip(step / area[:, None], -2.0, 2.0)
         at = at + step
@@ -111,7 +114,9 @@ def nearest_on_boundary(mesh: Polygons, points: np.ndarray):
     cell = np.repeat(np.arange(len(mesh.corners)), 4)
     some = edges[:, 0] != edges[:, 1]
     edges, cell = edges[some], cell[some]
-    _, first, many = np.unique(np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True)
+    _, first, many = np.unique(
+        np.sort(edges, axis=1), axis=0, return_index=True, return_counts=True
+    )
     edges, cell = edges[first[many == 1]], cell[first[many == 1]]
     start, along = mesh.nodes[edges[:, 0]], mesh.nodes[edges[:, 1]] - mesh.nodes[edges[:, 0]]
     which = np.empty(len(points), int)

@@ -119,8 +119,12 @@ def _tiles_by_polygons(tiles: Tiles, polygons: np.ndarray) -> Pieces:
     boxes = boxes_of(polygons)
     count = np.array(tiles.shape)
     lines = tiles.edges
-    first = np.column_stack([np.searchsorted(e, boxes[:, 0, k], side="right") - 1 for k, e in enumerate(lines)])
-    last = np.column_stack([np.searchsorted(e, boxes[:, 1, k], side="left") - 1 for k, e in enumerate(lines)])
+    first = np.column_stack(
+        [np.searchsorted(e, boxes[:, 0, k], side="right") - 1 for k, e in enumerate(lines)]
+    )
+    last = np.column_stack(
+        [np.searchsorted(e, boxes[:, 1, k], side="left") - 1 for k, e in enumerate(lines)]
+    )
     outside = ((first >= count) | (last < 0)).any(axis=1)
     first, last = np.clip(first, 0, count - 1), np.clip(last, 0, count - 1)
     wide = np.where(outside[:, None], 0, np.maximum(last - first + 1, 1))

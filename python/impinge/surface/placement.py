@@ -9,7 +9,16 @@ import numpy as np
 
 from .errors import SurfaceError
 
-METRES = {"m": 1.0, "dm": 0.1, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "µm": 1e-6, "nm": 1e-9, "in": 0.0254}
+METRES = {
+    "m": 1.0,
+    "dm": 0.1,
+    "cm": 1e-2,
+    "mm": 1e-3,
+    "um": 1e-6,
+    "µm": 1e-6,
+    "nm": 1e-9,
+    "in": 0.0254,
+}
 
 
 @dataclass(frozen=True)
@@ -75,7 +84,9 @@ def three_columns(points: np.ndarray) -> np.ndarray:
     """Points with a third coordinate, 0 where they have two; shape (n, 3)."""
     points = np.asarray(points, float)
     if points.ndim != 2 or points.shape[1] not in (2, 3):
-        raise SurfaceError(f"points: an array of shape (n, 2) or (n, 3) is needed, not {points.shape}")
+        raise SurfaceError(
+            f"points: an array of shape (n, 2) or (n, 3) is needed, not {points.shape}"
+        )
     if not np.isfinite(points).all():
         row = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
         raise SurfaceError(f"points: point {row} is {points[row]}, which is no place")

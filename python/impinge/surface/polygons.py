@@ -63,7 +63,10 @@ def in_convex(frames: np.ndarray, polygons: np.ndarray):
         corner = frames[alive, k]
         along = frames[alive, (k + 1) % frames.shape[1]] - corner
         length = np.linalg.norm(along, axis=1)
-        normal = np.column_stack([-along[:, 1], along[:, 0]]) / np.where(length > 0, length, 1.0)[:, None]
+        normal = (
+            np.column_stack([-along[:, 1], along[:, 0]])
+            / np.where(length > 0, length, 1.0)[:, None]
+        )
         height = ((clipped - corner[:, None, :]) * normal[:, None, :]).sum(axis=2)
         clipped, some = _above(clipped, height)
         clipped, alive = clipped[some], alive[some]

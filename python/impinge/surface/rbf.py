@@ -71,7 +71,9 @@ def matrix(
     tree = cKDTree(source)
     _check_apart(source, tree)
     many = min(neighbours, len(source))
-    spacing = np.median(tree.query(source, k=min(2, len(source)))[0].reshape(len(source), -1)[:, -1])
+    spacing = np.median(
+        tree.query(source, k=min(2, len(source)))[0].reshape(len(source), -1)[:, -1]
+    )
     nearest = tree.query(target)[0]
     off = nearest > 3.0 * spacing
     centres = _cover(np.concatenate([source, target[~off]]), tree, many, spacing)

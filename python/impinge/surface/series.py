@@ -22,7 +22,9 @@ class Series:
             raise SurfaceError(f"series: {times.shape} times for values of shape {values.shape}")
         if not np.isfinite(times).all() or not (np.diff(times) > 0).all():
             at = int(np.flatnonzero(~(np.diff(times) > 0))[0]) if len(times) > 1 else 0
-            raise SurfaceError(f"series: time {times[min(at + 1, len(times) - 1)]} s does not ascend")
+            raise SurfaceError(
+                f"series: time {times[min(at + 1, len(times) - 1)]} s does not ascend"
+            )
         object.__setattr__(self, "times", times)
         object.__setattr__(self, "values", values)
 
@@ -68,4 +70,6 @@ class Series:
 
     def _check(self, time):
         if not self.times[0] <= time <= self.times[-1]:
-            raise SurfaceError(f"{time} s is not within the series from {self.times[0]} to {self.times[-1]} s")
+            raise SurfaceError(
+                f"{time} s is not within the series from {self.times[0]} to {self.times[-1]} s"
+            )

@@ -9,7 +9,17 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from .cells import Polygons, Rings, Scattered, Tiles, check_cells, make_polygons, make_rings, make_scattered, make_tiles
+from .cells import (
+    Polygons,
+    Rings,
+    Scattered,
+    Tiles,
+    check_cells,
+    make_polygons,
+    make_rings,
+    make_scattered,
+    make_tiles,
+)
 from .conservative import conservative, nodal_areas
 from .consistent import consistent
 from .errors import SurfaceError
@@ -51,20 +61,29 @@ class Surface:
     # Makers
 
     @classmethod
-    def rings(cls, count: int, radius: float, at: Sequence[float] = (0.0, 0.0), *, z: float = 0.0) -> Surface:
+    def rings(
+        cls, count: int, radius: float, at: Sequence[float] = (0.0, 0.0), *, z: float = 0.0
+    ) -> Surface:
         """`count` concentric rings of equal width out to `radius` [m] about `at` [m]. Arcs are true arcs."""
         if int(count) < 1 or not (np.isfinite(radius) and radius > 0):
             raise SurfaceError(f"rings: {count} of radius {radius} m: both are to be above 0")
         return cls(make_rings(radius * np.arange(count + 1) / count, at), "cells", z)
 
     @classmethod
-    def ring_edges(cls, edges: Sequence[float], at: Sequence[float] = (0.0, 0.0), *, z: float = 0.0) -> Surface:
+    def ring_edges(
+        cls, edges: Sequence[float], at: Sequence[float] = (0.0, 0.0), *, z: float = 0.0
+    ) -> Surface:
         """Concentric rings between ascending radii [m], shape (count + 1,)."""
         return cls(make_rings(edges, at), "cells", z)
 
     @classmethod
     def tiles(
-        cls, count: Sequence[int], size: Sequence[float], at: Sequence[float] = (0.0, 0.0), *, z: float = 0.0
+        cls,
+        count: Sequence[int],
+        size: Sequence[float],
+        at: Sequence[float] = (0.0, 0.0),
+        *,
+        z: float = 0.0,
     ) -> Surface:
         """(nx, ny) equal rectangles that fill `size` = (lx, ly) [m] centred on `at` [m]; values have shape
         (nx, ny), the first index along x."""
@@ -72,7 +91,12 @@ class Surface:
 
     @classmethod
     def grid(
-        cls, count: Sequence[int], size: Sequence[float], at: Sequence[float] = (0.0, 0.0), *, z: float = 0.0
+        cls,
+        count: Sequence[int],
+        size: Sequence[float],
+        at: Sequence[float] = (0.0, 0.0),
+        *,
+        z: float = 0.0,
     ) -> Surface:
         """The middles of :meth:`tiles`, where a unit's ``[[field]]`` has its points."""
         return cls(make_tiles(count, size, at), "points", z)
@@ -244,12 +268,16 @@ class Surface:
         """
         _check("kind", kind, ("conservative", "consistent"))
         _check("quantity", quantity, ("intensive", "extensive"))
-        _check("outside", outside, ("error", "drop", *(["nearest"] if kind == "consistent" else [])))
+        _check(
+            "outside", outside, ("error", "drop", *(["nearest"] if kind == "consistent" else []))
+        )
         if tolerance is None:
             tolerance = 1e-6 * max(np.ptp(s.cells.box, axis=0).max() for s in (self, target))
         is_rbf = kind == "consistent" and isinstance(self.cells, Scattered)
         if rbf and not is_rbf:
-            raise SurfaceError(f"{', '.join(rbf)}: only consistent maps of scattered points have these")
+            raise SurfaceError(
+                f"{', '.join(rbf)}: only consistent maps of scattered points have these"
+            )
         if not is_rbf:
             _refuse_other_plane(self, target, tolerance)
         if kind == "consistent":
@@ -281,7 +309,10 @@ def plane(points: np.ndarray, used: np.ndarray, tolerance: float | None) -> floa
 
 
 def _refuse_other_plane(source: Surface, target: Surface, tolerance: float):
-    heights = [s.cells.places[:, 2] if isinstance(s.cells, Scattered) else np.array([s.z]) for s in (source, target)]
+    heights = [
+        s.cells.places[:, 2] if isinstance(s.cells, Scattered) else np.array([s.z])
+        for s in (source, target)
+    ]
     low = min(h.min() for h in heights)
     high = max(h.max() for h in heights)
     if high - low > tolerance:

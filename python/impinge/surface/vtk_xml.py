@@ -64,7 +64,10 @@ def read_vtk_xml(path: Path) -> VtkFile:
         sections[name] = {a.attrib.get("Name", name): decode(a) for a in arrays}
     extent = [int(n) for n in pieces[0].attrib.get("Extent", "").split()]
     dimensions = tuple(b - a + 1 for a, b in zip(extent[::2], extent[1::2], strict=True)) or None
-    geometry = {**sections["Coordinates"], **{f"Polys.{k}": v for k, v in sections["Polys"].items()}}
+    geometry = {
+        **sections["Coordinates"],
+        **{f"Polys.{k}": v for k, v in sections["Polys"].items()},
+    }
     if sections["Points"]:
         geometry["Points"] = next(iter(sections["Points"].values()))
     return VtkFile(kind, dimensions, sections["PointData"], sections["CellData"], geometry)
@@ -125,7 +128,9 @@ class _Decoder:
         sizes = np.frombuffer(read(3 * size, int(first) * size), self.header)
         begin = (3 + int(first)) * size
         ends = begin + np.cumsum(sizes)
-        return b"".join(zlib.decompress(read(int(e - s), int(s))) for s, e in zip(sizes, ends, strict=True))
+        return b"".join(
+            zlib.decompress(read(int(e - s), int(s))) for s, e in zip(sizes, ends, strict=True)
+        )
 
     def _blocks_of_base64(self, data: bytes) -> bytes:
         """Header and data are encoded apart where they are compressed."""
@@ -142,5 +147,7 @@ class _Decoder:
         head = (3 + blocks) * size
         rest = data[4 * -(-head // 3) :]
         return self._blocks(
-            lambda start, many: read(data, start, many) if start < head else read(rest, start - head, many)
+            lambda start, many: (
+                read(data, start, many) if start < head else read(rest, start - head, many)
+            )
         )
