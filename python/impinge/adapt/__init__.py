@@ -1,8 +1,9 @@
 """Files of other tools into units, and results of units onto meshes of other tools.
 
-``impinge-adapt laser|spray|cfd`` write tables of inputs over time that ``impinge run SCENE --inputs TABLE``
-takes; ``impinge-adapt out`` puts ParaView series of a unit onto a foreign mesh. The same as functions:
-:func:`laser_frames`, :func:`spray_frames`, :func:`cfd_frames`, :func:`write_inputs`, :func:`onto_mesh`.
+``impinge-adapt laser|spray|cfd`` write tables of inputs over time that ``impinge run SCENE --inputs
+TABLE`` takes; ``impinge-adapt out`` puts ParaView series of a unit onto a foreign mesh. The same as
+functions: :func:`laser_frames`, :func:`spray_frames`, :func:`cfd_frames`, :func:`write_inputs`,
+:func:`onto_mesh`.
 """
 
 from .cfd import cfd_frames

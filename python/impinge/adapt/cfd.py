@@ -19,10 +19,11 @@ def cfd_frames(
     outside: Literal["error", "drop", "nearest"] = "error",
     tolerance: float | None = None,
 ) -> Series:
-    """A field of a file on the cells of `target`, over time; see :func:`impinge.surface.files.read_series`.
+    """A field of a file on the cells of `target`, over time; see
+    :func:`impinge.surface.files.read_series`.
 
-    Of a file with more than the face, the cells are taken that lie at the target's height. Heat fluxes
-    and tractions map conservatively, coefficients and temperatures consistently.
+    Of a file with more than the face, the cells are taken that lie at the target's height. Heat
+    fluxes and tractions map conservatively, coefficients and temperatures consistently.
     """
     values = values or _location(path, name, placement, target, tolerance)
     surface, series = Surface.read_series(

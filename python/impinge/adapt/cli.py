@@ -187,7 +187,8 @@ def _write(options, target: Surface, frames: Series, unit: str):
     )
     total = target.integral(frames.values) if target.location == "cells" else frames.values
     print(
-        f"{options.out}: {len(frames)} times, {target.size} cells, integral {total.min():.9g} to {total.max():.9g} {unit}"
+        f"{options.out}: {len(frames)} times, {target.size} cells, integral "
+        f"{total.min():.9g} to {total.max():.9g} {unit}"
     )
 
 

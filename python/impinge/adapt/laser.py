@@ -16,8 +16,8 @@ PICTURES = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".gif", ".pgm"}
 def read_picture(path: str | Path) -> tuple[np.ndarray | None, np.ndarray]:
     """Times [s], if the file has them, and frames of intensities, shape (frames, rows, columns).
 
-    Pictures (Pillow; colours are made grey), tables of numbers (.csv, .txt), .npy, and HDF5 files with a
-    dataset ``intensity`` (rows, columns) or (frames, rows, columns), and ``time``.
+    Pictures (Pillow; colours are made grey), tables of numbers (.csv, .txt), .npy, and HDF5 files
+    with a dataset ``intensity`` (rows, columns) or (frames, rows, columns), and ``time``.
 
     Raises
     ------
@@ -39,7 +39,8 @@ def read_picture(path: str | Path) -> tuple[np.ndarray | None, np.ndarray]:
             frames = _read_image(path)
         case suffix:
             raise SurfaceError(
-                f"{path}: `{suffix}` is no format of maps: {', '.join(sorted(PICTURES))}, .csv, .npy, .h5"
+                f"{path}: `{suffix}` is no format of maps: "
+                f"{', '.join(sorted(PICTURES))}, .csv, .npy, .h5"
             )
     frames = np.asarray(frames, float)
     if frames.ndim == 2:
@@ -102,15 +103,15 @@ def laser_frames(
     Parameters
     ----------
     paths
-        Maps, one for each time; see :func:`read_picture`. The first row is the top one (largest y) unless
-        `upward`; columns run along x.
+        Maps, one for each time; see :func:`read_picture`. The first row is the top one (largest y)
+        unless `upward`; columns run along x.
     size
         Extent of a whole map along its columns and its rows [m].
     at, angle
         Where its middle lies on the face [m], and by how much it is turned from x towards y [rad].
     power
-        Power that is absorbed [W]; maps are scaled to it, all by one factor, that of the map with the
-        largest sum.
+        Power that is absorbed [W]; maps are scaled to it, all by one factor, that of the map with
+        the largest sum.
     scale
         Instead of `power`: W/m2 of an intensity of 1.
     interval

@@ -26,7 +26,8 @@ class Body:
     axes
         Coordinates of the nodes along x, y, z, or along r, z of a disc [m].
     fields
-        Arrays of shape (nodes along each axis…, components); of a disc in the half plane at angle 0.
+        Arrays of shape (nodes along each axis…, components); of a disc in the half plane at angle
+        0.
     """
 
     axes: tuple[np.ndarray, ...]
@@ -59,14 +60,16 @@ class Body:
         return cls(tuple(np.asarray(axis, float) for axis in axes), fields)
 
     def __call__(self, name: str, points: np.ndarray, tolerance: float) -> np.ndarray:
-        """A field at `points`, shape (n, 3) [m]: linear between nodes along each axis; shape (n, components).
+        """A field at `points`, shape (n, 3) [m]: linear between nodes along each axis; shape (n,
+        components).
 
         Of discs, components are turned to the angle of the point.
 
         Raises
         ------
         SurfaceError
-            If there is no such field, or if a point lies farther than the tolerance [m] off the body.
+            If there is no such field, or if a point lies farther than the tolerance [m] off the
+            body.
         """
         if name not in self.fields:
             raise SurfaceError(f"no field `{name}`; there are {', '.join(self.fields)}")
@@ -87,7 +90,8 @@ class Body:
             worst = int(np.argmax(beyond))
             place = ", ".join(f"{x:.6g}" for x in points[worst])
             raise SurfaceError(
-                f"{(beyond > tolerance).sum()} of {len(at)} points lie off the body, point {worst} at ({place}) m by "
+                f"{(beyond > tolerance).sum()} of {len(at)} points lie off the body, "
+                f"point {worst} at ({place}) m by "
                 f"{beyond[worst]:.3g} m (tolerance {tolerance:.3g} m)"
             )
         return np.clip(at, low, high)
@@ -138,7 +142,8 @@ def onto_mesh(
     placement: Placement | None = None,
     tolerance: float | None = None,
 ) -> Iterable[tuple[float, dict[str, np.ndarray]]]:
-    """Fields of a unit's ParaView series at the nodes of a mesh; yields a time [s] and arrays, one row a node.
+    """Fields of a unit's ParaView series at the nodes of a mesh; yields a time [s] and arrays, one
+    row a node.
 
     Parameters
     ----------
@@ -151,8 +156,8 @@ def onto_mesh(
     times
         Those of the series that are wanted, to 1e-9 of the last; by default all.
     placement
-        Where the body's top lies in the mesh's coordinates. Vectors and tensors are turned into the mesh's
-        axes; lengths of displacement stay in m.
+        Where the body's top lies in the mesh's coordinates. Vectors and tensors are turned into the
+        mesh's axes; lengths of displacement stay in m.
     tolerance
         How far nodes may lie off the body [m]; by default 1e-6 of its extent.
     """
@@ -185,7 +190,8 @@ def _wanted(series, frames, times):
     for time in times:
         near = min(frames, key=lambda frame: abs(frame[0] - time))
         if abs(near[0] - time) > 1e-9 * max(abs(frames[-1][0]), 1e-300):
-            known = f"{len(frames)} from {frames[0][0]} to {frames[-1][0]} s, the nearest is {near[0]} s"
+            known = f"{len(frames)} from {frames[0][0]} to {frames[-1][0]} s, the nearest is "
+            f"{near[0]} s"
             raise SurfaceError(f"{series}: has no time {time} s; it has {known}")
         kept.append(near)
     return kept
@@ -209,7 +215,8 @@ def _in_axes(values, turn):
 def write_frames(
     out: str | Path, mesh: Any, frames: Iterable[tuple[float, dict[str, np.ndarray]]]
 ) -> list[Path]:
-    """Writes a mesh with fields over time: .xdmf and .pvd hold all times, other formats of meshio one.
+    """Writes a mesh with fields over time: .xdmf and .pvd hold all times, other formats of meshio
+    one.
 
     Returns the files that were written.
     """

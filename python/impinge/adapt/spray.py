@@ -20,10 +20,11 @@ def spray_frames(
     placement: Placement | None = None,
     outside: str = "error",
 ) -> tuple[Series, dict[str, float]]:
-    """Mean fluxes on the cells of `target` over windows of time, whose integral is what the drops bring.
+    """Mean fluxes on the cells of `target` over windows of time, whose integral is what the drops
+    bring.
 
-    ``q_i = f Σ m / (A_i Δt)`` over the drops that fall on cell i in a window of length Δt; the last frame
-    is zero, at the end of the last window.
+    ``q_i = f Σ m / (A_i Δt)`` over the drops that fall on cell i in a window of length Δt; the last
+    frame is zero, at the end of the last window.
 
     Parameters
     ----------
@@ -39,8 +40,8 @@ def spray_frames(
     Returns
     -------
     tuple
-        The series, held over each window, and the totals ``brought``, ``given`` and ``lost`` in units of
-        the amount times the factor.
+        The series, held over each window, and the totals ``brought``, ``given`` and ``lost`` in
+        units of the amount times the factor.
     """
     path = Path(path)
     names, rows = read_table(path)
@@ -57,7 +58,8 @@ def spray_frames(
     negative = np.flatnonzero(columns[amount] < 0)
     if len(negative):
         raise SurfaceError(
-            f"{path}: drop {negative[0] + 1}: column {amount}: {columns[amount][negative[0]]} is below 0"
+            f"{path}: drop {negative[0] + 1}: column {amount}: "
+            f"{columns[amount][negative[0]]} is below 0"
         )
     times = columns.get("time", np.zeros(len(rows)))
     first = np.floor((times - times.min()) / window + 1e-9).astype(int)

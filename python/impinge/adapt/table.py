@@ -32,11 +32,12 @@ def names(variable: str, shape: tuple[int, ...]) -> list[str]:
 def write_inputs(
     out: str | Path | TextIO, frames: dict[str, Series], *, held: bool = False, single: bool = False
 ):
-    """Writes inputs over time; `frames` gives for each array's name its series, values of the array's shape.
+    """Writes inputs over time; `frames` gives for each array's name its series, values of the
+    array's shape.
 
-    Between rows inputs are linear in time. With `held` each frame holds until the next: there are two rows
-    then for every change, which is a jump for ``impinge run``, and the last frame ends the table. With
-    `single` arrays of one element are numbers, as those of a disc are.
+    Between rows inputs are linear in time. With `held` each frame holds until the next: there are
+    two rows then for every change, which is a jump for ``impinge run``, and the last frame ends the
+    table. With `single` arrays of one element are numbers, as those of a disc are.
 
     Raises
     ------
@@ -76,7 +77,9 @@ def _with_unit(name: str) -> str:
 
 
 def read_inputs(path: str | Path) -> tuple[np.ndarray, dict[str, np.ndarray]]:
-    """Times [s], which may stand twice at jumps, and columns of a table of inputs by their names."""
+    """Times [s], which may stand twice at jumps, and columns of a table of inputs by their
+    names.
+    """
     columns, rows = read_table(Path(path))
     if columns[0] != "time":
         raise SurfaceError(f"{path}: no first column `time`, but `{columns[0]}`")

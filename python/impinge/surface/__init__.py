@@ -1,4 +1,6 @@
-"""Surfaces and maps between them: rings, tiles and grids of units, meshes and points of other tools."""
+"""Surfaces and maps between them: rings, tiles and grids of units, meshes and points of other
+tools.
+"""
 
 from .errors import SurfaceError
 from .maps import Map

@@ -11,9 +11,9 @@ MOST_PAIRS = 4096
 def overlapping(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Pairs (i, j) of boxes ``a[i]``, ``b[j]`` that overlap or touch, each once.
 
-    Boxes have shape (n, 2, 2): lower and upper corners. The plane is cut into square bins; a pair is
-    compared in the bin that holds the larger of its lower corners alone. Bins with many pairs are cut
-    further, so that graded meshes cost no more than even ones.
+    Boxes have shape (n, 2, 2): lower and upper corners. The plane is cut into square bins; a pair
+    is compared in the bin that holds the larger of its lower corners alone. Bins with many pairs
+    are cut further, so that graded meshes cost no more than even ones.
     """
     if not len(a) or not len(b):
         return np.empty(0, int), np.empty(0, int)

@@ -101,8 +101,9 @@ class Polygons:
 
 @dataclass(frozen=True)
 class Tiles(Polygons):
-    """Equal rectangles; `low` (2,) is their lower corner, `size` (2,) their sides [m]. The first index
-    runs along x, the last fastest."""
+    """Equal rectangles; `low` (2,) is their lower corner, `size` (2,) their sides [m]. The first
+    index runs along x, the last fastest.
+    """
 
     low: np.ndarray
     size: np.ndarray
@@ -188,7 +189,8 @@ def make_polygons(nodes: np.ndarray, cells: np.ndarray) -> Polygons:
     if bent.any():
         cell = int(np.flatnonzero(bent)[0])
         raise SurfaceError(
-            f"cells: cell {cell} at {nodes[corners[cell, 0]]} m is not convex; cut it into triangles"
+            f"cells: cell {cell} at {nodes[corners[cell, 0]]} m is not convex; cut it "
+            "into triangles"
         )
     return Polygons(nodes, corners, (len(corners),))
 

@@ -6,7 +6,8 @@ import numpy as np
 
 
 def in_discs(radius: np.ndarray, polygons: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Areas, shape (n,), and first moments, shape (n, 2), of polygons within circles about the origin.
+    """Areas, shape (n,), and first moments, shape (n, 2), of polygons within circles about the
+    origin.
 
     Each edge p → q counts with what lies between it and the origin: a triangle where it is within
     the circle, ``A = ½ p × q``, ``M = ⅓ (p + q) A``, and sectors beyond, ``A = ½ R² φ``,

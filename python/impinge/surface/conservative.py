@@ -1,9 +1,9 @@
 """Maps that keep integrals, by exact cutting.
 
-Cells to cells: ``q_i = Σ_j A_ij q_j / A_i`` with A_ij the area that cell i of the target and cell j of the
-source share; amounts ``Q_i = Σ_j (A_ij / A_j) Q_j``. Values at nodes stand for ``Σ_n φ_n q_n`` with φ the
-linear functions of the triangles, and are integrated over the pieces: ``B_in = ∫_{cell i} φ_n dA``.
-Source: P. E. Farrell et al. (2009), doi 10.1016/j.cma.2009.03.004.
+Cells to cells: ``q_i = Σ_j A_ij q_j / A_i`` with A_ij the area that cell i of the target and cell j
+of the source share; amounts ``Q_i = Σ_j (A_ij / A_j) Q_j``. Values at nodes stand for ``Σ_n φ_n
+q_n`` with φ the linear functions of the triangles, and are integrated over the pieces: ``B_in =
+∫_{cell i} φ_n dA``. Source: P. E. Farrell et al. (2009), doi 10.1016/j.cma.2009.03.004.
 """
 
 from __future__ import annotations
@@ -65,8 +65,9 @@ def conservative(
 def nodes_by_cells(
     mesh: Polygons, cells: Rings | Polygons, tolerance: float, snap: str | None = None
 ) -> csr_matrix:
-    """``∫_{cell} φ_n dA`` [m2]; shape (nodes, cells). Those of `snap`, the "cells" or the "triangles", that
-    stick out by less than the tolerance keep their whole area."""
+    """``∫_{cell} φ_n dA`` [m2]; shape (nodes, cells). Those of `snap`, the "cells" or the
+    "triangles", that stick out by less than the tolerance keep their whole area.
+    """
     corners, _ = mesh.triangles
     points = mesh.nodes[corners]
     pieces = cut_polygons(cells, points)
@@ -142,7 +143,9 @@ def _snap(pieces: Pieces, cells, tolerance) -> Pieces:
 
 
 def _snap_scale(j, area, cells, tolerance):
-    """Factors that give cells their whole area back of which no more than a seam `tolerance` wide is missing."""
+    """Factors that give cells their whole area back of which no more than a seam `tolerance`
+    wide is missing.
+    """
     areas = cells.areas
     found = np.bincount(j, area, minlength=len(areas))
     seam = np.abs(areas - found) <= tolerance * cells.perimeters
@@ -160,6 +163,7 @@ def _refuse_cells_that_overlap(pieces, source, target, tolerance):
             cell = int(np.flatnonzero(over)[0])
             at = ", ".join(f"{x:.6g}" for x in surface.cells.centroids[cell])
             raise SurfaceError(
-                f"cells of the {name} overlap: they cover {covered[cell]:.6g} m2 of the {areas[cell]:.6g} m2 "
+                f"cells of the {name} overlap: they cover {covered[cell]:.6g} m2 of "
+                f"the {areas[cell]:.6g} m2 "
                 f"of a cell at ({at}) m"
             )

@@ -1,7 +1,9 @@
-"""Maps that keep values, by interpolation: constants everywhere, linear fields between nodes and points.
+"""Maps that keep values, by interpolation: constants everywhere, linear fields between nodes and
+points.
 
-Nodes and points of grids: linear on triangles, bilinear on quadrilaterals and grids. Scattered points:
-:mod:`impinge.surface.rbf`. To cells: the mean over the cell, exact for what is linear between nodes.
+Nodes and points of grids: linear on triangles, bilinear on quadrilaterals and grids. Scattered
+points: :mod:`impinge.surface.rbf`. To cells: the mean over the cell, exact for what is linear
+between nodes.
 """
 
 from __future__ import annotations
@@ -39,7 +41,9 @@ def consistent(
 
 
 def interpolate(source: Surface, target: Surface, tolerance: float, nearest: bool):
-    """Matrix from a mesh, grid or cells to the points of a target, and which of these lie off them."""
+    """Matrix from a mesh, grid or cells to the points of a target, and which of these lie off
+    them.
+    """
     points = target.coordinates[:, :2]
     shape = (len(points), source.size)
     if source.location == "points" and isinstance(source.cells, Tiles):
@@ -108,8 +112,9 @@ def _means(source, target, tolerance, nearest):
 
 
 def _mesh_of(source) -> tuple[Polygons, csr_matrix]:
-    """A mesh whose nodal values are a matrix times the values at a surface's points. Grids are extended by
-    extrapolation to the edges of their outermost cells."""
+    """A mesh whose nodal values are a matrix times the values at a surface's points. Grids are
+    extended by extrapolation to the edges of their outermost cells.
+    """
     if not isinstance(source.cells, Tiles):
         return source.cells, csr_matrix(diags_array(np.ones(source.size)))
     lines = [
@@ -144,8 +149,8 @@ def _from_points(source, target, nearest, options):
 
 
 def quadrature(target: Surface) -> tuple[np.ndarray, csr_matrix]:
-    """Points in the cells of a surface and the matrix of means over these, exact to the fourth degree on
-    triangles and, on rings, to the fifth along the radius and the 31st round it.
+    """Points in the cells of a surface and the matrix of means over these, exact to the fourth
+    degree on triangles and, on rings, to the fifth along the radius and the 31st round it.
 
     Source for triangles: D. A. Dunavant (1985), doi 10.1002/nme.1620210612.
     """
@@ -190,7 +195,8 @@ def _refuse(source, target, off):
     low, high = source.cells.box
     what = "places" if target.location == "points" else "cells"
     raise SurfaceError(
-        f"{off.sum()} of {target.size} {what} of the target lie off the source, the first at ({at}) m; the source "
+        f"{off.sum()} of {target.size} {what} of the target lie off the source, the "
+        f"first at ({at}) m; the source "
         f"reaches from ({low[0]:.6g}, {low[1]:.6g}) to ({high[0]:.6g}, {high[1]:.6g}) m; "
         'outside="drop" gives them NaN, outside="nearest" the value of the nearest place'
     )

@@ -14,8 +14,8 @@ from .errors import SurfaceError
 def read_table(path: Path) -> tuple[list[str], np.ndarray]:
     """Names of the columns without their units, and numbers, shape (rows, columns).
 
-    The first line that is no comment (#) names the columns: ``x [mm], y [mm], heat_flux``. Columns are
-    parted by commas, semicolons or tabs.
+    The first line that is no comment (#) names the columns: ``x [mm], y [mm], heat_flux``. Columns
+    are parted by commas, semicolons or tabs.
 
     Raises
     ------

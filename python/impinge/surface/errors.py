@@ -1,5 +1,7 @@
 """What may go wrong between two surfaces."""
 
+from ..errors import ImpingeError
 
-class SurfaceError(ValueError):
-    """A surface, a file of one or a map between two that cannot be made; the message says where and why."""
+
+class SurfaceError(ImpingeError, ValueError):
+    """A surface, a file or a map that cannot be made; the message says where and why."""

@@ -19,9 +19,10 @@ from .surface import Surface
 def family(unit: Any, name: str, z: float | None = None) -> Surface:
     """The surface of a family of a unit: of a load, wall or field `name`.
 
-    `unit` has a method ``cells(name)`` (an :class:`impinge.Unit`), or is the path of a .fmu file or of a
-    folder it was unzipped into, whose ``resources/cells.json`` is read, or of a scene (.toml). `z` is the
-    height of the face [m] where they do not tell it: 0, that of tops, if it is not given.
+    `unit` has a method ``cells(name)`` (an :class:`impinge.Unit`), or is the path of a .fmu file or
+    of a folder it was unzipped into, whose ``resources/cells.json`` is read, or of a scene (.toml).
+    `z` is the height of the face [m] where they do not tell it: 0, that of tops, if it is not
+    given.
 
     Raises
     ------
@@ -114,7 +115,9 @@ def _grid(cells, x, y, name) -> Surface:
 
 
 def _of_scene(path: Path, name: str) -> Surface:
-    """Loads and walls with rings, tiles or a disc, and fields with a size, as the scene has them."""
+    """Loads and walls with rings, tiles or a disc, and fields with a size, as the scene has
+    them.
+    """
     try:
         scene = tomllib.loads(path.read_text())
     except FileNotFoundError:

@@ -46,7 +46,8 @@ def read(
     values
         "cells" or "points": which fields are read. By default those of cells, if there are any.
     face
-        Read only the cells that lie at this height z of the placed coordinates [m], to the tolerance.
+        Read only the cells that lie at this height z of the placed coordinates [m], to the
+        tolerance.
     tolerance
         How far nodes may lie off a plane [m]; by default 1e-6 of their extent.
 
@@ -75,8 +76,9 @@ def read_series(
     face: float | None = None,
     tolerance: float | None = None,
 ) -> tuple[Surface, dict[str, Series]]:
-    """A surface and its fields over time: of a .csv with a column ``time``, an HDF5 file with ``time`` (n,) and
-    fields of n frames, a .pvd, an .xdmf series, or a single time, which is taken as 0 s.
+    """A surface and its fields over time: of a .csv with a column ``time``, an HDF5 file with
+    ``time`` (n,) and fields of n frames, a .pvd, an .xdmf series, or a single time, which is taken
+    as 0 s.
 
     All frames are to have the same places.
     """
@@ -137,7 +139,8 @@ class _Maker:
         if not len(kept):
             low, high = placed[:, 2].min(), placed[:, 2].max()
             raise SurfaceError(
-                f"{self.path}: no cell lies at z = {self.face:.6g} m (tolerance {tolerance:.3g} m); "
+                f"{self.path}: no cell lies at z = {self.face:.6g} m (tolerance "
+                f"{tolerance:.3g} m); "
                 f"they lie from {low:.6g} to {high:.6g} m"
             )
         return kept
@@ -314,7 +317,9 @@ def _of_vtk(path: Path, make: _Maker) -> Surface:
 
 
 def lattice(path: Path, file: Any) -> tuple[np.ndarray, tuple[int, int, int]]:
-    """Points of a grid, shape (n, 3), the first index fastest, and how many there are along each index."""
+    """Points of a grid, shape (n, 3), the first index fastest, and how many there are along each
+    index.
+    """
     if file.kind == "RectilinearGrid":
         axes = list(file.geometry.values())[:3]
         shape = tuple(len(axis) for axis in axes)

@@ -11,8 +11,8 @@ NEWTON_STEPS = 20
 
 
 def in_cells(mesh: Polygons, points: np.ndarray, tolerance: float):
-    """The cell that each point, shape (n, 2), lies in or within `tolerance` [m] of, −1 where there is
-    none, and weights of its four corners, shape (n, 4), that sum to one.
+    """The cell that each point, shape (n, 2), lies in or within `tolerance` [m] of, −1 where there
+    is none, and weights of its four corners, shape (n, 4), that sum to one.
 
     Triangles: barycentric; quadrilaterals: isoparametric (bilinear). The first cell is taken where
     cells meet. Within the tolerance weights extrapolate, so that linear fields stay exact.
@@ -58,7 +58,9 @@ def _barycentric(cells, points):
 
 
 def _isoparametric(cells, points):
-    """Solves ``Σ N(ξ, η) xᵢ = x`` by Newton's method from the middle; exact at once for parallelograms."""
+    """Solves ``Σ N(ξ, η) xᵢ = x`` by Newton's method from the middle; exact at once for
+    parallelograms.
+    """
     origin = cells[:, 0]
     a, b = cells[:, 1] - origin, cells[:, 3] - origin
     c = cells[:, 2] - cells[:, 1] - cells[:, 3] + origin
@@ -85,8 +87,9 @@ def _isoparametric(cells, points):
 
 
 def on_grid(tiles: Tiles, points: np.ndarray, tolerance: float, nearest: bool):
-    """Bilinear weights of points among the middles of tiles, extrapolated over the outer half of the
-    outermost: four columns and weights each, and whether a point lies off the tiles."""
+    """Bilinear weights of points among the middles of tiles, extrapolated over the outer half of
+    the outermost: four columns and weights each, and whether a point lies off the tiles.
+    """
     indices, shares = [], []
     off = np.zeros(len(points), bool)
     for k, (lines, middles) in enumerate(zip(tiles.edges, tiles.middles, strict=True)):
@@ -108,8 +111,9 @@ def on_grid(tiles: Tiles, points: np.ndarray, tolerance: float, nearest: bool):
 
 
 def nearest_on_boundary(mesh: Polygons, points: np.ndarray):
-    """The nearest places on a mesh's boundary, as weights of the two nodes of an edge: columns (n, 2),
-    weights (n, 2), distances (n,) [m] and the cells (n,) beside them."""
+    """The nearest places on a mesh's boundary, as weights of the two nodes of an edge: columns
+    (n, 2), weights (n, 2), distances (n,) [m] and the cells (n,) beside them.
+    """
     edges = np.stack([mesh.corners, np.roll(mesh.corners, -1, axis=1)], axis=2).reshape(-1, 2)
     cell = np.repeat(np.arange(len(mesh.corners)), 4)
     some = edges[:, 0] != edges[:, 1]

@@ -22,9 +22,9 @@ NOTHING = 1e-12
 class Map:
     """``values of target = matrix · values of source``.
 
-    Call it with values of the source: an array whose last axes have the shape ``source.shape`` or are one
-    axis of ``source.size``; further axes before them, such as time, are kept. A :class:`Series` gives a
-    series.
+    Call it with values of the source: an array whose last axes have the shape ``source.shape`` or
+    are one axis of ``source.size``; further axes before them, such as time, are kept. A
+    :class:`Series` gives a series.
 
     Attributes
     ----------
@@ -37,8 +37,8 @@ class Map:
     outside
         What is done with what lies off the other surface.
     source_weights, target_weights
-        Of conservative maps: the integral is the sum of weights times values, on either side; [m2] for
-        intensive quantities, 1 for extensive ones.
+        Of conservative maps: the integral is the sum of weights times values, on either side; [m2]
+        for intensive quantities, 1 for extensive ones.
     off
         Of consistent maps: which places of the target lie off the source and get NaN.
     """
@@ -73,8 +73,9 @@ class Map:
         return result.reshape(*before, *self.target.shape)
 
     def lost(self, values) -> np.ndarray | float:
-        """What falls beside the target: integral of the source less that of the target, of values as the
-        map itself takes them; in units of the values times m2, or of the values if extensive.
+        """What falls beside the target: integral of the source less that of the target, of values
+        as the map itself takes them; in units of the values times m2, or of the values if
+        extensive.
 
         Raises
         ------
@@ -97,8 +98,9 @@ class Map:
 
     @property
     def transpose(self) -> Map:
-        """The map back that keeps products: ``(M u) · w = u · (Mᵀ w)``. That of a consistent map carries
-        amounts without loss; that of a conservative one of amounts gives means."""
+        """The map back that keeps products: ``(M u) · w = u · (Mᵀ w)``. That of a consistent map
+        carries amounts without loss; that of a conservative one of amounts gives means.
+        """
         kind = "consistent" if self.kind == "conservative" else "conservative"
         quantity = "extensive" if kind == "conservative" else self.quantity
         return Map(self.target, self.source, csr_matrix(self.matrix.T), kind, quantity, "drop")
@@ -134,6 +136,7 @@ class Map:
         at = ", ".join(f"{x:.6g}" for x in self.source.coordinates[place])
         share = f" ({lost / total:.3g} of it)" if total else ""
         raise SurfaceError(
-            f"{lost:.6g} of {total:.6g}{share} lies off the target, most of it at place {place}, ({at}) m; "
+            f"{lost:.6g} of {total:.6g}{share} lies off the target, most of it at "
+            f"place {place}, ({at}) m; "
             'outside="drop" leaves it out'
         )

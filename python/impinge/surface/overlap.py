@@ -14,8 +14,9 @@ from .polygons import in_convex, in_rectangles, moments
 
 @dataclass(frozen=True)
 class Pieces:
-    """Pieces that cells i of one surface and cells j of another share: areas [m2] and, where `about` is
-    given, first moments about it [m3]; all of length n or shape (n, 2)."""
+    """Pieces that cells i of one surface and cells j of another share: areas [m2] and, where
+    `about` is given, first moments about it [m3]; all of length n or shape (n, 2).
+    """
 
     i: np.ndarray
     j: np.ndarray
@@ -99,7 +100,9 @@ def _rings_by_polygons(rings: Rings, polygons: np.ndarray) -> Pieces:
 
 
 def _whole(local):
-    """Areas and moments about the origin, rounded as what is far smaller than its distance should be."""
+    """Areas and moments about the origin, rounded as what is far smaller than its distance
+    should be.
+    """
     middle = local.mean(axis=1)
     area, moment = moments(local - middle[:, None])
     return area, moment + middle * area[:, None]

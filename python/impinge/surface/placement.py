@@ -26,8 +26,8 @@ class Placement:
     """Where a face lies in foreign coordinates.
 
     ``x = s A (X − X₀)`` with X foreign coordinates in `unit`, X₀ the `origin` of the face in them,
-    the rows of A its unit vectors along x and y and their cross product, s the length of `unit` [m],
-    and x coordinates of the face [m].
+    the rows of A its unit vectors along x and y and their cross product, s the length of `unit`
+    [m], and x coordinates of the face [m].
 
     Parameters
     ----------
@@ -72,11 +72,15 @@ class Placement:
         return np.array([x, y, np.cross(x, y)])
 
     def to_face(self, points: np.ndarray) -> np.ndarray:
-        """Coordinates of the face [m], shape (n, 3), of foreign `points`, shape (n, 2) or (n, 3)."""
+        """Coordinates of the face [m], shape (n, 3), of foreign `points`, shape (n, 2) or (n,
+        3).
+        """
         return self.metres * (three_columns(points) - three_columns([self.origin])) @ self.matrix.T
 
     def to_foreign(self, points: np.ndarray) -> np.ndarray:
-        """Foreign coordinates, shape (n, 3), of `points` of the face [m], shape (n, 2) or (n, 3)."""
+        """Foreign coordinates, shape (n, 3), of `points` of the face [m], shape (n, 2) or (n,
+        3).
+        """
         return three_columns(points) @ self.matrix / self.metres + three_columns([self.origin])
 
 

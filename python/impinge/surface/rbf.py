@@ -5,12 +5,12 @@ Around centres that cover the source points, the `neighbours` nearest ones carry
     s(x) = p(x) + Σ wₖ φ(|x − xₖ| / R) ,   s(xₖ) = vₖ ,
 
 with p the polynomial that is nearest to the values, so that linear fields are met to rounding; φ is
-Wendland's function of the smoothness that is asked for.
-The pieces are joined by weights that sum to one (partition of unity), which leaves a sparse matrix and
-work in proportion to the number of points.
+Wendland's function of the smoothness that is asked for. The pieces are joined by weights that sum
+to one (partition of unity), which leaves a sparse matrix and work in proportion to the number of
+points.
 
-Sources: H. Wendland (1995), doi 10.1007/BF02123482 (functions); H. Wendland (2002), in Approximation
-Theory X, 473–483 (partition of unity).
+Sources: H. Wendland (1995), doi 10.1007/BF02123482 (functions); H. Wendland (2002), in
+Approximation Theory X, 473–483 (partition of unity).
 """
 
 from __future__ import annotations
@@ -52,14 +52,15 @@ def matrix(
     neighbours: int = 80,
     support: float | None = None,
 ) -> tuple[csr_matrix, np.ndarray]:
-    """Matrix from values at `source`, shape (n, d), to those at `target`, shape (m, d), and whether each
-    target lies off the source: farther from all of its points than three times their usual distance.
+    """Matrix from values at `source`, shape (n, d), to those at `target`, shape (m, d), and whether
+    each target lies off the source: farther from all of its points than three times their usual
+    distance.
 
     Parameters
     ----------
     smoothness
-        2, 4 or 6 of φ. The smoother, the more accurate where values are smooth, and the more noise of
-        single values grows between points that lie unevenly: there 2 is safer.
+        2, 4 or 6 of φ. The smoother, the more accurate where values are smooth, and the more noise
+        of single values grows between points that lie unevenly: there 2 is safer.
     degree
         Degree of the polynomial.
     neighbours
@@ -118,7 +119,9 @@ def _cover(points, tree, many, spacing):
 
 
 def _shares(target, off, centres, radius):
-    """Targets, pieces and the weights by which these are joined; they sum to one for each target."""
+    """Targets, pieces and the weights by which these are joined; they sum to one for each
+    target.
+    """
     tree = cKDTree(centres)
     on = np.flatnonzero(~off)
     near = tree.query_ball_point(target[on], radius.max())
@@ -134,10 +137,12 @@ def _shares(target, off, centres, radius):
 
 
 def _weights(local, at, scale, smoothness, degree):
-    """Weights of values at `local` points in the value at each of `at`; shape (len(at), len(local)).
+    """Weights of values at `local` points in the value at each of `at`; shape (len(at),
+    len(local)).
 
-    ``k(x) K⁻¹ (1 − P P⁺) + p(x) P⁺`` with K the kernel between the points, k(x) to the target, P and p(x)
-    polynomials there. Polynomials go through no K, so that its condition costs them nothing.
+    ``k(x) K⁻¹ (1 − P P⁺) + p(x) P⁺`` with K the kernel between the points, k(x) to the target, P
+    and p(x) polynomials there. Polynomials go through no K, so that its condition costs them
+    nothing.
     """
     kernel = wendland(cdist(local, local) * scale, smoothness)
     reach = wendland(cdist(at, local) * scale, smoothness)

@@ -63,7 +63,9 @@ class Series:
         return self(begin) if end == begin else self.integral(begin, end) / (end - begin)
 
     def means(self, times: np.ndarray) -> Series:
-        """Means over the intervals between `times` [s], each at its beginning; one less than times."""
+        """Means over the intervals between `times` [s], each at its beginning; one less than
+        times.
+        """
         times = np.asarray(times, float)
         values = [self.mean(a, b) for a, b in zip(times, times[1:], strict=False)]
         return Series(times[:-1], np.array(values))

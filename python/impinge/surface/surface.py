@@ -64,7 +64,9 @@ class Surface:
     def rings(
         cls, count: int, radius: float, at: Sequence[float] = (0.0, 0.0), *, z: float = 0.0
     ) -> Surface:
-        """`count` concentric rings of equal width out to `radius` [m] about `at` [m]. Arcs are true arcs."""
+        """`count` concentric rings of equal width out to `radius` [m] about `at` [m]. Arcs are
+        true arcs.
+        """
         if int(count) < 1 or not (np.isfinite(radius) and radius > 0):
             raise SurfaceError(f"rings: {count} of radius {radius} m: both are to be above 0")
         return cls(make_rings(radius * np.arange(count + 1) / count, at), "cells", z)
@@ -85,8 +87,9 @@ class Surface:
         *,
         z: float = 0.0,
     ) -> Surface:
-        """(nx, ny) equal rectangles that fill `size` = (lx, ly) [m] centred on `at` [m]; values have shape
-        (nx, ny), the first index along x."""
+        """(nx, ny) equal rectangles that fill `size` = (lx, ly) [m] centred on `at` [m]; values
+        have shape (nx, ny), the first index along x.
+        """
         return cls(make_tiles(count, size, at), "cells", z)
 
     @classmethod
@@ -113,8 +116,8 @@ class Surface:
     ) -> Surface:
         """Triangles, `cells` of shape (n, 3), between `points` of shape (m, 2) or (m, 3).
 
-        All nodes that cells use are to lie on one plane of constant z of the face, to `tolerance` [m] (by
-        default 1e-6 of their extent).
+        All nodes that cells use are to lie on one plane of constant z of the face, to `tolerance`
+        [m] (by default 1e-6 of their extent).
         """
         placed = (placement or Placement()).to_face(points)
         corners = np.asarray(cells)
@@ -161,9 +164,9 @@ class Surface:
     def of(cls, unit: Any, name: str, z: float | None = None) -> Surface:
         """The cells or points of a unit's load, wall or field.
 
-        `unit` is an :class:`impinge.Unit`, or the path of a unit (.fmu), of a folder of one or of a scene
-        (.toml), of which only the geometry is read; `z` the height [m] of a face that is no top. See
-        :func:`impinge.surface.families.family`.
+        `unit` is an :class:`impinge.Unit`, or the path of a unit (.fmu), of a folder of one or of a
+        scene (.toml), of which only the geometry is read; `z` the height [m] of a face that is no
+        top. See :func:`impinge.surface.families.family`.
         """
         from .families import family
 
@@ -185,7 +188,9 @@ class Surface:
 
     @property
     def coordinates(self) -> np.ndarray:
-        """Where values stand [m]: centroids of cells, nodes or points; shape (size, 3). Of rings: their axis."""
+        """Where values stand [m]: centroids of cells, nodes or points; shape (size, 3). Of
+        rings: their axis.
+        """
         if isinstance(self.cells, Scattered):
             return self.cells.places
         at_nodes = self.location == "points" and not isinstance(self.cells, Tiles)
@@ -240,22 +245,23 @@ class Surface:
         Parameters
         ----------
         kind
-            ``"conservative"`` keeps integrals: fluxes, tractions, amounts of heat. Cells are cut against
-            cells exactly, rings as circles. Points of a grid stand for the cells around them, nodes of
-            a mesh for the linear functions of its triangles. Scattered points carry amounts to the cell
-            or nodes that they lie in.
-            ``"consistent"`` keeps values: temperatures, coefficients. Linear on triangles, bilinear on
-            quadrilaterals and grids, piecewise constant from cells, by radial functions from scattered
-            points; cells of the target get means over them.
+            ``"conservative"`` keeps integrals: fluxes, tractions, amounts of heat. Cells are cut
+            against cells exactly, rings as circles. Points of a grid stand for the cells around
+            them, nodes of a mesh for the linear functions of its triangles. Scattered points carry
+            amounts to the cell or nodes that they lie in. ``"consistent"`` keeps values:
+            temperatures, coefficients. Linear on triangles, bilinear on quadrilaterals and grids,
+            piecewise constant from cells, by radial functions from scattered points; cells of the
+            target get means over them.
         quantity
-            Of conservative maps: ``"intensive"`` values are per area (W/m2), ``"extensive"`` amounts (W).
+            Of conservative maps: ``"intensive"`` values are per area (W/m2), ``"extensive"``
+            amounts (W).
         outside
             What lies off the other surface: ``"error"``, or ``"drop"``: the amount is left out
             (:meth:`Map.lost` tells it), a place gets NaN, a cell the mean over what is covered of
             it; ``"nearest"``, of consistent maps: the value of the nearest place.
         tolerance
-            Distance [m] within which edges and heights are taken as equal; by default 1e-6 of the larger
-            extent. A cell that sticks out by less keeps its amount.
+            Distance [m] within which edges and heights are taken as equal; by default 1e-6 of the
+            larger extent. A cell that sticks out by less keeps its amount.
         rbf
             From scattered points: `smoothness`, `degree`, `neighbours`, `support`; see
             :func:`impinge.surface.rbf.matrix`.
@@ -301,8 +307,10 @@ def plane(points: np.ndarray, used: np.ndarray, tolerance: float | None) -> floa
     if far.max() > tolerance:
         worst = int(used[np.argmax(far)])
         raise SurfaceError(
-            f"node {worst} at z = {points[worst, 2]:.6g} m lies {far.max():.3g} m off the plane z = "
-            f"{height:.6g} m (tolerance {tolerance:.3g} m); place the face by `origin` and `axes`, or "
+            f"node {worst} at z = {points[worst, 2]:.6g} m lies {far.max():.3g} m off "
+            "the plane z = "
+            f"{height:.6g} m (tolerance {tolerance:.3g} m); place the face by "
+            "`origin` and `axes`, or "
             "take the cells of the face alone"
         )
     return height
@@ -318,7 +326,8 @@ def _refuse_other_plane(source: Surface, target: Surface, tolerance: float):
     if high - low > tolerance:
         raise SurfaceError(
             f"the surfaces lie on different planes: z of the source is {heights[0].min():.6g} to "
-            f"{heights[0].max():.6g} m, of the target {heights[1].min():.6g} to {heights[1].max():.6g} m "
+            f"{heights[0].max():.6g} m, of the target {heights[1].min():.6g} to "
+            f"{heights[1].max():.6g} m "
             f"(tolerance {tolerance:.3g} m)"
         )
 
