@@ -131,8 +131,9 @@ def _add_placement(command):
     group.add_argument(
         "--origin", nargs=3, type=float, default=(0.0, 0.0, 0.0), metavar=("X", "Y", "Z")
     )
-    group.add_argument("--axes", nargs=6, type=float, default=(1.0, 0.0, 0.0, 0.0, 1.0, 0.0), metavar="D",
-                       help="directions of the face's x and y")  # fmt: skip
+    axes = (1.0, 0.0, 0.0, 0.0, 1.0, 0.0)
+    help = "directions of the face's x and y"
+    group.add_argument("--axes", nargs=6, type=float, default=axes, metavar="D", help=help)
     group.add_argument("--tolerance", type=float, help="how far places may lie off the face [m]")
 
 
@@ -150,9 +151,10 @@ def _target(options) -> Surface:
 def _laser(options):
     target = _target(options)
     frames = laser_frames(
-        options.files, target, options.size, at=options.at, angle=options.angle, power=options.power,
-        scale=options.scale, pulse=options.pulse, interval=options.interval, upward=options.upward,
-        outside=options.outside,
+        options.files, target, options.size,
+        at=options.at, angle=options.angle, upward=options.upward,
+        power=options.power, scale=options.scale, pulse=options.pulse,
+        interval=options.interval, outside=options.outside,
     )  # fmt: skip
     _write(options, target, frames, "W")
 
@@ -160,7 +162,8 @@ def _laser(options):
 def _spray(options):
     target = _target(options)
     frames, total = spray_frames(
-        options.files[0], target, amount=options.amount, factor=options.factor, window=options.window,
+        options.files[0], target,
+        amount=options.amount, factor=options.factor, window=options.window,
         placement=_placement(options), outside=options.outside,
     )  # fmt: skip
     options.hold = True

@@ -252,6 +252,6 @@ def _write_pvd(out, mesh, frames):
         files.append(out.with_name(f"{out.stem}_{k:06}.vtu"))
         meshio.Mesh(mesh.points, mesh.cells, point_data=fields).write(files[-1])
         sets.append(f'    <DataSet timestep="{time!r}" part="0" file="{files[-1].name}"/>\n')
-    head = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0" byte_order="LittleEndian">\n'
+    head = '<?xml version="1.0"?>\n<VTKFile type="Collection" version="1.0">\n'
     out.write_text(f"{head}  <Collection>\n{''.join(sets)}  </Collection>\n</VTKFile>\n")
     return [*files, out]

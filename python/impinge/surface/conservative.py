@@ -34,7 +34,8 @@ def conservative(
     if isinstance(source.cells, Scattered):
         if quantity != "extensive":
             raise SurfaceError(
-                'conservative: points without cells have no areas: quantity="extensive" carries amounts'
+                "conservative: points without cells have no areas; quantity="
+                '"extensive" carries their amounts, kind="consistent" their values'
             )
         shared = _points_in_cells(source, target, tolerance)
         return _amounts(source, target, shared, outside)

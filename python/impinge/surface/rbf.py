@@ -26,6 +26,8 @@ from .errors import SurfaceError
 
 # Radius of support over that of the piece
 SUPPORT = 8.0
+# Part of a piece's radius that is to be covered by one of them
+COVER = 0.6
 
 
 def wendland(r: np.ndarray, smoothness: int) -> np.ndarray:
@@ -49,7 +51,7 @@ def matrix(
     target: np.ndarray,
     smoothness: int = 6,
     degree: int = 3,
-    neighbours: int = 80,
+    neighbours: int = 60,
     support: float | None = None,
 ) -> tuple[csr_matrix, np.ndarray]:
     """Matrix from values at `source`, shape (n, d), to those at `target`, shape (m, d), and whether
@@ -78,9 +80,11 @@ def matrix(
     nearest = tree.query(target)[0]
     off = nearest > 3.0 * spacing
     centres = _cover(np.concatenate([source, target[~off]]), tree, many, spacing)
+    degree = _degree(degree, source.shape[1], many)
     reach, members = tree.query(centres, k=many)
     reach, members = reach.reshape(len(centres), many), members.reshape(len(centres), many)
-    radius = reach[:, -1] + spacing
+    # Within it lie none but the piece's own points: there each piece meets the values.
+    radius = reach[:, -1] if many < len(source) else reach[:, -1] + 4.0 * spacing
     places, pieces, shares = _shares(target, off, centres, radius)
     order = np.argsort(pieces, kind="stable")
     places, pieces, shares = places[order], pieces[order], shares[order]
@@ -105,7 +109,7 @@ def _check_apart(source, tree):
 
 
 def _cover(points, tree, many, spacing):
-    """Centres among `points` within half of whose reach all of them lie."""
+    """Centres among `points` within a part of whose reach all of them lie."""
     everyone = cKDTree(points)
     free = np.ones(len(points), bool)
     centres = []
@@ -113,8 +117,9 @@ def _cover(points, tree, many, spacing):
         if not free[k]:
             continue
         centres.append(k)
-        reach = np.max(tree.query(points[k], k=many)[0]) + spacing
-        free[everyone.query_ball_point(points[k], 0.5 * reach)] = False
+        reach = np.max(tree.query(points[k], k=many)[0])
+        reach = reach if many < tree.n else reach + 4.0 * spacing
+        free[everyone.query_ball_point(points[k], COVER * reach)] = False
     return points[centres]
 
 
@@ -157,6 +162,13 @@ def _weights(local, at, scale, smoothness, degree):
     except np.linalg.LinAlgError:
         weights = np.linalg.lstsq(kernel, reach.T)[0].T
     return weights - (weights @ left) @ left.T + (here @ right) @ left.T
+
+
+def _degree(degree: int, dimensions: int, many: int) -> int:
+    """The degree, or the highest one that so few points leave well determined."""
+    while degree > 1 and 2 * len(_powers(dimensions, degree)) > many:
+        degree -= 1
+    return degree if len(_powers(dimensions, degree)) <= many else 0
 
 
 def _powers(dimensions: int, degree: int) -> np.ndarray:
