@@ -36,14 +36,12 @@ def family(unit: Any, name: str, z: float | None = None) -> Surface:
         surface = _of_scene(path, name)
         return surface if z is None else replace(surface, z=z)
     families = _read_cells(path)
-    if isinstance(families, list):
-        families = {one["name"]: one for one in families}
     if name not in families:
         raise SurfaceError(f"{path}: `{name}` is none of its families: {', '.join(families)}")
     return from_cells(families[name], name, z)
 
 
-def _read_cells(path: Path) -> Any:
+def _read_cells(path: Path) -> dict[str, Any]:
     inside = "resources/cells.json"
     try:
         if path.is_dir():
@@ -65,6 +63,8 @@ def from_cells(cells: dict[str, Any], name: str, z: float | None = None) -> Surf
     x, y = (np.asarray(cells.get(axis, []), float).ravel() for axis in "xy")
     heights = np.asarray(cells.get("z", []), float).ravel()
     at = cells.get("at", (x[0], y[0]) if len(x) else (0.0, 0.0))
+    if z is None and not len(heights) and cells.get("on", "").endswith(".bottom"):
+        raise SurfaceError(f"{name}: lies on {cells['on']}, whose height it does not tell; give z [m]")
     if z is None:
         z = float(heights[0]) if len(heights) else 0.0
     match footprint:
