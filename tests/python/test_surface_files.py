@@ -54,7 +54,9 @@ def test_a_standing_face_is_placed(tmp_path):
 
 def test_tables_are_read_with_time_and_units(tmp_path):
     path = tmp_path / "a.csv"
-    rows = [f"{x};{y};{t};{x + 10 * y + 100 * t}" for t in (2, 0, 1) for x in (0, 1) for y in (0, 3)]
+    rows = [
+        f"{x};{y};{t};{x + 10 * y + 100 * t}" for t in (2, 0, 1) for x in (0, 1) for y in (0, 3)
+    ]
     path.write_text("# of a camera\nx [mm];y [mm];time [s];q [W/m2]\n" + "\n".join(rows))
     surface, series = Surface.read_series(path, Placement(unit="mm"))
     assert surface.coordinates[:, :2].tolist() == [[0, 0], [0, 3e-3], [1e-3, 0], [1e-3, 3e-3]]
@@ -168,7 +170,9 @@ def vtk_arrays(form, compressed):
     text += f"<PolyData><Piece><CellData>{element('q')}</CellData><Points>{element('points')}"
     text += f"</Points><Polys>{element('connectivity')}{element('offsets')}</Polys></Piece>"
     encoding = "raw" if form == "raw" else "base64"
-    tail = f'</PolyData><AppendedData encoding="{encoding}">_'.encode() if appended else b"</PolyData>"
+    tail = (
+        f'</PolyData><AppendedData encoding="{encoding}">_'.encode() if appended else b"</PolyData>"
+    )
     end = b"</AppendedData></VTKFile>" if appended else b"</VTKFile>"
     return text.encode() + tail + appended + end
 
@@ -185,12 +189,13 @@ def test_all_forms_of_vtk_arrays_are_read(tmp_path, form, compressed):
 
 def test_flat_grids_of_vtk_are_surfaces(tmp_path):
     text = """<VTKFile type="RectilinearGrid"><RectilinearGrid><Piece Extent="0 2 0 1 0 0">
-    <PointData><DataArray type="Float64" Name="T" format="ascii">0 1 3 10 11 13</DataArray></PointData>
-    <CellData><DataArray type="Float64" Name="q" format="ascii">5 7</DataArray></CellData>
-    <Coordinates><DataArray type="Float64" Name="x" format="ascii">0 1 3</DataArray>
-    <DataArray type="Float64" Name="y" format="ascii">0 1</DataArray>
-    <DataArray type="Float64" Name="z" format="ascii">0</DataArray></Coordinates>
-    </Piece></RectilinearGrid></VTKFile>"""
+    <PointData><DataArray type="Float64" Name="T" format="ascii">0 1 3 10 11
+    13</DataArray></PointData> <CellData><DataArray type="Float64" Name="q" format="ascii">5
+    7</DataArray></CellData> <Coordinates><DataArray type="Float64" Name="x" format="ascii">0 1
+    3</DataArray> <DataArray type="Float64" Name="y" format="ascii">0 1</DataArray> <DataArray
+    type="Float64" Name="z" format="ascii">0</DataArray></Coordinates>
+    </Piece></RectilinearGrid></VTKFile>
+    """
     path = tmp_path / "a.vtr"
     path.write_text(text)
     surface = Surface.read(path)

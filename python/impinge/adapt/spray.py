@@ -8,6 +8,7 @@ import numpy as np
 
 from ..surface import Placement, Series, Surface, SurfaceError
 from ..surface.csv_files import read_table
+from ..surface.maps import NOTHING
 
 
 def spray_frames(
@@ -72,5 +73,6 @@ def spray_frames(
     given = carry(amounts)
     begin = times.min() + window * np.arange(len(amounts))
     total = {"brought": float(amounts.sum()), "given": float(given.sum())}
-    total["lost"] = total["brought"] - total["given"]
+    lost = total["brought"] - total["given"]
+    total["lost"] = lost if lost > NOTHING * total["brought"] else 0.0
     return Series(begin, given / target.areas / window), total

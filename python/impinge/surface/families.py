@@ -64,7 +64,9 @@ def from_cells(cells: dict[str, Any], name: str, z: float | None = None) -> Surf
     heights = np.asarray(cells.get("z", []), float).ravel()
     at = cells.get("at", (x[0], y[0]) if len(x) else (0.0, 0.0))
     if z is None and not len(heights) and cells.get("on", "").endswith(".bottom"):
-        raise SurfaceError(f"{name}: lies on {cells['on']}, whose height it does not tell; give z [m]")
+        raise SurfaceError(
+            f"{name}: lies on {cells['on']}, whose height it does not tell; give z [m]"
+        )
     if z is None:
         z = float(heights[0]) if len(heights) else 0.0
     match footprint:
