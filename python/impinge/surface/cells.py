@@ -66,6 +66,12 @@ class Polygons:
         """Corners of all cells; shape (cells, 4, 2)."""
         return self.nodes[self.corners]
 
+    @property
+    def outlines(self) -> np.ndarray:
+        """The same without the fourth corner, if all are triangles."""
+        is_triangle = self.corners[:, 2] == self.corners[:, 3]
+        return self.points[:, :3] if is_triangle.all() else self.points
+
     @cached_property
     def _local(self):
         origin = self.points.mean(axis=1)
@@ -173,6 +179,7 @@ def check_cells(cells: np.ndarray, nodes: int):
 
 def make_polygons(nodes: np.ndarray, cells: np.ndarray) -> Polygons:
     """Cells of three or four corners; those that go round to the right are turned."""
+    nodes = np.ascontiguousarray(nodes)
     corners = cells if cells.shape[1] == 4 else np.column_stack([cells, cells[:, 2]])
     corners = corners.astype(np.int64)
     area, _ = moments(nodes[corners] - nodes[corners[:, :1]])

@@ -34,15 +34,15 @@ def cut(a: Rings | Polygons, b: Rings | Polygons) -> Pieces:
     if isinstance(a, Rings) and isinstance(b, Rings):
         return _rings_by_rings(a, b)
     if isinstance(a, Rings):
-        pieces = cut_polygons(a, b.points)
+        pieces = cut_polygons(a, b.outlines)
     elif isinstance(b, Rings):
-        pieces = cut_polygons(b, a.points).swapped
+        pieces = cut_polygons(b, a.outlines).swapped
     elif isinstance(a, Tiles) and isinstance(b, Tiles):
         pieces = _tiles_by_tiles(a, b)
     elif isinstance(b, Tiles):
-        pieces = cut_polygons(b, a.points).swapped
+        pieces = cut_polygons(b, a.outlines).swapped
     else:
-        pieces = cut_polygons(a, b.points)
+        pieces = cut_polygons(a, b.outlines)
     order = np.lexsort((pieces.j, pieces.i))
     return Pieces(pieces.i[order], pieces.j[order], pieces.area[order])
 
@@ -53,9 +53,10 @@ def cut_polygons(a: Rings | Polygons, polygons: np.ndarray) -> Pieces:
         return _rings_by_polygons(a, polygons)
     if isinstance(a, Tiles):
         return _tiles_by_polygons(a, polygons)
-    i, j = overlapping(boxes_of(a.points), boxes_of(polygons))
-    about = a.points[i].mean(axis=1)
-    area, moment = in_convex(a.points[i] - about[:, None], polygons[j] - about[:, None])
+    frames = a.outlines
+    i, j = overlapping(boxes_of(frames), boxes_of(polygons))
+    about = frames[i].mean(axis=1)
+    area, moment = in_convex(frames[i] - about[:, None], polygons[j] - about[:, None])
     return _some(i, j, area, moment, about)
 
 

@@ -57,22 +57,31 @@ def in_convex(frames: np.ndarray, polygons: np.ndarray):
     Source: I. E. Sutherland and G. W. Hodgman (1974), doi 10.1145/360767.360802.
     """
     area, moment = np.zeros(len(polygons)), np.zeros((len(polygons), 2))
-    alive = np.arange(len(polygons))
-    clipped = polygons
+    is_out, is_whole = np.zeros(len(polygons), bool), np.ones(len(polygons), bool)
     for k in range(frames.shape[1]):
-        corner = frames[alive, k]
-        along = frames[alive, (k + 1) % frames.shape[1]] - corner
-        length = np.linalg.norm(along, axis=1)
-        normal = (
-            np.column_stack([-along[:, 1], along[:, 0]])
-            / np.where(length > 0, length, 1.0)[:, None]
-        )
-        height = ((clipped - corner[:, None, :]) * normal[:, None, :]).sum(axis=2)
-        clipped, some = _above(clipped, height)
+        height = _heights(frames, k, polygons)
+        is_out |= (height < 0).all(axis=1)
+        is_whole &= (height >= 0).all(axis=1)
+    is_whole &= ~is_out
+    area[is_whole], moment[is_whole] = moments(polygons[is_whole])
+    alive = np.flatnonzero(~is_out & ~is_whole)
+    clipped = polygons[alive]
+    for k in range(frames.shape[1]):
+        clipped, some = _above(clipped, _heights(frames[alive], k, clipped))
         clipped, alive = clipped[some], alive[some]
     if len(alive):
         area[alive], moment[alive] = moments(clipped)
     return area, moment
+
+
+def _heights(frames, k, polygons):
+    """Heights of corners above the k-th side of the frame; shape (n, m)."""
+    corner = frames[:, k]
+    along = frames[:, (k + 1) % frames.shape[1]] - corner
+    length = np.hypot(along[:, 0], along[:, 1])
+    x, y = (along / np.where(length > 0, length, 1.0)[:, None]).T[:, :, None]
+    offset = polygons - corner[:, None, :]
+    return x * offset[..., 1] - y * offset[..., 0]
 
 
 def _above(polygons, height):

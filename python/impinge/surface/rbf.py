@@ -50,8 +50,8 @@ def matrix(
     source: np.ndarray,
     target: np.ndarray,
     smoothness: int = 6,
-    degree: int = 3,
-    neighbours: int = 60,
+    degree: int | None = None,
+    neighbours: int = 80,
     support: float | None = None,
 ) -> tuple[csr_matrix, np.ndarray]:
     """Matrix from values at `source`, shape (n, d), to those at `target`, shape (m, d), and whether
@@ -64,7 +64,7 @@ def matrix(
         2, 4 or 6 of φ. The smoother, the more accurate where values are smooth, and the more noise
         of single values grows between points that lie unevenly: there 2 is safer.
     degree
-        Degree of the polynomial.
+        Degree of the polynomial; by default 3 on planes, 1 on curved surfaces.
     neighbours
         Number of points that carry a piece.
     support
@@ -80,6 +80,8 @@ def matrix(
     nearest = tree.query(target)[0]
     off = nearest > 3.0 * spacing
     centres = _cover(np.concatenate([source, target[~off]]), tree, many, spacing)
+    if degree is None:
+        degree = 3 if source.shape[1] == 2 else 1
     degree = _degree(degree, source.shape[1], many)
     reach, members = tree.query(centres, k=many)
     reach, members = reach.reshape(len(centres), many), members.reshape(len(centres), many)
@@ -145,23 +147,25 @@ def _weights(local, at, scale, smoothness, degree):
     """Weights of values at `local` points in the value at each of `at`; shape (len(at),
     len(local)).
 
-    ``k(x) K⁻¹ (1 − P P⁺) + p(x) P⁺`` with K the kernel between the points, k(x) to the target, P
-    and p(x) polynomials there. Polynomials go through no K, so that its condition costs them
-    nothing.
+    The linear field nearest to the values, the polynomial nearest to what is left of them, and the
+    kernel's interpolant of the rest: ``p₁ P₁⁺ + [p P⁺ + k K⁻¹ (1 − P P⁺)] (1 − P₁ P₁⁺)`` with K
+    the kernel between the points, k that to the target, P and p polynomials there. So the condition
+    of K, or of P where points all but lie on a plane, costs linear fields nothing.
     """
     kernel = wendland(cdist(local, local) * scale, smoothness)
     reach = wendland(cdist(at, local) * scale, smoothness)
-    powers = _powers(local.shape[1], degree)
-    terms, here = _terms(local, powers), _terms(at, powers)
-    # On a line or a plane terms depend on each other: those that do are left out.
-    left, singular, right = np.linalg.svd(terms, full_matrices=False)
-    some = singular > 1e-8 * singular[0]
-    left, right = left[:, some], right[some].T / singular[some]
     try:
         weights = np.linalg.solve(kernel, reach.T).T
     except np.linalg.LinAlgError:
         weights = np.linalg.lstsq(kernel, reach.T)[0].T
-    return weights - (weights @ left) @ left.T + (here @ right) @ left.T
+    for order in sorted({degree, min(degree, 1)}, reverse=True):
+        powers = _powers(local.shape[1], order)
+        left, singular, right = np.linalg.svd(_terms(local, powers), full_matrices=False)
+        # On a line, a plane or a quadric terms depend on each other: those that do are left out.
+        some = singular > 1e-10 * singular[0]
+        left, right = left[:, some], right[some].T / singular[some]
+        weights = weights + (_terms(at, powers) @ right - weights @ left) @ left.T
+    return weights
 
 
 def _degree(degree: int, dimensions: int, many: int) -> int:
