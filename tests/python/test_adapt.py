@@ -240,6 +240,38 @@ def test_flow_surfaces_that_do_not_fit_are_refused(tmp_path, capsys):
     assert "impinge-adapt: a.toml: no such file" in capsys.readouterr().err
 
 
+def test_coefficients_and_ambients_of_a_flow_become_those_of_a_face(scene, tmp_path, capsys):
+    """A face below which the flow is hot where the coefficient is high: it takes the same heat."""
+    text = scene.read_text()
+    assert "bottom = { clamped = true }" in text
+    convection = "convection = { coefficient = 1.0, ambient = 293.15 }"
+    scene.write_text(text.replace("clamped = true }", f"clamped = true, {convection} }}"))
+    x = np.linspace(-2e-4, 2e-4, 9)
+    nodes = np.stack(np.meshgrid(x, x, [-1e-4], indexing="ij"), axis=3).reshape(-1, 3)
+    cells = Surface.tiles((8, 8), (4e-4, 4e-4)).cells.corners
+    rng = np.random.default_rng(4)
+    h, hot = rng.uniform(1e3, 3e3, 64), rng.uniform(300, 500, 64)
+    meshio.Mesh(nodes, [("quad", cells)], cell_data={"h": [h], "T": [hot]}).write(
+        tmp_path / "w.vtu"
+    )
+    command = ["cfd", str(tmp_path / "w.vtu"), "--onto", f"{scene}:block.bottom"]
+    assert main([*command, "--data", "h", "--variable", "coefficient"]) == 0
+    option = capsys.readouterr().out.split()
+    assert option[0] == "--set" and option[1].startswith("block.bottom.coefficient=")
+    assert float(option[1].partition("=")[2]) == pytest.approx(h.mean(), rel=1e-13)
+    table = tmp_path / "table.csv"
+    more = ["--data", "T", "--weight", "h", "--variable", "ambient", "-o", str(table)]
+    assert main([*command, *more]) == 0
+    ambient = read_inputs(table)[1]["block.bottom.ambient"][0]
+    assert ambient == pytest.approx((h * hot).sum() / h.sum(), rel=1e-13)
+    columns, _ = run(scene, *option, "--inputs", table, "--step", "1e-7", "--until", "1e-7")
+    # The body has hardly warmed: h (T∞ − T₀) over the face, in the first tenth of a microsecond.
+    heat = (h * (hot - 293.15)).mean() * 1.6e-7 * 1e-7
+    assert -columns["block.heat_lost"][-1] == pytest.approx(heat, rel=1e-3)
+    assert main([*command, "--data", "T"]) == 2
+    assert "-o: the name of the table is needed" in capsys.readouterr().err
+
+
 # Tables of inputs
 
 

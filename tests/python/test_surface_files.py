@@ -11,6 +11,7 @@ import meshio
 import numpy as np
 import pytest
 from impinge import Unit
+from impinge.adapt import read_picture
 from impinge.surface import Placement, Surface, SurfaceError
 from impinge.surface.families import from_cells
 
@@ -266,3 +267,19 @@ def test_families_without_cells_are_refused(tmp_path):
     cells["area"] = [np.pi, 3 * np.pi]
     (folder / "resources/cells.json").write_text(json.dumps({"families": {"rings": cells}}))
     assert Surface.of(folder, "rings").areas == pytest.approx(cells["area"])
+
+
+@pytest.mark.parametrize(
+    "kind", ["csv h5 vtu vtk vtp vtr pvd xdmf msh stl foo", "npy png toml fmu"]
+)
+@pytest.mark.parametrize("content", [b"", b"garbage", b"\xff\xfe\x00", b"<Xdmf></Xdmf>", bytes(99)])
+def test_files_that_are_something_else_are_refused_by_name(tmp_path, kind, content):
+    for suffix in kind.split():
+        path = tmp_path / f"odd.{suffix}"
+        path.write_bytes(content)
+        calls = [lambda path=path: read_picture(path)] if "npy" in kind else []
+        calls += [lambda path=path: Surface.of(path, "laser")]
+        calls += [] if "npy" in kind else [lambda path=path: Surface.read_series(path)]
+        for call in calls:
+            with pytest.raises(SurfaceError, match=f"odd.{suffix}: "):
+                call()

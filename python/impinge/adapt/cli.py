@@ -16,6 +16,8 @@ from .spray import spray_frames
 from .table import write_inputs
 
 PROGRAM = "impinge-adapt"
+# Quantities of which integrals are kept
+FLUXES = ("heat_flux", "pressure", "shear_x", "shear_y", "shear_r")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -78,7 +80,12 @@ def _parser() -> argparse.ArgumentParser:
         "files", nargs=1, type=Path, metavar="FILE", help="mesh, series or table with a field"
     )
     cfd.add_argument("--data", required=True, help="name of the field")
-    cfd.add_argument("--kind", choices=["conservative", "consistent"], default="conservative")
+    cfd.add_argument(
+        "--kind",
+        choices=["conservative", "consistent"],
+        help="keeps integrals, or values [default: integrals of fluxes and tractions]",
+    )
+    cfd.add_argument("--weight", metavar="FIELD", help="means weighted by this field")
     cfd.set_defaults(run=_cfd)
 
     for command in (laser, spray, cfd):
@@ -95,9 +102,7 @@ def _parser() -> argparse.ArgumentParser:
         command.add_argument(
             "--outside", choices=["error", "drop"], default="error", help="for what falls beside"
         )
-        command.add_argument(
-            "-o", "--out", type=Path, required=True, help="table for impinge run --inputs"
-        )
+        command.add_argument("-o", "--out", type=Path, help="table for impinge run --inputs")
 
     out = commands.add_parser("out", help="fields of a unit's bodies onto a mesh of another tool")
     out.add_argument(
@@ -173,31 +178,44 @@ def _spray(options):
 
 def _cfd(options):
     target = _target(options)
+    keeps = "conservative" if options.variable in FLUXES else "consistent"
     frames = cfd_frames(
-        options.files[0], target, options.data, kind=options.kind, placement=_placement(options),
+        options.files[0], target, options.data,
+        kind=options.kind or keeps, weight=options.weight, placement=_placement(options),
         outside=options.outside, tolerance=options.tolerance,
     )  # fmt: skip
-    _write(options, target, frames, "W")
+    if options.variable == "coefficient":
+        _tell_coefficient(options, frames)
+    else:
+        _write(options, target, frames, "W")
+
+
+def _tell_coefficient(options, frames: Series):
+    """Coefficients of faces are parameters, which a table of inputs cannot hold."""
+    if len(frames) > 1 or frames.values.size > 1:
+        raise SurfaceError(
+            f"{options.files[0]}: {len(frames)} times, {frames.values[0].size} cells; a coefficient"
+            " is one number, of a face such as --onto scene.toml:plate.bottom"
+        )
+    name = options.onto.rpartition(":")[2]
+    print(f"--set {name}.coefficient={float(frames.values.item())!r}")
 
 
 def _write(options, target: Surface, frames: Series, unit: str):
+    if options.out is None:
+        raise SurfaceError("-o: the name of the table is needed")
     name = options.onto.rpartition(":")[2]
     write_inputs(
         options.out,
         {f"{name}.{options.variable}": frames},
         held=options.hold,
-        single=_is_single(options),
+        single=target.size == 1,
     )
     total = target.integral(frames.values) if target.location == "cells" else frames.values
     print(
         f"{options.out}: {len(frames)} times, {target.size} cells, integral "
         f"{total.min():.9g} to {total.max():.9g} {unit}"
     )
-
-
-def _is_single(options) -> bool:
-    """Whether the load has no index, as a disc's has none."""
-    return Surface.of(*options.onto.rpartition(":")[::2]).shape == (1,)
 
 
 def _out(options):

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..surface import Series, Surface, SurfaceError
 from ..surface.csv_files import read_matrix, read_table
+from ..surface.errors import need
 
 PICTURES = {".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".gif", ".pgm"}
 
@@ -32,7 +33,7 @@ def read_picture(path: str | Path) -> tuple[np.ndarray | None, np.ndarray]:
         case ".csv" | ".txt":
             frames = read_matrix(path)
         case ".npy":
-            frames = np.load(path, allow_pickle=False)
+            frames = _read_npy(path)
         case ".h5" | ".hdf5":
             times, frames = _read_hdf5(path)
         case suffix if suffix in PICTURES:
@@ -60,7 +61,7 @@ def read_picture(path: str | Path) -> tuple[np.ndarray | None, np.ndarray]:
 
 
 def _read_hdf5(path):
-    import h5py
+    h5py = need("h5py")
 
     try:
         with h5py.File(path) as file:
@@ -72,16 +73,21 @@ def _read_hdf5(path):
         raise SurfaceError(f"{path}: {error}") from None
 
 
-def _read_image(path):
+def _read_npy(path):
     try:
-        from PIL import Image
-    except ModuleNotFoundError:
-        raise SurfaceError(
-            f'{path}: pictures need Pillow: pip install "impinge[surface]"'
-        ) from None
-    with Image.open(path) as image:
-        grey = image if image.mode in ("L", "I", "F", "I;16") else image.convert("L")
-        return np.asarray(grey)
+        return np.asarray(np.load(path, allow_pickle=False), float)
+    except (ValueError, TypeError, EOFError) as error:
+        raise SurfaceError(f"{path}: {error}") from None
+
+
+def _read_image(path):
+    Image = need("PIL.Image")
+    try:
+        with Image.open(path) as image:
+            grey = image if image.mode in ("L", "I", "F", "I;16") else image.convert("L")
+            return np.asarray(grey)
+    except OSError as error:
+        raise SurfaceError(f"{path}: {error}") from None
 
 
 def laser_frames(

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..surface import Placement, SurfaceError
+from ..surface.errors import need
 from ..surface.files import lattice, load_mesh
 from ..surface.vtk_xml import read_pvd, read_vtk_xml
 
@@ -220,7 +221,7 @@ def write_frames(
 
     Returns the files that were written.
     """
-    import meshio
+    meshio = need("meshio")
 
     out, frames = Path(out), list(frames)
     if not frames:
@@ -245,7 +246,7 @@ def write_frames(
 
 
 def _write_pvd(out, mesh, frames):
-    import meshio
+    meshio = need("meshio")
 
     files, sets = [], []
     for k, (time, fields) in enumerate(frames):

@@ -19,6 +19,7 @@ UNITS = {
     "shear_y": "Pa",
     "shear_r": "Pa",
     "temperature": "K",
+    "ambient": "K",
 }
 
 

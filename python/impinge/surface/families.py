@@ -20,9 +20,9 @@ def family(unit: Any, name: str, z: float | None = None) -> Surface:
     """The surface of a family of a unit: of a load, wall or field `name`.
 
     `unit` has a method ``cells(name)`` (an :class:`impinge.Unit`), or is the path of a .fmu file or
-    of a folder it was unzipped into, whose ``resources/cells.json`` is read, or of a scene (.toml).
-    `z` is the height of the face [m] where they do not tell it: 0, that of tops, if it is not
-    given.
+    of a folder it was unzipped into, whose ``resources/cells.json`` is read, or of a scene (.toml),
+    where `name` may be a face, ``plate.bottom``, too, which is one cell. `z` is the height of the
+    face [m] where they do not tell it: 0, that of tops, if it is not given.
 
     Raises
     ------
@@ -124,12 +124,14 @@ def _of_scene(path: Path, name: str) -> Surface:
         scene = tomllib.loads(path.read_text())
     except FileNotFoundError:
         raise SurfaceError(f"{path}: no such file") from None
-    except tomllib.TOMLDecodeError as error:
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise SurfaceError(f"{path}: {error}") from None
     kinds = ("load", "wall", "field")
     entries = {
         e.get("name", scene.get("name", "")): e for kind in kinds for e in scene.get(kind, [])
     }
+    if name not in entries and name.partition(".")[2] in ("top", "bottom"):
+        return _of_face(scene, name, path)
     if name not in entries:
         raise SurfaceError(
             f"{path}: `{name}` is none of its loads, walls and fields: {', '.join(entries)}"
@@ -155,6 +157,15 @@ def _of_scene(path: Path, name: str) -> Surface:
     raise SurfaceError(
         f"{path}: `{name}` has no rings, tiles, disc or grid to map to, but {footprint or entry}"
     )
+
+
+def _of_face(scene, name, path) -> Surface:
+    """A whole top or bottom as one cell."""
+    entry = {"on": name}
+    z, (lx, ly, _) = _height(scene, entry, path, name), _extent(scene, entry, path, name)
+    if "disc" in scene["body"][name.partition(".")[0]]["shape"]:
+        return Surface.rings(1, 0.5 * lx, z=z)
+    return Surface.tiles((1, 1), (lx, ly), z=z)
 
 
 def _height(scene, entry, path, name) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from .csv_files import read_table
-from .errors import SurfaceError
+from .errors import SurfaceError, need
 from .placement import Placement
 from .series import Series
 from .surface import Surface
@@ -169,7 +170,7 @@ def _read_csv(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
 
 
 def _read_hdf5(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
-    import h5py
+    h5py = need("h5py")
 
     try:
         with h5py.File(path) as file:
@@ -205,7 +206,7 @@ def _read_hdf5(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
 
 
 def _read_xdmf(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
-    import meshio
+    meshio = need("meshio")
 
     try:
         with meshio.xdmf.TimeSeriesReader(path) as reader:
@@ -214,7 +215,7 @@ def _read_xdmf(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
             for k in range(reader.num_steps):
                 time, at_points, at_cells = reader.read_data(k)
                 frames.append((time, at_points, at_cells))
-    except (meshio.ReadError, AttributeError, KeyError):
+    except (meshio.ReadError, ElementTree.ParseError, AttributeError, KeyError, OSError):
         return _read_mesh(path, make), {}
     if not frames:
         return _read_mesh(path, make), {}
@@ -263,11 +264,11 @@ def _read_mesh(path: Path, make: _Maker) -> Surface:
 
 def load_mesh(path: Path) -> Any:
     """A mesh as meshio reads it."""
-    import meshio
+    meshio = need("meshio")
 
     try:
         return meshio.read(path)
-    except (meshio.ReadError, KeyError, ValueError, IndexError, SystemExit) as error:
+    except (Exception, SystemExit) as error:  # of readers of many formats: anything
         raise SurfaceError(f"{path}: {str(error) or 'meshio knows no such format'}") from None
 
 
