@@ -115,18 +115,20 @@ class _Maker:
             raise SurfaceError(f"values: `{values}` is none of cells, points")
 
     def __call__(self, points, cells, at_points: dict, at_cells: dict) -> Surface:
+        try:
+            return self._make(points, cells, at_points, at_cells)
+        except SurfaceError as error:
+            raise SurfaceError(f"{self.path}: {error}") from None
+
+    def _make(self, points, cells, at_points, at_cells) -> Surface:
         if cells is None:
             return replace(Surface.points(points, self.placement), data=at_points)
         kept = np.arange(len(cells)) if self.face is None else self._on_face(points, cells)
         values = self.values or ("cells" if at_cells or not at_points else "points")
         options = {"values": values, "tolerance": self.tolerance}
         used, corners = np.unique(cells[kept], return_inverse=True)
-        try:
-            surface = Surface.triangles(
-                points[used], corners.reshape(-1, cells.shape[1]), self.placement, **options
-            )
-        except SurfaceError as error:
-            raise SurfaceError(f"{self.path}: {error}") from None
+        corners = corners.reshape(-1, cells.shape[1])
+        surface = Surface.triangles(points[used], corners, self.placement, **options)
         if values == "cells":
             data = {name: field[kept] for name, field in at_cells.items()}
         else:
@@ -140,7 +142,7 @@ class _Maker:
         if not len(kept):
             low, high = placed[:, 2].min(), placed[:, 2].max()
             raise SurfaceError(
-                f"{self.path}: no cell lies at z = {self.face:.6g} m (tolerance "
+                f"no cell lies at z = {self.face:.6g} m (tolerance "
                 f"{tolerance:.3g} m); "
                 f"they lie from {low:.6g} to {high:.6g} m"
             )
