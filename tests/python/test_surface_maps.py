@@ -161,6 +161,26 @@ def test_places_off_the_source_are_refused_dropped_or_given_the_nearest():
     assert values == pytest.approx([3.0, 3.5, 0.0], abs=1e-12)
 
 
+@pytest.mark.parametrize("first", ["tiles", "grid", "nodes of triangles"])
+def test_cells_partly_off_the_source_get_the_mean_over_what_is_covered(first):
+    """Of x over tiles from 0 to 0.8, 0.8 to 1.6, 1.6 to 2.4, of which 1 is the end of the
+    source.
+    """
+    source = SQUARE[first]()
+    target = Surface.tiles((3, 1), (2.4, 1.0), (1.2, 0.0))
+    x = source.coordinates[:, 0].reshape(source.shape)
+    with pytest.raises(SurfaceError, match="2 of 3 cells of the target lie off"):
+        source.map_to(target, "consistent")
+    dropped = source.map_to(target, "consistent", outside="drop")(x)[:, 0]
+    nearest = source.map_to(target, "consistent", outside="nearest")(x)[:, 0]
+    if source.location == "cells":
+        assert np.nanmax(dropped) == dropped[1] == x.max() < nearest[2] + 1e-12
+    else:
+        assert dropped[:2] == pytest.approx([0.4, 0.9], abs=1e-12)
+        assert nearest == pytest.approx([0.4, 0.9, 1.0], abs=1e-12)
+    assert np.isnan(dropped[2]) and dropped[:2] == pytest.approx(nearest[:2])
+
+
 @pytest.mark.parametrize("kind", ["conservative", "consistent"])
 def test_other_planes_are_refused(kind):
     top, bottom = Surface.tiles((2, 2), (1, 1)), Surface.tiles((2, 2), (1, 1), z=-1e-3)

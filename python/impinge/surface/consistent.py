@@ -31,13 +31,15 @@ def consistent(
     nearest = outside == "nearest"
     if isinstance(source.cells, Scattered):
         matrix, off = _from_points(source, target, nearest, options)
+        none = off
     elif target.location == "points" or isinstance(target.cells, Scattered):
         matrix, off = interpolate(source, target, tolerance, nearest)
+        none = off
     else:
-        matrix, off = _means(source, target, tolerance, nearest)
+        matrix, off, none = _means(source, target, tolerance, nearest)
     if outside == "error" and off.any():
         _refuse(source, target, off)
-    return Map(source, target, matrix, "consistent", "intensive", outside, off=off & (not nearest))
+    return Map(source, target, matrix, "consistent", "intensive", outside, off=none & (not nearest))
 
 
 def interpolate(source: Surface, target: Surface, tolerance: float, nearest: bool):
@@ -81,7 +83,8 @@ def interpolate(source: Surface, target: Surface, tolerance: float, nearest: boo
 
 
 def _means(source, target, tolerance, nearest):
-    """Means over the cells of the target of what the source covers of them."""
+    """Means over the cells of the target of what the source covers of them; which of these it does
+    not cover wholly, and not at all."""
     if source.location == "points":
         from .conservative import nodes_by_cells
 
@@ -108,7 +111,7 @@ def _means(source, target, tolerance, nearest):
             (len(none), none.sum()),
         )
         matrix = csr_matrix(matrix + place @ some)
-    return matrix, off
+    return matrix, off, none
 
 
 def _mesh_of(source) -> tuple[Polygons, csr_matrix]:

@@ -14,7 +14,7 @@ from .csv_files import read_table
 from .errors import SurfaceError, need
 from .placement import Placement
 from .series import Series
-from .surface import Surface
+from .surface import Surface, plane
 from .vtk_xml import read_pvd, read_vtk_xml
 
 # Cells of meshio that lie on surfaces, and how many of their nodes are corners
@@ -128,6 +128,8 @@ class _Maker:
         options = {"values": values, "tolerance": self.tolerance}
         used, corners = np.unique(cells[kept], return_inverse=True)
         corners = corners.reshape(-1, cells.shape[1])
+        # Here, so that the error tells the file's own number of the node
+        plane(self.placement.to_face(points), used, self.tolerance)
         surface = Surface.triangles(points[used], corners, self.placement, **options)
         if values == "cells":
             data = {name: field[kept] for name, field in at_cells.items()}

@@ -250,8 +250,8 @@ class Surface:
             them, nodes of a mesh for the linear functions of its triangles. Scattered points carry
             amounts to the cell or nodes that they lie in. ``"consistent"`` keeps values:
             temperatures, coefficients. Linear on triangles, bilinear on quadrilaterals and grids,
-            piecewise constant from cells, by radial functions from scattered points; cells of the
-            target get means over them.
+            piecewise constant from cells (of tiles, :meth:`on_points` makes that bilinear), by
+            radial functions from scattered points; cells of the target get means over them.
         quantity
             Of conservative maps: ``"intensive"`` values are per area (W/m2), ``"extensive"``
             amounts (W).
