@@ -150,7 +150,7 @@ def vertices(surface: Surface) -> np.ndarray:
     return places
 
 
-def _participant(name, configuration, rank, ranks):
+def _participant(name: str, configuration: str | None, rank: int, ranks: int) -> Any:
     if configuration is None:
         raise CouplingError(f"{name}: the path of preCICE's configuration is needed")
     try:
@@ -165,7 +165,7 @@ def _participant(name, configuration, rank, ranks):
     return precice.Participant(name, str(configuration), rank, ranks)
 
 
-def _save(unit, state):
+def _save(unit: Any, state: Any) -> Any:
     if not unit.can.states:
         raise CouplingError(f"{unit.name} cannot restore states; couple it explicitly")
     return unit.state(state)
@@ -174,7 +174,15 @@ def _save(unit, state):
 class _Exchange:
     """What passes between the variables of a unit and preCICE's data."""
 
-    def __init__(self, unit, participant, meshes, reads, writes, placement):
+    def __init__(
+        self,
+        unit: Any,
+        participant: Any,
+        meshes: Mapping[str, Surface | np.ndarray],
+        reads: Sequence[Port],
+        writes: Sequence[Port],
+        placement: Placement,
+    ) -> None:
         self.unit, self.participant = unit, participant
         self.ids: dict[str, Any] = {}
         self.shapes: dict[Port, tuple[int, ...]] = {}
@@ -185,7 +193,7 @@ class _Exchange:
         self.reads = [self._checked(port, unit.inputs, "input") for port in reads]
         self.writes = [self._checked(port, unit.outputs, "output") for port in writes]
 
-    def _vertices(self, name, mesh, placement):
+    def _vertices(self, name: str, mesh: Surface | np.ndarray, placement: Placement) -> np.ndarray:
         dimensions = self.participant.get_mesh_dimensions(name)
         places = (
             placement.to_foreign(vertices(mesh))
@@ -207,7 +215,7 @@ class _Exchange:
             raise CouplingError(f"{name}: has two vertices at one place")
         return places
 
-    def _checked(self, port, variables, what):
+    def _checked(self, port: Port, variables: Mapping[str, Any], what: str) -> Port:
         if port.mesh not in self.ids:
             raise CouplingError(f"{port.data}: mesh `{port.mesh}` is none of {', '.join(self.ids)}")
         if port.variable not in variables:
@@ -223,12 +231,12 @@ class _Exchange:
         self.shapes[port] = (count,) if components == 1 else (count, components)
         return port
 
-    def initialise(self):
+    def initialise(self) -> None:
         if self.participant.requires_initial_data():
             self.write()
         self.participant.initialize()
 
-    def read(self, size):
+    def read(self, size: float) -> None:
         """Sets inputs to preCICE's waveforms over the next step [s]."""
         order = self.unit.can.interpolates
         values, slopes = {}, {}
@@ -249,12 +257,12 @@ class _Exchange:
         if slopes:
             self.unit.set_input_derivatives(slopes)
 
-    def _read(self, port, time):
+    def _read(self, port: Port, time: float) -> np.ndarray:
         read = self.participant.read_data(port.mesh, port.data, self.ids[port.mesh], time)
         shape = self.unit.inputs[port.variable].shape
         return np.asarray(read, float).reshape(shape)
 
-    def write(self):
+    def write(self) -> None:
         for port in self.writes:
             values = np.asarray(self.unit[port.variable], float).reshape(self.shapes[port])
             self.participant.write_data(port.mesh, port.data, self.ids[port.mesh], values)

@@ -196,7 +196,15 @@ def _refuse_double_targets(pairs: Sequence[tuple[_End, _End, Link]]) -> None:
         seen[key] = f"{a.unit}.{a.connector}"
 
 
-def _structure(path, packages, pairs, parameters, name, start, stop) -> bytes:
+def _structure(
+    path: Path,
+    packages: Mapping[str, Package],
+    pairs: Sequence[tuple[_End, _End, Link]],
+    parameters: dict[str, Any],
+    name: str | None,
+    start: float,
+    stop: float | None,
+) -> bytes:
     for prefix, address in NAMESPACES.items():
         ElementTree.register_namespace(prefix, address)
     title = name or path.stem
@@ -255,7 +263,9 @@ def _of_unit(unit: str, parameters: dict[str, Any]) -> dict[str, Any]:
     return {key.removeprefix(f"{unit}."): parameters.pop(key) for key in names}
 
 
-def _write_parameters(component, unit, package, values):
+def _write_parameters(
+    component: ElementTree.Element, unit: str, package: Package, values: Mapping[str, Any]
+) -> None:
     bindings = _child(component, "ssd:ParameterBindings")
     inline = _child(_child(bindings, "ssd:ParameterBinding"), "ssd:ParameterValues")
     inner = _child(
@@ -282,7 +292,9 @@ def _text(kind: str, value: Any) -> str:
     return str(value)
 
 
-def _child(parent, element: str, /, **attributes: str):
+def _child(
+    parent: ElementTree.Element | None, element: str, /, **attributes: str
+) -> ElementTree.Element:
     prefix, tag = element.split(":")
     full = f"{{{NAMESPACES[prefix]}}}{tag}"
     if parent is None:

@@ -45,7 +45,7 @@ def cfd_frames(
     return Series(series[name].times, weighted / there(series[weight].values))
 
 
-def _check(path, name, series):
+def _check(path: str | Path, name: str, series: dict[str, Series]) -> None:
     if name not in series:
         raise SurfaceError(f"{path}: no field `{name}`; there are {', '.join(series) or 'none'}")
     if series[name].values.ndim > 2:
@@ -53,7 +53,13 @@ def _check(path, name, series):
         raise SurfaceError(f"{path}: `{name}` has {shape} components a place; a scalar is needed")
 
 
-def _location(path, name, placement, target, tolerance):
+def _location(
+    path: str | Path,
+    name: str,
+    placement: Placement | None,
+    target: Surface,
+    tolerance: float | None,
+) -> Literal["cells", "points"]:
     """Where a field stands: in cells, if there is one of that name, else at points."""
     _, series = Surface.read_series(
         path, placement, values="cells", face=target.z, tolerance=tolerance

@@ -130,7 +130,7 @@ def _parser() -> argparse.ArgumentParser:
     return parser
 
 
-def _add_placement(command):
+def _add_placement(command: argparse.ArgumentParser) -> None:
     group = command.add_argument_group("foreign coordinates")
     group.add_argument("--unit", default="m", help="unit of length [default: m]")
     group.add_argument(
@@ -142,18 +142,18 @@ def _add_placement(command):
     group.add_argument("--tolerance", type=float, help="how far places may lie off the face [m]")
 
 
-def _placement(options) -> Placement:
+def _placement(options: argparse.Namespace) -> Placement:
     return Placement(options.origin, (options.axes[:3], options.axes[3:]), options.unit)
 
 
-def _target(options) -> Surface:
+def _target(options: argparse.Namespace) -> Surface:
     unit, mark, name = options.onto.rpartition(":")
     if not mark:
         raise SurfaceError(f"--onto {options.onto}: UNIT:NAME is needed, such as scene.toml:laser")
     return Surface.of(unit, name)
 
 
-def _laser(options):
+def _laser(options: argparse.Namespace) -> None:
     target = _target(options)
     frames = laser_frames(
         options.files, target, options.size,
@@ -164,7 +164,7 @@ def _laser(options):
     _write(options, target, frames, "W")
 
 
-def _spray(options):
+def _spray(options: argparse.Namespace) -> None:
     target = _target(options)
     frames, total = spray_frames(
         options.files[0], target,
@@ -176,7 +176,7 @@ def _spray(options):
     print(f"brought {total['brought']:.9g}, of which {total['lost']:.6g} falls beside the cells")
 
 
-def _cfd(options):
+def _cfd(options: argparse.Namespace) -> None:
     target = _target(options)
     keeps = "conservative" if options.variable in FLUXES else "consistent"
     frames = cfd_frames(
@@ -190,7 +190,7 @@ def _cfd(options):
         _write(options, target, frames, "W")
 
 
-def _tell_coefficient(options, frames: Series):
+def _tell_coefficient(options: argparse.Namespace, frames: Series) -> None:
     """Coefficients of faces are parameters, which a table of inputs cannot hold."""
     if len(frames) > 1 or frames.values.size > 1:
         raise SurfaceError(
@@ -201,7 +201,7 @@ def _tell_coefficient(options, frames: Series):
     print(f"--set {name}.coefficient={float(frames.values.item())!r}")
 
 
-def _write(options, target: Surface, frames: Series, unit: str):
+def _write(options: argparse.Namespace, target: Surface, frames: Series, unit: str) -> None:
     if options.out is None:
         raise SurfaceError("-o: the name of the table is needed")
     name = options.onto.rpartition(":")[2]
@@ -218,7 +218,7 @@ def _write(options, target: Surface, frames: Series, unit: str):
     )
 
 
-def _out(options):
+def _out(options: argparse.Namespace) -> None:
     mesh = load_mesh(options.onto)
     frames = onto_mesh(
         options.files[0], mesh, options.fields, times=options.times, placement=_placement(options),

@@ -60,7 +60,7 @@ def read_picture(path: str | Path) -> tuple[np.ndarray | None, np.ndarray]:
     return times, frames
 
 
-def _read_hdf5(path):
+def _read_hdf5(path: Path) -> tuple[np.ndarray | None, np.ndarray]:
     h5py = need("h5py")
 
     try:
@@ -73,14 +73,14 @@ def _read_hdf5(path):
         raise SurfaceError(f"{path}: {error}") from None
 
 
-def _read_npy(path):
+def _read_npy(path: Path) -> np.ndarray:
     try:
         return np.asarray(np.load(path, allow_pickle=False), float)
     except (ValueError, TypeError, EOFError) as error:
         raise SurfaceError(f"{path}: {error}") from None
 
 
-def _read_image(path):
+def _read_image(path: Path) -> np.ndarray:
     Image = need("PIL.Image")
     try:
         with Image.open(path) as image:

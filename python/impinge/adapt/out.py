@@ -83,7 +83,7 @@ class Body:
         values = _interpolate(self.axes, self.fields[name], self._inside(at, points, tolerance))
         return _turned(values, points) if is_disc else values
 
-    def _inside(self, at, points, tolerance):
+    def _inside(self, at: np.ndarray, points: np.ndarray, tolerance: float) -> np.ndarray:
         low = np.array([axis[0] for axis in self.axes])
         high = np.array([axis[-1] for axis in self.axes])
         beyond = np.maximum(low - at, at - high).max(axis=1)
@@ -98,7 +98,7 @@ class Body:
         return np.clip(at, low, high)
 
 
-def _interpolate(axes, values, at):
+def _interpolate(axes: tuple[np.ndarray, ...], values: np.ndarray, at: np.ndarray) -> np.ndarray:
     result = 0.0
     parts = []
     for k, axis in enumerate(axes):
@@ -115,7 +115,7 @@ def _interpolate(axes, values, at):
     return result
 
 
-def _turned(values, points):
+def _turned(values: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Components at the angle 0 turned to that of the points: u' = R u, σ' = R σ Rᵀ."""
     if values.shape[1] == 1:
         return values
@@ -184,7 +184,9 @@ def onto_mesh(
         yield time, values
 
 
-def _wanted(series, frames, times):
+def _wanted(
+    series: Path, frames: list[tuple[float, Any]], times: Sequence[float] | None
+) -> list[tuple[float, Any]]:
     if times is None:
         return frames
     kept = []
@@ -198,7 +200,7 @@ def _wanted(series, frames, times):
     return kept
 
 
-def _in_axes(values, turn):
+def _in_axes(values: np.ndarray, turn: np.ndarray) -> np.ndarray:
     """Components in axes whose directions are the rows of `turn`'s transpose."""
     if values.shape[1] == 1:
         return values[:, 0]
@@ -245,7 +247,9 @@ def write_frames(
     return [out]
 
 
-def _write_pvd(out, mesh, frames):
+def _write_pvd(
+    out: Path, mesh: Any, frames: list[tuple[float, dict[str, np.ndarray]]]
+) -> list[Path]:
     meshio = need("meshio")
 
     files, sets = [], []

@@ -32,7 +32,7 @@ def names(variable: str, shape: tuple[int, ...]) -> list[str]:
 
 def write_inputs(
     out: str | Path | TextIO, frames: dict[str, Series], *, held: bool = False, single: bool = False
-):
+) -> None:
     """Writes inputs over time; `frames` gives for each array's name its series, values of the
     array's shape.
 
@@ -66,7 +66,7 @@ def write_inputs(
         _write(out, columns, rows)
 
 
-def _write(file, columns, rows):
+def _write(file: TextIO, columns: list[str], rows: np.ndarray) -> None:
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(["time [s]", *[_with_unit(name) for name in columns]])
     writer.writerows([[repr(float(x)) for x in row] for row in rows])

@@ -26,7 +26,15 @@ def overlapping(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return i[order], j[order]
 
 
-def _search(a, b, ia, ib, low, high, depth) -> list[tuple[np.ndarray, np.ndarray]]:
+def _search(
+    a: np.ndarray,
+    b: np.ndarray,
+    ia: np.ndarray,
+    ib: np.ndarray,
+    low: np.ndarray,
+    high: np.ndarray,
+    depth: int,
+) -> list[tuple[np.ndarray, np.ndarray]]:
     """Pairs among boxes `ia`, `ib` whose larger lower corner lies in the window."""
     count, size = _bins(max(len(ia), len(ib)), low, high)
     bin_a, ia = _fill(a, ia, low, size, count)
@@ -55,18 +63,20 @@ def _search(a, b, ia, ib, low, high, depth) -> list[tuple[np.ndarray, np.ndarray
     return found
 
 
-def _bins(boxes, low, high):
+def _bins(boxes: int, low: np.ndarray, high: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     extent = np.maximum(high - low, 1e-300)
     size = max(np.sqrt(extent[0] * extent[1] / boxes), extent.max() / max(4 * boxes, 4), 1e-300)
     count = np.clip(np.ceil(extent / size).astype(int), 1, 4 * boxes)
     return count, extent / count
 
 
-def _place(points, low, size, count):
+def _place(points: np.ndarray, low: np.ndarray, size: np.ndarray, count: np.ndarray) -> np.ndarray:
     return np.clip(((points - low) / size).astype(int), 0, count - 1)
 
 
-def _fill(boxes, index, low, size, count):
+def _fill(
+    boxes: np.ndarray, index: np.ndarray, low: np.ndarray, size: np.ndarray, count: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Bins of the boxes `index`, sorted, and the boxes in them."""
     first = _place(boxes[index, 0], low, size, count)
     last = _place(boxes[index, 1], low, size, count)
@@ -79,7 +89,7 @@ def _fill(boxes, index, low, size, count):
     return bins[order], index[who[order]]
 
 
-def _join(bin_a, bin_b):
+def _join(bin_a: np.ndarray, bin_b: np.ndarray) -> tuple[np.ndarray, ...]:
     """Bins that both have, with where they begin and how many boxes they hold."""
     in_a, first_a, many_a = np.unique(bin_a, return_index=True, return_counts=True)
     in_b, first_b, many_b = np.unique(bin_b, return_index=True, return_counts=True)
@@ -87,7 +97,21 @@ def _join(bin_a, bin_b):
     return shared, first_a[at_a], many_a[at_a], first_b[at_b], many_b[at_b]
 
 
-def _compare(a, b, ia, ib, first_a, many_a, first_b, many_b, shared, low, size, count, which):
+def _compare(
+    a: np.ndarray,
+    b: np.ndarray,
+    ia: np.ndarray,
+    ib: np.ndarray,
+    first_a: np.ndarray,
+    many_a: np.ndarray,
+    first_b: np.ndarray,
+    many_b: np.ndarray,
+    shared: np.ndarray,
+    low: np.ndarray,
+    size: np.ndarray,
+    count: np.ndarray,
+    which: np.ndarray,
+) -> tuple[np.ndarray, np.ndarray]:
     first_a, many_a, first_b, many_b = (v[which] for v in (first_a, many_a, first_b, many_b))
     who, place = spread(many_a * many_b)
     i = ia[first_a[who] + place // many_b[who]]
@@ -98,7 +122,15 @@ def _compare(a, b, ia, ib, first_a, many_a, first_b, many_b, shared, low, size, 
     return i[keep], j[keep]
 
 
-def _home(a, b, i, j, low, size, count):
+def _home(
+    a: np.ndarray,
+    b: np.ndarray,
+    i: np.ndarray,
+    j: np.ndarray,
+    low: np.ndarray,
+    size: np.ndarray,
+    count: np.ndarray,
+) -> np.ndarray:
     column, row = _place(np.maximum(a[i, 0], b[j, 0]), low, size, count).T
     return column * count[1] + row
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,7 +20,7 @@ class Rings:
     edges: np.ndarray
     centre: np.ndarray
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if len(self.edges) < 2 or self.edges[0] < 0 or not (np.diff(self.edges) > 0).all():
             raise SurfaceError(f"rings: radii {self.edges} m are to ascend from 0 or more")
 
@@ -73,7 +74,7 @@ class Polygons:
         return self.points[:, :3] if is_triangle.all() else self.points
 
     @cached_property
-    def _local(self):
+    def _local(self) -> tuple[np.ndarray, np.ndarray]:
         origin = self.points.mean(axis=1)
         area, moment = moments(self.points - origin[:, None, :])
         return area, origin + moment / area[:, None]
@@ -144,11 +145,11 @@ class Scattered:
         return np.stack([self.places[:, :2].min(axis=0), self.places[:, :2].max(axis=0)])
 
 
-def make_rings(edges, at) -> Rings:
+def make_rings(edges: Sequence[float] | np.ndarray, at: Sequence[float]) -> Rings:
     return Rings(np.asarray(edges, float), _two(at, "at"))
 
 
-def make_tiles(count, size, at) -> Tiles:
+def make_tiles(count: Sequence[int], size: Sequence[float], at: Sequence[float]) -> Tiles:
     """`count` = (nx, ny) rectangles that fill `size` = (lx, ly) [m] about the centre `at` [m]."""
     nx, ny = (int(n) for n in count)
     size, at = _two(size, "size"), _two(at, "at")
@@ -164,7 +165,7 @@ def make_tiles(count, size, at) -> Tiles:
     return Tiles(nodes, corners, (nx, ny), low, step)
 
 
-def check_cells(cells: np.ndarray, nodes: int):
+def check_cells(cells: np.ndarray, nodes: int) -> None:
     """Refuses what is no array of three or four numbers of `nodes` a cell."""
     if cells.ndim != 2 or cells.shape[1] not in (3, 4) or not len(cells):
         raise SurfaceError(
@@ -215,7 +216,7 @@ def make_scattered(points: np.ndarray) -> Scattered:
     return Scattered(places)
 
 
-def _two(values, name: str) -> np.ndarray:
+def _two(values: Sequence[float], name: str) -> np.ndarray:
     values = np.asarray(values, float)
     if values.shape != (2,) or not np.isfinite(values).all():
         raise SurfaceError(f"{name}: two numbers are needed, not {values}")

@@ -38,12 +38,12 @@ def in_discs(radius: np.ndarray, polygons: np.ndarray) -> tuple[np.ndarray, np.n
     return area.sum(axis=1), moment.sum(axis=1)
 
 
-def _triangles(p, q):
+def _triangles(p: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     area = 0.5 * (p[..., 0] * q[..., 1] - p[..., 1] * q[..., 0])
     return area, (p + q) * area[..., None] / 3.0
 
 
-def _sectors(radius, p, q):
+def _sectors(radius: np.ndarray, p: np.ndarray, q: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     cross = p[..., 0] * q[..., 1] - p[..., 1] * q[..., 0]
     angle = np.arctan2(cross, (p * q).sum(axis=2))
     area = 0.5 * radius**2 * angle
@@ -52,7 +52,7 @@ def _sectors(radius, p, q):
     return area, moment
 
 
-def _unit(p):
+def _unit(p: np.ndarray) -> np.ndarray:
     length = np.linalg.norm(p, axis=2, keepdims=True)
     return p / np.where(length > 0, length, 1.0)
 

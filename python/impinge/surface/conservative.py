@@ -98,32 +98,34 @@ def nodal_areas(mesh: Polygons) -> np.ndarray:
     return np.bincount(corners.ravel(), np.repeat(area / 3, 3), minlength=len(mesh.nodes))
 
 
-def _areas(surface):
+def _areas(surface: Surface) -> np.ndarray:
     return nodal_areas(surface.cells) if _has_nodes(surface) else surface.cells.areas
 
 
-def _has_nodes(surface) -> bool:
+def _has_nodes(surface: Surface) -> bool:
     """Whether values stand at nodes of a mesh; points of a grid stand for the cells around them."""
     return surface.location == "points" and not isinstance(surface.cells, Tiles | Scattered)
 
 
-def _matrix(rows, columns, values, shape):
+def _matrix(
+    rows: np.ndarray, columns: np.ndarray, values: np.ndarray, shape: tuple[int, int]
+) -> csr_matrix:
     return csr_matrix(coo_matrix((values, (rows, columns)), shape=shape))
 
 
-def _densities(source, target, shared, outside) -> Map:
+def _densities(source: Surface, target: Surface, shared: csr_matrix, outside: str) -> Map:
     areas = _areas(target)
     inverse = np.divide(1.0, areas, out=np.zeros_like(areas), where=areas > 0)
     matrix = csr_matrix(diags_array(inverse) @ shared)
     return Map(source, target, matrix, "conservative", "intensive", outside, _areas(source), areas)
 
 
-def _amounts(source, target, shared, outside) -> Map:
+def _amounts(source: Surface, target: Surface, shared: csr_matrix, outside: str) -> Map:
     ones = np.ones(source.size), np.ones(target.size)
     return Map(source, target, csr_matrix(shared), "conservative", "extensive", outside, *ones)
 
 
-def _points_in_cells(source, target, tolerance):
+def _points_in_cells(source: Surface, target: Surface, tolerance: float) -> csr_matrix:
     places = source.cells.places[:, :2]
     if isinstance(target.cells, Rings):
         cell = target.cells.contains(places)
@@ -137,13 +139,15 @@ def _points_in_cells(source, target, tolerance):
     return _matrix(columns.ravel(), np.repeat(on, 4), weights.ravel(), (target.size, source.size))
 
 
-def _snap(pieces: Pieces, cells, tolerance) -> Pieces:
+def _snap(pieces: Pieces, cells: Rings | Polygons, tolerance: float) -> Pieces:
     return Pieces(
         pieces.i, pieces.j, pieces.area * _snap_scale(pieces.j, pieces.area, cells, tolerance)
     )
 
 
-def _snap_scale(j, area, cells, tolerance):
+def _snap_scale(
+    j: np.ndarray, area: np.ndarray, cells: Rings | Polygons, tolerance: float
+) -> np.ndarray:
     """Factors that give cells their whole area back of which no more than a seam `tolerance`
     wide is missing.
     """
@@ -154,7 +158,9 @@ def _snap_scale(j, area, cells, tolerance):
     return scale[j]
 
 
-def _refuse_cells_that_overlap(pieces, source, target, tolerance):
+def _refuse_cells_that_overlap(
+    pieces: Pieces, source: Surface, target: Surface, tolerance: float
+) -> None:
     """Cells that are covered more than once would count what lies on them more than once."""
     for surface, index, name in ((source, pieces.j, "target"), (target, pieces.i, "source")):
         areas = surface.cells.areas

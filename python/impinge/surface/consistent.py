@@ -8,7 +8,7 @@ between nodes.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.sparse import coo_matrix, csr_matrix, diags_array
@@ -42,7 +42,9 @@ def consistent(
     return Map(source, target, matrix, "consistent", "intensive", outside, off=none & (not nearest))
 
 
-def interpolate(source: Surface, target: Surface, tolerance: float, nearest: bool):
+def interpolate(
+    source: Surface, target: Surface, tolerance: float, nearest: bool
+) -> tuple[csr_matrix, np.ndarray]:
     """Matrix from a mesh, grid or cells to the points of a target, and which of these lie off
     them.
     """
@@ -82,7 +84,9 @@ def interpolate(source: Surface, target: Surface, tolerance: float, nearest: boo
     return csr_matrix(matrix), off
 
 
-def _means(source, target, tolerance, nearest):
+def _means(
+    source: Surface, target: Surface, tolerance: float, nearest: bool
+) -> tuple[csr_matrix, np.ndarray, np.ndarray]:
     """Means over the cells of the target of what the source covers of them; which of these it does
     not cover wholly, and not at all."""
     if source.location == "points":
@@ -114,7 +118,7 @@ def _means(source, target, tolerance, nearest):
     return matrix, off, none
 
 
-def _mesh_of(source) -> tuple[Polygons, csr_matrix]:
+def _mesh_of(source: Surface) -> tuple[Polygons, csr_matrix]:
     """A mesh whose nodal values are a matrix times the values at a surface's points. Grids are
     extended by extrapolation to the edges of their outermost cells.
     """
@@ -133,7 +137,9 @@ def _mesh_of(source) -> tuple[Polygons, csr_matrix]:
     return make_polygons(nodes, cells), _rows(columns, weights, (len(nodes), source.size))
 
 
-def _from_points(source, target, nearest, options):
+def _from_points(
+    source: Surface, target: Surface, nearest: bool, options: dict[str, Any]
+) -> tuple[csr_matrix, np.ndarray]:
     places = source.cells.places
     if target.location == "points" or isinstance(target.cells, Scattered):
         points, average = target.coordinates, None
@@ -187,12 +193,12 @@ def quadrature(target: Surface) -> tuple[np.ndarray, csr_matrix]:
     return np.column_stack([points, np.full(len(points), z)]), average
 
 
-def _rows(columns, weights, shape) -> csr_matrix:
+def _rows(columns: np.ndarray, weights: np.ndarray, shape: tuple[int, int]) -> csr_matrix:
     rows = np.repeat(np.arange(shape[0]), columns.shape[1])
     return csr_matrix(coo_matrix((weights.ravel(), (rows, columns.ravel())), shape=shape))
 
 
-def _refuse(source, target, off):
+def _refuse(source: Surface, target: Surface, off: np.ndarray) -> None:
     place = int(np.flatnonzero(off)[0])
     at = ", ".join(f"{x:.6g}" for x in target.coordinates[place])
     low, high = source.cells.box

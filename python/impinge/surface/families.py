@@ -97,7 +97,7 @@ def from_cells(cells: dict[str, Any], name: str, z: float | None = None) -> Surf
     return surface
 
 
-def _grid(cells, x, y, name) -> Surface:
+def _grid(cells: dict[str, Any], x: np.ndarray, y: np.ndarray, name: str) -> Surface:
     """Points on a face, or, where they vary through the depth, in a section."""
     z = np.asarray(cells.get("z", [0.0]), float).ravel()
     count = tuple(int(n) for n in cells["count"])
@@ -159,7 +159,7 @@ def _of_scene(path: Path, name: str) -> Surface:
     )
 
 
-def _of_face(scene, name, path) -> Surface:
+def _of_face(scene: dict[str, Any], name: str, path: Path) -> Surface:
     """A whole top or bottom as one cell."""
     entry = {"on": name}
     z, (lx, ly, _) = _height(scene, entry, path, name), _extent(scene, entry, path, name)
@@ -168,7 +168,7 @@ def _of_face(scene, name, path) -> Surface:
     return Surface.tiles((1, 1), (lx, ly), z=z)
 
 
-def _height(scene, entry, path, name) -> float:
+def _height(scene: dict[str, Any], entry: dict[str, Any], path: Path, name: str) -> float:
     """Height [m] of the top or bottom of a body; a wall lies at 0."""
     face = entry.get("on", "").partition(".")[2]
     if face == "bottom":
@@ -180,7 +180,9 @@ def _height(scene, entry, path, name) -> float:
     )
 
 
-def _extent(scene, entry, path, name):
+def _extent(
+    scene: dict[str, Any], entry: dict[str, Any], path: Path, name: str
+) -> tuple[float, float, float]:
     body = entry["on"].partition(".")[0]
     match scene.get("body", {}).get(body, {}).get("shape", {}):
         case {"box": [x, y, z]}:

@@ -89,7 +89,13 @@ def read_series(
     return replace(surface, data={}), {**fixed, **series}
 
 
-def _read_any(path: Path, placement, values, face, tolerance) -> tuple[Surface, dict[str, Series]]:
+def _read_any(
+    path: Path,
+    placement: Placement | None,
+    values: str | None,
+    face: float | None,
+    tolerance: float | None,
+) -> tuple[Surface, dict[str, Series]]:
     if not path.is_file():
         raise SurfaceError(f"{path}: no such file")
     make = _Maker(path, placement or Placement(), values, face, tolerance)
@@ -108,19 +114,34 @@ def _read_any(path: Path, placement, values, face, tolerance) -> tuple[Surface, 
 class _Maker:
     """Makes a surface of points, cells and fields as one file brings them."""
 
-    def __init__(self, path, placement, values, face, tolerance):
+    def __init__(
+        self,
+        path: Path,
+        placement: Placement | None,
+        values: str | None,
+        face: float | None,
+        tolerance: float | None,
+    ) -> None:
         self.path, self.placement = path, placement
         self.values, self.face, self.tolerance = values, face, tolerance
         if values not in (None, "cells", "points"):
             raise SurfaceError(f"values: `{values}` is none of cells, points")
 
-    def __call__(self, points, cells, at_points: dict, at_cells: dict) -> Surface:
+    def __call__(
+        self, points: np.ndarray, cells: np.ndarray | None, at_points: dict, at_cells: dict
+    ) -> Surface:
         try:
             return self._make(points, cells, at_points, at_cells)
         except SurfaceError as error:
             raise SurfaceError(f"{self.path}: {error}") from None
 
-    def _make(self, points, cells, at_points, at_cells) -> Surface:
+    def _make(
+        self,
+        points: np.ndarray,
+        cells: np.ndarray | None,
+        at_points: dict[str, np.ndarray],
+        at_cells: dict[str, np.ndarray],
+    ) -> Surface:
         if cells is None:
             return replace(Surface.points(points, self.placement), data=at_points)
         kept = np.arange(len(cells)) if self.face is None else self._on_face(points, cells)
@@ -137,7 +158,7 @@ class _Maker:
             data = {name: field[used] for name, field in at_points.items()}
         return replace(surface, data=data)
 
-    def _on_face(self, points, cells):
+    def _on_face(self, points: np.ndarray, cells: np.ndarray) -> np.ndarray:
         placed = self.placement.to_face(points)
         tolerance = self.tolerance or 1e-6 * np.ptp(placed[:, :2], axis=0).max()
         kept = np.flatnonzero((np.abs(placed[cells, 2] - self.face) <= tolerance).all(axis=1))
@@ -224,7 +245,7 @@ def _read_xdmf(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
     if not frames:
         return _read_mesh(path, make), {}
 
-    def load(frame):
+    def load(frame: tuple[float, dict, dict]) -> Callable[[], Surface]:
         mesh = meshio.Mesh(points, blocks, frame[1], frame[2])
         return lambda: _of_mesh(path, mesh, make)
 

@@ -10,7 +10,7 @@ from .cells import Polygons, Tiles
 NEWTON_STEPS = 20
 
 
-def in_cells(mesh: Polygons, points: np.ndarray, tolerance: float):
+def in_cells(mesh: Polygons, points: np.ndarray, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
     """The cell that each point, shape (n, 2), lies in or within `tolerance` [m] of, −1 where there
     is none, and weights of its four corners, shape (n, 4), that sum to one.
 
@@ -33,7 +33,7 @@ def in_cells(mesh: Polygons, points: np.ndarray, tolerance: float):
     return found, values
 
 
-def _weights(cells, points):
+def _weights(cells: np.ndarray, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Weights of the corners, and how far [m] points lie beyond the cell's sides."""
     is_triangle = (cells[:, 2] == cells[:, 3]).all(axis=1)
     weights, beyond = np.empty((len(cells), 4)), np.empty(len(cells))
@@ -48,7 +48,7 @@ def _weights(cells, points):
     return weights, beyond
 
 
-def _barycentric(cells, points):
+def _barycentric(cells: np.ndarray, points: np.ndarray) -> np.ndarray:
     origin, a, b = cells[:, 0], cells[:, 1] - cells[:, 0], cells[:, 2] - cells[:, 0]
     p = points - origin
     area = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
@@ -57,7 +57,7 @@ def _barycentric(cells, points):
     return np.column_stack([1 - second - third, second, third, np.zeros(len(cells))])
 
 
-def _isoparametric(cells, points):
+def _isoparametric(cells: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Solves ``Σ N(ξ, η) xᵢ = x`` by Newton's method from the middle; exact at once for
     parallelograms.
     """
@@ -86,7 +86,9 @@ def _isoparametric(cells, points):
     return np.column_stack([(1 - xi) * (1 - eta), xi * (1 - eta), xi * eta, (1 - xi) * eta])
 
 
-def on_grid(tiles: Tiles, points: np.ndarray, tolerance: float, nearest: bool):
+def on_grid(
+    tiles: Tiles, points: np.ndarray, tolerance: float, nearest: bool
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Bilinear weights of points among the middles of tiles, extrapolated over the outer half of
     the outermost: four columns and weights each, and whether a point lies off the tiles.
     """
@@ -110,7 +112,9 @@ def on_grid(tiles: Tiles, points: np.ndarray, tolerance: float, nearest: bool):
     return columns.reshape(len(points), 4), weights.reshape(len(points), 4), off
 
 
-def nearest_on_boundary(mesh: Polygons, points: np.ndarray):
+def nearest_on_boundary(
+    mesh: Polygons, points: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """The nearest places on a mesh's boundary, as weights of the two nodes of an edge: columns
     (n, 2), weights (n, 2), distances (n,) [m] and the cells (n,) beside them.
     """

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.sparse import csr_matrix
@@ -53,7 +53,7 @@ class Map:
     target_weights: np.ndarray | None = None
     off: np.ndarray | None = None
 
-    def __call__(self, values):
+    def __call__(self, values: Any) -> Any:
         """Values on the target.
 
         Raises
@@ -72,7 +72,7 @@ class Map:
             result[:, self.off] = np.nan
         return result.reshape(*before, *self.target.shape)
 
-    def lost(self, values) -> np.ndarray | float:
+    def lost(self, values: Any) -> np.ndarray | float:
         """What falls beside the target: integral of the source less that of the target, of values
         as the map itself takes them; in units of the values times m2, or of the values if
         extensive.
@@ -88,7 +88,7 @@ class Map:
         lost = flat @ self._lost_weights
         return lost.reshape(before) if before else float(lost[0])
 
-    def integral(self, values) -> np.ndarray | float:
+    def integral(self, values: Any) -> np.ndarray | float:
         """Integral of values of the source, as :meth:`lost` gives what of it is lost."""
         if self.source_weights is None:
             raise SurfaceError("a consistent map has no integral")
@@ -106,10 +106,10 @@ class Map:
         return Map(self.target, self.source, csr_matrix(self.matrix.T), kind, quantity, "drop")
 
     @property
-    def _lost_weights(self):
+    def _lost_weights(self) -> np.ndarray:
         return self.source_weights - self.matrix.T @ self.target_weights
 
-    def _flat(self, values):
+    def _flat(self, values: Any) -> tuple[np.ndarray, tuple[int, ...]]:
         values = np.asarray(values, float)
         shape, size = self.source.shape, self.source.size
         if values.shape[-len(shape) :] == shape:
@@ -124,7 +124,7 @@ class Map:
             raise SurfaceError(f"values: {flat[row, place]} at place {place} of {size}")
         return flat, before
 
-    def _refuse_lost(self, flat):
+    def _refuse_lost(self, flat: np.ndarray) -> None:
         weights = self._lost_weights
         amounts = np.abs(flat) @ np.abs(self.source_weights)
         gone = np.abs(flat) @ np.abs(weights)

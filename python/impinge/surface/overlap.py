@@ -60,7 +60,9 @@ def cut_polygons(a: Rings | Polygons, polygons: np.ndarray) -> Pieces:
     return _some(i, j, area, moment, about)
 
 
-def _some(i, j, area, moment, about) -> Pieces:
+def _some(
+    i: np.ndarray, j: np.ndarray, area: np.ndarray, moment: np.ndarray, about: np.ndarray
+) -> Pieces:
     some = area > 0
     return Pieces(i[some], j[some], area[some], moment[some], about[some])
 
@@ -100,7 +102,7 @@ def _rings_by_polygons(rings: Rings, polygons: np.ndarray) -> Pieces:
     return _some(ring, who, outer[0] - inner[0], outer[1] - inner[1], about)
 
 
-def _whole(local):
+def _whole(local: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Areas and moments about the origin, rounded as what is far smaller than its distance
     should be.
     """
@@ -109,7 +111,13 @@ def _whole(local):
     return area, moment + middle * area[:, None]
 
 
-def _within(radius, local, near, far, whole):
+def _within(
+    radius: np.ndarray,
+    local: np.ndarray,
+    near: np.ndarray,
+    far: np.ndarray,
+    whole: tuple[np.ndarray, np.ndarray],
+) -> tuple[np.ndarray, np.ndarray]:
     area, moment = whole[0].copy(), whole[1].copy()
     none = radius <= near
     area[none], moment[none] = 0.0, 0.0

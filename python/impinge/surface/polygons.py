@@ -33,7 +33,9 @@ def is_convex(polygons: np.ndarray) -> np.ndarray:
     return (cross >= -1e-12 * scale).all(axis=1)
 
 
-def in_rectangles(low: np.ndarray, high: np.ndarray, polygons: np.ndarray):
+def in_rectangles(
+    low: np.ndarray, high: np.ndarray, polygons: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Area and moments of polygons within rectangles from `low` to `high`, shape (n, 2) each.
 
     Edges are cut where they cross the four lines of the rectangle's sides, and what lies beyond is
@@ -51,7 +53,7 @@ def in_rectangles(low: np.ndarray, high: np.ndarray, polygons: np.ndarray):
     return moments(path.reshape(len(polygons), -1, 2))
 
 
-def in_convex(frames: np.ndarray, polygons: np.ndarray):
+def in_convex(frames: np.ndarray, polygons: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Area and moments of polygons within convex `frames` that go round to the left.
 
     Source: I. E. Sutherland and G. W. Hodgman (1974), doi 10.1145/360767.360802.
@@ -74,7 +76,7 @@ def in_convex(frames: np.ndarray, polygons: np.ndarray):
     return area, moment
 
 
-def _heights(frames, k, polygons):
+def _heights(frames: np.ndarray, k: int, polygons: np.ndarray) -> np.ndarray:
     """Heights of corners above the k-th side of the frame; shape (n, m)."""
     corner = frames[:, k]
     along = frames[:, (k + 1) % frames.shape[1]] - corner
@@ -84,7 +86,7 @@ def _heights(frames, k, polygons):
     return x * offset[..., 1] - y * offset[..., 0]
 
 
-def _above(polygons, height):
+def _above(polygons: np.ndarray, height: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Polygons where `height` is not negative, and whether anything is left of them."""
     inside = height >= 0
     if inside.all():

@@ -103,14 +103,14 @@ def matrix(
     return csr_matrix(data, shape=(len(target), len(source))), off
 
 
-def _check_apart(source, tree):
+def _check_apart(source: np.ndarray, tree: cKDTree) -> None:
     twice = tree.query_pairs(1e-12 * max(np.ptp(source, axis=0).max(), 1e-300))
     if twice:
         i, j = min(twice)
         raise SurfaceError(f"points: {i} and {j} are the same place, {source[i]} m")
 
 
-def _cover(points, tree, many, spacing):
+def _cover(points: np.ndarray, tree: cKDTree, many: int, spacing: float) -> np.ndarray:
     """Centres among `points` within a part of whose reach all of them lie."""
     everyone = cKDTree(points)
     free = np.ones(len(points), bool)
@@ -125,7 +125,9 @@ def _cover(points, tree, many, spacing):
     return points[centres]
 
 
-def _shares(target, off, centres, radius):
+def _shares(
+    target: np.ndarray, off: np.ndarray, centres: np.ndarray, radius: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Targets, pieces and the weights by which these are joined; they sum to one for each
     target.
     """
@@ -143,7 +145,9 @@ def _shares(target, off, centres, radius):
     return places, pieces, share / total[places]
 
 
-def _weights(local, at, scale, smoothness, degree):
+def _weights(
+    local: np.ndarray, at: np.ndarray, scale: float, smoothness: int, degree: int
+) -> np.ndarray:
     """Weights of values at `local` points in the value at each of `at`; shape (len(at),
     len(local)).
 
@@ -181,5 +185,5 @@ def _powers(dimensions: int, degree: int) -> np.ndarray:
     return np.array([powers for powers in every if sum(powers) <= degree])
 
 
-def _terms(points, powers):
+def _terms(points: np.ndarray, powers: np.ndarray) -> np.ndarray:
     return np.prod(points[:, None, :] ** powers, axis=2)

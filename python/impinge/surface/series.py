@@ -16,7 +16,7 @@ class Series:
     times: np.ndarray
     values: np.ndarray
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         times, values = np.asarray(self.times, float), np.asarray(self.values, float)
         if times.ndim != 1 or not len(times) or values.shape[:1] != times.shape:
             raise SurfaceError(f"series: {times.shape} times for values of shape {values.shape}")
@@ -70,7 +70,7 @@ class Series:
         values = [self.mean(a, b) for a, b in zip(times, times[1:], strict=False)]
         return Series(times[:-1], np.array(values))
 
-    def _check(self, time):
+    def _check(self, time: float) -> None:
         if not self.times[0] <= time <= self.times[-1]:
             raise SurfaceError(
                 f"{time} s is not within the series from {self.times[0]} to {self.times[-1]} s"

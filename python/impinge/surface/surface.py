@@ -316,7 +316,7 @@ def plane(points: np.ndarray, used: np.ndarray, tolerance: float | None) -> floa
     return height
 
 
-def _refuse_other_plane(source: Surface, target: Surface, tolerance: float):
+def _refuse_other_plane(source: Surface, target: Surface, tolerance: float) -> None:
     heights = [
         s.cells.places[:, 2] if isinstance(s.cells, Scattered) else np.array([s.z])
         for s in (source, target)
@@ -332,6 +332,6 @@ def _refuse_other_plane(source: Surface, target: Surface, tolerance: float):
         )
 
 
-def _check(name: str, value: str, allowed: Sequence[str]):
+def _check(name: str, value: str, allowed: Sequence[str]) -> None:
     if value not in allowed:
         raise SurfaceError(f"{name}: `{value}` is none of {', '.join(allowed)}")

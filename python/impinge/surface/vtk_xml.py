@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import xml.etree.ElementTree as ElementTree
 import zlib
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -84,7 +85,7 @@ def _split(content: bytes) -> tuple[bytes, bytes]:
 
 
 class _Decoder:
-    def __init__(self, path, root, appended):
+    def __init__(self, path: Path, root: ElementTree.Element, appended: bytes) -> None:
         self.path, self.appended = path, appended
         self.order = "<" if root.attrib.get("byte_order", "LittleEndian") == "LittleEndian" else ">"
         self.header = np.dtype(self.order + TYPES[root.attrib.get("header_type", "UInt32")])
@@ -95,7 +96,7 @@ class _Decoder:
         node = root.find("AppendedData")
         self.is_raw = node is not None and node.attrib.get("encoding", "base64") == "raw"
 
-    def __call__(self, array) -> np.ndarray:
+    def __call__(self, array: ElementTree.Element) -> np.ndarray:
         name = array.attrib.get("Name", "")
         kind = TYPES.get(array.attrib.get("type", ""))
         if kind is None:
@@ -110,7 +111,7 @@ class _Decoder:
         components = int(array.attrib.get("NumberOfComponents", 1))
         return values.reshape(-1, components) if components > 1 else values
 
-    def _bytes(self, array) -> bytes:
+    def _bytes(self, array: ElementTree.Element) -> bytes:
         if array.attrib["format"] == "appended":
             data = self.appended[int(array.attrib["offset"]) :]
             if self.is_raw:
@@ -119,7 +120,7 @@ class _Decoder:
             data = (array.text or "").strip().encode()
         return self._blocks_of_base64(data)
 
-    def _blocks(self, read) -> bytes:
+    def _blocks(self, read: Callable[[int, int], bytes]) -> bytes:
         """Bytes of an array whose header and data `read` gives from one stream."""
         size = self.header.itemsize
         first = np.frombuffer(read(0, size), self.header)[0]
@@ -136,7 +137,7 @@ class _Decoder:
         """Header and data are encoded apart where they are compressed."""
         size = self.header.itemsize
 
-        def read(text, start, many):
+        def read(text: bytes, start: int, many: int) -> bytes:
             first = 4 * (start // 3)
             last = 4 * -(-(start + many) // 3)
             return base64.b64decode(text[first:last])[start - 3 * (start // 3) :][:many]
