@@ -154,11 +154,13 @@ def test_maps_that_are_none_are_refused(tmp_path, text, options, words):
 # Spray
 
 
-def test_drops_bring_their_heat_into_the_unit(scene, tmp_path, capsys):
+@pytest.mark.parametrize("begin", [0.0, 0.9e-5])
+def test_drops_bring_their_heat_into_the_unit(scene, tmp_path, capsys, begin):
     rng = np.random.default_rng(2)
     places = rng.uniform(-1, 1, (300, 2)) * [0.099, 0.049]
     mass, time = rng.uniform(1e-12, 2e-12, 300), rng.uniform(0, 3.9e-5, 300)
-    time[0], time[1] = 0.0, 3.9e-5
+    time[0], time[1] = begin, 3.9e-5
+    time = np.maximum(time, begin)
     rows = np.column_stack([places, mass, time])
     header = "x [mm],y [mm],mass [kg],time [s]"
     np.savetxt(tmp_path / "drops.csv", rows, delimiter=",", header=header, comments="")
@@ -185,6 +187,9 @@ def test_drops_beside_the_cells_are_told(tmp_path):
     assert TILES.integral(series.values[0]) * 1e-5 == pytest.approx(1e-9)
     path.write_text("x,y,mass\n0,0,-1\n")
     with pytest.raises(SurfaceError, match="drop 1: column mass: -1.0 is below 0"):
+        spray_frames(path, TILES, window=1e-5)
+    path.write_text("x,y,mass,time\n0,0,1,-1e-6\n")
+    with pytest.raises(SurfaceError, match="drop 1: column time: -1e-06 s is below 0"):
         spray_frames(path, TILES, window=1e-5)
     with pytest.raises(SurfaceError, match="no column heat; there are x, y, mass"):
         spray_frames(path, TILES, amount="heat", window=1e-5)

@@ -123,7 +123,8 @@ def laser_frames(
     interval
         Time between maps [s], where the file has no times.
     pulse
-        With a single map: a table with columns time [s] and power [W], in place of `power`.
+        With a single map: a table with columns time [s] and power [W], in place of `power`. Before
+        the first time and after the last a unit holds what it has then.
     outside
         "error" or "drop" for what falls beside the target.
     """

@@ -25,7 +25,8 @@ def spray_frames(
     bring.
 
     ``q_i = f Σ m / (A_i Δt)`` over the drops that fall on cell i in a window of length Δt; the last
-    frame is zero, at the end of the last window.
+    frame is zero, at the end of the last window, and so is one at time 0 where the first drop falls
+    later.
 
     Parameters
     ----------
@@ -63,6 +64,9 @@ def spray_frames(
             f"{columns[amount][negative[0]]} is below 0"
         )
     times = columns.get("time", np.zeros(len(rows)))
+    if times.min() < 0:
+        drop = int(np.argmin(times))
+        raise SurfaceError(f"{path}: drop {drop + 1}: column time: {times[drop]} s is below 0")
     first = np.floor((times - times.min()) / window + 1e-9).astype(int)
     places = np.column_stack([columns["x"], columns["y"], np.zeros(len(rows))])
     placed = (placement or Placement()).to_face(places)
@@ -75,4 +79,7 @@ def spray_frames(
     total = {"brought": float(amounts.sum()), "given": float(given.sum())}
     lost = total["brought"] - total["given"]
     total["lost"] = lost if lost > NOTHING * total["brought"] else 0.0
-    return Series(begin, given / target.areas / window), total
+    flux = given / target.areas / window
+    if begin[0] > 0:  # nothing falls before
+        begin, flux = np.append(0.0, begin), np.concatenate([np.zeros_like(flux[:1]), flux])
+    return Series(begin, flux), total
