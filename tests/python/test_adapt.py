@@ -154,7 +154,7 @@ def test_maps_that_are_none_are_refused(tmp_path, text, options, words):
 # Spray
 
 
-@pytest.mark.parametrize("begin", [0.0, 0.9e-5])
+@pytest.mark.parametrize("begin", [0.0, 1.3e-5])
 def test_drops_bring_their_heat_into_the_unit(scene, tmp_path, capsys, begin):
     rng = np.random.default_rng(2)
     places = rng.uniform(-1, 1, (300, 2)) * [0.099, 0.049]

@@ -24,9 +24,9 @@ def spray_frames(
     """Mean fluxes on the cells of `target` over windows of time, whose integral is what the drops
     bring.
 
-    ``q_i = f Σ m / (A_i Δt)`` over the drops that fall on cell i in a window of length Δt; the last
-    frame is zero, at the end of the last window, and so is one at time 0 where the first drop falls
-    later.
+    ``q_i = f Σ m / (A_i Δt)`` over the drops that fall on cell i in a window of length Δt, of which
+    one begins at time 0; the last frame is zero, at the end of the last window, and so is one at
+    time 0 where the first drop falls later.
 
     Parameters
     ----------
@@ -67,7 +67,8 @@ def spray_frames(
     if times.min() < 0:
         drop = int(np.argmin(times))
         raise SurfaceError(f"{path}: drop {drop + 1}: column time: {times[drop]} s is below 0")
-    first = np.floor((times - times.min()) / window + 1e-9).astype(int)
+    place = np.floor(times / window + 1e-9).astype(int)
+    first = place - place.min()
     places = np.column_stack([columns["x"], columns["y"], np.zeros(len(rows))])
     placed = (placement or Placement()).to_face(places)
     placed[:, 2] += target.z
@@ -75,7 +76,7 @@ def spray_frames(
     amounts = np.zeros((first.max() + 2, len(rows)))
     amounts[first, np.arange(len(rows))] = factor * columns[amount]
     given = carry(amounts)
-    begin = times.min() + window * np.arange(len(amounts))
+    begin = window * (place.min() + np.arange(len(amounts)))
     total = {"brought": float(amounts.sum()), "given": float(given.sum())}
     lost = total["brought"] - total["given"]
     total["lost"] = lost if lost > NOTHING * total["brought"] else 0.0
