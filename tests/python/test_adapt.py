@@ -10,6 +10,7 @@ import pytest
 from impinge.adapt import (
     Body,
     cfd_frames,
+    drop_inputs,
     laser_frames,
     onto_mesh,
     read_inputs,
@@ -385,3 +386,30 @@ def test_fields_of_a_disc_come_onto_a_mesh(tmp_path, capsys):
     command[command.index(4e-5)] = 3e-5
     assert main([str(word) for word in command]) == 2
     assert "block.pvd: has no time 3e-05 s" in capsys.readouterr().err
+
+
+# Drops on demand
+
+
+def test_drops_become_releases_one_after_another(tmp_path, capsys):
+    """In millimetres of a face whose x lies along the file's −y; the second line falls first."""
+    path = tmp_path / "drops.csv"
+    path.write_text("time,x [mm],y [mm],speed,direction\n2e-3,3,0,1.5,0\n1e-3,0,2,2.5,1.5707963\n")
+    table = tmp_path / "table.csv"
+    command = ["drops", path, "--unit", "mm", "--axes", 0, -1, 0, 1, 0, 0, "-o", table]
+    assert main([str(word) for word in command]) == 0
+    assert "2 drops, inputs drop.release, drop.x" in capsys.readouterr().out
+    times, columns = read_inputs(table)
+    assert times.tolist() == [0, 1e-3, 1e-3, 2e-3, 2e-3]
+    assert columns["drop.release"].tolist() == [0, 0, 1, 1, 2]
+    assert columns["drop.x"] == pytest.approx([-2e-3] * 4 + [0], abs=1e-18)
+    assert columns["drop.y"] == pytest.approx([0] * 4 + [3e-3], abs=1e-18)
+    assert columns["drop.speed"].tolist() == [2.5] * 4 + [1.5]
+    # Along the file's y is against the face's x, along its x is along the face's y.
+    assert columns["drop.direction"] == pytest.approx([np.pi] * 4 + [np.pi / 2], abs=1e-6)
+    path.write_text("x,y,time\n0,0,1\n1,1,2\n2,2,1\n")
+    with pytest.raises(SurfaceError, match="drops 1 and 3 both fall at 1.0 s"):
+        drop_inputs(path, "drop")
+    path.write_text("x,y\n0,0\n")
+    with pytest.raises(SurfaceError, match="no column time; there are x, y"):
+        drop_inputs(path, "drop")

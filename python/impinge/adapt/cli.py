@@ -10,6 +10,7 @@ from pathlib import Path
 from ..surface import Placement, Series, Surface, SurfaceError
 from ..surface.files import load_mesh
 from .cfd import cfd_frames
+from .drops import drop_inputs
 from .laser import laser_frames
 from .out import onto_mesh, write_frames
 from .spray import spray_frames
@@ -104,6 +105,18 @@ def _parser() -> argparse.ArgumentParser:
         )
         command.add_argument("-o", "--out", type=Path, help="table for impinge run --inputs")
 
+    drops = commands.add_parser("drops", help="times and places of drops to releases on demand")
+    drops.add_argument(
+        "files",
+        nargs=1,
+        type=Path,
+        metavar="DROPS",
+        help="table with columns x, y, time, and speed, temperature, angle, direction",
+    )
+    drops.add_argument("--body", default="drop", help="name of the droplet [default: %(default)s]")
+    drops.add_argument("-o", "--out", type=Path, required=True, help="table of inputs")
+    drops.set_defaults(run=_drops)
+
     out = commands.add_parser("out", help="fields of a unit's bodies onto a mesh of another tool")
     out.add_argument(
         "files",
@@ -125,7 +138,7 @@ def _parser() -> argparse.ArgumentParser:
         help=".xdmf or .pvd, or for one time what meshio writes",
     )
     out.set_defaults(run=_out)
-    for command in (spray, cfd, out):
+    for command in (spray, cfd, drops, out):
         _add_placement(command)
     return parser
 
@@ -174,6 +187,13 @@ def _spray(options: argparse.Namespace) -> None:
     options.hold = True
     _write(options, target, frames, "per s")
     print(f"brought {total['brought']:.9g}, of which {total['lost']:.6g} falls beside the cells")
+
+
+def _drops(options: argparse.Namespace) -> None:
+    frames = drop_inputs(options.files[0], options.body, _placement(options))
+    write_inputs(options.out, frames, held=True)
+    count = frames[f"{options.body}.release"].values[-1]
+    print(f"{options.out}: {count:.0f} drops, inputs {', '.join(frames)}")
 
 
 def _cfd(options: argparse.Namespace) -> None:

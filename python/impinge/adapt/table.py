@@ -20,6 +20,11 @@ UNITS = {
     "shear_r": "Pa",
     "temperature": "K",
     "ambient": "K",
+    "x": "m",
+    "y": "m",
+    "speed": "m/s",
+    "angle": "rad",
+    "direction": "rad",
 }
 
 
