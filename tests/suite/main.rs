@@ -34,4 +34,5 @@ mod scene_reference;
 mod scene_refusals;
 mod solid;
 mod tension;
+mod walls;
 mod yielding;

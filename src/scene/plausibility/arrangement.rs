@@ -2,8 +2,8 @@
 //! loads that the mesh does not see.
 
 use super::Reviewer;
-use crate::scene::check::number;
-use crate::scene::droplet::{Arrival, Coupling, Droplet};
+use crate::scene::check::{fits, number};
+use crate::scene::droplet::{Arrival, Coupling, Droplet, Wall};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::types::{Footprint, Load, Mesh, Solid};
@@ -27,6 +27,11 @@ pub fn review(reviewer: &mut Reviewer) {
             let path = root.key("coupling").index(i);
             width(reviewer, &path, coupling, droplet);
             apart(reviewer, &path, i, (coupling, droplet));
+        }
+    }
+    for (i, wall) in scene.wall.iter().enumerate() {
+        if let Some(droplet) = scene.droplet(&wall.under) {
+            resolved(reviewer, &root.key("wall").index(i).key("footprint"), wall, droplet);
         }
     }
     for (i, load) in scene.load.iter().enumerate() {
@@ -128,6 +133,30 @@ fn apart(
             );
             reviewer.warn(&path.key("from"), message);
         }
+    }
+}
+
+/// Warns of cells that are narrower than particles, which then tell one cell from the next by chance alone.
+fn resolved(reviewer: &mut Reviewer, path: &Path, wall: &Wall, droplet: &Droplet) {
+    let (key, widths) = match wall.footprint {
+        Footprint::Rings { count, radius } => ("rings", vec![radius / count as f64]),
+        Footprint::Tiles { count, size } => {
+            let axes = if droplet.dimension == 2 { 0..1 } else { 0..2 };
+            ("tiles", axes.map(|axis| size[axis] / count[axis] as f64).collect())
+        }
+        _ => return,
+    };
+    let narrowest = widths.into_iter().fold(f64::INFINITY, f64::min);
+    if !fits(droplet.spacing, narrowest) {
+        let message = format!(
+            "cells of {} m are narrower than the film can resolve: particles of `{}` are {} m apart, so that fluxes of \
+             single cells differ by chance; did you mean cells of {} m or more?",
+            number(narrowest),
+            wall.under,
+            number(droplet.spacing),
+            number(2.0 * droplet.spacing)
+        );
+        reviewer.warn(&path.key(key).key("count"), message);
     }
 }
 
