@@ -13,6 +13,8 @@ pub enum Quantity {
     Conductivity,
     Modulus,
     Ratio,
+    /// A whole number of things.
+    Count,
     Expansion,
     HeatTransferCoefficient,
     /// Of a contact, for a unit of area.
@@ -46,7 +48,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 28] = [
+    pub const ALL: [Quantity; 29] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::HeatFlux,
@@ -59,6 +61,7 @@ impl Quantity {
         Quantity::Conductivity,
         Quantity::Modulus,
         Quantity::Ratio,
+        Quantity::Count,
         Quantity::Expansion,
         Quantity::HeatTransferCoefficient,
         Quantity::ThermalResistance,
@@ -109,6 +112,7 @@ impl Quantity {
             Quantity::Conductivity => "ThermalConductivity",
             Quantity::Modulus => "ElasticModulus",
             Quantity::Ratio => "Ratio",
+            Quantity::Count => "Count",
             Quantity::Expansion => "ThermalExpansion",
             Quantity::HeatTransferCoefficient => "HeatTransferCoefficient",
             Quantity::ThermalResistance => "ThermalInsulance",
@@ -140,7 +144,7 @@ impl Quantity {
             Quantity::Density => "kg/m3",
             Quantity::SpecificHeat => "J/(kg.K)",
             Quantity::Conductivity => "W/(m.K)",
-            Quantity::Ratio => "1",
+            Quantity::Ratio | Quantity::Count => "1",
             Quantity::Expansion => "1/K",
             Quantity::HeatTransferCoefficient => "W/(m2.K)",
             Quantity::ThermalResistance => "m2.K/W",
@@ -172,7 +176,7 @@ impl Quantity {
             Quantity::Density => [1, -3, 0, 0],
             Quantity::SpecificHeat => [0, 2, -2, -1],
             Quantity::Conductivity => [1, 1, -3, -1],
-            Quantity::Ratio => [0, 0, 0, 0],
+            Quantity::Ratio | Quantity::Count => [0, 0, 0, 0],
             Quantity::Expansion => [0, 0, 0, -1],
             Quantity::HeatTransferCoefficient => [1, 0, -3, -1],
             Quantity::ThermalResistance => [-1, 0, 3, 1],
@@ -228,7 +232,7 @@ impl Quantity {
             Quantity::Density => 1e3,
             Quantity::SpecificHeat => 1e3,
             Quantity::Conductivity => 10.0,
-            Quantity::Ratio => 1.0,
+            Quantity::Ratio | Quantity::Count => 1.0,
             Quantity::Expansion => 1e-5,
             Quantity::HeatTransferCoefficient => 10.0,
             Quantity::ThermalResistance => 1e-6,

@@ -98,7 +98,8 @@ fn load(load: &Load) -> String {
 }
 
 fn droplet(name: &str, droplet: &Droplet) -> String {
-    let drops = match droplet.arrivals.len() {
+    let drops = match droplet.drops() {
+        count if droplet.is_on_demand() => format!("up to {count} drops, released by inputs, each"),
         1 => "a drop".to_owned(),
         count => format!("{count} drops, each"),
     };

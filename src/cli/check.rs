@@ -162,7 +162,10 @@ fn droplets(scene: &Scene) -> String {
     let rows: Vec<_> = scene
         .droplets()
         .map(|(name, droplet)| {
-            let drops = match droplet.arrivals.len() {
+            let drops = match droplet.drops() {
+                count if droplet.is_on_demand() => {
+                    format!("up to {count} of {}", metres(droplet.diameter))
+                }
                 1 => metres(droplet.diameter),
                 count => format!("{count} of {}", metres(droplet.diameter)),
             };

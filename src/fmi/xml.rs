@@ -146,7 +146,7 @@ fn variables(xml: &mut Xml, registry: &Registry) -> io::Result<()> {
     for (reference, variable) in registry.variables.iter().enumerate() {
         let (variability, initial) = match variable.causality() {
             Causality::Parameter => ("fixed", Some("exact")),
-            Causality::Input => ("continuous", None),
+            Causality::Input => (variability(variable.quantity), None),
             Causality::Output => ("continuous", Some("calculated")),
         };
         let mut attributes: Attributes = vec![
@@ -160,6 +160,11 @@ fn variables(xml: &mut Xml, registry: &Registry) -> io::Result<()> {
         parent(xml, "ScalarVariable", &attributes, |xml| typed(xml, variable))?;
     }
     Ok(())
+}
+
+/// How an input may change: counts in steps alone.
+pub(super) fn variability(quantity: Option<Quantity>) -> &'static str {
+    if quantity == Some(Quantity::Count) { "discrete" } else { "continuous" }
 }
 
 /// The element that tells type, bounds and start value.

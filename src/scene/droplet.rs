@@ -5,9 +5,11 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::lookup::BodyInput;
 use super::types::{CellValues, Footprint, IDENTIFIER};
 use crate::kernel::Kernel;
 use crate::limits::{above_zero, length, own_temperature, plausible, whole, within};
+use crate::quantity::Quantity;
 
 /// Round drops of one fluid that arrive, along −z, above the plane z = 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -80,13 +82,34 @@ pub struct Droplet {
     #[serde(default)]
     #[schemars(extend("otherwise" = "true from a Weber number of 1000 on, or without tension"))]
     pub shifting: Option<bool>,
+    /// What lets drops go: times of the scene, or inputs of the unit.
+    #[serde(default)]
+    pub release: ReleaseBy,
+    /// Drops that inputs may release in a run.
+    #[schemars(transform = whole(1, 10_000, "the number of drops is out of bounds", "1 to 10000")
+        .condition("with `release = \"input\"`, which needs it")
+        .otherwise("none"))]
+    pub most: Option<usize>,
     /// A copy of the drop for each entry of the list.
-    #[serde(default = "one_arrival")]
     #[schemars(
         length(min = 1),
-        extend("otherwise" = "one at time 0", "condition" = "in the order of their times")
+        extend(
+            "otherwise" = "one at time 0",
+            "condition" = "in the order of their times; not with `release = \"input\"`"
+        )
     )]
-    pub arrivals: Vec<Arrival>,
+    pub arrivals: Option<Vec<Arrival>>,
+}
+
+/// What lets drops go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ReleaseBy {
+    /// The times of `arrivals`.
+    #[default]
+    Arrivals,
+    /// An input that counts the drops asked for, with place, speed and temperature beside it.
+    Input,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -268,16 +291,19 @@ fn right_angle() -> f64 {
     FRAC_PI_2
 }
 
-fn one_arrival() -> Vec<Arrival> {
-    vec![Arrival::default()]
-}
-
 fn yes() -> bool {
     true
 }
 
+/// The arrival of a scene that names none.
+const ONE_ARRIVAL: [Arrival; 1] = [Arrival { time: 0.0, x: 0.0, y: 0.0 }];
+
 /// Speed of sound over the governing speed where the scene names none: density then stays within 1 %.
 const SOUND_OVER_FLOW: f64 = 10.0;
+
+/// Least speed of sound over that of the flow or its surface: below, the fluid would be compressed by 4 % and
+/// more, or its surface come loose.
+pub const LEAST_SOUND_OVER_FLOW: f64 = 5.0;
 
 /// Pressure of a drop that viscosity stops, over µU/D.
 const VISCOUS_PRESSURE: f64 = 12.0;
@@ -302,9 +328,14 @@ impl Droplet {
     /// The larger of the speed of a drop that has fallen through its gap and its own height, and of
     /// capillary waves, √(σ/(ρR)) [m/s].
     pub fn fastest_flow(&self) -> f64 {
-        let fall = 2.0 * self.gravity * (self.gap() + self.diameter);
+        let fall = self.gain_by_fall();
         let capillary = self.fluid.surface_tension / (self.fluid.density * 0.5 * self.diameter);
         (self.impact_velocity.powi(2) + fall).max(capillary).sqrt()
+    }
+
+    /// What the square of a speed grows by over the fall of a drop through its gap and its own height [m²/s²].
+    fn gain_by_fall(&self) -> f64 {
+        2.0 * self.gravity * (self.gap() + self.diameter)
     }
 
     /// √(2σ/(ρΔx)) [m/s], the speed that belongs to Laplace's pressure 2σ/Δx of the sharpest surface that
@@ -335,9 +366,67 @@ impl Droplet {
         self.fluid.sound_speed.unwrap_or_else(|| SOUND_OVER_FLOW * self.governing_speed().1)
     }
 
-    /// Whether all drops arrive at the origin.
+    /// Whether inputs release the drops.
+    pub fn is_on_demand(&self) -> bool {
+        self.release == ReleaseBy::Input
+    }
+
+    /// When and where drops are released, as far as the scene says.
+    pub fn arrivals(&self) -> &[Arrival] {
+        match &self.arrivals {
+            Some(list) => list,
+            None if self.is_on_demand() => &[],
+            None => &ONE_ARRIVAL,
+        }
+    }
+
+    /// Drops that there are at most.
+    pub fn drops(&self) -> usize {
+        if self.is_on_demand() { self.most.unwrap_or(1) } else { self.arrivals().len() }
+    }
+
+    /// The largest speed at which a drop may be released by inputs [m/s]: the flow is a fifth of sound then.
+    pub fn fastest_release(&self) -> f64 {
+        let flow = self.sound_speed() / LEAST_SOUND_OVER_FLOW;
+        (flow * flow - self.gain_by_fall()).max(0.0).sqrt()
+    }
+
+    /// What a drop that inputs release takes from them when it starts.
+    pub fn inputs(&self) -> Vec<BodyInput> {
+        if !self.is_on_demand() {
+            return Vec::new();
+        }
+        let input =
+            |key, words, quantity, start, bounds| BodyInput { key, words, quantity, start, bounds };
+        let [any, count] = [[None; 2], [Some(0.0), self.most.map(|most| most as f64)]];
+        let release =
+            "drops asked for so far: each that is added starts with the next step, or waits";
+        let mut inputs = vec![
+            input("release", release, Quantity::Count, 0.0, count),
+            input("x", "x of the centre at the release", Quantity::Length, 0.0, any),
+            input("y", "y of the centre at the release", Quantity::Length, 0.0, any),
+            input(
+                "speed",
+                "speed towards the wall at the release",
+                Quantity::Velocity,
+                self.impact_velocity,
+                [Some(0.0), None],
+            ),
+            input(
+                "temperature",
+                "temperature at the release",
+                Quantity::Temperature,
+                self.initial_temperature,
+                [Some(0.0), None],
+            ),
+        ];
+        inputs.retain(|input| self.dimension == 3 || input.key != "y");
+        inputs
+    }
+
+    /// Whether all drops that the scene releases arrive at the origin.
     pub fn is_centred(&self) -> bool {
-        self.arrivals.iter().all(|arrival| arrival.x == 0.0 && arrival.y == 0.0)
+        self.arrivals().iter().all(|arrival| arrival.x == 0.0 && arrival.y == 0.0)
     }
 
     /// Whether particles are shifted.
@@ -350,7 +439,9 @@ impl Droplet {
     /// Along which of x and y the half of the model stands for the whole.
     pub fn mirrors(&self) -> [bool; 2] {
         let halved = match self.symmetry {
-            DropletSymmetry::Auto => self.is_centred() && self.placement == Placement::Lattice,
+            DropletSymmetry::Auto => {
+                self.is_centred() && !self.is_on_demand() && self.placement == Placement::Lattice
+            }
             symmetry => symmetry == DropletSymmetry::Quarter,
         };
         [halved, halved && self.dimension == 3]

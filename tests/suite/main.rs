@@ -12,6 +12,7 @@ mod architecture;
 mod cli;
 mod contact;
 mod creep;
+mod demand;
 mod derivatives;
 mod droplet;
 mod fine_meshes;

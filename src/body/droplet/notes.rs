@@ -13,6 +13,7 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     }
     .to_owned()];
     notes.extend(note_on_sound(droplet));
+    notes.extend(droplet.is_on_demand().then(|| note_on_demand(scene, name, droplet)));
     notes.extend(stands.then(|| note_on_first_blow(droplet)));
     if droplet.fluid.surface_tension == 0.0 {
         notes.push("surface tension is left out: the scene names none".to_owned());
@@ -45,6 +46,24 @@ pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
         note_on_held_wall(wall, droplet).filter(|_| droplet.fluid.conductivity > 0.0)
     };
     scene.wall.iter().filter_map(note).collect()
+}
+
+/// What drops that inputs release wait for, and what is said of them ahead.
+fn note_on_demand(scene: &Scene, name: &str, droplet: &Droplet) -> String {
+    let fine = match scene.coupling_from(name).map(|index| &scene.coupling[index]) {
+        Some(coupling) => format!(
+            "; the mesh of `{}` is fine about the origin, out to `radius` of the coupling",
+            coupling.to
+        ),
+        None => String::new(),
+    };
+    format!(
+        "inputs release up to {} drops, at up to {:.4} m/s: a drop starts with a step, and waits while fluid is within \
+         half a distance of particles of its place, which a `height` above the film keeps free; memory and time are \
+         forecast as if all were released at once{fine}",
+        droplet.drops(),
+        droplet.fastest_release()
+    )
 }
 
 /// Time over D/U over which forces and pressures are means that hardly depend on sound and resolution.

@@ -10,7 +10,7 @@ use crate::fmi::guid::guid;
 use crate::fmi::rates::highest_output_derivative;
 use crate::fmi::xml::{
     Attributes, Xml, causality, default_experiment, leaf, log_categories, number, parent, units,
-    whole_number,
+    variability as variability_of, whole_number,
 };
 use crate::scene::{HeatMethod, Scene};
 use crate::variables::{
@@ -125,7 +125,10 @@ impl Description<'_> {
     fn kind(&self, variable: &ArrayVariable) -> Attributes {
         let (causality, variability, initial) = match variable.causality(&self.registry) {
             Some(Causality::Parameter) => (causality(Causality::Parameter), "fixed", Some("exact")),
-            Some(Causality::Input) => (causality(Causality::Input), "continuous", None),
+            Some(Causality::Input) => {
+                let quantity = self.elements(variable).first().and_then(|element| element.quantity);
+                (causality(Causality::Input), variability_of(quantity), None)
+            }
             Some(Causality::Output) => {
                 (causality(Causality::Output), "continuous", Some("calculated"))
             }

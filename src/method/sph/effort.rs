@@ -99,9 +99,9 @@ struct Drop {
 
 /// Steps and computing time for a second of the run.
 fn rates_at(plan: &DropletPlan, method: &Method, run: RunSettings, time: f64) -> Effort {
-    let released = plan.releases.iter().filter(|release| release.time <= time);
+    let released = plan.drops().filter(|release| release.time <= time);
     let drops: Vec<Drop> =
-        released.map(|release| drop_at(plan, release, run.spread, time)).collect();
+        released.map(|release| drop_at(plan, &release, run.spread, time)).collect();
     let particles: f64 = drops.iter().map(|drop| drop.particles).sum();
     if particles == 0.0 {
         return Effort::default();

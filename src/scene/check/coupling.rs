@@ -157,7 +157,7 @@ fn fit(checker: &mut Checker, path: &Path, droplet: &Droplet, shape: &Shape) {
     }
     let radius = 0.5 * droplet.diameter;
     let half = lateral_extents(shape).map(|extent| 0.5 * extent);
-    let beyond = droplet.arrivals.iter().position(|arrival| {
+    let beyond = droplet.arrivals().iter().position(|arrival| {
         let [x, y] = [arrival.x, arrival.y].map(f64::abs);
         !fits(x + radius, half[0]) || !fits(y + radius, half[1])
     });

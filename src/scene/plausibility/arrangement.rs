@@ -57,7 +57,7 @@ fn caught(reviewer: &mut Reviewer, path: &Path, name: &str) {
 
 /// Warns of a droplet whose first drop does not come down by the stop time.
 fn arrives(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
-    let Some(arrival) = droplet.arrivals.first() else { return };
+    let Some(arrival) = droplet.arrivals().first() else { return };
     let stop = reviewer.scene.stop_time;
     let down = arrival.time + fall_time(droplet);
     // A drop that is released half a distance of particles above the wall touches it.
@@ -99,7 +99,7 @@ fn width(reviewer: &mut Reviewer, path: &Path, coupling: &Coupling, droplet: &Dr
         reviewer.warn(&path.key("radius"), message);
     }
     let reach = 0.5 * droplet.spread_diameter();
-    let beyond = droplet.arrivals.iter().any(|arrival| {
+    let beyond = droplet.arrivals().iter().any(|arrival| {
         let [x, y] = [arrival.x, arrival.y].map(f64::abs);
         x + reach > half[0] || y + reach > half[1]
     });
@@ -125,7 +125,7 @@ fn apart(
         let Some(other) = scene.droplet(&earlier.from) else { continue };
         let reach = 0.5 * (droplet.spread_diameter() + other.spread_diameter());
         let meet = |a: &Arrival, b: &Arrival| (a.x - b.x).hypot(a.y - b.y) < reach;
-        if droplet.arrivals.iter().any(|a| other.arrivals.iter().any(|b| meet(a, b))) {
+        if droplet.arrivals().iter().any(|a| other.arrivals().iter().any(|b| meet(a, b))) {
             let message = format!(
                 "`{}` and `{}` are expected to spread over each other, and droplets of two bodies do not see \
                  each other: did you mean `arrivals` of one?",
