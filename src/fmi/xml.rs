@@ -97,7 +97,9 @@ pub(super) fn units(xml: &mut Xml, used: &BTreeSet<Quantity>) -> io::Result<()> 
 
 fn base_unit(quantity: Quantity) -> Attributes {
     let exponents = ["kg", "m", "s", "K"].into_iter().zip(quantity.base_exponents());
-    exponents.filter(|(_, e)| *e != 0).map(|(name, e)| (name, e.to_string())).collect()
+    let angle = ("rad", i32::from(quantity == Quantity::Angle));
+    let all = exponents.chain([angle]).filter(|(_, e)| *e != 0);
+    all.map(|(name, e)| (name, e.to_string())).collect()
 }
 
 fn display_unit(unit: DisplayUnit) -> Attributes {

@@ -1,6 +1,6 @@
 //! Droplets, the walls that make units of them and their couplings to solids.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -21,9 +21,22 @@ pub struct Droplet {
     /// Diameter [m].
     #[schemars(transform = within(1e-9, 1e2, "m", "the diameter of a drop").plausible(&plausible::DIAMETER))]
     pub diameter: f64,
-    /// Speed towards the wall at the release [m/s].
+    /// Speed at the release, straight towards the wall unless there is an angle [m/s].
     #[schemars(transform = within(0.0, 1e5, "m/s", "the speed towards the wall").plausible(&plausible::SPEED))]
     pub impact_velocity: f64,
+    /// Angle between the way of a drop at its release and the way straight down [rad].
+    #[serde(default)]
+    #[schemars(transform = within(-FRAC_PI_2, FRAC_PI_2, "rad", "").open()
+        .says("at this angle a drop does not come down", "-1.5708 to 1.5708 (rad), without these ends")
+        .otherwise("0: straight down"))]
+    pub impact_angle: f64,
+    /// Direction along the wall of drops that come at an angle, from x towards y [rad].
+    #[serde(default)]
+    #[schemars(transform = within(-TAU, TAU, "rad", "")
+        .says("the direction is more than a full turn", "-6.28319 to 6.28319 (rad)")
+        .condition("0 in a plane model")
+        .otherwise("0: along x"))]
+    pub impact_direction: f64,
     /// Uniform temperature at the release [K].
     #[schemars(transform = own_temperature())]
     pub initial_temperature: f64,
@@ -46,7 +59,7 @@ pub struct Droplet {
     #[serde(default)]
     #[schemars(extend(
         "otherwise" = "`auto`: a quarter where that is exact",
-        "condition" = "`quarter` with all drops at x = 0, y = 0"
+        "condition" = "`quarter` with all drops at x = 0, y = 0, straight down"
     ))]
     pub symmetry: DropletSymmetry,
     /// Particles on a lattice or at random with a least distance.
@@ -124,12 +137,13 @@ pub enum DropletMethod {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DropletSymmetry {
-    /// A quarter, or half of a plane model, where all drops arrive at the origin on a lattice.
+    /// A quarter, or half of a plane model, where all drops arrive at the origin on a lattice; half where they come
+    /// at an angle along x or y.
     #[default]
     Auto,
     /// The whole of all drops.
     None,
-    /// A quarter; drops must arrive at the origin.
+    /// A quarter; drops must arrive at the origin, straight down.
     Quarter,
 }
 
@@ -319,6 +333,21 @@ pub enum Governing {
 /// Weber number from which inertia rules.
 const INERTIAL: f64 = 1000.0;
 
+/// Cosine of an angle that is taken for a right one: what is left of that by rounding.
+const RIGHT: f64 = 1e-9;
+
+/// Velocity [m/s] at an angle to the way straight down and in a direction along the wall, from x towards y [rad].
+pub fn velocity(speed: f64, angle: f64, direction: f64) -> [f64; 3] {
+    let (down, aside) = (speed * angle.cos(), speed * angle.sin());
+    let (sine, cosine) = direction.sin_cos();
+    let [x, y] = match (cosine.abs() < RIGHT, sine.abs() < RIGHT) {
+        (true, _) => [0.0, sine.signum()],
+        (_, true) => [cosine.signum(), 0.0],
+        _ => [cosine, sine],
+    };
+    [aside * x, aside * y, -down]
+}
+
 impl Droplet {
     /// Gap between a drop's lowest point and the wall at its release [m].
     pub fn gap(&self) -> f64 {
@@ -407,7 +436,7 @@ impl Droplet {
             input("y", "y of the centre at the release", Quantity::Length, 0.0, any),
             input(
                 "speed",
-                "speed towards the wall at the release",
+                "speed at the release",
                 Quantity::Velocity,
                 self.impact_velocity,
                 [Some(0.0), None],
@@ -419,9 +448,59 @@ impl Droplet {
                 self.initial_temperature,
                 [Some(0.0), None],
             ),
+            input(
+                "angle",
+                "angle at the release between the way of the drop and the way straight down",
+                Quantity::Angle,
+                self.impact_angle,
+                any,
+            ),
+            input(
+                "direction",
+                "direction along the wall of a drop that comes at an angle, from x towards y",
+                Quantity::Angle,
+                self.impact_direction,
+                any,
+            ),
         ];
-        inputs.retain(|input| self.dimension == 3 || input.key != "y");
+        inputs.retain(|input| self.dimension == 3 || !["y", "direction"].contains(&input.key));
         inputs
+    }
+
+    /// Velocity of a drop at its release [m/s].
+    pub fn velocity(&self) -> [f64; 3] {
+        velocity(self.impact_velocity, self.impact_angle, self.impact_direction)
+    }
+
+    /// Whether drops come straight down.
+    pub fn is_straight(&self) -> bool {
+        self.impact_angle == 0.0
+    }
+
+    /// Speed towards the wall at the release [m/s].
+    pub fn normal_speed(&self) -> f64 {
+        -self.velocity()[2]
+    }
+
+    /// Time that a drop takes to fall through its gap at a speed towards the wall [s], without end where it does not.
+    pub fn fall_time(&self, speed: f64) -> f64 {
+        2.0 * self.gap() / (speed + (speed * speed + 2.0 * self.gravity * self.gap()).sqrt())
+    }
+
+    /// Where a drop comes down that starts above a place [m] at a velocity [m/s]; that place if it never does.
+    pub fn landing(&self, from: [f64; 2], velocity: [f64; 3]) -> [f64; 2] {
+        let time = self.fall_time(-velocity[2]);
+        let along = |axis: usize| match time.is_finite() {
+            true => from[axis] + velocity[axis] * time,
+            false => from[axis],
+        };
+        [along(0), along(1)]
+    }
+
+    /// Where the drops of the scene come down [m].
+    pub fn landings(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let velocity = self.velocity();
+        self.arrivals().iter().map(move |arrival| self.landing([arrival.x, arrival.y], velocity))
     }
 
     /// Whether all drops that the scene releases arrive at the origin.
@@ -438,13 +517,15 @@ impl Droplet {
 
     /// Along which of x and y the half of the model stands for the whole.
     pub fn mirrors(&self) -> [bool; 2] {
-        let halved = match self.symmetry {
+        let is_even = match self.symmetry {
             DropletSymmetry::Auto => {
                 self.is_centred() && !self.is_on_demand() && self.placement == Placement::Lattice
             }
             symmetry => symmetry == DropletSymmetry::Quarter,
         };
-        [halved, halved && self.dimension == 3]
+        // A drop that comes at an angle mirrors itself in the plane that it moves in, if in any.
+        let [u, v, _] = self.velocity();
+        [is_even && u == 0.0, is_even && v == 0.0 && self.dimension == 3]
     }
 
     /// Diameter over which a drop spreads at most [m], the drop's own where it does not fall.
@@ -454,8 +535,9 @@ impl Droplet {
     /// much faster than their waves.
     pub fn spread_diameter(&self) -> f64 {
         let Fluid { density, viscosity, surface_tension, .. } = self.fluid;
-        let reynolds = density * self.impact_velocity * self.diameter / viscosity;
-        let weber = density * self.impact_velocity.powi(2) * self.diameter / surface_tension;
+        let speed = self.normal_speed();
+        let reynolds = density * speed * self.diameter / viscosity;
+        let weber = density * speed.powi(2) * self.diameter / surface_tension;
         let ratio = 0.87 * reynolds.powf(0.2) - 0.40 * reynolds.powf(0.4) / weber.sqrt();
         // Of a drop at rest the fit makes NaN, of which `max` takes the 1, too.
         ratio.max(1.0) * self.diameter

@@ -26,7 +26,7 @@ use std::path::Path;
 pub use check::takes_newton;
 pub use droplet::{
     Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Fluid, Governing, Placement,
-    Precision, ReleaseBy, Wall, WallStart,
+    Precision, ReleaseBy, Wall, WallStart, velocity,
 };
 pub use error::{Problem, SceneError};
 pub use footprint::Profile;

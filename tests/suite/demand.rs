@@ -231,18 +231,14 @@ fn what_no_drop_can_be_like_is_refused() {
     refused(
         &(drop(ON_DEMAND) + &wall(RINGS)),
         &[("x", 1e-6)],
-        "a wall of rings needs drops at x = 0, y = 0",
+        "a wall of rings needs drops straight down at x = 0, y = 0",
     );
     let disc = drop(ON_DEMAND) + &plate("disc = { radius = 3e-4, thickness = 2e-5 }");
     refused(&disc, &[("y", 1e-6)], centred);
     let quarter = drop(&format!("{ON_DEMAND}symmetry = \"quarter\"\n"));
     refused(&(quarter + &wall(TILES)), &[("y", -1e-6)], "a model of a part of the drops needs");
     let plate = drop(ON_DEMAND) + &plate(BOX);
-    refused(
-        &plate,
-        &[("y", -2.51e-4)],
-        "it would come down beside `plate` (allowed: -0.00025 to 0.00025 m)",
-    );
+    refused(&plate, &[("y", -2.51e-4)], "that is beside `plate` (allowed: -0.00025 to 0.00025 m)");
 }
 
 #[test]

@@ -26,6 +26,7 @@ mod layers;
 mod named_materials;
 mod nonlinear_heat;
 mod nonlinear_solids;
+mod oblique;
 mod output;
 mod particles;
 mod plausibility;

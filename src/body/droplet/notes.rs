@@ -8,7 +8,11 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     let stands = wall.is_some() || scene.coupling_from(name).is_some();
     let mut notes = vec![match droplet.mirrors() {
         [true, true] => "a quarter of the drop is modelled: it mirrors itself in x = 0 and y = 0",
-        [true, false] => "half of the plane drop is modelled: it mirrors itself in x = 0",
+        [true, false] if droplet.dimension == 2 => {
+            "half of the plane drop is modelled: it mirrors itself in x = 0"
+        }
+        [true, false] => "half of the drop is modelled: it moves in x = 0, and mirrors itself there",
+        [false, true] => "half of the drop is modelled: it moves in y = 0, and mirrors itself there",
         _ => "the whole drop is modelled: nothing makes it mirror itself, or the scene asks for it",
     }
     .to_owned()];
@@ -71,8 +75,9 @@ const WINDOW: f64 = 0.1;
 
 /// What the model's speed of sound does to the first blow, and what does not depend on it.
 fn note_on_first_blow(droplet: &Droplet) -> String {
-    let hammer = droplet.fluid.density * droplet.sound_speed() * droplet.impact_velocity;
-    let window = match droplet.impact_velocity {
+    let speed = droplet.normal_speed();
+    let hammer = droplet.fluid.density * droplet.sound_speed() * speed;
+    let window = match speed {
         speed if speed > 0.0 => format!(" = {:.1e} s", WINDOW * droplet.diameter / speed),
         _ => String::new(),
     };

@@ -50,7 +50,7 @@ pub fn release_at(droplet: &Droplet, arrival: &Arrival) -> Release {
         time: arrival.time,
         centre: [arrival.x, arrival.y, droplet.gap() + 0.5 * droplet.diameter],
         diameter: droplet.diameter,
-        velocity: [0.0, 0.0, -droplet.impact_velocity],
+        velocity: droplet.velocity(),
         temperature: droplet.initial_temperature,
     }
 }
@@ -73,7 +73,7 @@ pub fn refinements(coupling: &Coupling, droplet: &Droplet, stop_time: f64) -> Ve
         let radius = coupling.radius.unwrap_or(expected);
         let stretch = |centre: f64| [centre - radius, centre + radius];
         let feature = 0.5 * droplet.diameter;
-        let [x, y] = [arrival.x, arrival.y].map(stretch);
+        let [x, y] = droplet.landing([arrival.x, arrival.y], droplet.velocity()).map(stretch);
         Refinement { x, y, top: true, feature, heats: true }
     };
     // Nobody knows where inputs will have drops fall.

@@ -140,10 +140,11 @@ fn drop_at(plan: &DropletPlan, release: &Release, spread: Option<f64>, time: f64
     let diameter = release.diameter;
     let gravity = plan.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
     let speed = release.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let falling = -release.velocity[2];
     let across = diameter / plan.spacing;
     let gap = (release.centre[2] - 0.5 * diameter).max(0.0);
     let age = time - release.time;
-    let fallen = speed * age + 0.5 * gravity * age * age;
+    let fallen = falling * age + 0.5 * gravity * age * age;
     let (down, spread) = spread.map_or((0.0, 1.0), |spread| (fallen - gap, spread));
     let speed = (speed * speed + 2.0 * gravity * fallen.min(gap)).sqrt();
     let area = (3.0 * down.max(0.0) / diameter).min(spread * spread);

@@ -21,6 +21,7 @@ pub fn check(checker: &mut Checker) {
         if is_sound(checker, &path) {
             sound(checker, &path.at("fluid.sound_speed"), droplet);
             release(checker, &path, droplet);
+            direction(checker, &path.at("impact_direction"), droplet);
             arrivals(checker, &path.at("arrivals"), name, droplet);
             symmetry(checker, &path.at("symmetry"), droplet);
         }
@@ -130,14 +131,25 @@ fn arrivals(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
     }
 }
 
+fn direction(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    let fine = droplet.dimension == 3 || droplet.impact_direction == 0.0;
+    let message = "drops of a plane model move along x, against it at a negative angle";
+    checker.require(fine, path, message, "0");
+}
+
 /// Whether a drop is released where an earlier one still is: it falls freely, its centre to the
 /// wall at most.
 fn meets(droplet: &Droplet, earlier: &Arrival, later: &Arrival, free: bool) -> bool {
     let time = (later.time - earlier.time).max(0.0);
-    let fall = droplet.impact_velocity * time + 0.5 * droplet.gravity * time * time;
+    let [u, v, _] = droplet.velocity();
+    let speed = droplet.normal_speed();
+    let fall = speed * time + 0.5 * droplet.gravity * time * time;
     let deepest = droplet.gap() + 0.5 * droplet.diameter;
     let fall = if free { fall } else { fall.min(deepest) };
-    let apart = (later.x - earlier.x).hypot(later.y - earlier.y);
+    // What has come down does not go on along the wall for certain.
+    let aside = if free { time } else { time.min(droplet.fall_time(speed)) };
+    let along = |v: f64| if v == 0.0 { 0.0 } else { v * aside };
+    let apart = (later.x - earlier.x - along(u)).hypot(later.y - earlier.y - along(v));
     !fits(droplet.diameter, apart.hypot(fall))
 }
 
@@ -145,4 +157,7 @@ fn symmetry(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let fine = droplet.symmetry != DropletSymmetry::Quarter || droplet.is_centred();
     let message = "a quarter needs all drops to arrive at x = 0, y = 0";
     checker.require(fine, path, message, "auto, none");
+    let fine = droplet.symmetry != DropletSymmetry::Quarter || droplet.is_straight();
+    let message = "a quarter needs all drops to come straight down";
+    checker.require(fine, path, message, "auto, none, or impact_angle = 0.0");
 }
