@@ -18,7 +18,7 @@ from impinge.unit import Package, State, Unit, open_package
 from .journal import Finished
 from .outputs import Output
 from .scenes import Variant
-from .signals import Course, Signal, Table, course, parts
+from .signals import Signal, Table, course, parts
 
 _LONGEST_MESSAGE = 4000
 

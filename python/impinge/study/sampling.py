@@ -33,7 +33,7 @@ class Sampler(Protocol):
 
 @dataclass(frozen=True)
 class Grid:
-    """All combinations; ranges are cut into `levels`, ends included, lists are taken as they are."""
+    """All combinations; ranges are cut into `levels`, ends included, lists taken as they are."""
 
     levels: int = 5
 
@@ -78,7 +78,7 @@ class LatinHypercube:
         _check_count("samples", self.samples, 1)
         random = np.random.default_rng(self.seed)
         columns = {}
-        for name, distribution in parameters.items():
+        for name in parameters:
             slices = random.permutation(self.samples)
             columns[name] = (slices + random.random(self.samples)) / self.samples
         return _rows(columns, parameters, self.samples)
