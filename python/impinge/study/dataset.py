@@ -20,6 +20,7 @@ from impinge.unit.variable import stem_of
 from .distributions import is_held
 from .journal import Finished
 from .outputs import Output
+from .signals import parts
 
 if TYPE_CHECKING:
     from .study import Study
@@ -37,7 +38,7 @@ def assemble(study: Study, finished: Mapping[str, Finished]) -> xr.Dataset:
     status = np.array([NOT_RUN if a is None else FAILED if a.failed else DONE for a in answers])
     messages = np.array(["" if a is None else a.message for a in answers], dtype=object)
     arrays = [
-        _column(place, output, answers, status, messages)
+        _column(place, output, _shape(study, output), answers, status, messages)
         for place, output in enumerate(study.experiment.outputs)
     ]
     lengths = tuple(study.design.dimensions.values())
@@ -69,13 +70,14 @@ def write(table: xr.Dataset, path: Path) -> None:
 def _column(
     place: int,
     output: Output,
+    shape: tuple[int, ...],
     answers: list[Finished | None],
     status: np.ndarray,
     messages: np.ndarray,
 ) -> np.ndarray:
     """Values of an output, shape (rows, …); rows of another shape than the first have failed."""
     values = [None if a is None or a.values is None else a.values[place] for a in answers]
-    shape = next((value.shape for value in values if value is not None), ())
+    shape = next((value.shape for value in values if value is not None), shape)
     column = np.full((len(answers), *shape), np.nan)
     for row, value in enumerate(values):
         if value is None:
@@ -86,6 +88,22 @@ def _column(
             status[row] = FAILED
             messages[row] = f"{output.name} has shape {value.shape}, not {shape} as in other rows"
     return column
+
+
+def _shape(study: Study, output: Output) -> tuple[int, ...]:
+    """The shape of an output by the study's own unit, while no row tells it."""
+    if output.kind == "function":
+        return ()
+    try:
+        shape = study.package.variable(output.needs[0]).shape
+    except UnitError:
+        return ()
+    return (len(_times(study)), *shape) if output.kind == "over_time" else shape
+
+
+def _times(study: Study) -> np.ndarray:
+    """Zero, the multiples of the step, and the stop [s]."""
+    return parts(study.experiment.stop, study.experiment.step, {}, cut=False)
 
 
 def _coordinates(study: Study) -> dict[str, Any]:
@@ -110,9 +128,8 @@ def _inner(
     dims: list[str] = []
     stem = output.name
     if output.kind == "over_time" and shape:
-        times = study.experiment.step * np.arange(shape[0])
-        times[-1] = study.experiment.stop
-        table.coords["time"] = (("time",), times, {"units": "s", "long_name": "time"})
+        about = {"units": "s", "long_name": "time"}
+        table.coords["time"] = (("time",), _times(study), about)
         dims.append("time")
     if output.kind != "function":
         stem = stem_of(output.needs[0]).rpartition(".")[0]  # families of one grid share their dims

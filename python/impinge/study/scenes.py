@@ -61,7 +61,9 @@ class Scene:
             raise UnitError(f"{path}: {error}") from None
 
     def has(self, key: str) -> bool:
-        """Whether the scene has this key, or a table in which it may stand."""
+        """Whether the scene has this key, or a table below its top in which it may stand."""
+        if "." not in key:
+            return key in self.content
         try:
             parent, last = self._find(self.content, key)
         except KeyError:
