@@ -140,7 +140,8 @@ def _defect(rollout: Rollout, found: LinearMap, sizes: np.ndarray, tolerance: fl
         response = np.abs(seen - found.free).max(axis=0)
         rounding = 100.0 * np.finfo(float).eps * np.sqrt(begins.size) * np.abs(seen).max(axis=0)
         missed = np.abs(seen - said).max(axis=0)
-        relative = np.where(missed > rounding, missed / np.maximum(response, rounding), 0.0)
+        size = np.maximum(response, np.maximum(rounding, np.finfo(float).tiny))
+        relative = np.where(missed > rounding, missed / size, 0.0)
         if relative.max() > worst:
             worst, culprit = float(relative.max()), found.outputs[int(relative.argmax())]
     if worst > tolerance:

@@ -172,13 +172,14 @@ def _solver(name: str | None, program: QuadraticProgram) -> Callable[..., np.nda
 def _by_quadprog(program: QuadraticProgram) -> np.ndarray:
     import quadprog
 
-    low, high = np.isfinite(program.lower), np.isfinite(program.upper)
-    rows = np.vstack([program.A[low], -program.A[high]])
-    sides = np.concatenate([program.lower[low], -program.upper[high]])
+    held = program.lower == program.upper
+    low, high = np.isfinite(program.lower) & ~held, np.isfinite(program.upper) & ~held
+    rows = np.vstack([program.A[held], program.A[low], -program.A[high]])
+    sides = [program.lower[held], program.lower[low], -program.upper[high]]
     # A positive definite P is asked for; rounding is all that this adds.
     square = program.P + 1e-13 * np.trace(program.P) / len(program.P) * np.eye(len(program.P))
     try:
-        return quadprog.solve_qp(square, -program.q, rows.T, sides)[0]
+        return quadprog.solve_qp(square, -program.q, rows.T, np.concatenate(sides), held.sum())[0]
     except ValueError as error:
         raise ImpingeError(f"no inputs keep the limits: {error}") from None
 

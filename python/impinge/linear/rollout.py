@@ -78,10 +78,10 @@ class Rollout:
         """Outputs at all ends of steps, shape (steps + 1, outputs), for inputs (steps, inputs) that
         are held over each step, or go from `begins` to `ends`.
 
-        Row 0 is read under the first inputs, row k at the end of step k, before inputs change."""
+        Row 0 is read under the base inputs, row k at the end of step k, before inputs change."""
         self.unit.restore(self.start)
         rows = np.empty((len(begins) + 1, len(self.read.values)))
-        self.set(begins[0])
+        self.set(self.base)
         rows[0] = self.read()
         for number, begin in enumerate(begins):
             self.advance(begin, None if ends is None else ends[number])
