@@ -17,11 +17,11 @@ from tempfile import TemporaryDirectory
 ROOT = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(ROOT / "tests/verification"), str(ROOT / "tests/fmpy")]
 
-# Mesh, order of elements, and whether scikit-fem's factor fits into memory.
+# Mesh, order of elements, solves that are timed, and whether scikit-fem's factor fits into memory.
 SIZES = {
-    "9e4": ("spacing = 2.5e-6, depth_spacing = 0.5e-6, growth = 1.3", 2, True),
-    "1e6": ("spacing = 1.0e-6, depth_spacing = 0.3e-6, growth = 1.1", 2, False),
-    "1e7": ("spacing = 2.95e-6, depth_spacing = 2.95e-6, growth = 1.0", 1, False),
+    "9e4": ("spacing = 2.5e-6, depth_spacing = 0.5e-6, growth = 1.3", 2, 5, True),
+    "1e6": ("spacing = 1.0e-6, depth_spacing = 0.3e-6, growth = 1.1", 2, 3, False),
+    "1e7": ("spacing = 2.95e-6, depth_spacing = 2.95e-6, growth = 1.0", 1, 1, False),
 }
 STEP = 1e-8
 LINES = {
@@ -51,7 +51,7 @@ def peak_memory():
     return int(line.split()[1]) * 1024 / 1e9
 
 
-def time_impinge(folder, order):
+def time_impinge(folder, _, solves):
     from master import Unit
 
     begin = time.perf_counter()
@@ -65,17 +65,17 @@ def time_impinge(folder, order):
             unit.step(STEP)
             return unit["p0.temperature"]
 
-        result["heat"] = timed(heat, 20)
+        result["heat"] = timed(heat, 4 * solves)
 
         def both():
             unit.step(STEP)
             return unit["p0.stress_xx"]
 
-        result["mechanics"] = timed(both, 5) - result["heat"]
+        result["mechanics"] = timed(both, solves) - result["heat"]
         return result | {"memory": peak_memory()}
 
 
-def time_peer(folder, order):
+def time_peer(folder, order, solves):
     import numpy as np
     from peer import Case, Plate
 
@@ -98,8 +98,8 @@ def time_peer(folder, order):
         displacement = plate.displacement(state["temperature"])
         plate.values(state["temperature"], displacement, np.array([[0.0], [0.0], [0.0]]))
 
-    result["heat"] = timed(heat, 20)
-    result["mechanics"] = timed(mechanics, 5)
+    result["heat"] = timed(heat, 4 * solves)
+    result["mechanics"] = timed(mechanics, solves)
     return result | {"memory": peak_memory(), "solver": plate.elastic_factor.name}
 
 
@@ -112,7 +112,7 @@ def prepare(folder, size):
     from independent_code import run_impinge, scene
     from peer import Case
 
-    mesh, order, has_peer = SIZES[size]
+    mesh, order, _, has_peer = SIZES[size]
     mesh = f"{{ {mesh}, order = {order} }}"
     (folder / "scene.toml").write_text(scene(Case(), mesh))
     build = [ROOT / "target/release/build-fmu", folder / "scene.toml", "-o", folder / "unit.fmu"]
@@ -125,9 +125,9 @@ def prepare(folder, size):
     return [int(count) for count in counts]
 
 
-def repetition(engine, folder, order):
+def repetition(engine, folder, order, solves):
     command = [sys.executable, __file__, "--engine", engine, "--folder", folder]
-    command += ["--order", str(order)]
+    command += ["--order", str(order), "--solves", str(solves)]
     ran = subprocess.run(command, check=True, capture_output=True, text=True)
     return json.loads(ran.stdout.splitlines()[-1])
 
@@ -140,14 +140,14 @@ def median(results, key):
 
 def compare(size, repetitions):
     """Prints the table of a size."""
-    _, order, has_peer = SIZES[size]
+    _, order, solves, has_peer = SIZES[size]
     engines = list(ENGINES) if has_peer else ["impinge"]
     with TemporaryDirectory() as folder:
         counts = prepare(Path(folder), size)
         runs = {engine: [] for engine in engines}
         for _ in range(repetitions):
             for engine, results in runs.items():
-                results.append(repetition(engine, folder, order))
+                results.append(repetition(engine, folder, order, solves))
     shape = " × ".join(map(str, counts))
     nodes = counts[0] * counts[1] * counts[2]
     solver = f", {runs['scikit-fem'][0]['solver']}" if has_peer else ""
@@ -170,9 +170,10 @@ def main():
     parser.add_argument("--engine", choices=ENGINES, help=argparse.SUPPRESS)
     parser.add_argument("--folder", type=Path, help=argparse.SUPPRESS)
     parser.add_argument("--order", type=int, help=argparse.SUPPRESS)
+    parser.add_argument("--solves", type=int, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.engine:
-        result = ENGINES[arguments.engine](arguments.folder, arguments.order)
+        result = ENGINES[arguments.engine](arguments.folder, arguments.order, arguments.solves)
         print(json.dumps(result))
         return
     for size in arguments.sizes:

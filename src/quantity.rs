@@ -17,6 +17,7 @@ pub enum Quantity {
     HeatTransferCoefficient,
     /// Of a contact, for a unit of area.
     ThermalResistance,
+    Area,
     Volume,
     Velocity,
     Viscosity,
@@ -46,7 +47,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 28] = [
+    pub const ALL: [Quantity; 29] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::HeatFlux,
@@ -62,6 +63,7 @@ impl Quantity {
         Quantity::Expansion,
         Quantity::HeatTransferCoefficient,
         Quantity::ThermalResistance,
+        Quantity::Area,
         Quantity::Volume,
         Quantity::Velocity,
         Quantity::Viscosity,
@@ -112,6 +114,7 @@ impl Quantity {
             Quantity::Expansion => "ThermalExpansion",
             Quantity::HeatTransferCoefficient => "HeatTransferCoefficient",
             Quantity::ThermalResistance => "ThermalInsulance",
+            Quantity::Area => "Area",
             Quantity::Volume => "Volume",
             Quantity::Velocity => "Velocity",
             Quantity::Viscosity => "DynamicViscosity",
@@ -144,6 +147,7 @@ impl Quantity {
             Quantity::Expansion => "1/K",
             Quantity::HeatTransferCoefficient => "W/(m2.K)",
             Quantity::ThermalResistance => "m2.K/W",
+            Quantity::Area => "m2",
             Quantity::Volume => "m3",
             Quantity::Velocity => "m/s",
             Quantity::Viscosity => "Pa.s",
@@ -176,6 +180,7 @@ impl Quantity {
             Quantity::Expansion => [0, 0, 0, -1],
             Quantity::HeatTransferCoefficient => [1, 0, -3, -1],
             Quantity::ThermalResistance => [-1, 0, 3, 1],
+            Quantity::Area => [0, 2, 0, 0],
             Quantity::Volume => [0, 3, 0, 0],
             Quantity::Velocity => [0, 1, -1, 0],
             Quantity::Viscosity => [1, -1, -1, 0],
@@ -232,6 +237,7 @@ impl Quantity {
             Quantity::Expansion => 1e-5,
             Quantity::HeatTransferCoefficient => 10.0,
             Quantity::ThermalResistance => 1e-6,
+            Quantity::Area => 1e-10,
             Quantity::Volume => 1e-12,
             Quantity::Velocity => 10.0,
             Quantity::Viscosity => 1e-3,

@@ -53,7 +53,7 @@ pub fn page(scene: &Scene, fmi: Version) -> String {
         }
     }
     if fmi == Version::Three {
-        coordinates(&mut html, &arrays);
+        constants(&mut html, &arrays);
     }
     let _ = write!(
         html,
@@ -64,14 +64,14 @@ pub fn page(scene: &Scene, fmi: Version) -> String {
     html
 }
 
-/// Where the points of fields are, which units of FMI 3.0 tell as constants.
-fn coordinates(html: &mut String, arrays: &ArrayRegistry) {
-    let constants =
-        arrays.variables.iter().filter(|v| matches!(v.content, Content::Coordinates(_)));
+/// Where points and cells are, which units of FMI 3.0 tell as constants.
+fn constants(html: &mut String, arrays: &ArrayRegistry) {
     let item = |v: &ArrayVariable| {
-        format!("<li><code>{}</code> [m]: {}</li>\n", name(v), escape(&v.description))
+        let Content::Constants(quantity, _) = &v.content else { return None };
+        let (name, unit, words) = (name(v), quantity.unit(), escape(&v.description));
+        Some(format!("<li><code>{name}</code> [{unit}]: {words}</li>\n"))
     };
-    let items: String = constants.map(item).collect();
+    let items: String = arrays.variables.iter().filter_map(item).collect();
     if !items.is_empty() {
         section(html, "Constants", &format!("<ul>\n{items}</ul>\n"));
     }

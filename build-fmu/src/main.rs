@@ -1,6 +1,7 @@
 //! `build-fmu`: packs a scene as an FMI unit, and checks units.
 
 mod archive;
+mod cells;
 mod documentation;
 mod library;
 mod lint;
@@ -165,6 +166,7 @@ fn unit(
     entries.append(&mut documentation::licences());
     entries.insert("modelDescription.xml".into(), fmi.model_description(scene, text).into());
     entries.insert("resources/scene.toml".into(), text.into());
+    entries.insert("resources/cells.json".into(), cells::json(scene).into());
     entries.insert("documentation/index.html".into(), documentation::page(scene, fmi).into());
     let icon = picture::png(scene)?;
     entries.append(&mut terminals::entries(scene, fmi, &icon)?);

@@ -60,7 +60,7 @@ fn columns(scene: &Scene, registry: &Registry, causality: Causality, fmi: Versio
             let wanted = arrays.filter(|array| array.causality(registry) == Some(causality));
             let column = |array: ArrayVariable| match array.content {
                 Content::Elements(elements) => Some(Column { name: array.name, elements }),
-                Content::Time | Content::Coordinates(_) => None,
+                Content::Time | Content::Constants(..) => None,
             };
             wanted.filter_map(column).collect()
         }

@@ -140,7 +140,6 @@ fn probe(probe: &Probe) -> String {
 }
 
 fn field(field: &Field) -> String {
-    let [nx, ny] = field.grid;
     let body = field.body.as_deref().unwrap_or_default();
     let place = match (&field.on, field.plane) {
         (Some(face), _) => face.clone(),
@@ -149,7 +148,15 @@ fn field(field: &Field) -> String {
         (None, Some(Plane::Z(at))) => format!("the section z = {} of {body}", metres(at)),
         (None, None) => body.to_owned(),
     };
-    format!("{}: a grid of {nx} × {ny} points on {place}.", field.name)
+    match (&field.footprint, field.grid) {
+        (Some(footprint), _) => {
+            format!("{}: means over {} on {place}.", field.name, footprint.words(metres))
+        }
+        (None, grid) => {
+            let [nx, ny] = grid.unwrap_or_default();
+            format!("{}: a grid of {nx} × {ny} points on {place}.", field.name)
+        }
+    }
 }
 
 #[cfg(test)]

@@ -22,9 +22,10 @@ impl Forecast {
     /// Time to build the model and to run the default experiment, all stresses read in every step [s].
     pub fn run_time(&self) -> f64 {
         let of_solid = |body: &BodyForecast| body.build_time + (self.steps + 1.0) * body.step_time;
-        let solids = self.bodies.iter().map(of_solid).sum::<f64>();
-        let contacts = self.steps * self.contact_time;
-        solids + contacts + self.droplets.iter().map(|body| body.run_time).sum::<f64>()
+        let of_bodies = self.bodies.iter().map(of_solid);
+        let all = of_bodies.chain(self.droplets.iter().map(|body| body.run_time));
+        // From zero: a sum of nothing is negative zero.
+        all.fold(0.0, |sum, time| sum + time) + self.steps * self.contact_time
     }
 }
 

@@ -30,6 +30,8 @@ pub enum Reading {
     /// Of a point; `quantity` is its place among the [point quantities](super::point_quantities), and `alone`
     /// whether the point is one of its own rather than of a grid.
     Point { quantity: usize, at: [f64; 3], alone: bool },
+    /// Mean over a cell of the field at a place among the scene's; `quantity` as of a point.
+    Mean { quantity: usize, field: usize, cell: usize },
     /// Of the whole body: its place among the [totals](totals) of the body.
     Total(usize),
     /// Of a cell of the wall below, or of what lies beyond its cells; `quantity` is the place among the

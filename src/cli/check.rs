@@ -104,8 +104,7 @@ fn notes(scene: &Scene) -> String {
             let _ = writeln!(text, "    - {note}");
         }
     }
-    let _ =
-        writeln!(text, "  `impinge run` takes about {}", engineering(run_time.max(0.0) + 0.0, "s"));
+    let _ = writeln!(text, "  `impinge run` takes about {}", engineering(run_time, "s"));
     text
 }
 
@@ -239,12 +238,18 @@ fn fields(scene: &Scene) -> String {
         .field
         .iter()
         .map(|field| {
-            let [nx, ny] = field.grid;
             let size = field.size.map_or("whole".into(), |size| size.map(metres).join(" × "));
-            [field.name.clone(), place(field), format!("{nx} × {ny}"), size, keys(&field.gives)]
+            let sampling = match (&field.footprint, field.grid) {
+                (Some(footprint), _) => format!("means over {}", footprint.label(metres)),
+                (None, grid) => {
+                    let [nx, ny] = grid.unwrap_or_default();
+                    format!("{nx} × {ny} points, {size}")
+                }
+            };
+            [field.name.clone(), place(field), sampling, keys(&field.gives)]
         })
         .collect();
-    table(["field", "on", "grid", "size", "gives"], &rows)
+    table(["field", "on", "values", "gives"], &rows)
 }
 
 /// The face or section of a field.

@@ -6,6 +6,7 @@ use impinge::output::OutputError;
 use impinge::scene::{Scene, SceneError};
 use impinge::variables::{Registry, Slot};
 
+use super::inputs::TableError;
 use super::set::SetErrors;
 
 /// Why a command did not do what was asked.
@@ -15,6 +16,10 @@ pub enum CliError {
     Scene(#[from] SceneError),
     #[error(transparent)]
     Set(#[from] SetErrors),
+    #[error(transparent)]
+    Table(#[from] TableError),
+    #[error("{name} is set (--set) and has a column in the table (--inputs); allowed: one of both")]
+    GivenTwice { name: String },
     /// The model refuses the value of an input.
     #[error("{name}: {message}")]
     Input { name: String, message: String },
@@ -47,7 +52,8 @@ impl CliError {
     }
 }
 
-fn input_name(scene: &Scene, index: usize) -> String {
+/// Name of the input at a place.
+pub fn input_name(scene: &Scene, index: usize) -> String {
     let variables = Registry::of(scene).variables;
     let input = variables.into_iter().find(|variable| variable.slot == Slot::Input(index));
     input.map_or_else(|| format!("input {index}"), |variable| variable.name)

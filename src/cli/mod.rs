@@ -4,6 +4,7 @@
 mod check;
 mod error;
 mod idle;
+mod inputs;
 mod run;
 mod schema;
 mod set;

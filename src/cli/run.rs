@@ -9,7 +9,9 @@ use impinge::scene::{self, Scene};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::CliError;
+use super::error::input_name;
 use super::idle;
+use super::inputs::{Between, InputTable};
 use super::set::{self, Assignment, InputValue};
 use super::summary;
 use super::units::engineering;
@@ -40,6 +42,15 @@ pub struct Run {
     /// Replace the files of an earlier run in that folder
     #[arg(long)]
     overwrite: bool,
+    /// Inputs over time: comma-separated values, first column `time` [s], then one each for inputs by their names
+    #[arg(long, value_name = "TABLE")]
+    inputs: Option<PathBuf>,
+    /// What inputs do between the rows of that table
+    #[arg(long, value_enum, default_value_t, requires = "inputs")]
+    between: Between,
+    /// Write variables every N steps, and at the end
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..))]
+    rows_every: u64,
     /// Write fields every N steps, 0 for never [default: about 50 times]
     #[arg(long, value_name = "N")]
     fields_every: Option<usize>,
@@ -58,13 +69,17 @@ impl Run {
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
         let model = Model::build(&scene, scene.solver.threads)
             .map_err(|error| CliError::from_model(error, &scene))?;
+        let timeline = Timeline::new(scene.step, scene.stop_time);
+        let table = self.input_table(&scene, &inputs)?;
         let mut run = Running {
-            state: start(&model, &inputs)?,
+            state: start(&model, &inputs, (table.as_ref(), timeline.length(0)))?,
             cache: Cache::default(),
-            timeline: Timeline::new(scene.step, scene.stop_time),
+            timeline,
+            table,
             model: &model,
         };
-        if let Some(note) = idle::note(&scene, &run.state.inputs) {
+        let note = || idle::note(&scene, &run.state.inputs);
+        if let Some(note) = self.inputs.is_none().then(note).flatten() {
             super::print_message("note", &note);
         }
         let mut record = self.record(&run)?;
@@ -90,6 +105,24 @@ impl Run {
             super::print_message("warning", &warning);
         }
         Ok((scene, inputs))
+    }
+
+    /// The inputs over time, none of which is among those that are set.
+    fn input_table(
+        &self,
+        scene: &Scene,
+        set: &[InputValue],
+    ) -> Result<Option<InputTable>, CliError> {
+        let Some(path) = &self.inputs else { return Ok(None) };
+        let table = InputTable::read(path, self.between, scene)?;
+        for warning in set::implausible(scene, &table.extremes()) {
+            super::print_message("warning", &warning);
+        }
+        let twice = table.given().find(|place| set.iter().any(|(other, _)| other == place));
+        match twice {
+            Some(place) => Err(CliError::GivenTwice { name: input_name(scene, place) }),
+            None => Ok(Some(table)),
+        }
     }
 
     /// Refuses to write where the scene may be one of the files of the run.
@@ -125,15 +158,23 @@ impl Run {
             _ => Some(FieldSeries::create(&folder, run.model)?),
         };
         let place = format!("files in {}\n", folder.display());
-        Ok(Record { table, fields, every, place, _lock: lock })
+        let rows_every = usize::try_from(self.rows_every).unwrap_or(usize::MAX);
+        Ok(Record { table, fields, every, rows_every, place, _lock: lock })
     }
 }
 
-/// The state at time zero with the inputs that were asked for.
-fn start(model: &Model, inputs: &[InputValue]) -> Result<State, CliError> {
+/// The state at time zero with the inputs that were asked for, and those of a table before a first step [s].
+fn start(
+    model: &Model,
+    inputs: &[InputValue],
+    (table, step): (Option<&InputTable>, f64),
+) -> Result<State, CliError> {
     let mut state = model.initial_state();
     for &(index, value) in inputs {
         state.inputs[index] = value;
+    }
+    if let Some(table) = table {
+        table.apply(&mut state, 0.0, step);
     }
     model
         .check_inputs(&state.inputs)
@@ -147,6 +188,8 @@ struct Record {
     fields: Option<FieldSeries>,
     /// Steps between two times at which fields are written.
     every: usize,
+    /// Steps between two times at which variables are written.
+    rows_every: usize,
     /// Words for where the files are.
     place: String,
     /// Keeps others from writing there meanwhile.
@@ -162,9 +205,11 @@ impl Record {
 
     /// Adds what `run` has reached after `done` steps.
     fn write(&mut self, run: &mut Running, done: usize) -> Result<(), OutputError> {
-        let is_due =
-            done == run.timeline.count || (self.every > 0 && done.is_multiple_of(self.every));
-        self.table.write(run.model, &run.state, &mut run.cache)?;
+        let is_last = done == run.timeline.count;
+        let is_due = is_last || (self.every > 0 && done.is_multiple_of(self.every));
+        if is_last || done.is_multiple_of(self.rows_every) {
+            self.table.write(run.model, &run.state, &mut run.cache)?;
+        }
         match &mut self.fields {
             Some(fields) if is_due => fields.write(run.model, &run.state, &mut run.cache),
             _ => Ok(()),
@@ -178,6 +223,7 @@ struct Running<'a> {
     state: State,
     cache: Cache,
     timeline: Timeline,
+    table: Option<InputTable>,
 }
 
 impl Running<'_> {
@@ -195,13 +241,28 @@ impl Running<'_> {
 
     /// Takes the step that begins after `i` steps.
     fn step(&mut self, i: usize) -> Result<(), CliError> {
+        let (start, end) = (self.timeline.time(i), self.timeline.time(i + 1));
         let length = self.timeline.length(i);
+        let rows = self.table.as_ref().map_or(Vec::new(), |table| table.times_within(start, end));
+        let mut from = start;
+        for &to in rows.iter().chain([&end]) {
+            let is_whole = from == start && to == end;
+            self.advance((from, to), if is_whole { length } else { to - from })?;
+            from = to;
+        }
+        self.state.time = end;
+        Ok(())
+    }
+
+    /// Advances over a time between rows of the table [s].
+    fn advance(&mut self, (from, to): (f64, f64), length: f64) -> Result<(), CliError> {
+        if let Some(table) = &self.table {
+            table.apply(&mut self.state, from, to);
+        }
         self.model.step(&mut self.state, &mut self.cache, length).map_err(|error| {
             let reason = Box::new(CliError::from_model(error, self.model.scene()));
-            CliError::Step { time: self.timeline.time(i), reason }
-        })?;
-        self.state.time = self.timeline.time(i + 1);
-        Ok(())
+            CliError::Step { time: from, reason }
+        })
     }
 
     /// The heat balance and the extremes; warns on standard error if the heat does not add up.

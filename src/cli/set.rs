@@ -38,7 +38,7 @@ impl fmt::Display for SetErrors {
 }
 
 #[derive(Debug, PartialEq, Eq, thiserror::Error)]
-enum SetError {
+pub enum SetError {
     #[error("cannot set {name}: there is no such parameter or input{}", suggestion(close))]
     Unknown { name: String, close: Vec<String> },
     #[error("cannot set {name}: it is an output")]
@@ -86,7 +86,7 @@ pub fn implausible(scene: &Scene, inputs: &[InputValue]) -> Vec<String> {
 }
 
 /// The variables that a name stands for: at least one, none of them an output.
-fn targets<'a>(registry: &'a Registry, name: &str) -> Result<Vec<&'a Variable>, SetError> {
+pub fn targets<'a>(registry: &'a Registry, name: &str) -> Result<Vec<&'a Variable>, SetError> {
     let found: Vec<&Variable> = match registry.find(name) {
         Some(reference) => vec![&registry.variables[reference]],
         None => registry.variables.iter().filter(|v| array_name(&v.name) == name).collect(),
@@ -122,7 +122,7 @@ fn put(
 }
 
 /// Reads a finite number, whole where the variable is, within the variable's bounds.
-fn number(variable: &Variable, text: &str) -> Result<f64, SetError> {
+pub fn number(variable: &Variable, text: &str) -> Result<f64, SetError> {
     let is_whole = matches!(variable.start, Some(Value::Integer(_)));
     let (lowest, highest) =
         (variable.min.unwrap_or(f64::NEG_INFINITY), variable.max.unwrap_or(f64::INFINITY));

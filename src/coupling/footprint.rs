@@ -3,6 +3,7 @@
 //! Integrals are exact to rounding, so the nodal values sum to the total heat or force; those of
 //! tractions away from a centre, where the direction is singular, to about 1e-7 of it.
 
+mod cells;
 mod motion;
 
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -10,6 +11,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use crate::math::gauss::{gauss_legendre, gauss_on};
 use crate::method::mesh::{Axis, Weight};
 use crate::scene::{Footprint, Profile};
+
+pub use cells::{SparseVector, cells_on_plane, cells_on_radius};
 
 /// Where a footprint lies on its face [m].
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -242,13 +245,24 @@ fn gaussian_moment(axis: &Axis, centre: f64, radius: f64, f: impl Fn(f64) -> f64
 
 /// Nodal vector of tiles, from the integrals of their columns and rows.
 fn tiles(
-    [x, y]: [&Axis; 2],
+    axes: [&Axis; 2],
     place: &Placement,
-    [nx, ny]: [usize; 2],
+    count: [usize; 2],
     size: [f64; 2],
     values: &[f64],
     image: [bool; 2],
 ) -> Vec<f64> {
+    let [columns, rows] = tile_strips(axes, place, count, size);
+    tile_sum(&columns, &rows, values, image)
+}
+
+/// `∫ N dx` over each column of tiles, and over each row.
+fn tile_strips(
+    [x, y]: [&Axis; 2],
+    place: &Placement,
+    [nx, ny]: [usize; 2],
+    size: [f64; 2],
+) -> [Vec<Vec<f64>>; 2] {
     let strips = |axis: &Axis, centre: f64, n: usize, length: f64| -> Vec<Vec<f64>> {
         let end = |i: usize| centre + length * (i as f64 / n as f64 - 0.5);
         let inside = |v: f64| v.clamp(axis.start(), axis.end());
@@ -259,9 +273,7 @@ fn tiles(
             })
             .collect()
     };
-    let columns = strips(x, place.x, nx, size[0]);
-    let rows = strips(y, place.y, ny, size[1]);
-    tile_sum(&columns, &rows, values, image)
+    [strips(x, place.x, nx, size[0]), strips(y, place.y, ny, size[1])]
 }
 
 /// Sum over tiles of value times the product of what stands for their column and their row.

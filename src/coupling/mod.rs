@@ -2,12 +2,14 @@
 
 mod common_cells;
 mod face_cells;
+mod face_means;
 mod footprint;
 mod lateral_modes;
 mod symmetry;
 
 pub use common_cells::CommonCells;
 pub use face_cells::FaceCells;
+pub use face_means::FaceMeans;
 pub use footprint::{Pattern, Placement};
 pub use lateral_modes::LateralModes;
 pub use symmetry::split_load;

@@ -191,7 +191,7 @@ fn inputs<'a>(
     references: &[Reference],
 ) -> Answer<Vec<(usize, &'a Variable)>> {
     let input = |variable: &'a Variable| match variable.slot {
-        Slot::Input(index) => Ok((index, variable)),
+        Slot::Input(index) if !variable.is_tunable => Ok((index, variable)),
         _ => Err(Refusal::error(format!("{} is no input", variable.name))),
     };
     find(registry, references, Kind::Real)?.into_iter().map(input).collect()

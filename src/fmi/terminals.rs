@@ -214,7 +214,10 @@ fn description(scene: &Scene, name: &str) -> String {
         return format!("wall under {}", wall.under);
     }
     match scene.field.iter().find(|field| field.name == name) {
-        Some(field) => format!("values on a grid of {}", field.body_and_place().0),
+        Some(field) => match field.footprint {
+            Some(_) => format!("means over cells of {}", field.body_and_place().0),
+            None => format!("values on a grid of {}", field.body_and_place().0),
+        },
         None => format!("what {name} is given and shows as a whole"),
     }
 }

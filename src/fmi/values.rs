@@ -168,9 +168,11 @@ impl Unit {
         let name = &variable.name;
         match variable.causality() {
             Causality::Output => Err(Refusal::error(format!("{name} is an output"))),
-            Causality::Parameter if self.phase == Phase::StepComplete => Err(Refusal::error(
-                format!("{name} is a fixed parameter: it may be set until initialisation ends"),
-            )),
+            Causality::Parameter if !variable.is_tunable && self.phase == Phase::StepComplete => {
+                Err(Refusal::error(format!(
+                    "{name} is a fixed parameter: it may be set until initialisation ends"
+                )))
+            }
             Causality::Parameter | Causality::Input => Ok(()),
         }
     }

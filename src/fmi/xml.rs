@@ -145,6 +145,7 @@ pub(super) fn default_experiment(xml: &mut Xml, scene: &Scene) -> io::Result<()>
 fn variables(xml: &mut Xml, registry: &Registry) -> io::Result<()> {
     for (reference, variable) in registry.variables.iter().enumerate() {
         let (variability, initial) = match variable.causality() {
+            Causality::Parameter if variable.is_tunable => ("tunable", Some("exact")),
             Causality::Parameter => ("fixed", Some("exact")),
             Causality::Input => ("continuous", None),
             Causality::Output => ("continuous", Some("calculated")),

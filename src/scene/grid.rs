@@ -52,7 +52,7 @@ impl Grid {
             offset,
             centre: axes.map(|axis| middle[axis]),
             size: field.size.unwrap_or_else(|| whole_size(shape, normal, offset)),
-            count: field.grid,
+            count: field.grid.unwrap_or_default(),
         }
     }
 

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::types::IDENTIFIER;
+use super::types::{IDENTIFIER, Role};
 use crate::limits::{any, count, length, plausible};
 
 /// Heat and traction on a part of a face.
@@ -30,6 +30,9 @@ pub struct Load {
     #[serde(default)]
     #[schemars(extend("otherwise" = "where it starts"))]
     pub range: LoadRange,
+    /// Whether place and radius are inputs or tunable parameters, which nothing is connected to.
+    #[serde(default)]
+    pub role: Role,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]

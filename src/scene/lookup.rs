@@ -175,6 +175,7 @@ impl Solid {
             radiation: own.radiation.or(sides.radiation),
             clamped: own.clamped || sides.clamped,
             roller: own.roller || sides.roller,
+            role: if own.thermal().is_empty() { sides.role } else { own.role },
         }
     }
 }

@@ -3,6 +3,7 @@
 //! Text → `locate` (TOML with places) → `decode` (types) → `check` (sense) → [`Scene`]; `plausibility` warns
 //! of what makes sense but is implausible.
 
+mod cells;
 mod check;
 mod decode;
 mod droplet;
@@ -15,6 +16,7 @@ mod lookup;
 mod materials;
 mod plausibility;
 mod reservoir;
+mod sampling;
 mod schema;
 mod spelling;
 mod types;
@@ -23,6 +25,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
+pub use cells::Cells;
 pub use check::takes_newton;
 pub use droplet::{
     Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Fluid, Governing, Placement,
@@ -33,8 +36,9 @@ pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
-pub use plausibility::{Measure, Warning, doubt_of_input};
+pub use plausibility::{Measure, Warning, implausible_input};
 pub use reservoir::Reservoir;
+pub use sampling::{FieldCells, Sampling};
 pub use schema::{SCHEMA, derived_schema};
 pub use types::*;
 

@@ -50,7 +50,7 @@ pub struct Scene {
     /// Tables `[[probe]]`: points whose values become outputs.
     #[serde(default)]
     pub probe: Vec<Probe>,
-    /// Tables `[[field]]`: grids of points whose values become arrays of outputs.
+    /// Tables `[[field]]`: points of grids and means over cells, whose values become arrays of outputs.
     #[serde(default)]
     pub field: Vec<Field>,
     /// Tables `[[wall]]`: walls below droplets, whose temperatures become inputs and what they get outputs.
@@ -330,6 +330,21 @@ pub struct Face {
     /// No displacement along the normal.
     #[serde(default)]
     pub roller: bool,
+    /// Whether the face's value is an input or a tunable parameter, which nothing is connected to.
+    #[serde(default)]
+    #[schemars(extend("condition" = "of `temperature`, `flux`, `convection`"))]
+    pub role: Role,
+}
+
+/// What a variable is to who couples units.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Role {
+    /// May be connected.
+    #[default]
+    Input,
+    /// Keeps its start value until it is set, between steps too; nothing is connected to it.
+    Parameter,
 }
 
 /// Heat flux into the body `q = h (T∞ − T)`.
@@ -408,10 +423,16 @@ pub struct Field {
     #[schemars(transform = any("m").condition("through the body").otherwise("`on`"))]
     pub plane: Option<Plane>,
     /// Number of points along the two axes of the face or section.
-    #[schemars(transform = count())]
-    pub grid: [usize; 2],
+    #[schemars(transform = count().otherwise("`footprint`"))]
+    pub grid: Option<[usize; 2]>,
+    /// Part of a face over whose cells means are taken, as loads on the same footprint bring their amounts.
+    #[schemars(extend("condition" = "on its face, `top` or `bottom` of a solid", "otherwise" = "`grid`"))]
+    pub footprint: Option<Footprint>,
+    /// Place of the footprint's centre [m].
+    #[schemars(transform = any("m").otherwise("the centre of the face").condition("with `footprint`; not on a disc"))]
+    pub at: Option<[f64; 2]>,
     /// Extent of the grid along its axes [m], centred.
-    #[schemars(transform = length("the extent of a grid").otherwise("the whole").condition("up to the whole"))]
+    #[schemars(transform = length("the extent of a grid").otherwise("the whole").condition("up to the whole; with `grid`"))]
     pub size: Option<[f64; 2]>,
     /// List of outputs.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]

@@ -1,12 +1,12 @@
 use std::ops::Range;
 
 use super::registry::flat;
-use super::{Causality, Quantity, Registry, Slot, Variable};
-use crate::scene::{Grid, Naming, Scene};
+use super::{Causality, CellFamily, Quantity, Registry, Slot, Variable};
+use crate::scene::{Grid, Naming, Sampling, Scene};
 
 /// All variables of a scene's unit where arrays are variables: time first, then those of the
 /// [`Registry`] in their order, each family `name[i]` or `name[i,j]` of structured names as one, then
-/// the coordinates of the points of fields. The value reference of a variable is its place in the list.
+/// where the points and cells of families are. The value reference of a variable is its place in the list.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ArrayRegistry {
     pub variables: Vec<ArrayVariable>,
@@ -29,8 +29,8 @@ pub enum Content {
     Time,
     /// Elements by their places in the [`Registry`].
     Elements(Range<usize>),
-    /// Coordinates [m] that follow from the scene.
-    Coordinates(Vec<f64>),
+    /// Lengths and areas that follow from the scene.
+    Constants(Quantity, Vec<f64>),
 }
 
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -62,7 +62,7 @@ impl ArrayRegistry {
             next = members.end;
             variables.push(array(&registry.variables, members));
         }
-        coordinates(scene, &mut variables);
+        constants(scene, &mut variables);
         Self { variables }
     }
 
@@ -108,7 +108,7 @@ impl ArrayVariable {
     pub fn elements<'a>(&self, registry: &'a Registry) -> &'a [Variable] {
         match &self.content {
             Content::Elements(range) => &registry.variables[range.clone()],
-            Content::Time | Content::Coordinates(_) => &[],
+            Content::Time | Content::Constants(..) => &[],
         }
     }
 
@@ -116,7 +116,7 @@ impl ArrayVariable {
     pub fn quantity(&self, registry: &Registry) -> Option<Quantity> {
         match self.content {
             Content::Time => Some(Quantity::Time),
-            Content::Coordinates(_) => Some(Quantity::Length),
+            Content::Constants(quantity, _) => Some(quantity),
             Content::Elements(_) => self.elements(registry)[0].quantity,
         }
     }
@@ -170,27 +170,61 @@ fn common_words(first: &str, last: &str, dimensions: &[usize]) -> String {
     first.split(' ').zip(last.split(' ')).map(word).collect::<Vec<_>>().join(" ")
 }
 
-/// Coordinates of each field's points: one list for each index of the field, and the constant one.
-fn coordinates(scene: &Scene, list: &mut Vec<ArrayVariable>) {
+/// Coordinates of the points of fields on grids, one list for each index and the constant one, and areas and places of
+/// cells.
+fn constants(scene: &Scene, list: &mut Vec<ArrayVariable>) {
     for field in &scene.field {
         let (body, _) = field.body_and_place();
         let Some(solid) = scene.solid(body) else { continue };
-        let grid = Grid::of(field, solid);
-        for (axis, name) in AXES.iter().enumerate() {
-            let index = grid.axes.iter().position(|along| *along == axis);
-            let point = |i| if index == Some(1) { grid.point(0, i) } else { grid.point(i, 0) };
-            let count = index.map_or(1, |index| grid.count[index]);
-            let along = match index {
-                Some(index) => format!("along index {}", INDICES[index]),
-                None => "of all points".into(),
-            };
-            list.push(ArrayVariable {
-                name: format!("{}.{name}", field.name),
-                description: format!("{name} {along} of {}", field.name),
-                dimensions: index.map(|_| count).into_iter().collect(),
-                content: Content::Coordinates((0..count).map(|i| point(i)[axis]).collect()),
-            });
+        if let Sampling::Points(grid) = field.sampling(solid) {
+            coordinates(&field.name, &grid, list);
         }
+    }
+    let families = CellFamily::all(scene);
+    families
+        .iter()
+        .filter(|family| family.footprint != "grid")
+        .for_each(|family| cells(family, list));
+}
+
+fn coordinates(field: &str, grid: &Grid, list: &mut Vec<ArrayVariable>) {
+    for (axis, name) in AXES.iter().enumerate() {
+        let index = grid.axes.iter().position(|along| *along == axis);
+        let point = |i| if index == Some(1) { grid.point(0, i) } else { grid.point(i, 0) };
+        let count = index.map_or(1, |index| grid.count[index]);
+        let along = match index {
+            Some(index) => format!("along index {}", INDICES[index]),
+            None => "of all points".into(),
+        };
+        let values = (0..count).map(|i| point(i)[axis]).collect();
+        list.push(ArrayVariable {
+            name: format!("{field}.{name}"),
+            description: format!("{name} {along} of {field}"),
+            dimensions: index.map(|_| count).into_iter().collect(),
+            content: Content::Constants(Quantity::Length, values),
+        });
+    }
+}
+
+fn cells(family: &CellFamily, list: &mut Vec<ArrayVariable>) {
+    let CellFamily { name, count, area, inner, outer, x, y, .. } = family;
+    let at_start = if family.kind == "load" { ", at the start" } else { "" };
+    for (key, words, quantity, values) in [
+        ("cell_area", "what the value 1 brings on each cell", Quantity::Area, area),
+        ("cell_inner", "inner radius of each cell", Quantity::Length, inner),
+        ("cell_outer", "outer radius of each cell", Quantity::Length, outer),
+        ("cell_x", "x of the middle of each cell", Quantity::Length, x),
+        ("cell_y", "y of the middle of each cell", Quantity::Length, y),
+    ] {
+        if values.is_empty() {
+            continue;
+        }
+        list.push(ArrayVariable {
+            name: format!("{name}.{key}"),
+            description: format!("{words} of {name}{at_start}"),
+            dimensions: count.clone(),
+            content: Content::Constants(quantity, values.clone()),
+        });
     }
 }
 
@@ -258,12 +292,15 @@ mod tests {
         let (_, arrays) = registries(SCENE);
         let find = |name| &arrays.variables[arrays.find(name).unwrap()];
         let (x, z) = (find("surface.x"), find("surface.z"));
-        let Content::Coordinates(values) = &x.content else { panic!("{x:?}") };
+        let Content::Constants(_, values) = &x.content else { panic!("{x:?}") };
         assert_eq!(x.dimensions, [4]);
         for (value, expected) in values.iter().zip([-1.5e-4, -0.5e-4, 0.5e-4, 1.5e-4]) {
             assert!((value - expected).abs() < 1e-18, "{values:?}");
         }
-        assert_eq!((z.dimensions.len(), &z.content), (0, &Content::Coordinates(vec![0.0])));
+        assert_eq!(
+            (z.dimensions.len(), &z.content),
+            (0, &Content::Constants(Quantity::Length, vec![0.0]))
+        );
     }
 
     #[test]

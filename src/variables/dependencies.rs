@@ -52,7 +52,9 @@ impl<'a> Reach<'a> {
     fn of(scene: &'a Scene, output: &Output) -> Self {
         let body = scene.body.keys().nth(output.body).expect("registered from a body");
         let direct = match output.reading {
-            Reading::Point { quantity, .. } => point_quantities()[quantity].descriptor.direct,
+            Reading::Point { quantity, .. } | Reading::Mean { quantity, .. } => {
+                point_quantities()[quantity].descriptor.direct
+            }
             Reading::Total(place) => {
                 let mut totals = totals(scene, body).into_iter();
                 let found = totals.find(|(other, _)| *other == place);

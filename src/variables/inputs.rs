@@ -5,7 +5,9 @@ use std::ops::Range;
 use super::registry::{Slot, Value, Variable};
 use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::quantity::Quantity;
-use crate::scene::{BodyInput, CellShape, CellValues, FaceName, Load, LoadRange, Scene, Solid};
+use crate::scene::{
+    BodyInput, CellShape, CellValues, FaceName, Load, LoadRange, Role, Scene, Solid,
+};
 
 /// What comes from outside.
 pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
@@ -34,6 +36,7 @@ fn body_variable(body: &str, input: &BodyInput, at: usize) -> Variable {
         start: Some(Value::Real(input.start)),
         min: (input.quantity == Quantity::Temperature).then_some(0.0),
         max: None,
+        is_tunable: false,
     }
 }
 
@@ -78,6 +81,7 @@ fn amounts(load: &Load, places: &LoadInputs, list: &mut Vec<Variable>) {
                 start: Some(Value::Real(cell_start(start.as_ref(), load.footprint.cells(), cell))),
                 min: None,
                 max: None,
+                is_tunable: false,
             });
         }
     }
@@ -102,6 +106,7 @@ fn placement(load: &Load, places: &LoadInputs, list: &mut Vec<Variable>) {
             start: Some(Value::Real(start)),
             min: range.map(|r| r[0]).or(lowest),
             max: range.map(|r| r[1]),
+            is_tunable: load.role == Role::Parameter,
         });
     }
 }
@@ -164,6 +169,7 @@ fn face_variable(
         start: start.map(Value::Real),
         min: (quantity == Quantity::Temperature).then_some(0.0),
         max: None,
+        is_tunable: condition.role == Role::Parameter,
     }
 }
 
@@ -183,6 +189,7 @@ fn walls(scene: &Scene, layout: &InputLayout, list: &mut Vec<Variable>) {
                 start: start.map(Value::Real),
                 min: Some(0.0),
                 max: None,
+                is_tunable: false,
             });
         }
     }

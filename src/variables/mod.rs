@@ -3,6 +3,7 @@
 //! [`ArrayRegistry`] lists the same variables with each family `name[i,j]` as one array.
 
 mod arrays;
+mod cells;
 mod dependencies;
 mod droplet_constant;
 mod inputs;
@@ -17,6 +18,7 @@ pub use crate::inputs::InputLayout;
 pub use crate::material::MaterialConstant;
 pub use crate::quantity::{DisplayUnit, Quantity};
 pub use arrays::{ArrayRegistry, ArrayVariable, Content};
+pub use cells::CellFamily;
 pub use droplet_constant::DropletConstant;
 pub use parameter::{LayersOf, Parameter};
 pub use registry::{Causality, Output, Registry, Slot, Value, Variable};

@@ -4,15 +4,15 @@ use super::inputs::cell_labels;
 use super::registry::{Output, Slot, Variable};
 use crate::body::{Descriptor, PointQuantity, Reading, point_quantities, totals, wall_quantities};
 use crate::quantity::Quantity;
-use crate::scene::{Field, Gives, Grid, Probe, Scene, Side, Wall};
+use crate::scene::{Field, Gives, Probe, Sampling, Scene, Side, Wall};
 
 /// What is computed.
 pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     for probe in &scene.probe {
         of_probe(scene, probe, list);
     }
-    for field in &scene.field {
-        of_field(scene, field, list);
+    for place in 0..scene.field.len() {
+        of_field(scene, place, list);
     }
     for name in in_order(scene) {
         of_body(scene, name, list);
@@ -41,7 +41,16 @@ fn variable(
 ) -> Variable {
     let slot = Slot::Output(Output { body, reading });
     let quantity = Some(quantity);
-    Variable { name, description, slot, quantity, start: None, min: None, max: None }
+    Variable {
+        name,
+        description,
+        slot,
+        quantity,
+        start: None,
+        min: None,
+        max: None,
+        is_tunable: false,
+    }
 }
 
 fn of_probe(scene: &Scene, probe: &Probe, list: &mut Vec<Variable>) {
@@ -63,22 +72,45 @@ fn of_probe(scene: &Scene, probe: &Probe, list: &mut Vec<Variable>) {
     }
 }
 
-fn of_field(scene: &Scene, field: &Field, list: &mut Vec<Variable>) {
-    let words_of_place = field.on.as_deref().or(field.body.as_deref()).unwrap_or_default();
-    let (name, _) = field.body_and_place();
-    let body = place(scene, name);
-    let grid = Grid::of(field, scene.solid(name).expect("a checked field lies in a solid"));
-    for (quantity, PointQuantity { descriptor, .. }) in wanted(&field.gives) {
+/// The field at a place among the scene's.
+fn of_field(scene: &Scene, field: usize, list: &mut Vec<Variable>) {
+    let Field { name, gives, .. } = &scene.field[field];
+    let (body_name, _) = scene.field[field].body_and_place();
+    let body = place(scene, body_name);
+    let solid = scene.solid(body_name).expect("a checked field lies in a solid");
+    let sampling = scene.field[field].sampling(solid);
+    for (quantity, PointQuantity { descriptor, .. }) in wanted(gives) {
         let Descriptor { key, words, quantity: measured, .. } = descriptor;
-        for i in 0..field.grid[0] {
-            for j in 0..field.grid[1] {
-                let reading = Reading::Point { quantity, at: grid.point(i, j), alone: false };
-                let (i, j) = (i + 1, j + 1);
-                let name = format!("{}.{key}[{i},{j}]", field.name);
-                let description =
-                    format!("{words} at point {i}, {j} of the grid on {words_of_place}");
-                list.push(variable(name, description, *measured, (body, reading)));
-            }
+        for (place, (label, words_of_place)) in places(scene, field).into_iter().enumerate() {
+            let reading = match &sampling {
+                Sampling::Points(grid) => {
+                    let [i, j] = [place / grid.count[1], place % grid.count[1]];
+                    Reading::Point { quantity, at: grid.point(i, j), alone: false }
+                }
+                Sampling::Cells(_) => Reading::Mean { quantity, field, cell: place },
+            };
+            let variable_name = format!("{name}.{key}{label}");
+            let description = format!("{words}{words_of_place}");
+            list.push(variable(variable_name, description, *measured, (body, reading)));
+        }
+    }
+}
+
+/// Index text of each place of a field in names of variables, and words for the place.
+fn places(scene: &Scene, field: usize) -> Vec<(String, String)> {
+    let Field { name, on, body, grid, footprint, .. } = &scene.field[field];
+    let whole = on.as_deref().or(body.as_deref()).unwrap_or_default();
+    match (grid, footprint) {
+        (_, Some(footprint)) => {
+            let words = |(label, cell)| (label, format!(", mean{cell}, {name} on {whole}"));
+            cell_labels(footprint.cells()).into_iter().map(words).collect()
+        }
+        (grid, None) => {
+            let [rows, columns] = grid.unwrap_or_default();
+            let point = |i: usize, j: usize| {
+                (format!("[{i},{j}]"), format!(" at point {i}, {j} of the grid on {whole}"))
+            };
+            (1..=rows).flat_map(|i| (1..=columns).map(move |j| point(i, j))).collect()
         }
     }
 }

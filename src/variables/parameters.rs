@@ -11,7 +11,16 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
         let (min, max): layers::Bounds = bounds;
         let start = Some(Value::Real(parameter.get(scene)));
         let slot = Slot::Parameter(parameter);
-        list.push(Variable { name, description, slot, quantity: Some(quantity), start, min, max });
+        list.push(Variable {
+            name,
+            description,
+            slot,
+            quantity: Some(quantity),
+            start,
+            min,
+            max,
+            is_tunable: false,
+        });
     };
     for (body, solid) in scene.solids() {
         if let Some(choice) = &solid.material {
@@ -65,6 +74,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
         start: Some(Value::Integer(scene.solver.threads as i32)),
         min: Some(0.0),
         max: Some(1024.0),
+        is_tunable: false,
     });
     list.push(Variable {
         name: "output.directory".into(),
@@ -75,6 +85,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
         start: Some(Value::Text(String::new())),
         min: None,
         max: None,
+        is_tunable: false,
     });
 }
 
@@ -89,6 +100,7 @@ fn of_droplet(body: &str, droplet: &Droplet, list: &mut Vec<Variable>) {
             start: Some(Value::Real(*constant.place(&mut copy))),
             min: Some(0.0),
             max: None,
+            is_tunable: false,
         });
     }
     list.push(Variable {
@@ -99,5 +111,6 @@ fn of_droplet(body: &str, droplet: &Droplet, list: &mut Vec<Variable>) {
         start: Some(Value::Real(droplet.initial_temperature)),
         min: Some(0.0),
         max: None,
+        is_tunable: false,
     });
 }

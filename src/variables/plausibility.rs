@@ -1,7 +1,7 @@
 //! Plausibility of the values of inputs.
 
 use super::{Quantity, Slot, Variable};
-use crate::scene::{Measure, Scene, doubt_of_input};
+use crate::scene::{Measure, Scene, implausible_input};
 
 impl Variable {
     /// The warning of a value that is implausible for an input, in the words that a scene's constants get.
@@ -15,7 +15,7 @@ impl Variable {
             Quantity::Stress => Measure::Traction,
             _ => return None,
         };
-        doubt_of_input(scene, &self.name, measure, value)
+        implausible_input(scene, &self.name, measure, value)
     }
 
     /// The name without the indices of an element, in either way of naming.

@@ -24,6 +24,8 @@ pub struct Variable {
     pub start: Option<Value>,
     pub min: Option<f64>,
     pub max: Option<f64>,
+    /// Whether it is an input that nothing may be connected to: a parameter that may be set between steps.
+    pub is_tunable: bool,
 }
 
 /// A value of one of the FMI types in use.
@@ -67,6 +69,7 @@ impl Variable {
     pub fn causality(&self) -> Causality {
         match self.slot {
             Slot::Parameter(_) | Slot::Threads | Slot::OutputDirectory => Causality::Parameter,
+            Slot::Input(_) if self.is_tunable => Causality::Parameter,
             Slot::Input(_) => Causality::Input,
             Slot::Output(_) => Causality::Output,
         }

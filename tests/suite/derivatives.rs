@@ -53,6 +53,12 @@ on = "block.top"
 footprint = {{ tiles = {{ count = [2, 1], size = [0.5, 0.4] }} }}
 carries = ["heat_flux", "pressure"]
 start = {{ heat_flux = [[700.0], [900.0]], pressure = [[1.0], [2.0]], x = -0.11, y = -0.3 }}
+[[field]]
+name = "rings"
+on = "block.top"
+footprint = {{ rings = {{ count = 2, radius = 0.3 }} }}
+at = [0.21, 0.13]
+gives = ["temperature", "von_mises", "displacement"]
 [[probe]]
 name = "p"
 in = "block"

@@ -14,6 +14,7 @@ mod contact;
 mod creep;
 mod derivatives;
 mod droplet;
+mod field_means;
 mod fine_meshes;
 mod flows;
 mod footprints;

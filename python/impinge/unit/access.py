@@ -160,3 +160,29 @@ class Writer(Access):
 def _tell(value: Any) -> str:
     shape = getattr(value, "shape", None)
     return f"an array of shape {shape}" if shape else repr(value)
+
+
+class PathWriter:
+    """Sets inputs and their time derivatives for the next step, by FMI 2.0.
+
+    `values`, `first` and `second` (float64, flat) are the inputs at the beginning of the step, and
+    their derivatives per s and per s²; `second` is None where `order` is 1.
+    """
+
+    def __init__(self, slave: Any, writer: Writer, order: int):
+        self._slave, self._writer = slave, writer
+        self.values = writer.values
+        references = np.concatenate([v.references for v in writer.variables])
+        count = len(references)
+        self._rates = np.zeros(order * count)
+        self.first = self._rates[:count]
+        self.second = self._rates[count:] if order > 1 else None
+        self._references = np.tile(references, order)
+        self._orders = np.repeat(np.arange(1, order + 1, dtype=np.int32), count)
+        self._call = slave.input_derivatives(self._references, self._orders, self._rates)
+
+    def __call__(self) -> None:
+        self._writer()
+        status = self._call()
+        if status > 1:
+            self._slave.check(status, "SetRealInputDerivatives")

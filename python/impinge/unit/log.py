@@ -6,7 +6,7 @@ import logging
 import os
 import shutil
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 from weakref import WeakValueDictionary
@@ -36,6 +36,7 @@ class Log:
         self.name = name
         self.key = next(_KEYS)
         self._messages: deque[tuple[int, str]] = deque(maxlen=100)
+        self._fresh = 0  # those that no error has repeated
         self._listener = listener if callable(listener) else None
         self._logger = (
             listener if isinstance(listener, logging.Logger) else logging.getLogger("impinge")
@@ -49,19 +50,20 @@ class Log:
             self._listener(status, category, message)
         if status >= 1:
             self._messages.append((status, message))
+            self._fresh = min(self._fresh + 1, 100)
         if self._listener is None and status <= 1:
             self._logger.log(_LEVELS[status], "%s: %s", self.name, message)
 
     def take(self) -> list[str]:
         """The worst of the messages since this was last asked for; warnings only if no others."""
-        messages = list(self._messages)
-        self._messages.clear()
+        messages = list(self._messages)[len(self._messages) - self._fresh :]
+        self._fresh = 0
         errors = [message for status, message in messages if status >= 2]
         return errors or [message for _, message in messages]
 
-    def all(self) -> list[str]:
-        """Messages that are kept, warnings too."""
-        return [message for _, message in self._messages]
+    def __iter__(self) -> Iterator[str]:
+        """The last hundred warnings and errors."""
+        return iter([message for _, message in self._messages])
 
 
 _LOGS: WeakValueDictionary[int, Log] = WeakValueDictionary()

@@ -1,6 +1,9 @@
 """What a unit's file holds: unzipped and read once for each process and content."""
 
+from __future__ import annotations
+
 import atexit
+import copy
 import hashlib
 import json
 import os
@@ -8,6 +11,8 @@ import re
 import shutil
 import tempfile
 import zipfile
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -40,6 +45,23 @@ class Package:
         if self.description.coSimulation is None:
             raise UnitError(f"{source} offers no co-simulation")
         self.variables, self._elements = read_variables(self.description)
+
+    def reshaped(self, structural: Mapping[str, Any]) -> Package:
+        """This package, with the shapes that arrays of FMI 3.0 have for structural parameters."""
+        other = copy.copy(self)
+        other.variables = dict(self.variables)
+        given = {
+            self.variable(name).references[0]: int(value) for name, value in structural.items()
+        }
+        for described in self.description.modelVariables:
+            shape = tuple(
+                given.get(size.valueReference, int(size.start or size.variable.start))
+                for size in described.dimensions
+            )
+            known = other.variables.get(described.name)
+            if known is not None and shape and known.shape != shape:
+                other.variables[described.name] = replace(known, shape=shape, start=None)
+        return other
 
     @property
     def name(self) -> str:

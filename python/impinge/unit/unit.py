@@ -14,7 +14,7 @@ from weakref import WeakSet
 import numpy as np
 
 from impinge.errors import StepDiscarded, UnitError
-from impinge.unit.access import Access, Reader, Writer
+from impinge.unit.access import Access, PathWriter, Reader, Writer
 from impinge.unit.fmi2 import Fmi2
 from impinge.unit.fmi3 import Fmi3
 from impinge.unit.log import Listener, Log
@@ -53,6 +53,7 @@ class Unit:
     ):
         self.is_open = False
         self.package = source if isinstance(source, Package) else open_package(source, fmi)
+        self._as_read = self.package
         self.start_time, self.stop_time = start_time, stop_time
         self._own_parameters = dict(parameters or {})
         self._readers: dict[tuple[str, ...], Reader] = {}
@@ -72,6 +73,9 @@ class Unit:
     def _initialise(self, parameters: Mapping[str, Any]) -> None:
         values = {**self._own_parameters, **parameters}
         self.time = self.start_time
+        if self.package is not self._as_read:
+            self.package = self._as_read
+            self._forget_accesses()
         structural = {
             name: values.pop(name)
             for name in list(values)
@@ -81,6 +85,8 @@ class Unit:
             if not isinstance(self.slave, Fmi3):
                 raise UnitError("structural parameters are of FMI 3.0 alone")
             self.slave.configure(lambda: self.set(structural))
+            self.package = self.package.reshaped(structural)
+            self._forget_accesses()
         self.slave.setup(self.start_time, self.stop_time)
         self.set(values)
         self.slave.initialise(self.start_time, self.stop_time)
@@ -100,13 +106,16 @@ class Unit:
         if not self.is_open:
             return
         self.is_open = False
+        self._forget_accesses()
+        if self._initialised:
+            self.slave.terminate()
+        self.slave.free()
+
+    def _forget_accesses(self) -> None:
         for access in list(self._accesses):
             access.close()
         self._readers.clear()
         self._writers.clear()
-        if self._initialised:
-            self.slave.terminate()
-        self.slave.free()
 
     def __enter__(self) -> Unit:
         return self
@@ -215,6 +224,14 @@ class Unit:
     def writer(self, names: Iterable[str]) -> Writer:
         """A call that sets these names from one flat array, over and over."""
         return self._access(Writer, tuple(names))
+
+    def path_writer(self, names: Iterable[str], order: int) -> PathWriter:
+        """A call that sets inputs that follow polynomials in time over the next step."""
+        if not isinstance(self.slave, Fmi2) or not 1 <= order <= self.can.interpolates:
+            raise UnitError(
+                f"{self.name} follows inputs of degree {self.can.interpolates} in time, not {order}"
+            )
+        return PathWriter(self.slave, self.writer(names), order)
 
     def _access(self, kind: Any, names: tuple[str, ...]) -> Any:
         self._must_be_open()

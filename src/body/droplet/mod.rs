@@ -273,7 +273,9 @@ impl Body for DropletBody {
                 };
                 wall_quantities()[quantity].read(reader.exchange(), cell, &wall.areas)
             }
-            Reading::Point { .. } => panic!("points are registered for solids"),
+            Reading::Point { .. } | Reading::Mean { .. } => {
+                panic!("points are registered for solids")
+            }
         })
     }
 

@@ -56,6 +56,9 @@ impl Linear for SolidBody {
             Reading::Point { quantity, at, alone } => {
                 point_quantities()[quantity].rate(&mut both, at, alone)
             }
+            Reading::Mean { quantity, field, cell } => {
+                point_quantities()[quantity].mean_rate(&mut both, (self.means(field), cell))
+            }
             Reading::Total(place) => totals::rate(&mut both, place),
             Reading::Cell { .. } => panic!("cells are registered for what stands on a wall"),
         }

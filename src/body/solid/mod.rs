@@ -4,6 +4,7 @@ mod advance;
 mod forecast;
 mod linear;
 mod loads;
+mod means;
 mod memo;
 mod plan;
 mod point;
@@ -20,12 +21,14 @@ pub use totals::offered_totals;
 use super::{
     Acts, Body, BodyError, Conductor, Direct, Fields, Given, Linear, Memo, Reading, Received,
 };
+use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
 use crate::math::allowance::Allowance;
 use crate::method::fem::{HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
 use crate::scene::{FaceName, Scene, Solid};
 use crate::state::Layout;
 use loads::BodyLoads;
+use means::means_of;
 use memo::SolidMemo;
 use port::Port;
 use reader::SolidReader;
@@ -44,6 +47,8 @@ pub struct SolidBody {
     yielding: Option<Yielding>,
     loads: BodyLoads,
     ports: Vec<Port>,
+    /// Of fields, by their places among the scene's.
+    means: Vec<(usize, FaceMeans)>,
     threads: usize,
 }
 
@@ -69,9 +74,11 @@ impl SolidBody {
         let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan);
         let ports = linked.iter().map(|&face| Port::new(face, &plan, &fem)).collect();
         let yielding = Yielding::of(&plan, scene.fidelity.tolerance, threads)?;
+        let heat_mesh = heat_mesh(&plan);
         Ok(Self {
             name: name.into(),
-            heat_mesh: heat_mesh(&plan),
+            means: means_of(scene, (name, solid), [&heat_mesh, fem.mesh()]),
+            heat_mesh,
             heat_len: fem.state_len(),
             plan,
             solid: fem,
@@ -88,6 +95,12 @@ impl SolidBody {
             HeatFailure::Halted(halt) => BodyError::Halted { body, halt },
             HeatFailure::Nonlinear(failure) => BodyError::Heat { body, failure },
         }
+    }
+
+    /// The means of the field at a place among the scene's.
+    fn means(&self, field: usize) -> &FaceMeans {
+        let found = self.means.iter().find(|(place, _)| *place == field);
+        &found.expect("means are registered for fields of cells").1
     }
 
     fn own_layout(&self) -> Layout {
@@ -187,6 +200,9 @@ impl Body for SolidBody {
             Reading::Point { quantity, at, alone } => {
                 point_quantities()[quantity].read(&mut reader, at, alone)
             }
+            Reading::Mean { quantity, field, cell } => {
+                point_quantities()[quantity].mean(&mut reader, (self.means(field), cell))
+            }
             Reading::Total(place) => totals::read(&mut reader, place),
             Reading::Cell { .. } => panic!("cells are registered for what stands on a wall"),
         }
@@ -194,7 +210,9 @@ impl Body for SolidBody {
 
     fn follows_at_once(&self, reading: &Reading) -> bool {
         let direct = match *reading {
-            Reading::Point { quantity, .. } => point_quantities()[quantity].descriptor.direct,
+            Reading::Point { quantity, .. } | Reading::Mean { quantity, .. } => {
+                point_quantities()[quantity].descriptor.direct
+            }
             Reading::Total(place) => totals::direct(place),
             Reading::Cell { .. } => Direct::Nothing,
         };
@@ -205,7 +223,7 @@ impl Body for SolidBody {
         let memo = memo.map(SolidMemo::of);
         let solved = memo.is_some_and(SolidMemo::is_solved);
         match *reading {
-            Reading::Point { quantity, .. } => {
+            Reading::Point { quantity, .. } | Reading::Mean { quantity, .. } => {
                 !solved && point_quantities()[quantity].is_mechanical()
             }
             Reading::Total(place) => {

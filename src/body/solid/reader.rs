@@ -1,6 +1,7 @@
 use super::SolidBody;
 use super::memo::SolidMemo;
 use crate::body::BodyError;
+use crate::coupling::FaceMeans;
 use crate::method::fem::HeatTotals;
 
 /// A solid in a state, or a change of one: what is linear is read of both alike.
@@ -19,6 +20,11 @@ impl SolidReader<'_> {
             true => solid.rise_at(body.heat_of(self.state), self.memo.loads(), point),
             false => solid.rise_from(self.memo.heat(body, self.state), point),
         }
+    }
+
+    /// Mean temperature above the initial one over a cell [K].
+    pub fn mean_rise(&mut self, means: &FaceMeans, cell: usize) -> f64 {
+        means.rise(cell, self.memo.heat(self.body, self.state))
     }
 
     /// [K]

@@ -9,7 +9,7 @@ use crate::material::stress::{max_principal, von_mises};
 use crate::math::allowance::Allowance;
 use crate::math::cholesky::SolverError;
 use crate::method::fem::{Deformation, Plan, SolidLoads, Temperatures};
-use crate::method::inelastic::{Course, InelasticError, InelasticProblem, StateLayout};
+use crate::method::inelastic::{Increment, InelasticError, InelasticProblem, StateLayout};
 use crate::state::{Field, Layout, Per};
 
 /// The mechanics of a solid that yields, or whose elastic constants depend on the temperature.
@@ -140,15 +140,16 @@ impl SolidBody {
         };
         let end = at(acts.duration, heat)?;
         // What flows at once knows no time but the end.
-        let start = if yielding.problem.creeps() { at(0.0, before)? } else { end.clone() };
-        let course = Course {
+        let start = yielding.problem.creeps().then(|| at(0.0, before)).transpose()?;
+        let start = start.as_ref().unwrap_or(&end);
+        let increment = Increment {
             temperatures: [&start.0, &end.0],
             forces: [&start.1, &end.1],
             duration: acts.duration,
             tolerance: yielding.tolerance,
             allowance,
         };
-        let advanced = yielding.problem.advance_along(mechanics, &course);
+        let advanced = yielding.problem.advance_increment(mechanics, &increment);
         advanced.map_err(|error| self.inelastic_error(error))
     }
 

@@ -35,7 +35,7 @@ impl Unit {
         variables.iter().try_for_each(|variable| self.check_known(variable))?;
         let ranges = variables.iter().filter_map(|variable| match &variable.content {
             Content::Elements(range) => Some(range),
-            Content::Time | Content::Coordinates(_) => None,
+            Content::Time | Content::Constants(..) => None,
         });
         let elements: Vec<Reference> = ranges.flat_map(places).collect();
         // In one go, so that inputs are looked at once for all outputs.
@@ -44,7 +44,7 @@ impl Unit {
         for variable in variables {
             match &variable.content {
                 Content::Time => values.push(self.time()),
-                Content::Coordinates(coordinates) => values.extend(coordinates),
+                Content::Constants(_, constants) => values.extend(constants),
                 Content::Elements(range) => values.extend(found.by_ref().take(range.len())),
             }
         }
@@ -167,7 +167,7 @@ fn range(variable: &ArrayVariable) -> Answer<&Range<usize>> {
     match &variable.content {
         Content::Elements(range) => Ok(range),
         Content::Time => Err(Refusal::error(format!("{} passes by steps alone", variable.name))),
-        Content::Coordinates(_) => Err(Refusal::error(format!("{} is constant", variable.name))),
+        Content::Constants(..) => Err(Refusal::error(format!("{} is constant", variable.name))),
     }
 }
 

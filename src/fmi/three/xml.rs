@@ -103,7 +103,7 @@ impl Description<'_> {
                 attributes.push(("declaredType", quantity.type_name().into()));
             }
             let (element, details) = match (&variable.content, self.elements(variable)) {
-                (Content::Coordinates(values), _) => ("Float64", vec![("start", list(values))]),
+                (Content::Constants(_, values), _) => ("Float64", vec![("start", list(values))]),
                 (_, []) => ("Float64", Vec::new()),
                 (_, elements) => typed(elements),
             };
@@ -124,7 +124,11 @@ impl Description<'_> {
     /// Causality, variability and how the variable is initialised.
     fn kind(&self, variable: &ArrayVariable) -> Attributes {
         let (causality, variability, initial) = match variable.causality(&self.registry) {
-            Some(Causality::Parameter) => (causality(Causality::Parameter), "fixed", Some("exact")),
+            Some(Causality::Parameter) => {
+                let is_tunable = self.elements(variable)[0].is_tunable;
+                let variability = if is_tunable { "tunable" } else { "fixed" };
+                (causality(Causality::Parameter), variability, Some("exact"))
+            }
             Some(Causality::Input) => (causality(Causality::Input), "continuous", None),
             Some(Causality::Output) => {
                 (causality(Causality::Output), "continuous", Some("calculated"))

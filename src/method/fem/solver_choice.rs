@@ -40,6 +40,7 @@ const EQUAL: f64 = 1.0 + 1e-6;
 const FLATTEST: f64 = 50.0;
 const FLATTEST_OF_MANY: f64 = 500.0;
 const TOO_MANY_TO_FACTOR: usize = 400_000;
+const FLAT: &str = "linear elements of unequal lengths along the surface and many times as long as thick (few with `order = 2`)";
 
 /// Whether a body is one for conjugate gradients.
 pub fn suits_conjugate_gradients(mesh: &Mesh, laws: &[Thermoelastic]) -> bool {
@@ -49,6 +50,9 @@ pub fn suits_conjugate_gradients(mesh: &Mesh, laws: &[Thermoelastic]) -> bool {
 /// How the displacements of a large box are found, and why; nothing of other bodies, whose factors take little.
 pub fn note_on_solver(mesh: &Mesh, laws: &[Thermoelastic]) -> Option<String> {
     is_large_box(mesh).then(|| match reason_for_factor(mesh, laws) {
+        None if mesh.order() == 1 && is_unequal_and_flat(mesh, FLATTEST) => format!(
+            "displacements follow from conjugate gradients, which take many iterations, longer than is forecast, with {FLAT}"
+        ),
         None => "displacements follow from conjugate gradients: nothing is factored".into(),
         Some(reason) => {
             format!("stiffness is factored: conjugate gradients would take many iterations with {reason}")
@@ -69,11 +73,15 @@ fn reason_for_factor(mesh: &Mesh, laws: &[Thermoelastic]) -> Option<&'static str
     if most > MOST_CONTRAST * least {
         return Some("layers whose Young's moduli differ more than 1:10 000");
     }
-    let flat = "linear elements of unequal lengths along the surface and many times as long as thick (few with `order = 2`)";
-    (mesh.order() == 1 && is_unequal_and_flat(mesh)).then_some(flat)
+    let flattest = match mesh.nodes().saturating_mul(3) > TOO_MANY_TO_FACTOR {
+        true => FLATTEST_OF_MANY,
+        false => FLATTEST,
+    };
+    (mesh.order() == 1 && is_unequal_and_flat(mesh, flattest)).then_some(FLAT)
 }
 
-fn is_unequal_and_flat(mesh: &Mesh) -> bool {
+/// Whether elements have unequal lengths along x or y, the longest so many times the least length of all.
+fn is_unequal_and_flat(mesh: &Mesh, flattest: f64) -> bool {
     let lengths = mesh.axes.each_ref().map(|axis| {
         let lengths = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
         lengths.fold([f64::INFINITY, 0.0_f64], |[least, most], h| [least.min(h), most.max(h)])
@@ -81,10 +89,6 @@ fn is_unequal_and_flat(mesh: &Mesh) -> bool {
     let [x, y, z] = lengths;
     let longest = x[1].max(y[1]);
     let is_unequal = [x, y].iter().any(|[least, most]| *most > EQUAL * least);
-    let flattest = match mesh.nodes().saturating_mul(3) > TOO_MANY_TO_FACTOR {
-        true => FLATTEST_OF_MANY,
-        false => FLATTEST,
-    };
     is_unequal && longest > flattest * x[0].min(y[0]).min(z[0])
 }
 

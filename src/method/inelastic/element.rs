@@ -1,14 +1,14 @@
 //! One element: what its points answer to displacements, and how that changes.
 
+use super::locking::{LockingTreatment, MOST_MODES, SmallFactor};
 use super::problem::PointState;
-use super::remedy::{MOST_MODES, Remedy, SmallFactor};
 use super::shapes::{Scratch, Shapes};
 use crate::material::{History, PointConstants, PointTangent};
 
 /// Tables that all elements share.
 pub struct Kit {
     pub shapes: Shapes,
-    pub remedy: Remedy,
+    pub treatment: LockingTreatment,
 }
 
 /// What elements are given, one after another.
@@ -83,7 +83,7 @@ impl Kit {
 
     /// Strains of some elements, enhanced modes included.
     fn strains(&self, given: &Given, scratch: &mut Scratch) -> Vec<[f64; 6]> {
-        let (points, modes) = (self.shapes.points, self.remedy.modes());
+        let (points, modes) = (self.shapes.points, self.treatment.modes());
         let mut strains = vec![[0.0; 6]; given.elements.len() * points];
         self.shapes.strains(given.elements, given.displacement, &mut strains, scratch);
         if modes > 0 {
@@ -93,7 +93,7 @@ impl Kit {
                 .zip(strains.chunks_exact_mut(points))
                 .zip(given.amplitudes.chunks_exact(modes))
             {
-                let means = self.remedy.means(&self.shapes.volumes(*element));
+                let means = self.treatment.means(&self.shapes.volumes(*element));
                 self.enhance(&means, amplitudes, strains);
             }
         }
@@ -102,7 +102,7 @@ impl Kit {
 
     fn enhance(&self, means: &[f64; MOST_MODES], amplitudes: &[f64], strains: &mut [[f64; 6]]) {
         for (q, strain) in strains.iter_mut().enumerate() {
-            for ((component, value), amplitude) in self.remedy.at(means, q).zip(amplitudes) {
+            for ((component, value), amplitude) in self.treatment.at(means, q).zip(amplitudes) {
                 strain[component] += value * amplitude;
             }
         }
@@ -112,7 +112,7 @@ impl Kit {
     fn on_modes(&self, means: &[f64; MOST_MODES], stress: &[[f64; 6]], out: &mut [f64]) {
         out.fill(0.0);
         for (q, stress) in stress.iter().enumerate() {
-            for ((component, value), force) in self.remedy.at(means, q).zip(&mut *out) {
+            for ((component, value), force) in self.treatment.at(means, q).zip(&mut *out) {
                 *force += value * stress[component];
             }
         }
@@ -128,8 +128,8 @@ impl Kit {
     ) -> Vec<f64> {
         let trace = |(q, e): (usize, &[f64; 6])| e[0] + e[1] + e[2] - 3.0 * thermal(q);
         let mut dilatation: Vec<f64> = strains.iter().enumerate().map(trace).collect();
-        if self.remedy.is_projected() {
-            self.remedy.project(volumes, &mut dilatation);
+        if self.treatment.is_projected() {
+            self.treatment.project(volumes, &mut dilatation);
         }
         for (q, strain) in strains.iter_mut().enumerate() {
             let off = dilatation[q] / 3.0 + thermal(q);
@@ -142,8 +142,8 @@ impl Kit {
     fn join(&self, volumes: &[f64], pressures: &[f64], stress: &mut [[f64; 6]]) {
         let rest = |((s, p), v): ((&[f64; 6], &f64), &f64)| v * (p - (s[0] + s[1] + s[2]) / 3.0);
         let mut rest: Vec<f64> = stress.iter().zip(pressures).zip(volumes).map(rest).collect();
-        if self.remedy.is_projected() {
-            self.remedy.project_back(volumes, &mut rest);
+        if self.treatment.is_projected() {
+            self.treatment.project_back(volumes, &mut rest);
         }
         for ((stress, volume), rest) in stress.iter_mut().zip(volumes).zip(rest) {
             *stress = stress.map(|s| s * volume);
@@ -153,7 +153,7 @@ impl Kit {
 
     /// What elements answer to displacements and amplitudes.
     pub fn respond(&self, given: &Given, answer: &mut Answer, scratch: &mut Scratch) {
-        let (points, modes) = (self.shapes.points, self.remedy.modes());
+        let (points, modes) = (self.shapes.points, self.treatment.modes());
         let mut strains = self.strains(given, scratch);
         let mut pressures = vec![0.0; points];
         for (e, (element, strains)) in
@@ -183,7 +183,7 @@ impl Kit {
             }
             self.join(&volumes, &pressures, strains);
             if modes > 0 {
-                let means = self.remedy.means(&volumes);
+                let means = self.treatment.means(&volumes);
                 let out = &mut answer.mode_forces[e * modes..][..modes];
                 self.on_modes(&means, strains, out);
             }
@@ -242,8 +242,8 @@ impl Kit {
     /// What changes of an element need.
     pub fn prepare(&self, element: [usize; 3], tangents: &[PointTangent]) -> Prepared {
         let volumes = self.shapes.volumes(element);
-        let means = self.remedy.means(&volumes);
-        let count = self.remedy.modes();
+        let means = self.treatment.means(&volumes);
+        let count = self.treatment.modes();
         if count == 0 {
             return Prepared { volumes, means, modes: None };
         }
@@ -251,7 +251,7 @@ impl Kit {
         for (q, (tangent, volume)) in tangents.iter().zip(&volumes).enumerate() {
             let columns = matrix(tangent);
             let mut all = [(0, 0.0); MOST_MODES];
-            all.iter_mut().zip(self.remedy.at(&means, q)).for_each(|(to, from)| *to = from);
+            all.iter_mut().zip(self.treatment.at(&means, q)).for_each(|(to, from)| *to = from);
             for (m, &(component, value)) in all.iter().enumerate().take(count) {
                 let (row, weight) = (&columns[component], volume * value);
                 for (sum, &(other, factor)) in own[m][..=m].iter_mut().zip(&all) {
@@ -304,7 +304,7 @@ impl Kit {
         tangents: &[PointTangent],
         strains: &mut [[f64; 6]],
     ) {
-        if self.remedy.modes() > 0 {
+        if self.treatment.modes() > 0 {
             let mut stress = strains.to_vec();
             let amplitudes = self.following(prepared, tangents, &mut stress, &[]);
             self.enhance(&prepared.means, &amplitudes, strains);
@@ -321,7 +321,7 @@ impl Kit {
         forces: &[f64],
     ) -> Vec<f64> {
         self.stresses(prepared, tangents, strains);
-        let mut on_modes = vec![0.0; self.remedy.modes()];
+        let mut on_modes = vec![0.0; self.treatment.modes()];
         self.on_modes(&prepared.means, strains, &mut on_modes);
         on_modes.iter_mut().zip(forces).for_each(|(sum, force)| *sum += force);
         on_modes.iter_mut().for_each(|force| *force = -*force);

@@ -1,7 +1,7 @@
 //! All elements of a mesh: loops over their layers along z on many threads, the same to the bit on any number.
 
 use super::element::{Answer, Given, Kit, Known};
-use super::remedy::Remedy;
+use super::locking::LockingTreatment;
 use super::shapes::{Scratch, Shapes};
 use crate::material::{History, PointConstants, PointTangent};
 use crate::math::parallel::Team;
@@ -46,7 +46,7 @@ const BATCH: usize = 32;
 impl Grid {
     pub fn new(mesh: &Mesh) -> Self {
         let shapes = Shapes::new(mesh);
-        let remedy = Remedy::new(&shapes, mesh.order());
+        let treatment = LockingTreatment::new(&shapes, mesh.order());
         let order = mesh.order();
         let n = order + 1;
         let [columns, rows, _] = mesh.node_counts();
@@ -56,7 +56,7 @@ impl Grid {
             Geometry::Axisymmetric => a % n + plane * (a / n),
         };
         let offsets = (0..shapes.nodes).map(offset).collect();
-        Self { kit: Kit { shapes, remedy }, order, nodes: mesh.nodes(), columns, plane, offsets }
+        Self { kit: Kit { shapes, treatment }, order, nodes: mesh.nodes(), columns, plane, offsets }
     }
 
     pub fn elements(&self) -> usize {
@@ -167,7 +167,7 @@ impl Grid {
 
     /// Room for an iterate.
     pub fn iterate(&self) -> Iterate {
-        let (elements, modes) = (self.elements(), self.kit.remedy.modes());
+        let (elements, modes) = (self.elements(), self.kit.treatment.modes());
         let none = PointTangent { bulk: 0.0, all: 0.0, along: 0.0, direction: [0.0; 6] };
         Iterate {
             displacement: vec![0.0; self.unknowns()],
@@ -188,7 +188,7 @@ impl Grid {
         old: &[f64],
         iterate: &mut Iterate,
     ) {
-        let (count, modes) = (self.per_layer(), self.kit.remedy.modes());
+        let (count, modes) = (self.per_layer(), self.kit.treatment.modes());
         let points = self.kit.shapes.points;
         let Iterate { displacement, amplitudes, new, tangents, forces, mode_forces, scales } =
             iterate;
@@ -238,7 +238,7 @@ impl Grid {
 
     /// Adds to `load` what forces on amplitudes come to once these give way.
     pub fn condense(&self, team: &Team, iterate: &Iterate, load: &mut [f64]) {
-        let (modes, points) = (self.kit.remedy.modes(), self.kit.shapes.points);
+        let (modes, points) = (self.kit.treatment.modes(), self.kit.shapes.points);
         if iterate.mode_forces.iter().all(|force| *force == 0.0) {
             return;
         }
@@ -268,7 +268,7 @@ impl Grid {
 
     /// How amplitudes follow a change of displacement.
     pub fn following(&self, team: &Team, iterate: &Iterate, change: &[f64]) -> Vec<f64> {
-        let (modes, points) = (self.kit.remedy.modes(), self.kit.shapes.points);
+        let (modes, points) = (self.kit.treatment.modes(), self.kit.shapes.points);
         if modes == 0 {
             return Vec::new();
         }

@@ -3,17 +3,17 @@
 //! Meshes and elements are those of [`crate::method::fem`]; where nothing yields, so are displacements. What points
 //! remember is part of a flat state, and a step that finds no equilibrium leaves it as it was.
 
-mod course;
 mod element;
 mod grid;
+mod locking;
 mod newton;
 mod nodal;
 mod problem;
-mod remedy;
 mod ring;
 mod shapes;
+mod substeps;
 mod tangent;
 
-pub use course::Course;
 pub use newton::Progress;
 pub use problem::{InelasticError, InelasticProblem, PointState, StateLayout};
+pub use substeps::Increment;

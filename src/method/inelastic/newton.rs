@@ -105,7 +105,7 @@ impl Step<'_> {
         let elements: f64 = iterate.scales.iter().map(|[force, _]| force * force).sum();
         let scale = elements.sqrt().max(dot(self.load, self.load).sqrt());
         let nodes = dot(left, left).sqrt();
-        let modes = self.grid.kit.remedy.modes();
+        let modes = self.grid.kit.treatment.modes();
         let mut part = if nodes == 0.0 { 0.0 } else { nodes / scale };
         if modes > 0 {
             let volume = iterate.scales.iter().fold(0.0_f64, |most, [_, s]| most.max(*s));

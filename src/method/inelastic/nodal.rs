@@ -26,7 +26,7 @@ impl Grid {
         history: &[f64],
         iterate: &Iterate,
     ) -> Vec<PointState> {
-        let (points, modes) = (self.kit.shapes.points, self.kit.remedy.modes());
+        let (points, modes) = (self.kit.shapes.points, self.kit.treatment.modes());
         let layers = team.map(self.layers(), |layer| {
             let (mut scratch, mut u, mut out) = (Scratch::default(), Vec::new(), Vec::new());
             for (first, elements) in self.batches(layer) {

@@ -109,7 +109,7 @@ impl InelasticProblem {
 
     pub fn layout(&self) -> StateLayout {
         let displacement = self.grid.unknowns();
-        let amplitudes = displacement + self.grid.elements() * self.grid.kit.remedy.modes();
+        let amplitudes = displacement + self.grid.elements() * self.grid.kit.treatment.modes();
         let history = amplitudes + self.grid.points() * History::LEN;
         StateLayout {
             displacement: 0..displacement,
@@ -133,7 +133,7 @@ impl InelasticProblem {
         let unknowns = self.grid.unknowns() as f64;
         let own = self.grid.kit.unknowns() as f64;
         let triangles =
-            if self.grid.kit.remedy.modes() > 0 { 0.5 * own * (own + 1.0) } else { 0.0 };
+            if self.grid.kit.treatment.modes() > 0 { 0.5 * own * (own + 1.0) } else { 0.0 };
         let factor = match self.solver.is_factored() {
             true => {
                 1.2 * expected_entries(self.mesh.geometry, self.grid.unknowns()) + 60.0 * unknowns

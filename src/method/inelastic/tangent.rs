@@ -213,7 +213,7 @@ fn corrections(grid: &Grid, bricks: &Bricks, iterate: &Iterate, team: &Team) -> 
             }
             let place = grid.place(layer, e);
             found.elements.push(place);
-            if grid.kit.remedy.modes() == 0 {
+            if grid.kit.treatment.modes() == 0 {
                 found.points.extend(tangents.iter().map(|t| PointTangent {
                     bulk: t.bulk - reference.bulk,
                     all: t.all - reference.all,

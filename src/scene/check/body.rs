@@ -4,7 +4,9 @@ use super::{Checker, MOST_ELEMENTS, fits, is_sound, layers, material, nonlinear,
 use crate::material::Material;
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::types::{Face, FaceName, HeatMethod, Mesh, Shape, Solid, SphOperator, Symmetry};
+use crate::scene::types::{
+    Face, FaceName, HeatMethod, Mesh, Role, Shape, Solid, SphOperator, Symmetry,
+};
 
 pub fn check(checker: &mut Checker) {
     material::named(checker);
@@ -49,6 +51,10 @@ fn conditions(checker: &mut Checker, path: &Path, face: &Face) {
     let message = "a face of prescribed temperature loses whatever it has to";
     let fine = face.radiation.is_none() || face.temperature.is_none();
     checker.require(fine, &path.at("radiation"), message, "`temperature` or `radiation`");
+    let has_value = face.temperature.is_some() || face.flux.is_some() || face.convection.is_some();
+    let fine = has_value || face.role == Role::Input;
+    let message = "this face has no value that could be a parameter";
+    checker.require(fine, &path.at("role"), message, "with `temperature`, `flux` or `convection`");
 }
 
 /// One of the four lateral faces and `sides` may both be given, but not with the same kind of
@@ -85,7 +91,8 @@ fn symmetry(checker: &mut Checker, path: &Path, solid: &Solid) {
 
 fn quarter(checker: &mut Checker, path: &Path, solid: &Solid) {
     for (one, other) in [(FaceName::Left, FaceName::Right), (FaceName::Front, FaceName::Back)] {
-        let fine = solid.face(one) == solid.face(other);
+        let conditions = |name| Face { role: Role::Input, ..solid.face(name) };
+        let fine = conditions(one) == conditions(other);
         let (one, other) = (one.as_str(), other.as_str());
         let message = format!("a quarter needs equal conditions, but `{one}` and `{other}` differ");
         let allowed = format!("auto, none, or equal conditions on `{one}` and `{other}`");

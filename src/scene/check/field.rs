@@ -1,6 +1,6 @@
 //! Whether fields lie on a face or section of their bodies and give something.
 
-use super::{Checker, fits, is_in_depth, number, probe};
+use super::{Checker, field_cells, fits, is_in_depth, number, probe};
 use crate::scene::grid::{Grid, lateral_extents, section_size};
 use crate::scene::locate::Path;
 use crate::scene::lookup::Place;
@@ -11,6 +11,15 @@ pub fn check(checker: &mut Checker) {
         let path = Path::default().key("field").index(i);
         checker.distinct(&path.at("gives"), &field.gives);
         let is_fine = checker.is_fine(&path.at("grid")) && checker.is_fine(&path.at("size"));
+        if let Some(footprint) = &field.footprint {
+            field_cells::check(checker, &path, field, footprint);
+            if let Some(solid) = field.body().and_then(|body| checker.scene.solid(body)) {
+                let body = field.body().unwrap_or_default();
+                probe::yields(checker, &path.at("gives"), &field.gives, (body, solid));
+            }
+            continue;
+        }
+        points(checker, &path, field);
         let place = place(checker, &path, field);
         if let Some((_, solid)) = place {
             let body = field.body().unwrap_or_default();
@@ -20,6 +29,15 @@ pub fn check(checker: &mut Checker) {
             extent(checker, &path.at("size"), &Grid::at(place, field, &solid.shape), &solid.shape);
         }
     }
+}
+
+/// A field without footprint has a grid, and nothing that places a footprint.
+fn points(checker: &mut Checker, path: &Path, field: &Field) {
+    let message = "a field gives values at the points of a `grid` or means over a `footprint`";
+    let allowed = "`grid = [NX, NY]` or `footprint = { … }`";
+    checker.require(field.grid.is_some(), path, message, allowed);
+    let message = "`at` places a footprint; a grid is centred on its face or section";
+    checker.require(field.at.is_none(), &path.at("at"), message, "`at` with `footprint`");
 }
 
 /// The face or section and the body it belongs to.

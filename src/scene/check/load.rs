@@ -9,7 +9,7 @@ pub fn check(checker: &mut Checker) {
     for (i, load) in checker.scene.load.iter().enumerate() {
         let path = Path::default().key("load").index(i);
         checker.distinct(&path.at("carries"), &load.carries);
-        ring(checker, &path.at("footprint.ring"), &load.footprint);
+        check_ring(checker, &path.at("footprint.ring"), &load.footprint);
         start::check(checker, &path, load);
         let lengths_are_fine =
             ["footprint", "start", "range"].iter().all(|key| checker.is_fine(&path.key(key)));
@@ -27,14 +27,16 @@ pub fn check(checker: &mut Checker) {
     }
 }
 
-fn loaded_faces(_: &Shape) -> Vec<FaceName> {
+/// The faces that loads act on.
+pub fn loaded_faces(_: &Shape) -> Vec<FaceName> {
     vec![FaceName::Top, FaceName::Bottom]
 }
 
 /// Inner radius of a ring over its outer one, at most: it is the difference of two discs.
 const WIDEST_HOLE: f64 = 0.999;
 
-fn ring(checker: &mut Checker, path: &Path, footprint: &Footprint) {
+/// Refuses rings that are too thin.
+pub fn check_ring(checker: &mut Checker, path: &Path, footprint: &Footprint) {
     let Footprint::Ring { inner, outer } = *footprint else { return };
     if checker.is_fine(path) {
         let most = WIDEST_HOLE * outer;

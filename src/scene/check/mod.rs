@@ -4,6 +4,7 @@ mod body;
 mod coupling;
 mod droplet;
 mod field;
+mod field_cells;
 mod header;
 mod layers;
 mod limits;

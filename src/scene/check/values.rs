@@ -23,8 +23,13 @@ pub fn check(checker: &mut Checker) {
             Gives::Displacement => 3,
             Gives::Stress => 7,
         });
-        let points = field.grid[0].saturating_mul(field.grid[1]);
-        (list("field", i).at("grid"), points.saturating_mul(given.sum()))
+        let (key, points) = match (&field.footprint, field.grid) {
+            (Some(footprint), _) => ("footprint", cells(footprint)),
+            (None, grid) => {
+                ("grid", grid.map_or(0, |[rows, columns]| rows.saturating_mul(columns)))
+            }
+        };
+        (list("field", i).at(key), points.saturating_mul(given.sum()))
     });
     // A temperature, a heat flux and three tractions.
     let walls = scene.wall.iter().enumerate();

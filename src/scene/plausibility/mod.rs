@@ -66,7 +66,7 @@ impl Reviewer<'_> {
 }
 
 /// What to say of a value outside of its plausible range.
-fn doubt(range: &Range, value: f64) -> Option<String> {
+fn implausible(range: &Range, value: f64) -> Option<String> {
     if range.holds(value) {
         return None;
     }
@@ -92,7 +92,12 @@ pub enum Measure {
 }
 
 /// `NAME = VALUE: why (did you mean …?)` of a value that is hardly meant for an input of a unit of the scene.
-pub fn doubt_of_input(scene: &Scene, name: &str, measure: Measure, value: f64) -> Option<String> {
+pub fn implausible_input(
+    scene: &Scene,
+    name: &str,
+    measure: Measure,
+    value: f64,
+) -> Option<String> {
     let range = match measure {
         Measure::Temperature => &plausible::TEMPERATURE,
         Measure::Ambient => &plausible::AMBIENT,
@@ -105,6 +110,6 @@ pub fn doubt_of_input(scene: &Scene, name: &str, measure: Measure, value: f64) -
         true => plausible::CRYOGENIC,
         false => range.lowest,
     };
-    let why = doubt(&Range { lowest, ..range.clone() }, value);
+    let why = implausible(&Range { lowest, ..range.clone() }, value);
     why.map(|why| format!("{name} = {}: {why}", number(value)))
 }

@@ -1,26 +1,27 @@
 //! Every number of a scene against its plausible range.
 
-use super::{Reviewer, doubt};
+use super::{Reviewer, implausible};
 use crate::scene::schema::Schema;
 use crate::scene::types::Scene;
 
 pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
     let is_cryogenic = is_cryogenic(reviewer.scene);
     let copies = reviewer.scene.copied_materials();
-    let mut doubted_list = None;
+    let mut warned_list = None;
     schema.numbers(reviewer.source, &mut |place, limits, value| {
         // Of a list, the first number that is out of range: the others are hardly better.
-        let is_said = place.list().is_some() && place.list() == doubted_list;
+        let is_said = place.list().is_some() && place.list() == warned_list;
         if limits.is_usual(value) || is_said {
             return;
         }
-        let Some(message) = limits.plausible(is_cryogenic).and_then(|range| doubt(&range, value))
+        let Some(message) =
+            limits.plausible(is_cryogenic).and_then(|range| implausible(&range, value))
         else {
             return;
         };
         let path = place.path();
         if !copies.iter().any(|copy| path.is_within(copy)) {
-            doubted_list = place.list();
+            warned_list = place.list();
             reviewer.warn(&path, message);
         }
     });

@@ -105,7 +105,7 @@ fn coordinates_and_time_are_read_and_never_set() {
     unit.expect_message(ERROR, &["time"]);
     assert_eq!(unit.snapshot(), before);
     for variable in &unit.arrays.variables {
-        if let Content::Coordinates(values) = &variable.content {
+        if let Content::Constants(_, values) = &variable.content {
             assert_eq!(&unit.get(&variable.name), values, "{}", variable.name);
         }
     }

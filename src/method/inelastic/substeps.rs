@@ -2,7 +2,7 @@
 //!
 //! Implicit Euler steps err by half of what the rate of flow changes over them times their length. A step is taken where
 //! that is at most a part of the largest elastic strain so far, and the next one is chosen by it. Over the whole,
-//! temperatures and forces go straight on.
+//! temperatures and forces vary linearly.
 
 use super::newton::Progress;
 use super::problem::{InelasticError, InelasticProblem};
@@ -11,9 +11,9 @@ use crate::material::stress::von_mises;
 use crate::math::allowance::Allowance;
 use crate::math::parallel::Team;
 
-/// What acts over a time.
+/// What changes over a time.
 #[derive(Debug, Clone, Copy)]
-pub struct Course<'a> {
+pub struct Increment<'a> {
     /// Of nodes at the beginning and at the end [K].
     pub temperatures: [&'a [f64]; 2],
     /// On nodes at the beginning and at the end [N].
@@ -37,29 +37,35 @@ const MOST_RATIO: f64 = 4.0;
 const MARGIN: f64 = 0.9;
 
 impl InelasticProblem {
-    /// Advances a state along a course: bodies that do not creep at once to its end, others in as many inner steps as
+    /// Advances a state over an increment: bodies that do not creep at once to its end, others in as many inner steps as
     /// the tolerance takes.
-    pub fn advance_along(&self, state: &mut [f64], course: &Course) -> Result<(), InelasticError> {
-        if !self.creeps() || course.duration <= 0.0 {
-            let [_, temperatures] = course.temperatures;
-            return self.advance_to(state, temperatures, course.forces[1], 0.0, course).map(drop);
+    pub fn advance_increment(
+        &self,
+        state: &mut [f64],
+        increment: &Increment,
+    ) -> Result<(), InelasticError> {
+        if !self.creeps() || increment.duration <= 0.0 {
+            let [_, temperatures] = increment.temperatures;
+            return self
+                .advance_to(state, temperatures, increment.forces[1], 0.0, increment)
+                .map(drop);
         }
         let mut now = state.to_vec();
         // What has changed since the last step does so at once.
-        self.advance_to(&mut now, course.temperatures[0], course.forces[0], 0.0, course)?;
+        self.advance_to(&mut now, increment.temperatures[0], increment.forces[0], 0.0, increment)?;
         let (mut done, mut part) = (0.0, 1.0_f64);
-        let mut rates = self.rates(&now, course.temperatures[0])?;
+        let mut rates = self.rates(&now, increment.temperatures[0])?;
         let mut strain = rates.strain.max(LEAST_STRAIN);
         let mut steps = 0;
         while steps < MOST_STEPS {
             steps += 1;
             part = part.min(1.0 - done);
             let end = if part < 1.0 - done { done + part } else { 1.0 };
-            let temperatures = between(course.temperatures, end);
-            let forces = between(course.forces, end);
+            let temperatures = between(increment.temperatures, end);
+            let forces = between(increment.forces, end);
             let mut next = now.clone();
-            let length = part * course.duration;
-            match self.advance_to(&mut next, &temperatures, &forces, length, course) {
+            let length = part * increment.duration;
+            match self.advance_to(&mut next, &temperatures, &forces, length, increment) {
                 Ok(_) => {}
                 Err(InelasticError::NoEquilibrium { .. }) if part > LEAST_PART => {
                     part *= LEAST_RATIO;
@@ -69,7 +75,7 @@ impl InelasticProblem {
             }
             let ahead = self.rates(&next, &temperatures)?;
             strain = strain.max(ahead.strain);
-            let error = self.error([&now, &next], &rates, length) / (course.tolerance * strain);
+            let error = self.error([&now, &next], &rates, length) / (increment.tolerance * strain);
             let ratio = if error > 0.0 { MARGIN / error.sqrt() } else { MOST_RATIO };
             // An error that is no number is that of rates beyond numbers.
             if error.is_nan() || error > 1.0 {
@@ -86,7 +92,7 @@ impl InelasticProblem {
             }
             part *= ratio.min(MOST_RATIO);
         }
-        Err(InelasticError::TooFast { steps, done: done * course.duration })
+        Err(InelasticError::TooFast { steps, done: done * increment.duration })
     }
 
     fn advance_to(
@@ -95,9 +101,9 @@ impl InelasticProblem {
         temperatures: &[f64],
         forces: &[f64],
         duration: f64,
-        course: &Course,
+        increment: &Increment,
     ) -> Result<Progress, InelasticError> {
-        self.advance_within(state, temperatures, forces, duration, course.allowance)
+        self.advance_within(state, temperatures, forces, duration, increment.allowance)
     }
 
     /// How fast all points flow.

@@ -16,7 +16,7 @@ use crate::method::fem::hexahedron::ENHANCED as BRICK_MODES;
 pub const MOST_MODES: usize = 15;
 
 /// Tables of local places.
-pub struct Remedy {
+pub struct LockingTreatment {
     /// Strain component (of six) of each enhanced mode.
     components: Vec<usize>,
     /// Values of the modes at each point, point after point.
@@ -28,7 +28,7 @@ pub struct Remedy {
     polynomials: DMatrix<f64>,
 }
 
-impl Remedy {
+impl LockingTreatment {
     pub fn new(shapes: &Shapes, order: usize) -> Self {
         let places = || shapes.places.iter().map(|(place, _)| *place);
         let is_ring = shapes.degrees == 2;

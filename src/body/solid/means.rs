@@ -1,0 +1,61 @@
+//! Means over cells of a face, which fields on footprints give.
+
+use super::linear::SolidChange;
+use super::point::PointQuantity;
+use super::reader::SolidReader;
+use crate::body::BodyError;
+use crate::coupling::FaceMeans;
+use crate::method::fem::Mesh;
+use crate::scene::{FaceName, FieldCells, Sampling, Scene, Solid};
+
+/// The means of a body's fields, each with the place of its field among the scene's.
+pub fn means_of(
+    scene: &Scene,
+    (name, solid): (&str, &Solid),
+    meshes: [&Mesh; 2],
+) -> Vec<(usize, FaceMeans)> {
+    let own = scene.field.iter().enumerate().filter(|(_, field)| field.body_and_place().0 == name);
+    let means = own.filter_map(|(place, field)| match field.sampling(solid) {
+        Sampling::Points(_) => None,
+        Sampling::Cells(FieldCells { face, footprint, at }) => {
+            Some((place, FaceMeans::of(meshes, face == FaceName::Top, &footprint, at)))
+        }
+    });
+    means.collect()
+}
+
+impl PointQuantity {
+    /// Mean over a cell: of temperatures the exact one, else of what is interpolated between nodes.
+    pub(super) fn mean(
+        &self,
+        reader: &mut SolidReader,
+        (means, cell): (&FaceMeans, usize),
+    ) -> Result<f64, BodyError> {
+        if !self.is_mechanical() {
+            return Ok(reader.initial_temperature() + reader.mean_rise(means, cell));
+        }
+        weighted(means.points(cell), |point| self.read(reader, point, false))
+    }
+
+    pub(super) fn mean_rate(
+        &self,
+        change: &mut SolidChange,
+        (means, cell): (&FaceMeans, usize),
+    ) -> Result<f64, BodyError> {
+        if !self.is_mechanical() {
+            return Ok(change.change.mean_rise(means, cell));
+        }
+        weighted(means.points(cell), |point| self.rate(change, point, false))
+    }
+}
+
+fn weighted(
+    points: &[([f64; 3], f64)],
+    mut value: impl FnMut([f64; 3]) -> Result<f64, BodyError>,
+) -> Result<f64, BodyError> {
+    let mut sum = 0.0;
+    for &(point, weight) in points {
+        sum += weight * value(point)?;
+    }
+    Ok(sum)
+}

@@ -1,0 +1,210 @@
+//! Inputs over time from a table of comma-separated values.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum;
+use impinge::model::State;
+use impinge::scene::Scene;
+use impinge::variables::{Registry, Slot, Variable};
+
+use super::set::{self, InputValue, SetError};
+
+/// What inputs do between the rows of a table
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Between {
+    /// They change linearly
+    #[default]
+    Linear,
+    /// They keep the value of the row before
+    Held,
+}
+
+/// Columns of inputs over time. Before the first row and after the last the inputs are held; two rows of one time
+/// are a jump.
+#[derive(Debug, Clone, PartialEq)]
+pub struct InputTable {
+    between: Between,
+    /// Places in a state's inputs of each column: several where a name stands for an array.
+    columns: Vec<Vec<usize>>,
+    /// [s], ascending.
+    times: Vec<f64>,
+    /// Values of the columns, a row for each time.
+    rows: Vec<Vec<f64>>,
+}
+
+/// What is wrong with a table.
+#[derive(Debug, thiserror::Error)]
+pub enum TableError {
+    #[error("cannot read {}: {reason}", path.display())]
+    Unreadable { path: PathBuf, reason: csv::Error },
+    #[error("{}: no first column `time`; allowed: `time` or `time [s]`, then names of inputs", path.display())]
+    NoTime { path: PathBuf },
+    #[error("{}: no rows; allowed: at least one time with values", path.display())]
+    Empty { path: PathBuf },
+    #[error("{}, column `{column}`: {reason}", path.display())]
+    Column { path: PathBuf, column: String, reason: String },
+    #[error("{}:{line}, column `{column}`: {reason}", path.display())]
+    Value { path: PathBuf, line: u64, column: String, reason: String },
+}
+
+impl InputTable {
+    /// Reads the table in a file for the inputs of a scene's unit; `set` are names that are set otherwise.
+    pub fn read(path: &Path, between: Between, scene: &Scene) -> Result<Self, TableError> {
+        let unreadable = |reason| TableError::Unreadable { path: path.to_owned(), reason };
+        let mut reader =
+            csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
+        let header = reader.headers().map_err(unreadable)?.clone();
+        let registry = Registry::of(scene);
+        let columns = columns(path, &header, &registry)?;
+        let mut table = Self {
+            between,
+            columns: columns.iter().map(|variables| places(variables)).collect(),
+            times: Vec::new(),
+            rows: Vec::new(),
+        };
+        for record in reader.records() {
+            let record = record.map_err(unreadable)?;
+            let line = record.position().map_or(0, csv::Position::line);
+            let refuse = |column: usize, reason: String| TableError::Value {
+                path: path.to_owned(),
+                line,
+                column: header.get(column).unwrap_or_default().to_owned(),
+                reason,
+            };
+            let time = table.next_time(&record[0]).map_err(|reason| refuse(0, reason))?;
+            let value = |(i, variables): (usize, &Vec<&Variable>)| {
+                set::number(variables[0], &record[i + 1])
+                    .map_err(|error| refuse(i + 1, error.to_string()))
+            };
+            let row = columns.iter().enumerate().map(value).collect::<Result<_, _>>()?;
+            table.times.push(time);
+            table.rows.push(row);
+        }
+        match table.rows.is_empty() {
+            true => Err(TableError::Empty { path: path.to_owned() }),
+            false => Ok(table),
+        }
+    }
+
+    /// The time of a further row.
+    fn next_time(&self, text: &str) -> Result<f64, String> {
+        let time = text.parse().ok().filter(|time: &f64| time.is_finite());
+        let time = time.ok_or_else(|| format!("{text} is no time; allowed: a number [s]"))?;
+        let mut before = self.times.iter().rev();
+        let [last, second] = [before.next(), before.next()];
+        if last.is_some_and(|last| time < *last) {
+            return Err(format!("{text} s lies before the row above; allowed: times that ascend"));
+        }
+        if second.is_some_and(|second| time == *second) {
+            return Err(format!(
+                "{text} s stands in a third row; allowed: two rows of a time, a jump"
+            ));
+        }
+        Ok(time)
+    }
+
+    /// Places of the inputs that the table gives.
+    pub fn given(&self) -> impl Iterator<Item = usize> + '_ {
+        self.columns.iter().flatten().copied()
+    }
+
+    /// The least and the largest value of each input.
+    pub fn extremes(&self) -> Vec<InputValue> {
+        let of_column = |(column, places): (usize, &Vec<usize>)| {
+            let values = || self.rows.iter().map(|row| row[column]);
+            let ends = [
+                values().fold(f64::INFINITY, f64::min),
+                values().fold(f64::NEG_INFINITY, f64::max),
+            ];
+            places.iter().flat_map(move |&place| ends.map(|end| (place, end))).collect::<Vec<_>>()
+        };
+        self.columns.iter().enumerate().flat_map(of_column).collect()
+    }
+
+    /// The times at which rows stand between two others, all in seconds.
+    pub fn times_within(&self, from: f64, to: f64) -> Vec<f64> {
+        let slack = ROUNDING * (to - from);
+        let inside = |time: &&f64| **time > from + slack && **time < to - slack;
+        let mut times: Vec<f64> = self.times.iter().filter(inside).copied().collect();
+        times.dedup();
+        times
+    }
+
+    /// Puts values and derivatives that hold between two times [s], between which no row stands, into a state.
+    pub fn apply(&self, state: &mut State, from: f64, to: f64) {
+        let slack = ROUNDING * (to - from);
+        let next = self.times.partition_point(|time| *time <= from + slack);
+        let before = next.saturating_sub(1);
+        let later = self.rows.get(next).filter(|_| next > 0 && self.between == Between::Linear);
+        let mut rates = vec![0.0; state.inputs.len()];
+        for (column, places) in self.columns.iter().enumerate() {
+            let start = self.rows[before][column];
+            let (value, rate) = match later {
+                None => (start, 0.0),
+                Some(later) => {
+                    let rate = (later[column] - start) / (self.times[next] - self.times[before]);
+                    (start + rate * (from - self.times[before]), rate)
+                }
+            };
+            for &place in places {
+                (state.inputs[place], rates[place]) = (value, rate);
+            }
+        }
+        state.derivatives = if later.is_some() { vec![rates] } else { Vec::new() };
+    }
+}
+
+/// Part of a step by which times may differ that were computed.
+const ROUNDING: f64 = 1e-9;
+
+/// The variables that each column behind the first stands for.
+fn columns<'a>(
+    path: &Path,
+    header: &csv::StringRecord,
+    registry: &'a Registry,
+) -> Result<Vec<Vec<&'a Variable>>, TableError> {
+    let mut titles = header.iter();
+    if !matches!(titles.next(), Some("time" | "time [s]")) {
+        return Err(TableError::NoTime { path: path.to_owned() });
+    }
+    let mut known = BTreeSet::new();
+    let column = |title: &str| {
+        let refuse =
+            |reason| TableError::Column { path: path.to_owned(), column: title.to_owned(), reason };
+        let variables = named(registry, title).map_err(refuse)?;
+        let twice = variables.iter().find(|variable| !known.insert(variable.name.clone()));
+        match twice {
+            Some(variable) => Err(refuse(format!("{} has a column already", variable.name))),
+            None => Ok(variables),
+        }
+    };
+    titles.map(column).collect()
+}
+
+/// The inputs that a title, `NAME` or `NAME [UNIT]`, stands for.
+fn named<'a>(registry: &'a Registry, title: &str) -> Result<Vec<&'a Variable>, String> {
+    let (name, unit) = match title.rsplit_once(" [") {
+        Some((name, unit)) => (name, unit.strip_suffix(']')),
+        None => (title, None),
+    };
+    let variables = set::targets(registry, name).map_err(|error: SetError| error.to_string())?;
+    let Slot::Input(_) = variables[0].slot else {
+        return Err(format!(
+            "{name} is a parameter that is fixed; allowed: inputs (or --set {name}=VALUE)"
+        ));
+    };
+    let own = variables[0].quantity.map_or("1", |quantity| quantity.unit());
+    match unit {
+        Some(unit) if unit != own => Err(format!("{name} is measured in {own}; allowed: [{own}]")),
+        _ => Ok(variables),
+    }
+}
+
+fn places(variables: &[&Variable]) -> Vec<usize> {
+    let place = |variable: &&Variable| match variable.slot {
+        Slot::Input(place) => Some(place),
+        _ => None,
+    };
+    variables.iter().filter_map(place).collect()
+}

@@ -1,0 +1,122 @@
+//! Means over the cells of a footprint on the top or the bottom of a solid.
+
+use std::collections::BTreeMap;
+
+use super::footprint::{Placement, SparseVector, cells_on_plane, cells_on_radius};
+use crate::method::fem::Temperatures;
+use crate::method::mesh::{Geometry, Mesh};
+use crate::scene::Footprint;
+
+/// For each cell the weights of nodal values, which sum to 1: `Σ_i w_i T_i = ∫ T dA / A`.
+///
+/// The weights are the nodal vectors of loads on the same cells over these' areas. So a heat flux on the cells and the
+/// mean temperatures there make up the power pair of the body's own equations: nothing is lost between the two.
+pub struct FaceMeans {
+    cells: Vec<CellMean>,
+}
+
+struct CellMean {
+    /// Symmetry class, node and weight.
+    heat: Vec<(usize, usize, f64)>,
+    /// Place [m] and weight of nodes of the mesh of displacements, on the whole face.
+    points: Vec<([f64; 3], f64)>,
+}
+
+impl FaceMeans {
+    /// Of a footprint about a place [m] on the top if `high`, on meshes of heat and of displacements.
+    pub fn of(
+        [heat, force]: [&Mesh; 2],
+        high: bool,
+        footprint: &Footprint,
+        [x, y]: [f64; 2],
+    ) -> Self {
+        let place = Placement { x, y, radius: footprint.radius().unwrap_or_default() };
+        let of_heat = seen_on(heat, footprint, &place).map(|cell| heat_weights(heat, high, &cell));
+        let of_force = seen_on(force, footprint, &place).map(|cell| points(force, high, &cell));
+        let cells = of_heat.zip(of_force).map(|(heat, points)| CellMean { heat, points });
+        Self { cells: cells.collect() }
+    }
+
+    /// Mean temperature above the initial one on a cell [K].
+    pub fn rise(&self, cell: usize, temperatures: &Temperatures) -> f64 {
+        let value = |&(class, node, weight): &(usize, usize, f64)| {
+            temperatures.get(class).and_then(|part| part.get(node)).map_or(0.0, |t| weight * t)
+        };
+        self.cells[cell].heat.iter().map(value).sum()
+    }
+
+    /// Places [m] and weights whose sum is the mean on a cell of what is interpolated between nodes.
+    pub fn points(&self, cell: usize) -> &[([f64; 3], f64)] {
+        &self.cells[cell].points
+    }
+}
+
+/// A cell as it is seen at each image of the meshed part of a face: along which axes it is mirrored, nodal vector.
+type Seen = Vec<([bool; 2], SparseVector)>;
+
+fn seen_on(
+    mesh: &Mesh,
+    footprint: &Footprint,
+    place: &Placement,
+) -> impl Iterator<Item = Seen> + use<> {
+    let images: Vec<([bool; 2], Vec<SparseVector>)> = match mesh.geometry {
+        Geometry::Axisymmetric => {
+            vec![([false; 2], cells_on_radius(&mesh.axes[0], footprint, place.radius))]
+        }
+        Geometry::Box => {
+            let plane = [&mesh.axes[0], &mesh.axes[1]];
+            let of_image = |image| (image, cells_on_plane(plane, footprint, place, image));
+            images_of(mesh).map(of_image).collect()
+        }
+    };
+    let count = images.first().map_or(0, |(_, cells)| cells.len());
+    (0..count).map(move |cell| {
+        images.iter().map(|(image, cells)| (*image, cells[cell].clone())).collect()
+    })
+}
+
+/// The copies of the mesh that make the body.
+fn images_of(mesh: &Mesh) -> impl Iterator<Item = [bool; 2]> {
+    let [x, y] = mesh.mirrored.map(|is_mirrored| if is_mirrored { 2 } else { 1 });
+    (0..y).flat_map(move |j| (0..x).map(move |i| [i == 1, j == 1]))
+}
+
+fn area(cell: &Seen) -> f64 {
+    cell.iter().flat_map(|(_, vector)| vector).map(|(_, weight)| weight).sum()
+}
+
+/// Weights of the parts of a field: odd ones count with the sign that they have at the image.
+fn heat_weights(mesh: &Mesh, high: bool, cell: &Seen) -> Vec<(usize, usize, f64)> {
+    let [nx, ny, nz] = mesh.sided_counts();
+    let first = if high { nx * ny * (nz - 1) } else { 0 };
+    let area = area(cell);
+    let mut weights = BTreeMap::new();
+    for (class, parity) in mesh.parities().iter().enumerate() {
+        for (image, vector) in cell {
+            for &(node, weight) in vector {
+                *weights.entry((class, first + node)).or_insert(0.0) +=
+                    parity.sign(*image) * weight / area;
+            }
+        }
+    }
+    let nonzero = weights.into_iter().filter(|(_, weight)| *weight != 0.0);
+    nonzero.map(|((class, node), weight)| (class, node, weight)).collect()
+}
+
+fn points(mesh: &Mesh, high: bool, cell: &Seen) -> Vec<([f64; 3], f64)> {
+    let [x, y, z] = &mesh.axes;
+    let depth = if high { z.end() } else { z.start() };
+    let area = area(cell);
+    let signed = |value: f64, is_image: bool| if is_image { -value } else { value };
+    let point = |image: &[bool; 2], node: usize| match mesh.geometry {
+        Geometry::Axisymmetric => [x.nodes[node], 0.0, depth],
+        Geometry::Box => {
+            let [i, j] = [node % x.len(), node / x.len()];
+            [signed(x.nodes[i], image[0]), signed(y.nodes[j], image[1]), depth]
+        }
+    };
+    let of_image = |(image, vector): &([bool; 2], SparseVector)| {
+        vector.iter().map(|&(node, weight)| (point(image, node), weight / area)).collect::<Vec<_>>()
+    };
+    cell.iter().flat_map(of_image).collect()
+}

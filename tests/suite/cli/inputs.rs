@@ -1,0 +1,100 @@
+//! Inputs over time from a table.
+
+use std::fs;
+
+use super::{Called, Workplace};
+
+/// A run of the scene with a table of inputs.
+fn run_with(place: &Workplace, table: &str, options: &[&str]) -> Called {
+    fs::write(place.path("table.csv"), table).unwrap();
+    place.run(&[&["--inputs", "table.csv", "--fields-every", "0"], options].concat())
+}
+
+/// Column of a name in a run's table.
+fn column(place: &Workplace, folder: &str, title: &str) -> Vec<f64> {
+    let (header, rows) = place.table(folder);
+    // Titles with two indices stand in quotation marks.
+    let titles = header.split('"').enumerate().flat_map(|(i, part)| match i % 2 {
+        0 => part.split(',').filter(|title| !title.is_empty()).collect(),
+        _ => vec![part],
+    });
+    let at = titles.into_iter().position(|name| name == title).unwrap();
+    rows.iter().map(|row| row[at]).collect()
+}
+
+const HEAT_IN: &str = "plate.heat_in [J]";
+const FLUX: &str = "spot.heat_flux [W/m2]";
+
+#[test]
+fn linear_inputs_bring_the_integral_of_their_table() {
+    let place = Workplace::new();
+    // Corners inside of steps, a jump, held before the first row and behind the last.
+    let table = "time [s],spot.heat_flux [W/m2]\n1.5e-7,2e7\n4.2e-7,8e7\n4.2e-7,1e7\n7e-7,5e7\n";
+    run_with(&place, table, &[]).succeeds();
+    let flux = [2e7 * 1.5e-7, 0.5 * (2e7 + 8e7) * 2.7e-7, 0.5 * (1e7 + 5e7) * 2.8e-7, 5e7 * 3e-7];
+    let heat = flux.iter().sum::<f64>() * std::f64::consts::PI * 60e-6 * 60e-6;
+    let found = column(&place, "out/HotSpot", HEAT_IN);
+    assert!((found[10] / heat - 1.0).abs() < 1e-12, "{} {heat}", found[10]);
+    let inputs = column(&place, "out/HotSpot", FLUX);
+    assert_eq!([inputs[0], inputs[1], inputs[10]], [2e7, 2e7, 5e7]);
+    let middle = 2e7 + 6e7 * (3e-7 - 1.5e-7) / 2.7e-7;
+    assert!((inputs[3] / middle - 1.0).abs() < 1e-12, "{}", inputs[3]);
+}
+
+#[test]
+fn held_inputs_keep_the_value_of_the_row_before() {
+    let place = Workplace::new();
+    let table = "time,spot.heat_flux\n0,2e7\n3.3e-7,8e7\n";
+    run_with(&place, table, &["--between", "held"]).succeeds();
+    let heat = (2e7 * 3.3e-7 + 8e7 * 6.7e-7) * std::f64::consts::PI * 60e-6 * 60e-6;
+    let found = column(&place, "out/HotSpot", HEAT_IN);
+    assert!((found[10] / heat - 1.0).abs() < 1e-12, "{} {heat}", found[10]);
+}
+
+#[test]
+fn a_table_of_the_scenes_own_values_changes_nothing() {
+    let place = Workplace::new();
+    place.run(&["--out", "plain", "--fields-every", "0"]).succeeds();
+    run_with(&place, "time,spot.heat_flux\n0,5e7\n1e-6,5e7\n", &["--out", "table"]).succeeds();
+    assert_eq!(place.table("plain"), place.table("table"));
+}
+
+#[test]
+fn rows_are_written_as_often_as_asked() {
+    let place = Workplace::new();
+    place.run(&["--rows-every", "4", "--fields-every", "0"]).succeeds();
+    let times: Vec<f64> = place.table("out/HotSpot").1.iter().map(|row| row[0]).collect();
+    assert_eq!(times, [0.0, 4.0 * 1e-7, 8.0 * 1e-7, 1e-6]);
+}
+
+#[test]
+fn what_is_wrong_with_a_table_is_said_with_line_and_column() {
+    let place = Workplace::new();
+    for (table, words) in [
+        ("", &["table.csv", "no first column `time`"] as &[&str]),
+        ("when,spot.heat_flux\n0,1\n", &["no first column `time`", "allowed: `time`"]),
+        ("time,spot.heat_flux\n", &["no rows"]),
+        ("time,spot.heat_flix\n0,1\n", &["column `spot.heat_flix`", "did you mean spot.heat_flux"]),
+        ("time,centre.temperature\n0,1\n", &["column `centre.temperature`", "it is an output"]),
+        ("time,plate.conductivity\n0,1\n", &["plate.conductivity is a parameter that is fixed"]),
+        ("time,spot.heat_flux [MW/m2]\n0,1\n", &["is measured in W/m2"]),
+        ("time,spot.heat_flux,spot.heat_flux\n0,1,1\n", &["has a column already"]),
+        (
+            "time,spot.heat_flux\n0,1\n1e-7,much\n",
+            &["table.csv:3", "column `spot.heat_flux`", "much"],
+        ),
+        ("time,spot.heat_flux\n0,1\n1e-7,NaN\n", &["table.csv:3", "NaN"]),
+        ("time,spot.radius\n0,-1\n", &["table.csv:2", "spot.radius", "at least 0"]),
+        ("time,spot.heat_flux\n1,1\n0,1\n", &["table.csv:3", "column `time`", "ascend"]),
+        ("time,spot.heat_flux\n0,1\n0,1\n0,1\n", &["table.csv:4", "third row"]),
+        ("time,spot.heat_flux\n0,1\n1\n", &["table.csv", "line: 3"]),
+    ] {
+        run_with(&place, table, &[]).fails(1, words);
+    }
+    let set = ["--set", "spot.heat_flux=1"];
+    run_with(&place, "time,spot.heat_flux\n0,1\n", &set).fails(1, &["spot.heat_flux is set"]);
+    place.run(&["--inputs", "nowhere.csv"]).fails(1, &["nowhere.csv"]);
+    place.run(&["--between", "held"]).fails(2, &["--inputs"]);
+    place.run(&["--rows-every", "0"]).fails(2, &["rows-every"]);
+    assert!(!place.path("out").exists());
+}

@@ -1,0 +1,162 @@
+//! The files that a run writes, and those that it leaves alone.
+
+use std::fs;
+use std::process::Command;
+
+use super::{Called, DROP, SCENE, Workplace, attribute};
+
+#[test]
+fn a_run_writes_a_row_a_step_and_fields() {
+    let place = Workplace::new();
+    let report = place.run(&[]).succeeds().stdout();
+    for words in ["HotSpot", "10 steps", "heat in", "residual", "plate.max_temperature"] {
+        assert!(report.contains(words), "`{words}` is missing in: {report}");
+    }
+    let (header, rows) = place.table("out/HotSpot");
+    assert!(header.starts_with("time [s],spot.heat_flux [W/m2],spot.pressure [Pa]"), "{header}");
+    assert!(header.contains(",\"surface.temperature[1,2] [K]\","), "{header}");
+    assert_eq!(rows.len(), 11);
+    for (i, row) in rows.iter().enumerate() {
+        let time = if i == 10 { 1e-6 } else { i as f64 * 1e-7 };
+        assert_eq!(row[..2], [time, 5e7]);
+    }
+    let times: Vec<f64> = rows.iter().map(|row| row[0]).collect();
+    assert_eq!(place.field_times("out/HotSpot"), times);
+}
+
+#[test]
+fn a_stop_time_between_steps_is_hit_exactly() {
+    let place = Workplace::new();
+    let options = ["--until", "3.5e-7", "--out", "short", "--fields-every", "2"];
+    place.run(&options).succeeds();
+    let times: Vec<f64> = place.table("short").1.iter().map(|row| row[0]).collect();
+    assert_eq!(times, [0.0, 1e-7, 2.0 * 1e-7, 3.0 * 1e-7, 3.5e-7]);
+    assert_eq!(place.field_times("short"), [0.0, 2.0 * 1e-7, 3.5e-7]);
+}
+
+#[test]
+fn a_run_writes_the_particles_of_a_droplet() {
+    let place = Workplace::new();
+    fs::write(place.path("drop.toml"), DROP).unwrap();
+    let options = ["run", "drop.toml", "--set", "wall.temperature=300", "--out", "files"];
+    let report = place.call(&options).succeeds().stdout();
+    for words in ["3 steps", "drop.height", "drop.mass                5.2360e-10 kg"] {
+        assert!(report.contains(words), "`{words}` is missing in: {report}");
+    }
+    let text = fs::read_to_string(place.path("files/outputs.csv")).unwrap();
+    assert!(text.contains(",drop.force [N],\"wall.heat_flux[1,1] [W/m2]\","), "{text}");
+    assert_eq!(text.lines().count(), 5);
+    let list = fs::read_to_string(place.path("files/drop.pvd")).unwrap();
+    let entries: Vec<&str> = list.lines().filter(|line| line.contains("<DataSet")).collect();
+    assert_eq!(entries.len(), 4);
+    let last = fs::read(place.path("files").join(attribute(entries[3], "file"))).unwrap();
+    let head = String::from_utf8_lossy(&last[..500]);
+    assert!(head.contains("type=\"PolyData\"") && head.contains("NumberOfVerts"), "{head}");
+}
+
+#[test]
+fn the_files_of_an_earlier_run_are_replaced_only_if_asked() {
+    let place = Workplace::new();
+    place.run(&["--until", "3e-7", "--fields-every", "1"]).succeeds();
+    let before = fs::read(place.path("out/HotSpot/outputs.csv")).unwrap();
+    place.run(&[]).fails(1, &["out/HotSpot holds the files of an earlier run", "--overwrite"]);
+    assert_eq!(fs::read(place.path("out/HotSpot/outputs.csv")).unwrap(), before);
+    place.run(&["--until", "1e-7", "--fields-every", "1", "--overwrite"]).succeeds();
+    assert_eq!(place.field_times("out/HotSpot"), [0.0, 1e-7]);
+    let files = fs::read_dir(place.path("out/HotSpot")).unwrap();
+    assert_eq!(files.count(), 4, "two grids, their list and the table; none of the longer run");
+    // Fields alone are an earlier run too.
+    fs::remove_file(place.path("out/HotSpot/outputs.csv")).unwrap();
+    place.run(&["--fields-every", "0"]).fails(1, &["earlier run"]);
+    // A run without fields leaves none that would pass for its own.
+    fs::write(place.path("out/HotSpot/mine.pvd"), "").unwrap();
+    place.run(&["--until", "1e-7", "--fields-every", "0", "--overwrite"]).succeeds();
+    assert_eq!(place.files("out/HotSpot"), ["mine.pvd", "outputs.csv"]);
+}
+
+#[test]
+fn a_killed_run_is_an_earlier_run() {
+    let place = Workplace::new();
+    for fields in ["1", "0"] {
+        let mut running = Command::new(env!("CARGO_BIN_EXE_impinge"))
+            .args(["run", "scene.toml", "--until", "1e-2", "--fields-every", "1", "--overwrite"])
+            .current_dir(place.0.path())
+            .stderr(std::process::Stdio::null())
+            .stdout(std::process::Stdio::null())
+            .spawn()
+            .unwrap();
+        while !place.path("out/HotSpot/plate_000003.vtr").exists() {
+            assert_eq!(running.try_wait().unwrap(), None);
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        }
+        running.kill().unwrap();
+        running.wait().unwrap();
+        // Wherever the end came, a file may be unfinished.
+        fs::write(place.path("out/HotSpot/plate_000009.vtr.part1_2"), "").unwrap();
+        place.run(&["--until", "1e-7"]).fails(1, &["holds the files of an earlier run"]);
+        let settings = ["--until", "1e-7", "--overwrite", "--fields-every", fields];
+        place.run(&settings).succeeds();
+        let table = fs::read_to_string(place.path("out/HotSpot/outputs.csv")).unwrap();
+        assert_eq!(table.lines().count(), 3);
+        let all = ["outputs.csv", "plate.pvd", "plate_000000.vtr", "plate_000001.vtr"];
+        let wanted = if fields == "1" { &all[..] } else { &all[..1] };
+        assert_eq!(place.files("out/HotSpot"), wanted);
+    }
+}
+
+#[test]
+fn a_folder_that_another_run_is_writing_to_is_left_alone() {
+    let place = Workplace::new();
+    fs::create_dir_all(place.path("out/HotSpot")).unwrap();
+    let folder = fs::File::open(place.path("out/HotSpot")).unwrap();
+    folder.try_lock().unwrap();
+    place.run(&["--overwrite"]).fails(1, &["another run is writing to out/HotSpot"]);
+    assert_eq!(fs::read_dir(place.path("out/HotSpot")).unwrap().count(), 0);
+    drop(folder);
+    place.run(&["--until", "1e-7"]).succeeds();
+}
+
+#[test]
+fn files_that_vanish_while_a_run_goes_on_are_noticed() {
+    let place = Workplace::new();
+    fs::create_dir_all(place.path("out/HotSpot")).unwrap();
+    let pipe = place.path("out/HotSpot/outputs.csv");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let running = Command::new(env!("CARGO_BIN_EXE_impinge"))
+        .args(["run", "scene.toml", "--overwrite", "--until", "1e-7"])
+        .current_dir(place.0.path())
+        .stderr(std::process::Stdio::piped())
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    let mut reader = fs::File::open(&pipe).unwrap();
+    fs::remove_file(&pipe).unwrap();
+    std::io::copy(&mut reader, &mut std::io::sink()).unwrap();
+    Called(running.wait_with_output().unwrap()).fails(1, &["outputs.csv is gone"]);
+}
+
+#[test]
+fn a_run_never_writes_over_its_scene_nor_through_links() {
+    let place = Workplace::new();
+    fs::create_dir(place.path("folder")).unwrap();
+    for name in ["outputs.csv", "plate.pvd"] {
+        let scene = format!("folder/{name}");
+        fs::write(place.path(&scene), SCENE).unwrap();
+        let called = place.call(&["run", &scene, "--out", "folder", "--overwrite"]);
+        called.fails(1, &["could be one of the files of the run"]);
+        assert_eq!(fs::read_to_string(place.path(&scene)).unwrap(), SCENE);
+        fs::remove_file(place.path(&scene)).unwrap();
+    }
+    fs::write(place.path("notes"), "kept").unwrap();
+    std::os::unix::fs::symlink("../notes", place.path("folder/outputs.csv")).unwrap();
+    place.run(&["--out", "folder", "--overwrite"]).succeeds();
+    assert_eq!(fs::read_to_string(place.path("notes")).unwrap(), "kept");
+    assert!(place.table("folder").1.len() > 1);
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_named() {
+    let place = Workplace::new();
+    fs::write(place.path("taken"), "a file").unwrap();
+    place.run(&["--out", "taken/here"]).fails(1, &["cannot create the folder", "taken"]);
+}
