@@ -7,7 +7,7 @@ import time
 import numpy as np
 import pytest
 import xarray as xr
-from impinge import Study, Unit, UnitError
+from impinge import Study, Unit, UnitError, linear_map
 from impinge.study import (
     Grid,
     LatinHypercube,
@@ -24,6 +24,7 @@ from impinge.study import (
     sobol_indices,
 )
 from impinge.study.runner import Runner
+from linear_unit import make
 from slab import AREA, SCENE, top_temperature
 
 
@@ -284,6 +285,47 @@ def test_tables_tell_where_they_come_from(slab, tmp_path):
     assert stored.attrs["unit_sha256"] == study.unit_hash
     assert any(text.startswith("numpy ") for text in stored.attrs["versions"])
     assert {"command", "date", "stop", "step", "generation_tool"} <= set(stored.attrs)
+
+
+@pytest.mark.parametrize("states", [True, False])
+def test_units_of_other_tools_are_studied(tmp_path, states):
+    """x' = −a x + u with u = 1 + t, whether or not states can be restored."""
+    unit = make(tmp_path, "Decay", states=states, c1=1.0, b1=1.0)
+    study = Study(
+        unit,
+        {"a11": [-1.0, -2.0], "x1": [0.0, 3.0]},
+        inputs={"u": lambda t: 1.0 + t},
+        outputs=["y", over_time("y")],
+        stop=2.0,
+        step=0.25,
+    )
+    table = study.run(2)
+    assert (table.status == 0).all(), table.message.values
+    for a in (1.0, 2.0):
+        for first in (0.0, 3.0):
+            found = table.sel(a11=-a, x1=first)
+            t = table.time.values
+            held = 1 / a - 1 / a**2
+            expected = held + t / a + (first - held) * np.exp(-a * t)
+            assert found["y(t)"].values == pytest.approx(expected, abs=1e-8)
+    slow = Study(unit, {"u": [1.0, 2.0], "a11": -1.0}, outputs=["y"], stop=2.0, step=0.25).run(1)
+    assert slow["y"].values == pytest.approx([1 - np.exp(-2.0), 2 - 2 * np.exp(-2.0)], abs=1e-8)
+
+
+def test_tunable_parameters_are_set_as_inputs_are(tmp_path):
+    scene = tmp_path / "tunable.toml"
+    scene.write_text(
+        SCENE.replace("top = { flux = 0.0 }", 'top = { flux = 0.0, role = "parameter" }')
+    )
+    with Unit(scene) as unit:
+        assert unit.variable("plate.top.flux").variability == "tunable"
+        found = linear_map(unit, ["plate.top.flux"], ["plate.heat_in"], 0.5, 4)
+    assert found.held.ravel() == pytest.approx(0.5 * AREA, rel=1e-11)
+    given = {"plate.top.flux": lambda t: 1e3 * t}
+    table = Study(scene, {}, inputs=given, outputs=["plate.heat_in"]).run(1)
+    assert table["plate.heat_in"].item() == pytest.approx(500.0 * AREA, rel=1e-11)
+    table = Study(scene, {"plate.top.flux": [1e3, 2e3]}, outputs=["plate.heat_in"]).run(1)
+    assert table["plate.heat_in"].values == pytest.approx([1e3 * AREA, 2e3 * AREA], rel=1e-11)
 
 
 @pytest.mark.parametrize(

@@ -64,6 +64,9 @@ def linear_map(
     if ramps and not source.can.interpolates:
         raise UnitError(f"{source.name} holds its inputs over a step (allowed: ramps=False)")
     with Rollout(source, inputs, outputs, step, steps) as rollout:
+        tunable = [v.name for v in rollout.inputs if v.causality != "input"]
+        if ramps and tunable:
+            raise ValueError(f"{', '.join(tunable)}: tunable parameters (allowed: ramps=False)")
         sizes = _sizes(rollout, changes or {})
         for attempt in range(_SMALLER + 1):
             try:
@@ -98,12 +101,11 @@ def _find(rollout: Rollout, sizes: np.ndarray, ramps: bool, tolerance: float) ->
         held[:, :, column] = (rows - free[1:]) / size
         if ramp is not None:
             ramp[:, :, column] = (rollout.pulse(column, size, ramp=True)[1] - free[1:]) / size
-    variables = {**rollout.unit.inputs, **rollout.unit.outputs}
     names = rollout.input_names + rollout.output_names
     found = LinearMap(
         inputs=tuple(rollout.input_names),
         outputs=tuple(rollout.output_names),
-        units={name: (_variable(variables, name).unit or "") for name in names},
+        units={name: rollout.unit.variable(name).unit or "" for name in names},
         step=rollout.step,
         start=rollout.start.time,
         base=rollout.base.copy(),
@@ -116,10 +118,6 @@ def _find(rollout: Rollout, sizes: np.ndarray, ramps: bool, tolerance: float) ->
     )
     object.__setattr__(found, "defect", _defect(rollout, found, sizes, tolerance))
     return found
-
-
-def _variable(variables: Mapping[str, Any], name: str) -> Any:
-    return variables.get(name) or variables[name.rpartition("[")[0]]
 
 
 def _defect(rollout: Rollout, found: LinearMap, sizes: np.ndarray, tolerance: float) -> float:

@@ -147,7 +147,8 @@ def _check(unit: Unit, names: Sequence[str], causality: str) -> None:
         raise ValueError(f"{causality}s {names!r} (allowed: a list of names)")
     for name in names:
         variable = unit.variable(name)
-        if variable.causality != causality:
+        is_tunable = causality == "input" and variable.variability == "tunable"
+        if variable.causality != causality and not is_tunable:
             raise UnitError(f"`{name}` is a {variable.causality} (allowed here: {causality}s)")
         if not variable.is_number:
             raise UnitError(f"`{name}` is a {variable.kind} (allowed here: numbers)")

@@ -215,34 +215,41 @@ class Run:
         """Inputs follow a parabola over each step, as far as the unit can; else they are held at
         their value in the middle. Values are read under the inputs of their time."""
         order = self.unit.can.interpolates
-        begins = self.unit.writer(self.courses)
+        write = self.unit.writer(self.courses)
         courses = self.courses.values()
         first, middle, last = (
             np.hstack([getattr(c, part) for c in courses]) for part in ("begins", "middles", "ends")
         )
-        if first.shape[1] != len(begins.values):
+        if first.shape[1] != len(write.values):
             raise ValueError(f"{first.shape[1]} values for inputs {', '.join(self.courses)}")
         slopes = _derivatives(first, middle, last, self.sizes[:, None], order)
+        follows = {
+            variable.name: (variable.shape, place)
+            for variable, place in zip(write.variables, write.slices, strict=True)
+            if order and variable.causality == "input"  # tunable parameters have no derivatives
+        }
+        is_held = np.ones(first.shape[1], bool)
+        for _, place in follows.values():
+            is_held[place] = False
+        over_step = np.where(is_held, middle, first)
         for number, size in enumerate(self.sizes.tolist()):
-            begins.values[:] = first[number]
-            begins()
+            write.values[:] = first[number]
+            write()
             if every:
                 rows[number] = reader()
-            if order:
-                self.unit.set_input_derivatives(self._named(begins, slopes, number))
-            else:
-                begins.values[:] = middle[number]
-                begins()
+            if is_held.any():
+                write.values[:] = over_step[number]
+                write()
+            if follows:
+                self.unit.set_input_derivatives(
+                    {
+                        name: [slope[number, place].reshape(shape) for slope in slopes]
+                        for name, (shape, place) in follows.items()
+                    }
+                )
             self.unit.step(size)
-        begins.values[:] = last[-1]
-        begins()
-
-    @staticmethod
-    def _named(writer: Any, slopes: list[np.ndarray], number: int) -> dict[str, list[np.ndarray]]:
-        return {
-            variable.name: [slope[number, place].reshape(variable.shape) for slope in slopes]
-            for variable, place in zip(writer.variables, writer.slices, strict=True)
-        }
+        write.values[:] = last[-1]
+        write()
 
 
 def _derivatives(

@@ -57,7 +57,7 @@ def sobol_indices(
             calc_second_order=has_second,
             num_resamples=resamples,
             conf_level=confidence,
-            seed=seed,
+            seed=seed + 1,  # SALib takes 0 for none
         )
         for key, array in found.items():
             array[number] = answer[key]

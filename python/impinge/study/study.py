@@ -38,9 +38,9 @@ class Study:
         of the unit, of an input (held over a run), or the dotted path of a key of the scene, such
         as `body.plate.shape.box.2` or `load.spot.footprint.disc.radius`; every other scene is a
         unit of its own. Names without a dot that are neither are for functions of time.
-    inputs: what inputs do in all runs: a value, a function of time [s] or of time and the row's
-        values, a `Table`, or a pair (times, values). Where the unit interpolates they are parabolas
-        over a step, elsewhere held at their value in its middle.
+    inputs: what inputs, or tunable parameters, do in all runs: a value, a function of time [s] or
+        of time and the row's values, a `Table`, or a pair (times, values). Inputs are parabolas
+        over a step where the unit interpolates them, all else is held at its value in the middle.
     outputs: names of variables (their value at the stop), `over_time`, `maximum`, `minimum` of
         them, or `of_run` for a function of a run.
     stop, step: of every run, in s; those that the unit proposes if left out.
@@ -237,8 +237,9 @@ class Study:
         signals: dict[str, Signal] = {}
         for name, given in inputs.items():
             variable = self.package.variable(name)
-            if variable.causality != "input":
-                raise UnitError(f"`{name}` is a {variable.causality} (allowed as input: inputs)")
+            if variable.causality != "input" and variable.variability != "tunable":
+                told = f"{variable.variability} {variable.causality}"
+                raise UnitError(f"`{name}` is a {told} (allowed: inputs, tunable parameters)")
             signals[name] = signal_of(name, given)
         return Experiment(stop, min(step, stop), signals, kept)
 
@@ -258,12 +259,12 @@ class Study:
                 return "function"
             place = " or key of the scene" if self.scene else ""
             raise UnitError(f"no parameter, input{place} `{name}`: {error}") from None
+        if name in self.experiment.inputs:
+            raise ValueError(f"`{name}` stands among parameters and inputs (allowed: one)")
         if variable.causality in ("parameter", "structuralParameter"):
             return "parameter"
         if variable.causality != "input":
             raise UnitError(f"`{name}` is of causality {variable.causality}: it cannot be set")
-        if name in self.experiment.inputs:
-            raise ValueError(f"`{name}` stands among parameters and inputs (allowed: one)")
         return "input"
 
     def _row(self, index: int, values: Mapping[str, Any]) -> Row:
