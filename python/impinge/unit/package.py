@@ -137,9 +137,21 @@ class Package:
 
     @cached_property
     def cell_families(self) -> dict[str, dict[str, Any]]:
-        """The families of cells of `resources/cells.json`; none where there is no such file."""
+        """The families of cells of `resources/cells.json`; none where there is no such file.
+
+        Beside what the file says each has `quantities`, the names of its inputs and outputs, and
+        where it is made of equal cells their `width` [m].
+        """
         path = self.folder / "resources/cells.json"
-        return json.loads(path.read_text())["families"] if path.is_file() else {}
+        told = json.loads(path.read_text())["families"] if path.is_file() else {}
+        return {
+            name: {
+                **family,
+                "quantities": [*family["inputs"], *family["outputs"]],
+                **({"width": family["size"]} if "size" in family else {}),
+            }
+            for name, family in told.items()
+        }
 
 
 _PACKAGES: dict[str, Package] = {}  # by digest
