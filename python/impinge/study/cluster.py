@@ -7,11 +7,11 @@ need this package but neither the unit's file nor the programs that build it.
 from __future__ import annotations
 
 import atexit
-import hashlib
 import io
 import shutil
 import tempfile
 import threading
+import uuid
 import zipfile
 from collections import deque
 from collections.abc import Iterator, Sequence
@@ -27,7 +27,8 @@ from .scenes import Variant
 from .worker import Job
 
 CHUNK = 0.5  # s of work that a task has, about
-FIRST = 4  # rows of a task while it is not known how long they take
+END = 10.0  # s that tasks may take to return what they have
+FIRST = 1  # rows of a task while it is not known how long they take
 
 
 class Cluster:
@@ -51,7 +52,7 @@ class Cluster:
         self._prepare = prepare
         self._timeout = timeout
         content = _zip(folder)
-        self._key = hashlib.sha256(content + cloudpickle.dumps(experiment)).hexdigest()
+        self._key = uuid.uuid4().hex  # of this run, on workers that may see many
         self._shared = self.client.scatter((content, cloudpickle.dumps(experiment)), broadcast=True)
         self._tasks: dict[Any, list[Row]] = {}
         self._done = as_completed()
@@ -76,8 +77,9 @@ class Cluster:
         """What a task has brought; rows of one that was lost with its worker go again alone."""
         rows = self._tasks.pop(task)
         if task.status == "finished":
-            batch = list(zip(rows, task.result(), strict=True))
-            self._seconds += sum(finished.seconds for _, finished in batch)
+            finished = task.result()
+            batch = [(row, finished[row.index]) for row in rows if row.index in finished]
+            self._seconds += sum(answer.seconds for _, answer in batch)
             self._finished += len(batch)
             return batch
         error = task.exception()
@@ -119,15 +121,23 @@ class Cluster:
         self._done.add(task)
 
     def stop(self) -> Batch:
-        """Gives up what has not run yet, and ends the processes; what was finished meanwhile."""
+        """Ends the processes, and gives up what has not run; what was finished meanwhile."""
+        from distributed import wait
+
         batch: Batch = []
-        for task in list(self._tasks):
-            if task.status == "finished":
-                batch += self._take(task)
-        self.client.cancel(list(self._tasks), force=True)
+        tasks = list(self._tasks)
         try:
             self.client.run(end_servers, self._key)
+            if tasks:
+                wait(tasks, timeout=END)
+            for task in tasks:
+                if task.status == "finished":
+                    batch += self._take(task)
+        except (OSError, TimeoutError):
+            pass  # the cluster is gone, or busy
         finally:
+            if tasks:
+                self.client.cancel(tasks, force=True)
             if self._own:
                 self._own.close()
         return batch
@@ -137,6 +147,7 @@ class Cluster:
 
 _SERVERS: dict[tuple[str, int], Server] = {}
 _FOLDERS: dict[str, Path] = {}
+_ENDED: set[str] = set()  # runs whose rows nobody wants any more
 _LOCK = threading.Lock()
 
 
@@ -146,9 +157,12 @@ def run_rows(
     rows: list[Row],
     variants: dict[str, Variant],
     timeout: float | None,
-) -> list[Finished]:
-    """What became of rows, in their order; runs on a worker of the cluster."""
+) -> dict[int, Finished]:
+    """What became of rows by their index, of fewer if the run is ended meanwhile; runs on a worker
+    of the cluster."""
     server = _server(key, *shared)
+    if server is None:
+        return {}
     server.prepare = lambda row: variants[row.scene]
     server.timeout = timeout
     answers: dict[int, Finished] = {}
@@ -157,12 +171,14 @@ def run_rows(
         lambda: waiting.popleft() if waiting else None,
         lambda row, finished: answers.update({row.index: finished}),
     )
-    return [answers[row.index] for row in rows]
+    return answers
 
 
-def _server(key: str, content: bytes, experiment: bytes) -> Server:
-    """The process of this thread for a study."""
+def _server(key: str, content: bytes, experiment: bytes) -> Server | None:
+    """The process of this thread for a run, unless that is over."""
     with _LOCK:
+        if key in _ENDED:
+            return None
         place = (key, threading.get_ident())
         if place not in _SERVERS:
             if key not in _FOLDERS:
@@ -172,13 +188,19 @@ def _server(key: str, content: bytes, experiment: bytes) -> Server:
                     archive.extractall(_FOLDERS[key] / "unit")
             job = Job(str(_FOLDERS[key] / "unit"), cloudpickle.loads(experiment))
             temporary = str(_FOLDERS[key] / "temporary")
-            _SERVERS[place] = Server(job, lambda row: row.variant, None, temporary)  # type: ignore
+            _SERVERS[place] = Server(job, _no_scene, None, temporary)
         return _SERVERS[place]
 
 
+def _no_scene(row: Row) -> Variant:
+    raise ValueError(f"row {row.index} came without its scene")
+
+
 def end_servers(key: str | None = None) -> None:
-    """Ends the processes of a study, or of all, and removes what they were given."""
+    """Ends the processes of a run, or of all, and removes what they were given."""
     with _LOCK:
+        if key:
+            _ENDED.add(key)
         for place in [place for place in _SERVERS if key in (None, place[0])]:
             _SERVERS.pop(place).end()
         for name in [name for name in _FOLDERS if key in (None, name)]:

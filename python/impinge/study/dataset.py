@@ -45,7 +45,6 @@ def assemble(study: Study, finished: Mapping[str, Finished]) -> xr.Dataset:
     axes = tuple(study.design.dimensions)
     table = xr.Dataset(coords=_coordinates(study))
     for output, array in zip(study.experiment.outputs, arrays, strict=True):
-        array[status != DONE] = np.nan
         inner = _inner(study, output, array.shape[1:], table)
         attributes = _attributes(study, output)
         table[output.name] = (
@@ -75,7 +74,8 @@ def _column(
     status: np.ndarray,
     messages: np.ndarray,
 ) -> np.ndarray:
-    """Values of an output, shape (rows, …); rows of another shape than the first have failed."""
+    """Values of an output, shape (rows, …); a row of another shape than the first counts as failed,
+    and keeps its other outputs."""
     values = [None if a is None or a.values is None else a.values[place] for a in answers]
     shape = next((value.shape for value in values if value is not None), shape)
     column = np.full((len(answers), *shape), np.nan)
