@@ -42,7 +42,7 @@ def linear_map(
     inputs, outputs: names; those of families stand for all their elements.
     ramps: also finds what inputs do that go straight over a step, where the unit can take these.
     changes: sizes of the pulses by input; nominal values if left out.
-    tolerance: what superposition may miss, relative to the largest response of an output.
+    tolerance: what superposition may miss, relative to the largest response of an output; above 0.
 
     Raises `NotLinear`, with the defect, where superposition misses that; `UnitError` for units
     without states.
@@ -59,6 +59,8 @@ def linear_map(
                 changes=changes,
                 tolerance=tolerance,
             )
+    if not tolerance > 0.0:
+        raise ValueError(f"tolerance = {tolerance} (allowed: above 0)")
     if parameters:
         raise ValueError("parameters go with a file (allowed with an open unit: none)")
     if ramps and not source.can.interpolates:
@@ -122,7 +124,7 @@ def _find(rollout: Rollout, sizes: np.ndarray, ramps: bool, tolerance: float) ->
 
 def _defect(rollout: Rollout, found: LinearMap, sizes: np.ndarray, tolerance: float) -> float:
     """By how much roll-outs under random inputs differ from what the map says of them, relative to
-    the largest response of each output; what rounding does to an output is left out of it."""
+    the largest response of each output, or to one that rounding of the output would blur."""
     random = np.random.default_rng(0)
     shape = (rollout.steps, len(sizes))
     has_room = _room(rollout, sizes)
@@ -138,8 +140,9 @@ def _defect(rollout: Rollout, found: LinearMap, sizes: np.ndarray, tolerance: fl
         response = np.abs(seen - found.free).max(axis=0)
         rounding = 100.0 * np.finfo(float).eps * np.sqrt(begins.size) * np.abs(seen).max(axis=0)
         missed = np.abs(seen - said).max(axis=0)
-        size = np.maximum(response, np.maximum(rounding, np.finfo(float).tiny))
-        relative = np.where(missed > rounding, missed / size, 0.0)
+        # Where rounding would reach the tolerance, a response is too small to be looked at.
+        size = np.maximum(response, rounding / tolerance)
+        relative = missed / np.where(size > 0.0, size, 1.0)
         if relative.max() > worst:
             worst, culprit = float(relative.max()), found.outputs[int(relative.argmax())]
     if worst > tolerance:

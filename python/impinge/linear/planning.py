@@ -118,7 +118,9 @@ def plan(
     began = time.perf_counter()
     program = quadratic_program(found, target, free=free, steps=steps, **terms)
     solution = _solver(solver, program)(_scaled(program))
-    values = solution * _scales(program)
+    count = len(program.q)
+    # Solvers keep limits to rounding; inputs keep them.
+    values = np.clip(solution * _scales(program), program.lower[:count], program.upper[:count])
     inputs = values.reshape(-1, len(found.inputs))
     cost = float(0.5 * values @ program.P @ values + program.q @ values + program.c)
     outputs = found.predict(inputs, free=free)

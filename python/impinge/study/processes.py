@@ -41,7 +41,8 @@ class Worker:
     def __init__(self, job: Job, temporary: str | None = None):
         self.scene = ""
         ours, theirs = socket.socketpair()
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+        environment = {"OPENBLAS_NUM_THREADS": "1", **os.environ}
+        environment["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
         if temporary:
             environment["TMPDIR"] = temporary
         with theirs:
