@@ -10,6 +10,7 @@ from impinge.errors import ImpingeError
 from impinge.unit import Unit
 
 from .identify import linear_map
+from .realisation import StateSpace
 
 
 def main(given: list[str] | None = None) -> int:
@@ -92,7 +93,7 @@ def _proposed(unit: Unit) -> float:
     return unit.default_step
 
 
-def _save(space, path: Path) -> None:
+def _save(space: StateSpace, path: Path) -> None:
     import numpy as np
 
     np.savez(
