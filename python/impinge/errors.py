@@ -17,9 +17,11 @@ class UnitError(ImpingeError):
 
 
 class StepDiscarded(UnitError):
-    """A step came to an end before its time, and the unit can go on from there.
+    """A step came to an end before its time.
 
-    `time` [s] is the last that the unit has reached; `terminated` says that it wants to end.
+    `time` [s] is the last that the unit has reached; `terminated` says that it wants to end. A unit
+    of FMI 3.0 can go on from there. FMI 2.0 lets it be read, but go on only after `restore` of a
+    state that was saved before, or `reset`.
     """
 
     def __init__(

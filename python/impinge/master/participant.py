@@ -28,7 +28,7 @@ class Participant:
         self.steps = 0
         self.answers_late = False  # outputs follow inputs, but not before the next step
         self.state: State | None = None
-        self.memoryless = False
+        self.memoryless = False  # follows inputs, and has nothing to go back to
 
     def connect(self, names: Sequence[str], paths: np.ndarray, order: int) -> None:
         """Makes the calls; `paths` tells which values among the inputs may follow polynomials."""
@@ -68,8 +68,9 @@ class Participant:
             self.state = self.unit.state(self.state)
 
     def restore(self) -> None:
-        """Goes back to the state that was kept."""
-        if self.memoryless:
+        """Goes back to the state that was kept. A memoryless unit stays where it is if its outputs
+        follow inputs without a step; else it has to take the same step again."""
+        if self.memoryless and self.answers_late:
             self.unit.time = self._time
         elif self.state is not None:
             self.unit.restore(self.state)
@@ -113,7 +114,9 @@ class Participant:
         return self.writer.values
 
     def step_to(self, time: float) -> None:
-        """Advances to a time."""
+        """Advances to a time, unless it is memoryless and has been there already."""
+        if self.memoryless and self.unit.time >= time:
+            return
         self.steps += 1
         self.unit.step_to(time)
 
