@@ -169,18 +169,16 @@ def test_units_of_other_tools_have_maps(tmp_path, direct):
     u goes straight over a step too."""
     expm = pytest.importorskip("scipy.linalg").expm
     a, b, c = np.array([[-1.0, 0.5], [0.0, -0.3]]), np.array([1.0, 2.0]), np.array([1.0, -0.5])
-    values = dict(zip(["a11", "a12", "a21", "a22"], a.ravel().tolist(), strict=True))
-    values |= {"b1": 1.0, "b2": 2.0, "c1": 1.0, "c2": -0.5, "d": direct, "e": 4.0, "x1": 1.0}
+    values = {"d": direct, "e": 4.0, "x": [1.0, 0.0]}
     step, steps = 0.4, 12
     # [x, u, u'] with u' held: all integrals at once.
     whole = np.zeros((4, 4))
     whole[:2, :2], whole[:2, 2], whole[2, 3] = a, b, 1.0
     turned = expm(whole * step)
-    with Unit(make(tmp_path, "Two", **values)) as unit:
+    with Unit(make(tmp_path, "Two", a, b, c, **values)) as unit:
         unit["u"] = 0.5
         found = linear_map(unit, ["u"], ["y"], step, steps, ramps=True, tolerance=1e-8)
     powers = [np.linalg.matrix_power(turned[:2, :2], k) for k in range(steps)]
-    # The unit itself errs by 1e-11 in its substeps.
     assert found.held[:, 0, 0] == pytest.approx([c @ p @ turned[:2, 2] for p in powers], abs=1e-9)
     ramp = [c @ p @ turned[:2, 3] / step for p in powers]
     assert found.ramp[:, 0, 0] == pytest.approx(ramp, abs=1e-9)
@@ -189,7 +187,7 @@ def test_units_of_other_tools_have_maps(tmp_path, direct):
     assert space.order == 2 and space.D.item() == pytest.approx(direct, abs=1e-12)
     poles = np.sort(np.linalg.eigvals(space.A).real)
     assert poles == pytest.approx(np.exp([-step, -0.3 * step]), abs=1e-7)
-    with Unit(make(tmp_path, "None", states=False, **values)) as unit:
+    with Unit(make(tmp_path, "None", a, b, c, states=False, **values)) as unit:
         with pytest.raises(UnitError, match="cannot save its state"):
             linear_map(unit, ["u"], ["y"], step, steps)
 

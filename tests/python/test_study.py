@@ -145,6 +145,24 @@ def test_extremes_and_functions_of_runs(slab):
     assert table["max(plate.heat_stored)"].attrs["units"] == "J"
 
 
+def test_what_is_asked_for_at_the_stop_is_read_there_alone(slab, monkeypatch):
+    """A stress may cost a solve whenever it is read."""
+    from impinge.unit.access import Reader
+
+    study = Study(slab, {}, outputs=["top.temperature", over_time("plate.heat_in")], step=0.05)
+    counts = {}
+    original = Reader.__call__
+
+    def counted(self):
+        for variable in self.variables:
+            counts[variable.name] = counts.get(variable.name, 0) + 1
+        return original(self)
+
+    monkeypatch.setattr(Reader, "__call__", counted)
+    assert not Runner(study.package.folder, study.experiment).run(study.rows[0]).failed
+    assert counts == {"top.temperature": 1, "plate.heat_in": 21}
+
+
 def test_states_are_restored_where_inputs_alone_change(slab, monkeypatch):
     study = Study(
         slab,
@@ -289,27 +307,26 @@ def test_tables_tell_where_they_come_from(slab, tmp_path):
 
 @pytest.mark.parametrize("states", [True, False])
 def test_units_of_other_tools_are_studied(tmp_path, states):
-    """x' = −a x + u with u = 1 + t, whether or not states can be restored."""
-    unit = make(tmp_path, "Decay", states=states, c1=1.0, b1=1.0)
+    """x' = −2 x + u with u = s (1 + t) or held, whether or not states can be restored."""
+    unit = make(tmp_path, "Decay", [[-2.0]], [1.0], [1.0], x=[3.0], states=states)
     study = Study(
         unit,
-        {"a11": [-1.0, -2.0], "x1": [0.0, 3.0]},
-        inputs={"u": lambda t: 1.0 + t},
+        {"s": [-1.0, 0.0, 2.0]},
+        inputs={"u": lambda t, p: p["s"] * (1.0 + t)},
         outputs=["y", over_time("y")],
         stop=2.0,
         step=0.25,
     )
     table = study.run(2)
     assert (table.status == 0).all(), table.message.values
-    for a in (1.0, 2.0):
-        for first in (0.0, 3.0):
-            found = table.sel(a11=-a, x1=first)
-            t = table.time.values
-            held = 1 / a - 1 / a**2
-            expected = held + t / a + (first - held) * np.exp(-a * t)
-            assert found["y(t)"].values == pytest.approx(expected, abs=1e-8)
-    slow = Study(unit, {"u": [1.0, 2.0], "a11": -1.0}, outputs=["y"], stop=2.0, step=0.25).run(1)
-    assert slow["y"].values == pytest.approx([1 - np.exp(-2.0), 2 - 2 * np.exp(-2.0)], abs=1e-8)
+    t = table.time.values
+    for s in (-1.0, 0.0, 2.0):
+        expected = s * (0.25 + t / 2) + (3.0 - s / 4) * np.exp(-2.0 * t)
+        assert table["y(t)"].sel(s=s).values == pytest.approx(expected, abs=1e-8)
+    held = Study(unit, {"u": [1.0, 2.0, 4.0]}, outputs=["y"], stop=2.0, step=0.25).run(1)
+    u = held["u"].values
+    expected = u / 2 + (3.0 - u / 2) * np.exp(-4.0)
+    assert held["y"].values == pytest.approx(expected, abs=1e-8)
 
 
 def test_tunable_parameters_are_set_as_inputs_are(tmp_path):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -171,8 +171,9 @@ class Run:
         self.live = live
         self.unit = live.unit
         self.experiment = experiment
-        needs = [name for output in experiment.outputs for name in output.needs]
-        self.names = tuple(dict.fromkeys(needs))
+        # A stress may cost a solve: what is asked for at the stop is read there alone.
+        self.always = _needs(output for output in experiment.outputs if output.needs_all_times)
+        self.at_stop = tuple(n for n in _needs(experiment.outputs) if n not in self.always)
         signals = {**experiment.inputs, **row.inputs}
         held = {n: s for n, s in signals.items() if not (callable(s) or isinstance(s, Table))}
         moving = {n: s for n, s in signals.items() if n not in held}
@@ -191,27 +192,29 @@ class Run:
     def series(self) -> dict[str, np.ndarray]:
         """Values of all variables that outputs need, shape (times, *shape of the variable): at all
         times, or at the last one alone where that is enough."""
-        every = any(output.needs_all_times for output in self.experiment.outputs)
-        reader = self.live.reader(self.names)
-        rows = np.empty((len(self.times) if every else 1, len(reader.values)))
+        found = {}
+        every = self.live.reader(self.always) if self.always else None
+        rows = np.empty((len(self.times), len(every.values) if every else 0))
         if self.courses:
-            self._advance_moving(rows, reader, every)
+            self._advance_moving(rows, every)
         else:
-            self._advance_held(rows, reader, every)
-        rows[-1] = reader()
-        return {
-            variable.name: rows[:, place].reshape(len(rows), *variable.shape)
-            for variable, place in zip(reader.variables, reader.slices, strict=True)
-        }
+            self._advance_held(rows, every)
+        if every:
+            rows[-1] = every()
+            found.update(_by_name(every, rows))
+        if self.at_stop:
+            last = self.live.reader(self.at_stop)
+            found.update(_by_name(last, last()[None, :]))
+        return found
 
-    def _advance_held(self, rows: np.ndarray, reader: Any, every: bool) -> None:
+    def _advance_held(self, rows: np.ndarray, reader: Any) -> None:
         step = self.unit.step
         for number, size in enumerate(self.sizes.tolist()):
-            if every:
+            if reader:
                 rows[number] = reader()
             step(size)
 
-    def _advance_moving(self, rows: np.ndarray, reader: Any, every: bool) -> None:
+    def _advance_moving(self, rows: np.ndarray, reader: Any) -> None:
         """Inputs follow a parabola over each step, as far as the unit can; else they are held at
         their value in the middle. Values are read under the inputs of their time."""
         order = self.unit.can.interpolates
@@ -235,7 +238,7 @@ class Run:
         for number, size in enumerate(self.sizes.tolist()):
             write.values[:] = first[number]
             write()
-            if every:
+            if reader:
                 rows[number] = reader()
             if is_held.any():
                 write.values[:] = over_step[number]
@@ -250,6 +253,17 @@ class Run:
             self.unit.step(size)
         write.values[:] = last[-1]
         write()
+
+
+def _needs(outputs: Iterable[Output]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(name for output in outputs for name in output.needs))
+
+
+def _by_name(reader: Any, rows: np.ndarray) -> dict[str, np.ndarray]:
+    return {
+        variable.name: rows[:, place].reshape(len(rows), *variable.shape).copy()
+        for variable, place in zip(reader.variables, reader.slices, strict=True)
+    }
 
 
 def _derivatives(
