@@ -27,7 +27,7 @@ from impinge.study import LatinHypercube, over_time
 
 def flux(t, p):
     if t == 0.0:
-        time.sleep(0.01)
+        time.sleep(0.03)
     return p["plate.conductivity"] * 10.0
 
 study = Study(

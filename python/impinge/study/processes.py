@@ -142,7 +142,7 @@ class Server:
                 row = again.popleft() if again else take()
                 if row is None:
                     break
-                worker = self._ready()
+                worker = self._ready(bool(waiting))
                 is_new = bool(row.scene) and row.scene != worker.scene
                 if is_new and waiting:
                     # Two sides that both send much would wait for each other.
@@ -160,7 +160,7 @@ class Server:
             if not waiting:
                 return
             try:
-                finished = self._ready().receive(self.timeout)
+                finished = self._ready(True).receive(self.timeout)
             except Died as death:
                 self.worker = None
                 if self.is_stopped:
@@ -171,8 +171,13 @@ class Server:
             else:
                 report(waiting.popleft(), finished)
 
-    def _ready(self) -> Worker:
-        if self.worker is None or not self.worker.is_alive:
+    def _ready(self, owes_answers: bool) -> Worker:
+        """The worker; a new one if there is none, or if it has ended while it had nothing to do. One
+        that owes answers is kept, as only asking for them tells of which row it died."""
+        if self.worker and not owes_answers and not self.worker.is_alive:
+            self.worker.close()
+            self.worker = None
+        if self.worker is None:
             self.worker = Worker(self.job, self.temporary)
         return self.worker
 
