@@ -357,6 +357,8 @@ def test_tunable_parameters_are_set_as_inputs_are(tmp_path):
         ({"inputs": {"plate.density": 1.0}}, "fixed|parameter"),
         ({"inputs": {"plate.top.flux": np.inf}}, "finite"),
         ({"outputs": []}, "at least one"),
+        ({"outputs": ["no.such"]}, "no variable"),
+        ({"outputs": ["output.directory"]}, "no number"),
         ({"outputs": ["top.temperature"] * 2}, "twice"),
         ({"stop": -1.0}, "above 0"),
         ({"sampler": LatinHypercube(0)}, "at least 1"),

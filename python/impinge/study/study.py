@@ -70,6 +70,7 @@ class Study:
         self.parameters = {name: distribution_of(name, v) for name, v in parameters.items()}
         self.experiment = self._experiment(inputs or {}, outputs, stop, step)
         self.kinds = {name: self._kind(name) for name in self.parameters}
+        self._check_outputs()
         self.design: Design = self.sampler.design(self.parameters)
         self._texts: dict[str, str] = {}  # scenes by hash
         self.rows = [self._row(index, values) for index, values in enumerate(self.design.rows)]
@@ -230,10 +231,6 @@ class Study:
         twice = {o.name for o in kept if sum(p.name == o.name for p in kept) > 1}
         if twice:
             raise ValueError(f"outputs {', '.join(sorted(twice))} stand twice (allowed: once)")
-        if self.scene is None:
-            for output in kept:
-                for name in output.needs:
-                    self._check_number(name)
         signals: dict[str, Signal] = {}
         for name, given in inputs.items():
             variable = self.package.variable(name)
@@ -243,9 +240,14 @@ class Study:
             signals[name] = signal_of(name, given)
         return Experiment(stop, min(step, stop), signals, kept)
 
-    def _check_number(self, name: str) -> None:
-        if not self.package.variable(name).is_number:
-            raise UnitError(f"`{name}` is no number (allowed as output: numbers)")
+    def _check_outputs(self) -> None:
+        """Refuses what the unit has not; changed scenes may have other variables than it."""
+        if "scene" in self.kinds.values():
+            return
+        for output in self.experiment.outputs:
+            for name in output.needs:
+                if not self.package.variable(name).is_number:
+                    raise UnitError(f"`{name}` is no number (allowed as output: numbers)")
 
     def _kind(self, name: str) -> str:
         """What a parameter's name stands for: parameter, input, scene or function."""
