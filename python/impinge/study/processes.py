@@ -172,8 +172,8 @@ class Server:
                 report(waiting.popleft(), finished)
 
     def _ready(self, owes_answers: bool) -> Worker:
-        """The worker; a new one if there is none, or if it has ended while it had nothing to do. One
-        that owes answers is kept, as only asking for them tells of which row it died."""
+        """The worker; a new one if there is none, or if it has ended with nothing to do. One that
+        owes answers is kept: only asking for them tells of which row it died."""
         if self.worker and not owes_answers and not self.worker.is_alive:
             self.worker.close()
             self.worker = None
