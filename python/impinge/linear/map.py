@@ -144,7 +144,7 @@ class LinearMap:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the map as `.npz`, arrays by the names of its attributes."""
         texts = {"inputs": self.inputs, "outputs": self.outputs, "units": self.units}
-        ramp = {} if self.ramp is None else {"ramp": self.ramp}
+        ramp: dict[str, Any] = {} if self.ramp is None else {"ramp": self.ramp}
         np.savez(
             path,
             about=json.dumps(texts),

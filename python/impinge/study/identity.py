@@ -107,8 +107,8 @@ def _add(digest: Any, thing: Any, seen: set[int]) -> None:
         digest.update(_word(type(thing).__qualname__.encode()))
         _add(digest, vars(thing), seen)
     else:
-        name = getattr(thing, "__qualname__", None) or getattr(thing, "__name__", None)
-        digest.update(_word((name or type(thing).__qualname__).encode()))
+        named = getattr(thing, "__qualname__", None) or getattr(thing, "__name__", None)
+        digest.update(_word(str(named or type(thing).__qualname__).encode()))
 
 
 def _word(content: bytes) -> bytes:

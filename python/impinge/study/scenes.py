@@ -88,8 +88,8 @@ class Scene:
         with tempfile.TemporaryDirectory(prefix="impinge-") as name:
             folder = Path(name)
             (folder / "scene.toml").write_text(text)
-            command = [find_program(), folder / "scene.toml", "--fmi", str(self.fmi)]
-            command += ["--xml", folder / "unit.xml"]
+            command = [str(find_program()), str(folder / "scene.toml"), "--fmi", str(self.fmi)]
+            command += ["--xml", str(folder / "unit.xml")]
             ran = subprocess.run(command, capture_output=True, text=True, check=False)
             if ran.returncode != 0:
                 said = ran.stderr.replace(f"{folder}/scene.toml", str(self.path))
@@ -147,7 +147,7 @@ def _place(parent: Any, word: str) -> str | int:
 def _item(parent: Any, place: str | int) -> Any:
     if isinstance(parent, dict):
         return parent.get(place)
-    return parent[place] if isinstance(parent, list) else None
+    return parent[int(place)] if isinstance(parent, list) else None
 
 
 def _meanings(schema: dict[str, Any], node: Any) -> list[dict[str, Any]]:

@@ -203,7 +203,7 @@ class Study:
 
     def _pending(self, finished: Mapping[str, Finished]) -> list[Row]:
         """Rows to run, each key once."""
-        rows = {}
+        rows: dict[str, Row] = {}
         for key, row in zip(self.keys, self.rows, strict=True):
             if key not in finished:
                 rows.setdefault(key, row)
