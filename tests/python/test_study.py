@@ -358,6 +358,7 @@ def test_tunable_parameters_are_set_as_inputs_are(tmp_path):
         ({"inputs": {"plate.top.flux": np.inf}}, "finite"),
         ({"outputs": []}, "at least one"),
         ({"outputs": ["no.such"]}, "no variable"),
+        ({"outputs": ["plate.density"]}, "has not yet"),
         ({"outputs": ["output.directory"]}, "no number"),
         ({"outputs": ["top.temperature"] * 2}, "twice"),
         ({"stop": -1.0}, "above 0"),

@@ -242,6 +242,12 @@ class Study:
 
     def _check_outputs(self) -> None:
         """Refuses what the unit has not; changed scenes may have other variables than it."""
+        taken = {*self.parameters, "status", "message", "time", "row"}
+        for output in self.experiment.outputs:
+            if output.name in taken:
+                raise ValueError(
+                    f"output {output.name} (allowed: names that the table has not yet)"
+                )
         if "scene" in self.kinds.values():
             return
         for output in self.experiment.outputs:
