@@ -30,7 +30,7 @@ RADIATING = """
 radiation = { emissivity = 0.9, ambient = 300.0 }
 
 [fidelity]
-tolerance = 1e-6
+tolerance = 1e-5
 """
 
 

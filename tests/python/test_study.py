@@ -122,7 +122,7 @@ def test_inputs_over_time_bring_in_their_integral(slab, fmi):
         Table([1.0, 0.0], [1.0, 1.0])
 
 
-def test_extremes_and_functions_of_runs(slab):
+def test_extremes_and_functions_of_runs(slab, tmp_path):
     """Under q = q₀ sin 2πt, the heat in a slab is largest at half a period, and back at the end."""
     table = Study(
         slab,
@@ -131,12 +131,14 @@ def test_extremes_and_functions_of_runs(slab):
         outputs=[
             maximum("plate.heat_stored"),
             minimum("plate.heat_stored"),
+            of_run("never", lambda t, y: np.nan, ["plate.heat_stored"]),
             of_run(
                 "peak", lambda t, y: t[y["plate.heat_stored"].argmax()], ["plate.heat_stored"], "s"
             ),
         ],
         step=0.01,
-    ).run(1)
+    ).run(1, folder=tmp_path)
+    assert np.isnan(table["never"].values).all() and (table.status == 0).all()
     largest = 1e3 * AREA / np.pi
     assert table["max(plate.heat_stored)"].values == pytest.approx(largest, rel=1e-6)
     assert table["min(plate.heat_stored)"].values == pytest.approx(0.0, abs=1e-6 * largest)
