@@ -4,7 +4,7 @@ from math import pi
 
 import numpy as np
 import pytest
-from fmpy.fmi1 import FMICallException
+from impinge import StepDiscarded, UnitError
 from master import Unit
 from test_fmi3 import Unit as Unit3
 
@@ -22,9 +22,9 @@ def test_the_rings_and_what_lies_beyond_them_take_all_that_the_drop_gives(pack):
         momentum = unit["drop.momentum_z"]
         for _ in range(20):
             unit.step(STEP)
-            flow = np.array(unit.read(rings("heat_flux"))) @ AREAS
+            flow = unit["wall.heat_flux"] @ AREAS
             given += STEP * (flow + unit["wall.heat_flow_outside"])
-            force = np.array(unit.read(rings("pressure"))) @ AREAS + unit["wall.force_outside"]
+            force = unit["wall.pressure"] @ AREAS + unit["wall.force_outside"]
             assert force == pytest.approx(unit["drop.force"], rel=1e-9)
         assert given == pytest.approx(unit["drop.heat"], rel=1e-9)
         assert unit["drop.impulse_z"] == pytest.approx(momentum - unit["drop.momentum_z"], rel=1e-4)
@@ -44,7 +44,7 @@ def test_wall_temperatures_are_inputs(pack):
 def test_the_drop_and_its_fluid_are_parameters(pack):
     with Unit(pack("drop"), {"drop.diameter": 8e-5, "drop.density": 800.0}) as unit:
         assert unit["drop.mass"] == pytest.approx(800.0 * pi / 6 * 8e-5**3, rel=1e-9)
-    with pytest.raises(FMICallException):
+    with pytest.raises(UnitError):
         Unit(pack("drop"), {"drop.diameter": 3e-5})
 
 
@@ -66,9 +66,8 @@ def test_a_step_without_meaning_is_discarded(pack):
         unit.step(STEP)
         before = unit["drop.heat"]
         unit.set(dict.fromkeys(rings("temperature"), 1e300))
-        with pytest.raises(FMICallException) as refused:
+        with pytest.raises(StepDiscarded):
             unit.step(STEP)
-        assert refused.value.status == 2, "fmi2Discard"
         assert any("drop: " in line and "t = " in line for line in unit.log), unit.log
         assert unit["drop.heat"] == before
 

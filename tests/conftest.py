@@ -9,14 +9,20 @@ from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).resolve().parents[2]
-SCENES = Path(__file__).parent / "scenes"
+ROOT = Path(__file__).resolve().parents[1]
+# Programs that tests start find the package, too.
+os.environ["PYTHONPATH"] = os.pathsep.join(
+    [str(ROOT / "python"), str(ROOT / "tests"), *filter(None, [os.environ.get("PYTHONPATH")])]
+)
+SCENES = ROOT / "tests/fmpy/scenes"
 EXAMPLES = sorted(ROOT.glob("examples/*/scene.toml"))
 
 
 @pytest.fixture(scope="session")
 def programs():
-    """The folder of build-fmu and impinge."""
+    """The folder of build-fmu and impinge; IMPINGE_BIN names one where they are built already."""
+    if "IMPINGE_BIN" in os.environ:
+        return Path(os.environ["IMPINGE_BIN"]).resolve()
     subprocess.run(["cargo", "build", "--release", "--workspace"], cwd=ROOT, check=True)
     return ROOT / "target/release"
 

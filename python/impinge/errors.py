@@ -1,0 +1,32 @@
+"""What may go wrong, as exceptions that repeat what a unit has to say."""
+
+
+class ImpingeError(Exception):
+    """Any error of this package."""
+
+
+class UnitError(ImpingeError):
+    """A unit, or what was asked of it, is at fault.
+
+    `messages` are those that the unit has logged about it.
+    """
+
+    def __init__(self, what: str, messages: list[str] | None = None):
+        self.messages = messages or []
+        super().__init__("\n  ".join([what, *self.messages]))
+
+
+class StepDiscarded(UnitError):
+    """A step came to an end before its time.
+
+    `time` [s] is the last that the unit has reached; `terminated` says that it wants to end. A unit
+    of FMI 3.0 can go on from there. FMI 2.0 lets it be read, but go on only after `restore` of a
+    state that was saved before, or `reset`.
+    """
+
+    def __init__(
+        self, what: str, time: float, messages: list[str] | None = None, terminated: bool = False
+    ):
+        super().__init__(what, messages)
+        self.time = time
+        self.terminated = terminated

@@ -1,0 +1,259 @@
+"""One step of all units: Jacobi, Gauss–Seidel, or iterated until what is guessed comes out."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from impinge.errors import UnitError
+from impinge.master import waveform
+from impinge.master.acceleration import Acceleration
+from impinge.master.connection import Link
+from impinge.master.participant import Participant
+
+
+@dataclass
+class Component:
+    """Units that advance together, in order; `guessed` are the links whose values are not known
+    when their target advances, `places` where these stand among all inputs."""
+
+    members: list[Participant]
+    guessed: list[Link]
+    iterates: bool = False
+    acceleration: Acceleration = field(default_factory=Acceleration)
+
+    def __post_init__(self) -> None:
+        spans = [np.arange(k.place.start, k.place.stop) for k in self.guessed]
+        self.places = np.concatenate(spans) if spans else np.zeros(0, int)
+        real = [np.full(k.size, k.is_real) for k in self.guessed]
+        self.real = np.concatenate(real) if real else np.zeros(0, bool)
+
+
+class NoConvergence(Exception):
+    """A step whose iterations found no end."""
+
+
+class Engine:
+    """The state of a coupled run: paths of inputs since the last jump, and how steps are taken.
+
+    order: degree of the polynomials in time through values that are known or iterated.
+    extrapolation: degree of those through earlier values alone.
+    drives: inputs that functions of time give: (place, function).
+    """
+
+    def __init__(
+        self,
+        participants: Sequence[Participant],
+        links: Sequence[Link],
+        components: Sequence[Component],
+        drives: Sequence[tuple[slice, Callable[[float], np.ndarray]]],
+        order: int,
+        extrapolation: int,
+        max_iterations: int,
+    ):
+        self.participants, self.links, self.components = participants, links, components
+        self.drives = drives
+        self.order, self.extrapolation = order, extrapolation
+        self.max_iterations = max_iterations
+        count = sum(p.place.stop - p.place.start for p in participants)
+        self.inputs = np.zeros(count)
+        self.history = waveform.History(3)
+        self.iterations = 0
+        self.last_iterations = 0
+        self._driven = np.zeros(count, bool)
+        for place, _ in drives:
+            self._driven[place] = True
+        guessed = [k for c in components if not c.iterates for k in c.guessed]
+        self._extrapolated = self._mask(guessed)
+        self._whole = self._mask([k for k in links if k.is_mean])
+        self._stale = np.zeros(count, bool)
+        self._discrete = self._mask([k for k in links if not k.is_real])
+
+    def _mask(self, links: Sequence[Link]) -> np.ndarray:
+        mask = np.zeros(len(self.inputs), bool)
+        for link in links:
+            mask[link.place] = True
+        return mask
+
+    def begin(self, time: float) -> None:
+        """Takes the present inputs as the only ones known, after a start or a jump."""
+        self.history.begin(time, self.inputs)
+        late = [p.name for p in self.participants if p.answers_late]
+        self._stale = self._mask([k for k in self.links if k.source_unit in late])
+
+    def drive(self, inputs: np.ndarray, time: float) -> None:
+        """Puts the values of functions of time in."""
+        for place, function in self.drives:
+            inputs[place] = function(time)
+
+    def weights(self) -> np.ndarray:
+        """One over the scale of each input."""
+        weight = np.ones(len(self.inputs))
+        for link in self.links:
+            weight[link.place] = 1 / link.scale()
+        return weight
+
+    def see(self, inputs: np.ndarray) -> None:
+        """Remembers magnitudes."""
+        for link in self.links:
+            link.largest = max(link.largest, float(np.abs(inputs[link.place]).max()))
+
+    # A step
+
+    def advance(self, time: float, end: float, before: float, tolerance: float) -> None:
+        """Takes all units from `time` to `end`; what they then are is not yet accepted.
+
+        `before` is the time just before a jump at the end of the step, else `end`: functions of
+        time are evaluated there. Afterwards `guess` holds the inputs that paths end at, `true`
+        those that outputs say, `arrived` the means of what targets followed.
+        """
+        size = end - time
+        self.guess = self._extrapolate(end)
+        self.drive(self.guess, before)
+        self.true = self.guess.copy()
+        self.arrived = np.zeros_like(self.inputs)
+        self.last_iterations = 0
+        middle = None
+        if self.order == 2 and self.drives:
+            middle = np.zeros_like(self.inputs)
+            self.drive(middle, (time + before) / 2)
+        for component in self.components:
+            if component.iterates:
+                self._iterate(component, time, end, size, tolerance, middle)
+            else:
+                self._sweep(component, time, end, size, middle)
+        self.iterations += self.last_iterations
+
+    def _extrapolate(self, end: float) -> np.ndarray:
+        nodes = self.history.last(max(self.extrapolation, self.order) + 1)
+        guess = waveform.path(nodes, end)[0].copy()
+        if self._extrapolated.any():
+            own = waveform.path(self.history.last(self.extrapolation + 1), end)[0]
+            guess[self._extrapolated] = own[self._extrapolated]
+        return guess
+
+    def _sweep(
+        self, component: Component, time: float, end: float, size: float, middle: np.ndarray | None
+    ) -> None:
+        for participant in component.members:
+            place = participant.place
+            if participant.writer is not None:
+                path = self._path(place, time, end, middle)
+                self.arrived[place] = participant.write_path(*path, self.guess[place], size)
+            participant.step_to(end)
+            if participant.is_direct and participant.held != "end":
+                participant.write(self.guess[place])
+            values = participant.read()
+            for link in participant.links_out:
+                new = link.transfer(values[participant.sources[link.source]])
+                self.true[link.place] = new
+                if link not in component.guessed:
+                    self.guess[link.place] = new
+
+    def _path(
+        self, place: slice, time: float, end: float, middle: np.ndarray | None
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """The path of some inputs over the step: through the guess at its end, where it is more
+        than what earlier values say."""
+        past = [(at, values[place]) for at, values in self.history.last(self.order)]
+        a, b, c = waveform.path([*past, (end, self.guess[place])], time)
+        changes = [
+            (self._whole | self._stale, [(end, self.guess)]),
+            (self._extrapolated, self.history.last(self.extrapolation + 1)),
+            (self._discrete, self.history.last(1)),
+        ]
+        if middle is not None:
+            now = self.history.nodes[-1]
+            changes.append((self._driven, [now, ((time + end) / 2, middle), (end, self.guess)]))
+        elif self.order:
+            changes.append((self._driven, [self.history.nodes[-1], (end, self.guess)]))
+        for mask, nodes in changes:
+            mask = mask[place]
+            if mask.any():
+                other = waveform.path([(at, values[place]) for at, values in nodes], time)
+                a, b, c = (
+                    np.where(mask, new, old) for new, old in zip(other, (a, b, c), strict=True)
+                )
+        return a, b, c
+
+    def _iterate(
+        self,
+        component: Component,
+        time: float,
+        end: float,
+        size: float,
+        tolerance: float,
+        middle: np.ndarray | None,
+    ) -> None:
+        places, real = component.places, component.real
+        component.acceleration.begin()
+        for count in range(1, self.max_iterations + 1):
+            if count > 1:
+                for participant in component.members:
+                    participant.restore()
+            self.last_iterations += 1
+            x = self.guess[places].copy()
+            self._sweep(component, time, end, size, middle)
+            g = self.true[places]
+            if not np.isfinite(g).all():
+                raise NoConvergence("values are not finite")
+            self.see(self.true)
+            weight = self.weights()[places]
+            residual = np.abs(g - x) * weight
+            if (residual[real] <= tolerance).all():
+                component.acceleration.end()
+                return
+            new = component.acceleration.next(x, g, weight)
+            self.guess[places] = np.where(real, new, x)
+        raise NoConvergence(
+            f"the residual is {residual[real].max():.2g}, not {tolerance:.2g}, of the scale after"
+            f" {self.max_iterations} iterations"
+        )
+
+    # After a step
+
+    def error(self, end: float, size: float) -> float:
+        """The largest error in time of the last step's paths, in shares of scales."""
+        nodes = [*self.history.nodes, (end, self.true)]
+        worst = 0.0
+        time = end - size
+        for link in self.links:
+            if link.is_mean or not link.is_real or self._stale[link.place].any():
+                continue
+            if self._extrapolated[link.place].any():
+                own = [(at, v[link.place]) for at, v in self.history.last(self.extrapolation + 1)]
+                guess = waveform.path(own, end)[0]
+                error = np.abs(self.true[link.place] - guess)
+            else:
+                own = [(at, values[link.place]) for at, values in nodes]
+                error = waveform.interpolation_error(own, self.order, time, size)
+            worst = max(worst, float(error.max()) / link.scale())
+        return worst
+
+    def given(self, end: float, size: float) -> np.ndarray:
+        """Means over the last step of what outputs say: of the polynomials through their values,
+        or what they are where they are means."""
+        nodes = [*self.history.last(max(self.order, 1)), (end, self.true)]
+        means = waveform.mean(*waveform.path(nodes, end - size), size)
+        return np.where(self._whole | self._stale, self.true, means)
+
+    def accept(self, end: float) -> None:
+        """Goes on from the step's end. Iterated paths go on from where they ended, others from
+        what outputs say."""
+        if self._stale.any():  # what was not known at the beginning counts from now on
+            first = self.history.nodes[-1]
+            first[1][self._stale] = self.guess[self._stale]
+            self._stale[:] = False
+        self.see(self.true)
+        self.inputs[:] = self.true
+        for component in self.components:
+            if component.iterates:
+                self.inputs[component.places] = self.guess[component.places]
+        self.history.add(end, self.inputs)
+
+
+def refused(error: Exception) -> bool:
+    """Whether a shorter step may succeed."""
+    return isinstance(error, NoConvergence | UnitError)

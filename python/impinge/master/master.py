@@ -1,0 +1,426 @@
+"""A master: several units, what joins them, and a run in time."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray
+from tqdm import tqdm
+
+from impinge.errors import UnitError
+from impinge.master.acceleration import acceleration as make_acceleration
+from impinge.master.connection import Connection, Link, links, split
+from impinge.master.energy import Balance, bond
+from impinge.master.engine import Component, Engine, NoConvergence
+from impinge.master.errors import MasterError, MasterWarning
+from impinge.master.exchange import Exchange
+from impinge.master.graph import best_order, unit_components
+from impinge.master.participant import Participant
+from impinge.master.record import Record
+from impinge.master.stepping import Graded, Schedule
+from impinge.unit import Unit
+
+SCHEMES = ("jacobi", "gauss-seidel", "iterate")
+
+
+class Master:
+    """Couples units of FMI 2.0 and 3.0, of any tool.
+
+    units: by name, each a `Unit` or what one is made of (those are closed with the master).
+    connections: pairs ("unit.output", "unit.input") or `Connection`s; families connect whole.
+    scheme: "jacobi": all units advance on extrapolated inputs; "gauss-seidel": in the order that
+        declared dependencies give, on what those before them have just found; "iterate": rings of
+        units repeat each step, from saved states, until what was guessed comes out.
+    acceleration: of iterations: "none", "aitken", "anderson", "iqn-ils"; `relaxation` is the factor
+        of the first iteration, `reuse` the earlier steps whose columns IQN-ILS keeps.
+    step: communication step [s]; the first one where `adaptive`. The shortest that a unit proposes
+        if left out.
+    tolerance: of residuals of iterations, as a share of each connection's scale (1e-6); where
+        `adaptive`, of each step's error in time (1e-3), with iterations to a tenth of that.
+    order: degree in time, 0 to 2, of paths that inputs follow over a step through values at its
+        ends and before. Units that cannot follow them get the mean, or the end where their
+        outputs come from their steps alone.
+    extrapolation: degree of paths through earlier values alone; 0 holds inputs.
+    adaptive: steps as long as the error allows; those that miss it are repeated shorter.
+    graded: `Graded(over, exponent)`, or the time `over`: shorter steps after the start and jumps.
+    jumps: times [s] at which inputs jump; no path reaches across them.
+    inputs: values, or functions of time, of inputs that no connection sets.
+    energy: powers to balance: `Bond`s, or pairs (flux output, effort output).
+    outputs: what to record beside the sources of connections.
+    memoryless: units without a state of their own, which may take a step again without going back.
+    parameters: of units that are made here, by unit.
+    strict: whether iterations without end are an error; else a warning, and the run goes on.
+
+    Raises `MasterError` for what does not fit together, `UnitError` for what units refuse.
+    """
+
+    def __init__(
+        self,
+        units: Mapping[str, Unit | str | os.PathLike[str]],
+        connections: Sequence[Connection | tuple[str, str]] = (),
+        *,
+        scheme: str = "iterate",
+        acceleration: str = "iqn-ils",
+        step: float | None = None,
+        tolerance: float | None = None,
+        order: int = 1,
+        extrapolation: int | None = None,
+        adaptive: bool = False,
+        graded: Graded | float | None = None,
+        jumps: Sequence[float] = (),
+        inputs: Mapping[str, Any] | None = None,
+        energy: Sequence[Any] = (),
+        outputs: Sequence[str] = (),
+        max_iterations: int = 50,
+        relaxation: float | None = None,
+        reuse: int | None = None,
+        least_step: float | None = None,
+        largest_step: float = np.inf,
+        memoryless: Collection[str] = (),
+        parameters: Mapping[str, Mapping[str, Any]] | None = None,
+        strict: bool = True,
+    ):
+        _check_choices(scheme, order, extrapolation, max_iterations)
+        self.notes: list[str] = []
+        self._own: list[Unit] = []
+        self.units: dict[str, Unit] = {}
+        try:
+            self._open(units, parameters or {})
+            self.scheme, self.acceleration, self.order = scheme, acceleration, order
+            self.extrapolation = 0 if extrapolation is None else extrapolation
+            self.adaptive, self.strict = adaptive, strict
+            self.tolerance = tolerance or (1e-3 if adaptive else 1e-6)
+            self.links = links(connections, self.units)
+            self._make_participants(inputs or {}, memoryless)
+            self._make_components(relaxation, reuse)
+            self._fall_back(graded)
+            self._engine = Engine(
+                list(self.participants.values()),
+                self.links,
+                self.components,
+                self._drives,
+                order,
+                self.extrapolation,
+                max_iterations,
+            )
+            self._exchange = Exchange(self.participants, self.links, self.units)
+            self._balances = [Balance(bond(each), self.links, self.units) for each in energy]
+            sources = [link.connection.source for link in self.links]
+            self._record = Record(self.units, [*sources, *outputs])
+        except BaseException:
+            self.close()
+            raise
+        step = step or self._proposed_step()
+        graded = Graded(graded) if isinstance(graded, int | float) else graded
+        least = step * 1e-9 if least_step is None else least_step
+        self._schedule = Schedule(step, graded, jumps, self.adaptive, least, largest_step)
+        self._iteration_tolerance = self.tolerance * (0.1 if self.adaptive else 1.0)
+        self.steps = self.rejected = self.most_iterations = self.unconverged = 0
+        self._has_begun = False
+
+    # Making
+
+    def _open(self, units: Mapping[str, Any], parameters: Mapping[str, Mapping[str, Any]]) -> None:
+        for name, unit in units.items():
+            if "." in name:
+                raise MasterError(f"`{name}`: names of units have no dots")
+            if isinstance(unit, Unit):
+                self.units[name] = unit
+            else:
+                self.units[name] = Unit(unit, parameters=parameters.get(name))
+                self._own.append(self.units[name])
+        times = {unit.time for unit in self.units.values()}
+        if len(times) > 1:
+            raise MasterError(f"units stand at different times: {sorted(times)} s")
+        self.time = times.pop() if times else 0.0
+
+    def _make_participants(self, inputs: Mapping[str, Any], memoryless: Collection[str]) -> None:
+        self.participants = {name: Participant(name, unit) for name, unit in self.units.items()}
+        unknown = set(memoryless) - set(self.units)
+        if unknown:
+            raise MasterError(f"memoryless: no unit is called {', '.join(sorted(unknown))}")
+        for link in self.links:
+            self.participants[link.source_unit].links_out.append(link)
+            self.participants[link.target_unit].links_in.append(link)
+        targets = {link.connection.target for link in self.links}
+        driven: dict[str, list[tuple[str, Any]]] = {}
+        for name, value in inputs.items():
+            unit, variable = split(name, self.units)
+            if name in targets:
+                raise MasterError(f"{name} is set by a connection already")
+            driven.setdefault(unit, []).append((variable, value))
+        self._drives: list[tuple[slice, Callable[[float], np.ndarray]]] = []
+        count = 0
+        for name, participant in self.participants.items():
+            participant.memoryless = name in memoryless
+            begin, names, paths = count, [], []
+            for link in participant.links_in:
+                link.place = slice(count, count + link.size)
+                count += link.size
+                names.append(link.target)
+                paths.append(np.full(link.size, link.is_real))
+            for variable, value in driven.get(name, []):
+                target = self.units[name].variable(variable)
+                place = slice(count, count + target.size)
+                count += target.size
+                self._drives.append((place, _function(value, target.shape)))
+                names.append(variable)
+                real = target.is_real and target.variability == "continuous"
+                paths.append(np.full(target.size, real))
+            participant.place = slice(begin, count)
+            mask = np.concatenate(paths) if paths else np.zeros(0, bool)
+            participant.connect(names, mask, self.order)
+
+    def _make_components(self, relaxation: float | None, reuse: int | None) -> None:
+        if self.scheme == "jacobi":
+            groups = [list(self.units)]
+        else:
+            groups = [
+                best_order(self.units, group, self.links)
+                for group in unit_components(self.units, self.links)
+            ]
+        self.components = []
+        for group in groups:
+            place = {name: i for i, name in enumerate(group)}
+            inner = [k for k in self.links if k.source_unit in place and k.target_unit in place]
+            guessed = [
+                k
+                for k in inner
+                if self.scheme == "jacobi" or place[k.source_unit] >= place[k.target_unit]
+            ]
+            iterates = self.scheme == "iterate" and any(k.is_real for k in guessed)
+            made = make_acceleration(self.acceleration, relaxation, reuse)
+            members = [self.participants[name] for name in group]
+            self.components.append(Component(members, guessed, iterates, made))
+
+    def _fall_back(self, graded: Graded | float | None) -> None:
+        """Does without what units cannot do, and says so."""
+        for component in self.components:
+            stuck = [p.name for p in component.members if not p.can_go_back]
+            if component.iterates and stuck:
+                component.iterates = False
+                self._note(f"{_list(stuck)} cannot go back: no iterations, but Gauss-Seidel steps")
+        stuck = [p.name for p in self.participants.values() if not p.can_go_back]
+        if self.adaptive and stuck:
+            self.adaptive = False
+            self._note(f"{_list(stuck)} cannot go back: steps of one length")
+        fixed = [name for name, unit in self.units.items() if not unit.can.variable_steps]
+        if fixed and (self.adaptive or graded is not None):
+            raise MasterError(f"{_list(fixed)} take steps of one length alone")
+        self.held = [
+            p.name for p in self.participants.values() if self.order and p.writer and not p.order
+        ]
+
+    def _note(self, text: str) -> None:
+        self.notes.append(text)
+        warnings.warn(text, MasterWarning, stacklevel=4)
+
+    def _proposed_step(self) -> float:
+        proposed = [unit.default_step for unit in self.units.values() if unit.default_step]
+        if not proposed:
+            raise MasterError("no unit proposes a step: Master(…, step=…)")
+        return min(proposed)
+
+    @property
+    def algebraic_loops(self) -> list[list[str]]:
+        """Sources of connections that follow each other at once."""
+        return [[link.connection.source for link in loop] for loop in self._exchange.loops]
+
+    # Running
+
+    def run(self, stop: float, *, progress: bool | None = None) -> xarray.Dataset:
+        """Goes on to `stop` [s]; what has been recorded since the start comes back.
+
+        progress: whether a bar is shown; only in runs of more than two seconds if left out.
+        """
+        if not self._has_begun:
+            self._begin()
+        bar = tqdm(
+            total=stop,
+            initial=self.time,
+            unit="s",
+            unit_scale=True,
+            delay=0.0 if progress else 2.0,
+            disable=False if progress else (None if progress is None else True),
+            leave=False,
+        )
+        with bar:
+            while self.time < stop:
+                if self._step(stop):
+                    bar.n = self.time
+                    bar.set_postfix_str(f"{self.steps} steps", refresh=False)
+                    bar.update(0)
+        return self._record.dataset(self._balances, self._attributes())
+
+    def _begin(self) -> None:
+        engine = self._engine
+        self._read_start(engine.inputs)
+        engine.drive(engine.inputs, self.time)
+        # Twice: what follows inputs at once may have been read before these were set.
+        for _ in range(2):
+            self._exchange(engine.inputs, self._iteration_tolerance)
+        engine.see(engine.inputs)
+        weight = engine.weights()
+        for participant in self.participants.values():
+            place = participant.place
+            participant.probe(engine.inputs[place], weight[place])
+        engine.begin(self.time)
+        self._schedule.restart(self.time)
+        self._record.add(self.time, self._balances)
+        self._has_begun = True
+
+    def _read_start(self, inputs: np.ndarray) -> None:
+        for participant in self.participants.values():
+            if participant.writer is not None:
+                inputs[participant.place] = participant.unit.reader(participant.names)()
+
+    def _step(self, stop: float) -> bool:
+        """Tries a step; whether it was accepted."""
+        end = self._schedule.end_of_step(self.time, stop)
+        size = end - self.time
+        is_jump = end in self._schedule.jumps
+        self._save()
+        try:
+            before = end - 1e-9 * size if is_jump else end
+            self._engine.advance(self.time, end, before, self._iteration_tolerance)
+        except (NoConvergence, UnitError) as error:
+            if not self._may_go_on(error, size):
+                return False
+        if self.adaptive and not self._is_good(end, size):
+            return False
+        self._accept(end, size, is_jump)
+        return True
+
+    def _save(self) -> None:
+        for component in self.components:
+            if component.iterates or self.adaptive:
+                for participant in component.members:
+                    participant.save()
+
+    def _may_go_on(self, error: Exception, size: float) -> bool:
+        """What to do with a step that failed: a shorter one, an error, or to pass over it."""
+        if self.adaptive:
+            self._reject(size)
+            self._schedule.shrink(size)
+            return False
+        if isinstance(error, NoConvergence):
+            where = f"the step of {size:.6g} s from {self.time:.6g} s"
+            if self.strict or "finite" in str(error):
+                raise MasterError(f"{where} does not converge: {error}") from None
+            self.unconverged += 1
+            if self.unconverged == 1:
+                warnings.warn(f"{where} does not converge: {error}", MasterWarning, stacklevel=4)
+            return True
+        raise error
+
+    def _is_good(self, end: float, size: float) -> bool:
+        error = self._engine.error(end, size) / self.tolerance
+        guessed = any(c.guessed and not c.iterates for c in self.components)
+        order = self.extrapolation if guessed else self.order
+        self._schedule.propose(size, error, order, error <= 1)
+        if error > 1:
+            self._reject(size)
+        return error <= 1
+
+    def _reject(self, size: float) -> None:
+        self.rejected += 1
+        if size < self._schedule.least:
+            raise MasterError(
+                f"at {self.time:.6g} s a step of {size:.3g} s is still too long"
+                f" (least_step={self._schedule.least:.3g})"
+            )
+        for participant in self.participants.values():
+            participant.restore()
+
+    def _accept(self, end: float, size: float, is_jump: bool) -> None:
+        engine = self._engine
+        if self._balances:
+            given = engine.given(end, size)
+            for balance in self._balances:
+                balance.add(size, engine.arrived, given)
+        engine.accept(end)
+        self.time = end
+        self.steps += 1
+        self.most_iterations = max(self.most_iterations, engine.last_iterations)
+        if is_jump:
+            engine.drive(engine.inputs, end)
+        if is_jump or any(c.guessed and not c.iterates for c in self.components):
+            self._exchange(engine.inputs, self._iteration_tolerance)
+            engine.history.nodes[-1] = (end, engine.inputs.copy())
+        if is_jump:
+            engine.begin(end)
+            self._schedule.restart(end)
+        self._record.add(end, self._balances)
+
+    def _attributes(self) -> dict[str, Any]:
+        import impinge
+
+        told: dict[str, Any] = {
+            "scheme": self.scheme,
+            "order": self.order,
+            "extrapolation": self.extrapolation,
+            "tolerance": self.tolerance,
+            "adaptive": int(self.adaptive),
+            "order_of_units": " ".join(p.name for c in self.components for p in c.members),
+            "algebraic_loops": len(self.algebraic_loops),
+            "steps": self.steps,
+            "rejected": self.rejected,
+            "iterations": self._engine.iterations,
+            "most_iterations": self.most_iterations,
+            "unconverged": self.unconverged,
+            "held_inputs": " ".join(self.held),
+            "notes": "; ".join(self.notes),
+            "impinge": impinge.__version__,
+        }
+        if any(component.iterates for component in self.components):
+            told["acceleration"] = self.acceleration
+        for name, participant in self.participants.items():
+            told[f"unit_steps.{name}"] = participant.steps
+            told[f"unit.{name}"] = f"{participant.unit.name} {participant.unit.package.digest[:16]}"
+        for balance in self._balances:
+            told[f"energy_residual.{balance.name}"] = balance.largest / (balance.moved or 1.0)
+        return told
+
+    # Life
+
+    def close(self) -> None:
+        """Ends the units that were made here."""
+        for participant in getattr(self, "participants", {}).values():
+            participant.free()
+        for unit in self._own:
+            unit.close()
+
+    def __enter__(self) -> Master:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+def _check_choices(scheme: str, order: int, extrapolation: int | None, max_iterations: int) -> None:
+    if scheme not in SCHEMES:
+        raise MasterError(f"scheme is `{scheme}`; it may be {', '.join(SCHEMES)}")
+    for name, value in (("order", order), ("extrapolation", extrapolation)):
+        if value not in (None, 0, 1, 2):
+            raise MasterError(f"{name} is {value}; it may be 0, 1 or 2")
+    if max_iterations < 1:
+        raise MasterError(f"max_iterations is {max_iterations}; it must be at least 1")
+
+
+def _function(value: Any, shape: tuple[int, ...]) -> Callable[[float], np.ndarray]:
+    """A constant or a function of time as a function of time that gives a flat array."""
+    if callable(value):
+        return lambda time: np.broadcast_to(np.asarray(value(time), float), shape).ravel()
+    constant = np.broadcast_to(np.asarray(value, float), shape).ravel()
+    return lambda time: constant
+
+
+def _list(names: Sequence[str]) -> str:
+    return ", ".join(names)
+
+
+__all__ = ["Link", "Master"]

@@ -1,0 +1,139 @@
+"""A unit among others: what it takes and gives, in flat arrays that are made once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from impinge.master import waveform
+from impinge.master.connection import Link
+from impinge.master.graph import follows_at_once
+from impinge.unit import State, Unit
+
+
+class Participant:
+    """A unit, the inputs that the master sets, and the outputs that others take.
+
+    `place` is where its inputs stand among all of them. `held` says what a unit gets that cannot
+    follow polynomials over a step: "mean", or "end" where its outputs come from its step alone.
+    """
+
+    def __init__(self, name: str, unit: Unit):
+        self.name, self.unit = name, unit
+        self.place = slice(0, 0)
+        self.links_in: list[Link] = []
+        self.links_out: list[Link] = []
+        self.held = "mean"
+        self.steps = 0
+        self.answers_late = False  # outputs follow inputs, but not before the next step
+        self.state: State | None = None
+        self.memoryless = False  # follows inputs, and has nothing to go back to
+
+    def connect(self, names: Sequence[str], paths: np.ndarray, order: int) -> None:
+        """Makes the calls; `paths` tells which values among the inputs may follow polynomials."""
+        self.names = list(names)
+        self.writer = self.unit.writer(names) if names else None
+        self.order = min(order, self.unit.can.interpolates) if paths.any() else 0
+        self.path_writer = None
+        self._paths = paths
+        if self.order and paths.all():
+            self.path_writer = self.unit.path_writer(names, self.order)
+        elif self.order:
+            self.order = 0  # whole numbers among them: all are held
+        sources: dict[str, slice] = {}
+        count = 0
+        for link in self.links_out:
+            if link.source not in sources:
+                size = self.unit.variable(link.source).size
+                sources[link.source] = slice(count, count + size)
+                count += size
+        self.sources = sources
+        self.reader = self.unit.reader(sources) if sources else None
+        units = {self.name: self.unit}
+        self.is_direct = any(
+            follows_at_once(units, one, other) for one in self.links_in for other in self.links_out
+        )
+
+    @property
+    def can_go_back(self) -> bool:
+        """Whether a step can be taken again."""
+        return self.memoryless or self.unit.can.states
+
+    def save(self) -> None:
+        """Keeps the present state for `restore`."""
+        if self.memoryless:
+            self._time = self.unit.time
+        else:
+            self.state = self.unit.state(self.state)
+
+    def restore(self) -> None:
+        """Goes back to the state that was kept. A memoryless unit stays where it is if its outputs
+        follow inputs without a step; else it has to take the same step again."""
+        if self.memoryless and self.answers_late:
+            self.unit.time = self._time
+        elif self.state is not None:
+            self.unit.restore(self.state)
+
+    def free(self) -> None:
+        """Gives up the state that was kept."""
+        if self.state is not None:
+            self.state.free()
+            self.state = None
+
+    def read(self) -> np.ndarray:
+        """What others take of it, now."""
+        return self.reader() if self.reader is not None else np.zeros(0)
+
+    def write(self, values: np.ndarray) -> None:
+        """Sets its inputs as they are now."""
+        if self.writer is not None:
+            self.writer.values[:] = values
+            self.writer()
+
+    def write_path(
+        self, a: np.ndarray, b: np.ndarray, c: np.ndarray, end: np.ndarray, size: float
+    ) -> np.ndarray:
+        """Sets its inputs over the next step: a path as good as the unit can follow. Returns the
+        means of what it follows."""
+        if self.writer is None:
+            return a
+        if self.path_writer is not None:
+            writer = self.path_writer
+            writer.values[:] = a
+            if writer.second is not None:
+                writer.first[:] = b
+                writer.second[:] = c
+            else:  # the chord of the path
+                writer.first[:] = b + c * (size / 2)
+            writer()
+            return waveform.mean(a, b, c, size)
+        held = end if self.held == "end" else waveform.mean(a, b, c, size)
+        self.writer.values[:] = np.where(self._paths, held, end)
+        self.writer()
+        return self.writer.values
+
+    def step_to(self, time: float) -> None:
+        """Advances to a time, unless it is memoryless and has been there already."""
+        if self.memoryless and self.unit.time >= time:
+            return
+        self.steps += 1
+        self.unit.step_to(time)
+
+    def probe(self, values: np.ndarray, weight: np.ndarray) -> None:
+        """Finds out whether outputs follow inputs at once, as the unit declares.
+
+        Where they do not, as in units that compute outputs in steps alone, what is held over a step
+        is its end, so that outputs at the end of a step belong to inputs then.
+        """
+        if not self.is_direct or self.path_writer is not None or self.writer is None:
+            return
+        self.write(values)
+        before = self.read().copy()
+        nudge = np.where(self._paths, 1e-3 * np.abs(values) + 1e-6 / weight, 0.0)
+        self.write(values + nudge)
+        after = self.read().copy()
+        self.write(values)
+        self.answers_late = bool(np.array_equal(before, after))
+        if self.answers_late:
+            self.held = "end"

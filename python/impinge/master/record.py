@@ -1,0 +1,93 @@
+"""What a coupled run leaves: values of outputs over time as an xarray dataset with units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray
+
+from impinge.errors import UnitError
+from impinge.master.connection import split
+from impinge.master.energy import Balance
+from impinge.unit import Unit, Variable
+
+
+class Record:
+    """Rows of values at accepted points of time."""
+
+    def __init__(self, units: Mapping[str, Unit], names: Sequence[str]):
+        self._units = units
+        wanted: dict[str, list[str]] = {}
+        for name in dict.fromkeys(names):
+            unit, variable = split(name, units)
+            wanted.setdefault(unit, []).append(variable)
+        self._readers = {unit: units[unit].reader(names) for unit, names in wanted.items()}
+        self.clear()
+
+    def clear(self) -> None:
+        """Forgets all rows."""
+        self.times: list[float] = []
+        self._rows: dict[str, list[np.ndarray]] = {unit: [] for unit in self._readers}
+        self._energies: list[list[tuple[float, float]]] = []
+
+    def add(self, time: float, balances: Sequence[Balance]) -> None:
+        """A row of what all units say now."""
+        self.times.append(time)
+        for unit, reader in self._readers.items():
+            self._rows[unit].append(reader().copy())
+        self._energies.append([(balance.passed, balance.residual) for balance in balances])
+
+    def dataset(self, balances: Sequence[Balance], attributes: Mapping[str, Any]) -> xarray.Dataset:
+        """All rows. Arrays have dimensions of their own, with the places of their cells where the
+        unit tells them."""
+        arrays: dict[str, Any] = {}
+        coordinates: dict[str, Any] = {"time": ("time", self.times, {"units": "s"})}
+        for unit, reader in self._readers.items():
+            rows = np.array(self._rows[unit]).reshape(len(self.times), -1)
+            for variable, place in zip(reader.variables, reader.slices, strict=True):
+                name = f"{unit}.{variable.name}"
+                dimensions = [f"{name}:{axis}" for axis in range(len(variable.shape))]
+                values = rows[:, place].reshape(len(self.times), *variable.shape)
+                arrays[name] = (["time", *dimensions], values, _attributes(variable))
+                coordinates.update(_coordinates(self._units[unit], variable, dimensions))
+        for i, balance in enumerate(balances):
+            for j, what in enumerate(("passed", "residual")):
+                series = [row[i][j] for row in self._energies]
+                arrays[f"energy {what}: {balance.name}"] = ("time", series, {"units": "J"})
+        return xarray.Dataset(arrays, coordinates, dict(attributes))
+
+
+def _attributes(variable: Variable) -> dict[str, str]:
+    told = {
+        "units": variable.unit,
+        "quantity": variable.quantity,
+        "description": variable.description,
+    }
+    return {key: value for key, value in told.items() if value}
+
+
+def _coordinates(unit: Unit, variable: Variable, dimensions: Sequence[str]) -> dict[str, Any]:
+    if not variable.shape:
+        return {}
+    try:
+        places = unit.coordinates(variable.name)
+    except UnitError:
+        return {}
+    found = {}
+    for axis, values in places.items():
+        key = f"{dimensions[0].rpartition(':')[0]}:{axis}"
+        if len(variable.shape) == 1 and values.shape == variable.shape:
+            found[key] = (dimensions, values, {"units": "m"})
+        elif values.shape == variable.shape:
+            found[key] = (dimensions, values, {"units": "m"})
+        elif values.size == np.prod(variable.shape) and values.size > 1:
+            found[key] = (dimensions, values.reshape(variable.shape), {"units": "m"})
+    if not found and len(variable.shape) == 2:  # the axes of a grid
+        lines = [(a, v) for a, v in places.items() if v.size > 1]
+        if [v.size for _, v in lines] == list(variable.shape):
+            for dimension, (axis, values) in zip(dimensions, lines, strict=True):
+                key = f"{dimension.rpartition(':')[0]}:{axis}"
+                found[key] = (dimension, values, {"units": "m"})
+    return found

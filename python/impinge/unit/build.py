@@ -1,0 +1,92 @@
+"""Units of scenes: built once for each content, kept in a folder of the user's."""
+
+import hashlib
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from impinge.errors import UnitError
+
+PROGRAM = "build-fmu" + (".exe" if sys.platform == "win32" else "")
+
+
+def find_program(name: str = PROGRAM) -> Path:
+    """Where the program is: in the folder that IMPINGE_BIN names, on PATH, or in target/release of
+    the checkout that holds this package."""
+    said = os.environ.get("IMPINGE_BIN")
+    if said:
+        path = Path(said)
+        path = path if path.is_file() and path.name == name else path / name
+        if not path.is_file():
+            raise UnitError(f"IMPINGE_BIN is {said}, but there is no {path}")
+        return path
+    found = shutil.which(name)
+    if found:
+        return Path(found)
+    path = Path(__file__).resolve().parents[3] / "target/release" / name
+    if path.is_file():
+        return path
+    raise UnitError(
+        f"`{name}` is neither on PATH nor in {path.parent}: build it with"
+        " `cargo build --release --workspace`, and set IMPINGE_BIN to the folder that holds it"
+    )
+
+
+def cache_folder() -> Path:
+    """Where built units are kept: IMPINGE_CACHE, or `impinge` in the user's folder of caches."""
+    said = os.environ.get("IMPINGE_CACHE")
+    if said:
+        return Path(said)
+    base = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(base) / "impinge"
+
+
+def build(scene: str | Path, *, fmi: int | None = None, text: str | None = None) -> Path:
+    """The unit of a scene, for version `fmi` (2 or 3; 2 if it is left out) of the standard.
+
+    It is built if the cache has none of the same content, program and version. `text` takes the
+    place of what the file holds. Raises `UnitError` with what `build-fmu` says.
+    """
+    scene = Path(scene)
+    fmi = 2 if fmi is None else fmi
+    if fmi not in (2, 3):
+        raise UnitError(f"fmi is {fmi}; it may be 2 or 3")
+    try:
+        content = scene.read_bytes() if text is None else text.encode()
+    except OSError as error:
+        raise UnitError(f"{scene}: {error.strerror}") from error
+    program = find_program()
+    unit = cache_folder() / "units" / _key(content, program, fmi) / "unit.fmu"
+    if unit.is_file():
+        return unit
+    unit.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=unit.parent) as folder:
+        source = scene
+        if text is not None:
+            source = Path(folder) / scene.name
+            source.write_text(text)
+        made = Path(folder) / "unit.fmu"
+        command = [program, source, "-o", made, "--fmi", str(fmi)]
+        ran = subprocess.run(command, capture_output=True, text=True, check=False)
+        if ran.returncode != 0:
+            raise UnitError(f"{scene} makes no unit", ran.stderr.strip().splitlines())
+        os.replace(made, unit)  # whole or not at all, however many processes build it
+    return unit
+
+
+def _key(content: bytes, program: Path, fmi: int) -> str:
+    parts = [content, str(fmi).encode()]
+    library = {"win32": "impinge.dll", "darwin": "libimpinge.dylib"}.get(
+        sys.platform, "libimpinge.so"
+    )
+    for file in (program, program.with_name(library)):
+        if file.is_file():
+            status = file.stat()
+            parts.append(f"{file.resolve()} {status.st_mtime_ns} {status.st_size}".encode())
+    digest = hashlib.sha256()
+    for part in parts:
+        digest.update(hashlib.sha256(part).digest())
+    return digest.hexdigest()[:24]

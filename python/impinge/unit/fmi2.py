@@ -1,0 +1,156 @@
+"""Instances of FMI 2.0."""
+
+import ctypes
+from collections.abc import Callable
+from ctypes import byref, c_char_p, c_double, c_int, c_size_t, c_void_p
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from impinge.errors import UnitError
+from impinge.unit.log import Log, callbacks
+from impinge.unit.package import Package, temporary_folder
+from impinge.unit.slave import Slave, pointer
+from impinge.unit.variable import NUMBERS
+
+_CO_SIMULATION = 1
+_LAST_SUCCESSFUL_TIME, _TERMINATED = 2, 3
+_DISCARD = 2
+
+
+class Fmi2(Slave):
+    """An instance by the functions of FMI 2.0."""
+
+    prefix = "fmi2"
+    types = {key: NUMBERS[key] for key in ("Real", "Integer", "Boolean", "Enumeration")}
+    _functions = {"Enumeration": "Integer"}
+
+    def __init__(self, package: Package, log: Log):
+        super().__init__(package, log)
+        self._callbacks = callbacks(log, temporary_folder())
+        instantiate = self._library["fmi2Instantiate"]
+        instantiate.argtypes = [c_char_p, c_int, c_char_p, c_char_p, c_void_p, c_int, c_int]
+        instantiate.restype = c_void_p
+        self.component = instantiate(
+            log.name.encode(),
+            _CO_SIMULATION,
+            package.description.guid.encode(),
+            (package.folder / "resources").as_uri().encode(),
+            ctypes.addressof(self._callbacks),
+            False,
+            True,
+        )
+        if not self.component:
+            raise UnitError(f"{package.source}: no instance could be made", log.take())
+        self.set_debug_logging()
+        self._do_step = self.function("DoStep", c_double, c_double, c_int)
+        self._keep_past = not package.can.states
+
+    def setup(self, start: float, stop: float | None) -> None:
+        types = (c_int, c_double, c_double, c_int, c_double)
+        arguments = (False, 0.0, start, stop is not None, stop or 0.0)
+        self.call("SetupExperiment", *arguments, types=types)
+
+    def initialise(self, start: float, stop: float | None) -> None:
+        self.call("EnterInitializationMode")
+        self.call("ExitInitializationMode")
+
+    def terminate(self) -> None:
+        self.function("Terminate")()
+
+    def reset(self) -> None:
+        self.call("Reset")
+
+    def free(self) -> None:
+        if self.component:
+            self.function("FreeInstance", result=None)()
+            self.component = None
+
+    def access(
+        self, verb: str, kind: str, references: np.ndarray, values: np.ndarray
+    ) -> Callable[[], int]:
+        """A call that gets or sets numbers of one kind, from or into `values`."""
+        name = verb + self._functions.get(kind, kind)
+        call = self.function(name, c_void_p, c_size_t, c_void_p)
+        return partial(call, pointer(references), len(references), pointer(values))
+
+    def get_text(self, kind: str, references: np.ndarray) -> list[Any]:
+        values = (c_char_p * len(references))()
+        types = (c_void_p, c_size_t, c_void_p)
+        arguments = (pointer(references), len(references), ctypes.addressof(values))
+        self.call("GetString", *arguments, types=types)
+        return [(value or b"").decode() for value in values]
+
+    def set_text(self, kind: str, references: np.ndarray, texts: list[Any]) -> None:
+        values = (c_char_p * len(texts))(*(text.encode() for text in texts))
+        types = (c_void_p, c_size_t, c_void_p)
+        arguments = (pointer(references), len(references), ctypes.addressof(values))
+        self.call("SetString", *arguments, types=types)
+
+    def do_step(self, time: float, size: float) -> None:
+        status = self._do_step(time, size, self._keep_past)
+        if status <= 1:
+            return
+        if status == _DISCARD:
+            raise self.discarded(self._last_time(time), self._has_terminated())
+        self.check(status, "DoStep")
+
+    def _last_time(self, time: float) -> float:
+        value = c_double(time)
+        ask = self.function("GetRealStatus", c_int, c_void_p)
+        return value.value if ask(_LAST_SUCCESSFUL_TIME, byref(value)) <= 1 else time
+
+    def _has_terminated(self) -> bool:
+        value = c_int(0)
+        ask = self.function("GetBooleanStatus", c_int, c_void_p)
+        return ask(_TERMINATED, byref(value)) <= 1 and bool(value.value)
+
+    # States
+
+    def get_state(self, handle: c_void_p) -> None:
+        self.call("GetFMUstate", byref(handle), types=(c_void_p,))
+
+    def set_state(self, handle: c_void_p) -> None:
+        self.call("SetFMUstate", handle, types=(c_void_p,))
+
+    def free_state(self, handle: c_void_p) -> None:
+        self.call("FreeFMUstate", byref(handle), types=(c_void_p,))
+
+    def to_bytes(self, handle: c_void_p) -> bytes:
+        size = c_size_t()
+        self.call("SerializedFMUstateSize", handle, byref(size), types=(c_void_p, c_void_p))
+        buffer = ctypes.create_string_buffer(size.value)
+        types = (c_void_p, c_void_p, c_size_t)
+        self.call("SerializeFMUstate", handle, buffer, size, types=types)
+        return buffer.raw
+
+    def from_bytes(self, content: bytes, handle: c_void_p) -> None:
+        types = (c_char_p, c_size_t, c_void_p)
+        arguments = (content, len(content), byref(handle))
+        self.call("DeSerializeFMUstate", *arguments, types=types)
+
+    # Derivatives
+
+    def input_derivatives(
+        self, references: np.ndarray, orders: np.ndarray, values: np.ndarray
+    ) -> Callable[[], int]:
+        """A call that sets derivatives in time; `orders` are int32 beside references."""
+        call = self.function("SetRealInputDerivatives", c_void_p, c_size_t, c_void_p, c_void_p)
+        count = len(references)
+        return partial(call, pointer(references), count, pointer(orders), pointer(values))
+
+    def output_derivatives(
+        self, references: np.ndarray, orders: np.ndarray, values: np.ndarray
+    ) -> Callable[[], int]:
+        call = self.function("GetRealOutputDerivatives", c_void_p, c_size_t, c_void_p, c_void_p)
+        count = len(references)
+        return partial(call, pointer(references), count, pointer(orders), pointer(values))
+
+    def directional_derivative(
+        self, unknowns: np.ndarray, knowns: np.ndarray, change: np.ndarray, result: np.ndarray
+    ) -> None:
+        types = (c_void_p, c_size_t, c_void_p, c_size_t, c_void_p, c_void_p)
+        places = (pointer(unknowns), len(unknowns), pointer(knowns), len(knowns))
+        values = (pointer(change), pointer(result))
+        self.call("GetDirectionalDerivative", *places, *values, types=types)

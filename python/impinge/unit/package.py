@@ -1,0 +1,215 @@
+"""What a unit's file holds: unzipped and read once for each process and content."""
+
+from __future__ import annotations
+
+import atexit
+import copy
+import hashlib
+import json
+import os
+import re
+import shutil
+import tempfile
+import zipfile
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import fmpy
+
+from impinge.errors import UnitError
+from impinge.unit.build import build
+from impinge.unit.variable import Capabilities, Variable, element_of, read_variables, stem_of
+
+
+class Package:
+    """An unzipped unit and its description; instances share it.
+
+    `folder` is where it is, `digest` the SHA-256 of its content, `fmi` the version of the standard.
+    """
+
+    def __init__(self, folder: Path, digest: str, source: str):
+        self.folder = folder
+        self.digest = digest
+        self.source = source
+        try:
+            self.description: Any = fmpy.read_model_description(str(folder), validate=False)
+        except Exception as error:
+            raise UnitError(f"{source}: {error}") from error
+        version = str(self.description.fmiVersion)
+        if version[:1] not in ("2", "3"):
+            raise UnitError(f"{source} is a unit of FMI {version}; it may be of 2.0 or 3.0")
+        self.fmi = int(version[0])
+        if self.description.coSimulation is None:
+            raise UnitError(f"{source} offers no co-simulation")
+        self.variables, self._elements = read_variables(self.description)
+
+    def reshaped(self, structural: Mapping[str, Any]) -> Package:
+        """This package, with the shapes that arrays of FMI 3.0 have for structural parameters."""
+        other = copy.copy(self)
+        other.variables = dict(self.variables)
+        given = {
+            self.variable(name).references[0]: int(value) for name, value in structural.items()
+        }
+        for described in self.description.modelVariables:
+            shape = tuple(
+                given.get(size.valueReference, int(size.start or size.variable.start))
+                for size in described.dimensions
+            )
+            known = other.variables.get(described.name)
+            if known is not None and shape and known.shape != shape:
+                other.variables[described.name] = replace(known, shape=shape, start=None)
+        return other
+
+    @property
+    def name(self) -> str:
+        """The model's name."""
+        return self.description.modelName
+
+    def variable(self, name: str) -> Variable:
+        """The variable, family, or element of a family of this name."""
+        found = self.variables.get(name) or self._elements.get(name)
+        if found is None:
+            array = self.variables.get(stem_of(name))
+            found = element_of(array, name) if array is not None else None
+        if found is None:
+            raise UnitError(f"{self.name} has no variable `{name}`{self._proposal(name)}")
+        return found
+
+    def _proposal(self, name: str) -> str:
+        import difflib
+
+        near = difflib.get_close_matches(name, [*self.variables, *self._elements], n=3)
+        return f"; is it {' or '.join(f'`{word}`' for word in near)}?" if near else ""
+
+    def of_causality(self, *causalities: str) -> dict[str, Variable]:
+        """Variables by name."""
+        return {n: v for n, v in self.variables.items() if v.causality in causalities}
+
+    @cached_property
+    def can(self) -> Capabilities:
+        """What the description says the unit can do."""
+        offers = self.description.coSimulation
+        # FMI 2.0 does not say up to which order; that of impinge's own is known.
+        own = (self.description.generationTool or "").startswith("impinge")
+        order = (2 if own else 1) if self.fmi == 2 and offers.canInterpolateInputs else 0
+        return Capabilities(
+            states=offers.canGetAndSetFMUstate,
+            serialise=offers.canSerializeFMUstate,
+            interpolates=order,
+            output_derivatives=int(offers.maxOutputDerivativeOrder or 0),
+            variable_steps=offers.canHandleVariableCommunicationStepSize,
+            directional_derivatives=self._says_yes("providesDirectionalDerivatives?"),
+            adjoint_derivatives=offers.providesAdjointDerivatives,
+            early_return=offers.mightReturnEarlyFromDoStep,
+            once_per_process=offers.canBeInstantiatedOnlyOncePerProcess,
+        )
+
+    def _says_yes(self, attribute: str) -> bool:
+        """An attribute of the element `CoSimulation`, of those that FMPy passes over."""
+        with open(self.folder / "modelDescription.xml", encoding="utf-8") as file:
+            text = ""
+            while len(block := file.read(65536)):
+                text += block
+                if found := re.search(r"<CoSimulation\b[^>]*>", text):
+                    return bool(re.search(rf"\b{attribute}\s*=\s*[\"'](true|1)", found[0]))
+        return False
+
+    @cached_property
+    def dependencies(self) -> dict[str, set[str]]:
+        """The inputs that each output follows at once; families go by their one name."""
+        inputs = set(self.of_causality("input"))
+        found: dict[str, set[str]] = {name: set() for name in self.of_causality("output")}
+        for unknown in self.description.outputs:
+            name = self._family(unknown.variable.name)
+            if name not in found:
+                continue
+            if unknown.dependencies is None:  # not told: it may follow any of them
+                found[name] |= inputs
+            else:
+                found[name] |= {self._family(v.name) for v in unknown.dependencies} & inputs
+        return found
+
+    def _family(self, name: str) -> str:
+        return name if name in self.variables else stem_of(name)
+
+    @cached_property
+    def cell_families(self) -> dict[str, dict[str, Any]]:
+        """The families of cells of `resources/cells.json`; none where there is no such file.
+
+        Beside what the file says each has `quantities`, the names of its inputs and outputs, and
+        where it is made of equal cells their `width` [m].
+        """
+        path = self.folder / "resources/cells.json"
+        told = json.loads(path.read_text())["families"] if path.is_file() else {}
+        return {
+            name: {
+                **family,
+                "quantities": [*family["inputs"], *family["outputs"]],
+                **({"width": family["size"]} if "size" in family else {}),
+            }
+            for name, family in told.items()
+        }
+
+
+_PACKAGES: dict[str, Package] = {}  # by digest
+_DIGESTS: dict[tuple[str, int, int], str] = {}  # of files, by path, time and size
+_TEMPORARY: dict[str, Any] = {}
+
+
+def open_package(source: str | os.PathLike[str], fmi: int | None = None) -> Package:
+    """The package of a scene, of a `.fmu` file, or of a folder that one has been unzipped into."""
+    path = Path(source)
+    if path.suffix == ".toml":
+        path = build(path, fmi=fmi)
+    if path.is_dir():
+        return _of_folder(path)
+    if not path.is_file():
+        raise UnitError(f"{path}: no such file")
+    status = path.stat()
+    key = (str(path.resolve()), status.st_mtime_ns, status.st_size)
+    if key not in _DIGESTS:
+        with open(path, "rb") as file:
+            _DIGESTS[key] = hashlib.file_digest(file, "sha256").hexdigest()
+    digest = _DIGESTS[key]
+    if digest not in _PACKAGES:
+        _PACKAGES[digest] = Package(_unzip(path, digest), digest, str(source))
+    package = _PACKAGES[digest]
+    if fmi is not None and package.fmi != fmi:
+        raise UnitError(f"{source} is a unit of FMI {package.fmi}, not {fmi}")
+    return package
+
+
+def temporary_folder() -> Path:
+    """A folder of this process, which goes when it ends. Forked processes share their parent's."""
+    if not _TEMPORARY:
+        _TEMPORARY.update(folder=Path(tempfile.mkdtemp(prefix="impinge-")), process=os.getpid())
+        atexit.register(_remove)
+    return _TEMPORARY["folder"]
+
+
+def _remove() -> None:
+    if _TEMPORARY.get("process") == os.getpid():
+        shutil.rmtree(_TEMPORARY["folder"], ignore_errors=True)
+
+
+def _unzip(path: Path, digest: str) -> Path:
+    folder = temporary_folder() / digest[:16]
+    try:
+        with zipfile.ZipFile(path) as archive:
+            archive.extractall(folder)
+    except zipfile.BadZipFile as error:
+        raise UnitError(f"{path}: {error}") from error
+    return folder
+
+
+def _of_folder(path: Path) -> Package:
+    description = path / "modelDescription.xml"
+    if not description.is_file():
+        raise UnitError(f"{path} holds no modelDescription.xml")
+    digest = hashlib.sha256(str(path.resolve()).encode() + description.read_bytes()).hexdigest()
+    if digest not in _PACKAGES:
+        _PACKAGES[digest] = Package(path.resolve(), digest, str(path))
+    return _PACKAGES[digest]
