@@ -1,7 +1,6 @@
-"""What the examples share: driving a unit by names, and the look of the pictures."""
+"""What the examples share: options, tables and the look of the pictures."""
 
 import argparse
-import shutil
 from pathlib import Path
 
 import matplotlib
@@ -9,8 +8,6 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
-from fmpy import extract, read_model_description  # noqa: E402
-from fmpy.fmi2 import FMU2Slave  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
 ZERO_CELSIUS = 273.15  # K
@@ -38,54 +35,6 @@ def arguments(name: str, purpose: str, given: list[str] | None) -> argparse.Name
         )
     options.out.mkdir(parents=True, exist_ok=True)
     return options
-
-
-class Unit:
-    """An FMI 2.0 co-simulation unit whose variables go by their names."""
-
-    def __init__(self, path: Path):
-        description = read_model_description(path)
-        self.references = {v.name: v.valueReference for v in description.modelVariables}
-        self.folder = extract(path)
-        self.slave = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=self.folder,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName=path.stem,
-        )
-        self.time = 0.0
-
-    def __enter__(self):
-        self.slave.instantiate()
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
-        return self
-
-    def __exit__(self, *_):
-        self.slave.terminate()
-        self.slave.freeInstance()
-        shutil.rmtree(self.folder, ignore_errors=True)
-
-    def set(self, values: dict[str, float]):
-        """Sets inputs; they hold until they are set again."""
-        self.slave.setReal([self.references[name] for name in values], list(values.values()))
-
-    def step_to(self, time: float):
-        """Advances the unit under its present inputs."""
-        self.slave.doStep(
-            currentCommunicationPoint=self.time, communicationStepSize=time - self.time
-        )
-        self.time = time
-
-    def get(self, *names: str) -> np.ndarray:
-        """Values of outputs."""
-        return np.array(self.slave.getReal([self.references[name] for name in names]))
-
-    def field(self, name: str, shape: tuple[int, int]) -> np.ndarray:
-        """A sampled field; the first index runs along the first axis of the grid."""
-        cells = [f"{name}[{i + 1},{j + 1}]" for i in range(shape[0]) for j in range(shape[1])]
-        return self.get(*cells).reshape(shape)
 
 
 def print_table(head: list[str], rows: list[list[str]]):

@@ -10,6 +10,10 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
+# Programs that tests start find the package, too.
+os.environ["PYTHONPATH"] = os.pathsep.join(
+    [str(ROOT / "python"), str(ROOT / "tests"), *filter(None, [os.environ.get("PYTHONPATH")])]
+)
 SCENES = ROOT / "tests/fmpy/scenes"
 EXAMPLES = sorted(ROOT.glob("examples/*/scene.toml"))
 

@@ -10,6 +10,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import shared  # noqa: E402
+from impinge import Unit  # noqa: E402
 
 NAME = "alumina_plate"
 STOP, STEPS = 3.5e-6, 60  # s; step n ends at STOP (n / STEPS)³: fine while the flux is steep
@@ -19,7 +20,7 @@ DENSITY, SPECIFIC_HEAT, CONDUCTIVITY = 3950.0, 900.0, 10.0
 YOUNG, POISSON, EXPANSION = 300e9, 0.21, 8.1e-6
 DIFFUSIVITY = CONDUCTIVITY / (DENSITY * SPECIFIC_HEAT)
 COLD, RADIUS = 20.0, 30e-6  # °C, m
-GRID, SIZE = (24, 24), 100  # points, µm: the field of the scene
+SIZE = 100  # µm: the field of the scene
 DEPTHS = [0, 1, 2, 3, 5, 8, 12, 20]  # µm, the probes of the scene
 
 # Water at 100 °C that arrives at 50 m/s
@@ -89,22 +90,22 @@ def simulate(fmu: Path) -> Result:
     times = STOP * (np.arange(1, STEPS + 1) / STEPS) ** 3
     probes = ["centre"] + [f"depth_{depth}" for depth in DEPTHS[1:]]
     temperatures, stresses, normal = [], [], []
-    with shared.Unit(fmu) as unit:
+    with Unit(fmu) as unit:
         for t in times:
             # Heat is what counts over the step, traction what counts at its end.
             unit.set({"spot.heat_flux": mean_flux(unit.time, t), "spot.pressure": pressure(t)})
             unit.step_to(t)
-            temperatures.append(unit.get(*(f"{p}.temperature" for p in probes)))
-            stresses.append(unit.get(*(f"{p}.stress_xx" for p in probes)))
-            normal.append(unit.get("centre.stress_zz")[0])
-        brought, stored, lost = unit.get("plate.heat_in", "plate.heat_stored", "plate.heat_lost")
+            temperatures.append(unit.get([f"{p}.temperature" for p in probes]))
+            stresses.append(unit.get([f"{p}.stress_xx" for p in probes]))
+            normal.append(unit["centre.stress_zz"])
+        brought, stored, lost = unit.get(["plate.heat_in", "plate.heat_stored", "plate.heat_lost"])
         return Result(
             times,
             np.array(temperatures) - shared.ZERO_CELSIUS,
             np.array(stresses),
             np.array(normal),
-            unit.field("surface.temperature", GRID) - shared.ZERO_CELSIUS,
-            unit.field("surface.von_mises", GRID),
+            unit["surface.temperature"] - shared.ZERO_CELSIUS,
+            unit["surface.von_mises"],
             abs(brought - stored - lost) / brought,
         )
 

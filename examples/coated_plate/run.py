@@ -8,6 +8,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import shared  # noqa: E402
+from impinge import Unit  # noqa: E402
 
 NAME = "coated_plate"
 STOP, STEP = 2e-3, 2e-4  # s
@@ -30,13 +31,13 @@ class Result:
 
 def simulate(fmu: Path) -> Result:
     rows = []
-    with shared.Unit(fmu) as unit:
+    with Unit(fmu) as unit:
         for step in range(round(STOP / STEP)):
             unit.step_to((step + 1) * STEP)
             probed = [f"{probe}.temperature" for probe in TEMPERATURES + UNDER_DROP]
             stresses = ["coating_at_interface.stress_xx", "alumina_at_interface.stress_xx"]
             heat = ["plate.heat_in", "plate.heat_stored", "plate.heat_lost"]
-            rows.append([unit.time, *unit.get(*probed, *stresses, *heat)])
+            rows.append([unit.time, *unit.get([*probed, *stresses, *heat])])
     rows = np.array(rows)
     celsius = rows[:, 1:7] - shared.ZERO_CELSIUS
     return Result(rows[:, 0], celsius[:, :3], celsius[:, 3:], rows[:, 7:9], rows[:, 9:])

@@ -10,13 +10,14 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import shared  # noqa: E402
+from impinge import Unit  # noqa: E402
 
 NAME = "droplet_impact"
 STOP, STEP = 3.5e-6, 5e-8  # s
 STRESS_EVERY = 5  # steps: each costs a solution of the plate's elasticity
 DIAMETER, SPEED = 0.1e-3, 50.0  # m, m/s
 HOT, COLD = 100.0, 20.0  # °C
-GRID, SIZE = (32, 32), 400  # points, µm: the field of the scene
+SIZE = 400  # µm: the field of the scene
 DEPTHS = {"centre": 0, "depth_1": 1, "depth_3": 3, "depth_10": 10}  # µm
 
 ALUMINA, WATER = sqrt(10.0 * 3950.0 * 900.0), sqrt(0.6 * 1000.0 * 4000.0)  # effusivities
@@ -52,19 +53,19 @@ class Result:
 
 def simulate(fmu: Path) -> Result:
     result = Result()
-    with shared.Unit(fmu) as unit:
+    with Unit(fmu) as unit:
         for step in range(1, round(STOP / STEP) + 1):
             unit.step_to(step * STEP)
             result.times.append(unit.time)
-            result.scalars.append(unit.get(*SCALARS))
-            temperatures = unit.get(*(f"{probe}.temperature" for probe in DEPTHS))
+            result.scalars.append(unit.get(SCALARS))
+            temperatures = unit.get([f"{probe}.temperature" for probe in DEPTHS])
             result.temperatures.append(temperatures - shared.ZERO_CELSIUS)
             if step % STRESS_EVERY == 0:
                 result.stress_times.append(unit.time)
-                result.stresses.append(unit.get("centre.stress_xx", "centre.stress_zz"))
-                result.largest.append(unit.get("plate.max_von_mises", "plate.max_principal"))
-        result.surface_temperature = unit.field("surface.temperature", GRID) - shared.ZERO_CELSIUS
-        result.surface_von_mises = unit.field("surface.von_mises", GRID)
+                result.stresses.append(unit.get(["centre.stress_xx", "centre.stress_zz"]))
+                result.largest.append(unit.get(["plate.max_von_mises", "plate.max_principal"]))
+        result.surface_temperature = unit["surface.temperature"] - shared.ZERO_CELSIUS
+        result.surface_von_mises = unit["surface.von_mises"]
     result.freeze()
     return result
 

@@ -10,6 +10,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import shared  # noqa: E402
+from impinge import Unit  # noqa: E402
 
 NAME = "droplet_unit"
 STOP, STEP = 3.5e-6, 5e-8  # s
@@ -72,27 +73,23 @@ class Result:
         return self.scalars[:, SCALARS.index(name)]
 
 
-def rings(name: str) -> list[str]:
-    return [f"wall.{name}[{i + 1}]" for i in range(RINGS)]
-
-
 def simulate(fmu: Path) -> Result:
     result, wall = Result(), HalfSpaces()
-    with shared.Unit(fmu) as unit:
-        result.momentum = unit.get("drop.momentum_z")[0]
+    with Unit(fmu) as unit:
+        result.momentum = unit["drop.momentum_z"]
         for step in range(round(STOP / STEP)):
             start = unit.time
             unit.step_to((step + 1) * STEP)
-            flux = unit.get(*rings("heat_flux"))
+            flux = unit["wall.heat_flux"]
             wall.add(start, flux)
             surface = wall.temperature(unit.time)
-            unit.set(dict(zip(rings("temperature"), surface, strict=True)))
+            unit["wall.temperature"] = surface
             result.times.append(unit.time)
             result.fluxes.append(flux)
             result.surface.append(surface)
-            result.pressures.append(unit.get(*rings("pressure")))
-            result.scalars.append(unit.get(*SCALARS))
-            result.outside += STEP * unit.get("wall.heat_flow_outside")[0]
+            result.pressures.append(unit["wall.pressure"])
+            result.scalars.append(unit.get(SCALARS))
+            result.outside += STEP * unit["wall.heat_flow_outside"]
     result.freeze()
     return result
 

@@ -10,6 +10,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import shared  # noqa: E402
+from impinge import Unit  # noqa: E402
 
 NAME = "heated_bed"
 STOP, STEP = 600.0, 0.5  # s
@@ -71,11 +72,11 @@ class Result:
 
 def simulate(fmu: Path) -> Result:
     result, controller = Result(), Controller()
-    with shared.Unit(fmu) as unit:
+    with Unit(fmu) as unit:
         unit.set({"bed.top.ambient": ROOM + shared.ZERO_CELSIUS})
         unit.set({"bed.sides.ambient": ROOM + shared.ZERO_CELSIUS})
         for step in range(round(STOP / STEP)):
-            measured = unit.get("thermocouple.temperature")[0] - shared.ZERO_CELSIUS
+            measured = unit["thermocouple.temperature"] - shared.ZERO_CELSIUS
             power = controller.power(SET_POINT, measured, STEP)
             blows = FAN_ON[0] <= unit.time < FAN_ON[1]
             unit.set(
@@ -87,9 +88,9 @@ def simulate(fmu: Path) -> Result:
             unit.step_to((step + 1) * STEP)
             result.times.append(unit.time)
             result.powers.append(power)
-            probed = unit.get(*(f"{probe}.temperature" for probe in PROBES))
+            probed = unit.get([f"{probe}.temperature" for probe in PROBES])
             result.temperatures.append(probed - shared.ZERO_CELSIUS)
-            result.heat.append(unit.get("bed.heat_in", "bed.heat_stored", "bed.heat_lost"))
+            result.heat.append(unit.get(["bed.heat_in", "bed.heat_stored", "bed.heat_lost"]))
     result.freeze()
     return result
 

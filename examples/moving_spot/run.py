@@ -11,6 +11,7 @@ from matplotlib.animation import FuncAnimation, PillowWriter
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import shared  # noqa: E402
+from impinge import Unit  # noqa: E402
 from shared import plt  # noqa: E402
 
 NAME = "moving_spot"
@@ -85,18 +86,18 @@ def simulate(fmu: Path) -> Result:
     times = step_times[READ_EVERY - 1 :: READ_EVERY]
     scalars = ["plate.max_temperature", "crossing.stress_xx", "plate.max_principal"]
     crossing, values, fields, von_mises = [], [], [], []
-    with shared.Unit(fmu) as unit:
+    with Unit(fmu) as unit:
         unit.set({"spot.heat_flux": PEAK_FLUX})
         for step, t in enumerate(step_times, start=1):
             x, y = place(0.5 * (unit.time + t))  # it stands still during a step
             unit.set({"spot.x": x, "spot.y": y})
             unit.step_to(t)
-            crossing.append(unit.get("crossing.temperature")[0])
+            crossing.append(unit["crossing.temperature"])
             if step % READ_EVERY == 0:
-                values.append(unit.get(*scalars))
-                fields.append(unit.field("surface.temperature", GRID))
-                von_mises.append(unit.field("surface.von_mises", GRID))
-        brought, stored, lost = unit.get("plate.heat_in", "plate.heat_stored", "plate.heat_lost")
+                values.append(unit.get(scalars))
+                fields.append(unit["surface.temperature"])
+                von_mises.append(unit["surface.von_mises"])
+        brought, stored, lost = unit.get(["plate.heat_in", "plate.heat_stored", "plate.heat_lost"])
     hottest, stress, highest = np.array(values).T
     x, y = np.meshgrid(*points(), indexing="ij")
     return Result(

@@ -19,3 +19,4 @@ mod states;
 mod stepping;
 mod threads;
 mod three;
+mod tunable;

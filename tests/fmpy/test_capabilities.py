@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from conftest import EXAMPLES, SCENES
 from fmpy import read_model_description
-from fmpy.fmi1 import FMICallException
+from impinge import UnitError
 from master import Unit
 
 STEP = 1e-5
@@ -21,16 +21,10 @@ def go_on(unit, steps=3):
     rows = []
     for i in range(steps):
         unit["spot.pressure"] = 25e6 + 1e6 * i
-        names = unit.references(["spot.heat_flux", "spot.x"])
-        unit.slave.setRealInputDerivatives(names, [1, 1], [1e12, -0.5])
+        unit.set_input_derivatives({"spot.heat_flux": [1e12], "spot.x": [-0.5]})
         unit.step(STEP / (i + 1))
         rows.append(unit.all_outputs())
     return np.array(rows)
-
-
-def back(unit, state, time):
-    unit.slave.setFMUstate(state)
-    unit.time = time
 
 
 @pytest.mark.parametrize("scene", ALL, ids=lambda p: p.parent.name + "_" + p.stem)
@@ -48,26 +42,26 @@ def test_every_unit_declares_all_capabilities(pack, scene):
 def test_a_restored_state_goes_on_bit_for_bit(pack):
     with Unit(pack("plate"), {**LOADS, "plate.conductivity": 12.0}) as unit:
         unit.step(STEP)
-        state, before = unit.slave.getFMUstate(), unit.all_outputs()
+        state, before = unit.state(), unit.all_outputs()
         first = go_on(unit)
-        back(unit, state, STEP)
+        unit.restore(state)
         assert np.array_equal(unit.all_outputs(), before)
         assert np.array_equal(go_on(unit), first)
-        unit.slave.reset()
-        back(unit, state, STEP)
+        unit.reset()
+        unit.restore(state)
         assert np.array_equal(go_on(unit), first)
-        unit.slave.freeFMUstate(state)
-        assert not state.value
+        state.free()
+        assert not state.handle.value
 
 
 def test_a_state_goes_on_bit_for_bit_in_another_instance(pack):
     file = pack("plate")
     with Unit(file, {**LOADS, "plate.conductivity": 12.0}) as unit:
         unit.step(STEP)
-        state = unit.slave.serializeFMUstate(unit.slave.getFMUstate())
+        state = unit.save()
         first = go_on(unit)
     with Unit(file, {"solver.threads": 2}) as other:
-        back(other, other.slave.deSerializeFMUstate(state), STEP)
+        other.load(state)
         assert other["plate.conductivity"] == 12.0
         assert np.array_equal(go_on(other), first)
 
@@ -78,9 +72,9 @@ from pathlib import Path
 import numpy as np
 sys.path.insert(0, sys.argv[1])
 from master import Unit
-from test_capabilities import STEP, back, go_on
+from test_capabilities import go_on
 with Unit(sys.argv[2]) as unit:
-    back(unit, unit.slave.deSerializeFMUstate(Path(sys.argv[3]).read_bytes()), STEP)
+    unit.load(Path(sys.argv[3]).read_bytes())
     np.save(sys.argv[4], go_on(unit))
 """
 
@@ -88,7 +82,7 @@ with Unit(sys.argv[2]) as unit:
 def test_a_state_goes_on_bit_for_bit_in_another_process(pack, tmp_path):
     with Unit(pack("plate"), LOADS) as unit:
         unit.step(STEP)
-        state = unit.slave.serializeFMUstate(unit.slave.getFMUstate())
+        state = unit.save()
         (tmp_path / "state").write_bytes(state)
         first = go_on(unit)
     arguments = [Path(__file__).parent, pack("plate"), tmp_path / "state", tmp_path / "rows.npy"]
@@ -103,16 +97,16 @@ def test_a_state_goes_on_bit_for_bit_in_another_process(pack, tmp_path):
 def test_a_bad_state_is_refused_and_changes_nothing(pack, damage):
     with Unit(pack("plate"), LOADS) as unit, Unit(pack("tiles")) as other:
         unit.step(STEP)
-        state = unit.slave.serializeFMUstate(unit.slave.getFMUstate())
+        state = unit.save()
         if damage == "cut":
             state = state[:-1]
         elif damage == "flip":
             state = state[:300] + bytes([state[300] ^ 4]) + state[301:]
         else:
-            state = other.slave.serializeFMUstate(other.slave.getFMUstate())
+            state = other.save()
         before = unit.all_outputs()
-        with pytest.raises(FMICallException):
-            unit.slave.deSerializeFMUstate(state)
+        with pytest.raises(UnitError):
+            unit.load(state)
         assert any("saved state" in line for line in unit.log), unit.log
         assert np.array_equal(unit.all_outputs(), before)
         unit.step(STEP)
@@ -120,9 +114,9 @@ def test_a_bad_state_is_refused_and_changes_nothing(pack, damage):
 
 def test_a_step_can_be_rejected(pack):
     with Unit(pack("plate"), LOADS) as twice, Unit(pack("plate"), LOADS) as once:
-        state = twice.slave.getFMUstate()
+        state = twice.state()
         twice.step(3 * STEP)
-        back(twice, state, 0.0)
+        twice.restore(state)
         for unit in (twice, once):
             unit.step(STEP)
         assert np.array_equal(twice.all_outputs(), once.all_outputs())
@@ -134,19 +128,19 @@ DIRECT = ["spot.pressure", "spot.shear_x", "spot.x", "spot.radius"]
 def test_directional_derivatives_are_the_slopes_of_outputs(pack):
     with Unit(pack("plate"), LOADS) as unit:
         unit.step(STEP)
-        unknowns = unit.references(unit.outputs)
+        outputs = unit.every_output
         for name in DIRECT:
             value, size = unit[name], 1e-9 if name in ("spot.x", "spot.radius") else 1e3
-            found = unit.slave.getDirectionalDerivative(unknowns, unit.references([name]), [1.0])
+            found = unit.directional_derivative(outputs, {name: 1.0})
             unit[name] = value + size
             above = unit.all_outputs()
             unit[name] = value - size
             wanted = (above - unit.all_outputs()) / (2 * size)
             unit[name] = value
             for quantity in ("stress", "von_mises", "displacement", "temperature", "heat"):
-                rows = [i for i, output in enumerate(unit.outputs) if quantity in output]
+                rows = [i for i, output in enumerate(outputs) if quantity in output]
                 scale = np.abs(wanted[rows]).max()
-                assert np.abs(np.array(found)[rows] - wanted[rows]).max() <= 1e-4 * scale, name
+                assert np.abs(found[rows] - wanted[rows]).max() <= 1e-4 * scale, name
 
 
 def test_a_ramp_needs_one_step(pack):
@@ -154,7 +148,7 @@ def test_a_ramp_needs_one_step(pack):
     slope, duration = 1e12, 1e-4
     flux = 0.5 * slope * duration
     with Unit(pack("plate")) as ramp:
-        ramp.slave.setRealInputDerivatives(ramp.references(["spot.heat_flux"]), [1], [slope])
+        ramp.set_input_derivatives({"spot.heat_flux": [slope]})
         ramp.step(duration)
         heat = ramp["plate.heat_in"]
         rise = ramp["centre.temperature"] - 293.15
@@ -174,8 +168,7 @@ def test_output_derivatives_balance_heat_and_lead_ahead(pack):
     with Unit(pack("plate"), LOADS) as unit:
         unit.step(5 * STEP)
         names = ["plate.heat_in", "plate.heat_stored", "plate.heat_lost", "centre.temperature"]
-        references = unit.references(names)
-        brought, stored, lost, heating = unit.slave.getRealOutputDerivatives(references, [1] * 4)
+        brought, stored, lost, heating = unit.output_derivatives(names)
         assert brought == pytest.approx(stored + lost, rel=1e-11)
         before, ahead = unit["centre.temperature"], 1e-9
         unit.step(ahead)

@@ -93,7 +93,7 @@ def test_heat_balance_under_moving_loads_and_uneven_steps(pack, faces):
                     unit[name] = float(variable.start) * random.uniform(0.9, 1.1)
             unit.step(step)
             sent += step * back * pi * radius**2
-            total, stored, lost = unit.read(["box.heat_in", "box.heat_stored", "box.heat_lost"])
+            total, stored, lost = unit.get(["box.heat_in", "box.heat_stored", "box.heat_lost"])
             scale = abs(total) + abs(stored) + abs(lost)
             assert total == pytest.approx(stored + lost, abs=1e-9 * scale)
         if faces == "insulated":

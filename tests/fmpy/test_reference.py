@@ -56,7 +56,7 @@ def test_the_outputs_come_again_from_the_inputs(unit):
             if row["time"] > 0:
                 again.step(step)
             assert again.time == pytest.approx(row["time"], rel=1e-12)
-            found = again.read(outputs)
+            found = again.get(outputs)
             differ = [n for n, v in zip(outputs, found, strict=True) if v != row[n]]
             assert not differ, (row["time"], differ)
 

@@ -245,18 +245,18 @@ def test_units_of_others(folder):
 PYTHON_UNIT = """
 from pythonfmu import Boolean, Fmi2Causality, Fmi2Slave, Fmi2Variability, Integer, Real, String
 
-DISCRETE, FIXED = Fmi2Variability.discrete, Fmi2Variability.fixed
-
-
 class Counter(Fmi2Slave):
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
         self.u, self.y, self.count, self.is_on, self.name = 0.0, 0.0, 0, False, "none"
         self.register_variable(Real("u", causality=Fmi2Causality.input))
         self.register_variable(Real("y", causality=Fmi2Causality.output))
-        self.register_variable(Integer("count", causality=Fmi2Causality.output, variability=DISCRETE))
-        self.register_variable(Boolean("is_on", causality=Fmi2Causality.input, variability=DISCRETE))
-        self.register_variable(String("name", causality=Fmi2Causality.parameter, variability=FIXED))
+        told = {"causality": Fmi2Causality.output, "variability": Fmi2Variability.discrete}
+        self.register_variable(Integer("count", **told))
+        told = {"causality": Fmi2Causality.input, "variability": Fmi2Variability.discrete}
+        self.register_variable(Boolean("is_on", **told))
+        told = {"causality": Fmi2Causality.parameter, "variability": Fmi2Variability.fixed}
+        self.register_variable(String("name", **told))
 
     def do_step(self, time, step):
         if self.u > 1e3:
