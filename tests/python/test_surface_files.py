@@ -14,6 +14,7 @@ from impinge import Unit
 from impinge.adapt import read_picture
 from impinge.surface import Placement, Surface, SurfaceError
 from impinge.surface.families import from_cells
+from scipy.spatial import Delaunay
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = ROOT / "tests/fmpy/scenes"
@@ -283,3 +284,27 @@ def test_files_that_are_something_else_are_refused_by_name(tmp_path, kind, conte
         for call in calls:
             with pytest.raises(SurfaceError, match=f"odd.{suffix}: "):
                 call()
+
+
+def test_a_unit_takes_what_a_foreign_mesh_brings_and_gives_its_field_back(tmp_path):
+    """Flux at nodes in millimetres into the tiles of a unit; its temperature onto the same nodes."""
+    rng = np.random.default_rng(6)
+    inside = rng.uniform(-1, 1, (60, 2)) * [0.055, 0.045]
+    nodes = np.concatenate([inside, [[0.055, 0.045], [-0.055, 0.045], [0.055, -0.045]]])
+    nodes = np.column_stack([nodes + [120, 40], np.zeros(len(nodes))])
+    cells = Delaunay(nodes[:, :2]).simplices
+    mesh = meshio.Mesh(nodes, [("triangle", cells)], {"q": rng.uniform(1e7, 2e7, len(nodes))})
+    mesh.write(tmp_path / "wall.vtu")
+    scene = tmp_path / "scene.toml"
+    field = '[[field]]\nname = "face"\non = "block.top"\ngrid = [40, 40]\ngives = ["temperature"]\n'
+    scene.write_text((SCENES / "tiles.toml").read_text() + field)
+    with Unit(scene) as unit:
+        wall = Surface.read(tmp_path / "wall.vtu", Placement(origin=(120, 40, 0), unit="mm"))
+        flux = wall.map_to(Surface.of(unit, "patch"))
+        unit["patch.heat_flux"] = flux(wall.data["q"])
+        unit.step(1e-5)
+        heat = wall.integral(wall.data["q"]) * 1e-5
+        assert unit["block.heat_in"] == pytest.approx(heat, rel=1e-12)
+        back = Surface.of(unit, "face").map_to(wall, "consistent")(unit["face.temperature"])
+        assert back.shape == (len(nodes),)
+        assert 293.15 < back.min() and back.max() <= unit["face.temperature"].max()
