@@ -287,7 +287,7 @@ def test_files_that_are_something_else_are_refused_by_name(tmp_path, kind, conte
 
 
 def test_a_unit_takes_what_a_foreign_mesh_brings_and_gives_its_field_back(tmp_path):
-    """Flux at nodes in millimetres into the tiles of a unit; its temperature onto the same nodes."""
+    """Flux at nodes in millimetres into the tiles of a unit; its temperature onto those nodes."""
     rng = np.random.default_rng(6)
     inside = rng.uniform(-1, 1, (60, 2)) * [0.055, 0.045]
     nodes = np.concatenate([inside, [[0.055, 0.045], [-0.055, 0.045], [0.055, -0.045]]])
