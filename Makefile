@@ -71,6 +71,9 @@ bench: build $(VENV)/ready-verify ## time against an independent finite-element 
 	$(BIN)/python benches/nonlinear.py
 	$(BIN)/python benches/units.py
 	$(BIN)/python benches/python_unit.py
+	OMP_NUM_THREADS=1 $(BIN)/python benches/surfaces.py
+	$(BIN)/python benches/studies.py
+	$(BIN)/python benches/plans.py
 	cargo bench --bench elastic_iterations
 
 bench-droplet: $(PEERS)/ready ## time droplets against two other particle codes (needs g++ and OpenGL's libraries)

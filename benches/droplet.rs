@@ -44,6 +44,7 @@ fn plan(lean: bool, surface_tension: f64) -> DropletPlan {
         gravity: [0.0; 3],
         mirrors: [false; 2],
         extents: [Extent::Open; 3],
+        demand: None,
         releases: vec![release],
         wall: None,
     }

@@ -21,6 +21,8 @@ pub use start_rates::start_rates;
 pub use tangent::Tangent;
 pub use timeline::Timeline;
 
+use std::sync::Arc;
+
 use crate::body::{Assembly, Body, Fields, Joint, Link};
 pub use crate::body::{
     BodyError, BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast, notes_on_walls,
@@ -29,6 +31,7 @@ pub use crate::inputs::HIGHEST_INPUT_DERIVATIVE;
 use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::{Allowance, Interrupt};
 use crate::math::thread::aside;
+use crate::method::fem::ElasticProblem;
 pub use crate::method::fem::NodalFields;
 pub use crate::method::sph::ParticleFields;
 use crate::scene::{Scene, Shape};
@@ -63,6 +66,9 @@ pub struct State {
     /// released.
     pub bodies: Vec<Vec<f64>>,
 }
+
+/// What solves the mechanics of several bodies.
+pub type Stiffness = Vec<Arc<ElasticProblem>>;
 
 impl Model {
     /// Builds meshes, modes and factorisations; `threads` = 0 lets the program choose.
@@ -246,6 +252,12 @@ impl Model {
     /// Most threads that any body may use.
     pub fn threads(&self) -> usize {
         self.bodies.iter().map(|body| body.threads()).max().unwrap_or(1)
+    }
+
+    /// What solves the mechanics of its bodies; models that differ in what concerns heat alone share it as long as
+    /// somebody holds it.
+    pub fn stiffness(&self) -> Stiffness {
+        self.bodies.iter().filter_map(|body| body.stiffness()).collect()
     }
 
     /// Stored entries of all factorisations made so far.

@@ -1,3 +1,5 @@
+use std::f64::consts::PI;
+
 /// A physical quantity: what its values are measured in, and how people like to read them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quantity {
@@ -13,6 +15,9 @@ pub enum Quantity {
     Conductivity,
     Modulus,
     Ratio,
+    /// A whole number of things.
+    Count,
+    Angle,
     Expansion,
     HeatTransferCoefficient,
     /// Of a contact, for a unit of area.
@@ -47,7 +52,7 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 29] = [
+    pub const ALL: [Quantity; 31] = [
         Quantity::Time,
         Quantity::Temperature,
         Quantity::HeatFlux,
@@ -60,6 +65,8 @@ impl Quantity {
         Quantity::Conductivity,
         Quantity::Modulus,
         Quantity::Ratio,
+        Quantity::Count,
+        Quantity::Angle,
         Quantity::Expansion,
         Quantity::HeatTransferCoefficient,
         Quantity::ThermalResistance,
@@ -111,6 +118,8 @@ impl Quantity {
             Quantity::Conductivity => "ThermalConductivity",
             Quantity::Modulus => "ElasticModulus",
             Quantity::Ratio => "Ratio",
+            Quantity::Count => "Count",
+            Quantity::Angle => "Angle",
             Quantity::Expansion => "ThermalExpansion",
             Quantity::HeatTransferCoefficient => "HeatTransferCoefficient",
             Quantity::ThermalResistance => "ThermalInsulance",
@@ -143,7 +152,8 @@ impl Quantity {
             Quantity::Density => "kg/m3",
             Quantity::SpecificHeat => "J/(kg.K)",
             Quantity::Conductivity => "W/(m.K)",
-            Quantity::Ratio => "1",
+            Quantity::Ratio | Quantity::Count => "1",
+            Quantity::Angle => "rad",
             Quantity::Expansion => "1/K",
             Quantity::HeatTransferCoefficient => "W/(m2.K)",
             Quantity::ThermalResistance => "m2.K/W",
@@ -164,7 +174,7 @@ impl Quantity {
         }
     }
 
-    /// Exponents of kg, m, s and K.
+    /// Exponents of kg, m, s and K; angles beside them count as numbers.
     pub fn base_exponents(self) -> [i32; 4] {
         match self {
             Quantity::Time => [0, 0, 1, 0],
@@ -176,7 +186,7 @@ impl Quantity {
             Quantity::Density => [1, -3, 0, 0],
             Quantity::SpecificHeat => [0, 2, -2, -1],
             Quantity::Conductivity => [1, 1, -3, -1],
-            Quantity::Ratio => [0, 0, 0, 0],
+            Quantity::Ratio | Quantity::Count | Quantity::Angle => [0, 0, 0, 0],
             Quantity::Expansion => [0, 0, 0, -1],
             Quantity::HeatTransferCoefficient => [1, 0, -3, -1],
             Quantity::ThermalResistance => [-1, 0, 3, 1],
@@ -210,6 +220,7 @@ impl Quantity {
             Quantity::Length => scaled("µm", 1e6),
             Quantity::Displacement => scaled("nm", 1e9),
             Quantity::Energy => scaled("µJ", 1e6),
+            Quantity::Angle => scaled("deg", 180.0 / PI),
             Quantity::Expansion => scaled("1e-6/K", 1e6),
             Quantity::Viscosity => scaled("mPa.s", 1e3),
             Quantity::Mass => scaled("µg", 1e9),
@@ -233,7 +244,7 @@ impl Quantity {
             Quantity::Density => 1e3,
             Quantity::SpecificHeat => 1e3,
             Quantity::Conductivity => 10.0,
-            Quantity::Ratio => 1.0,
+            Quantity::Ratio | Quantity::Count | Quantity::Angle => 1.0,
             Quantity::Expansion => 1e-5,
             Quantity::HeatTransferCoefficient => 10.0,
             Quantity::ThermalResistance => 1e-6,

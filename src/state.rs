@@ -19,6 +19,7 @@ pub enum Per {
     /// The whole body, once.
     Body,
     Cell,
+    Drop,
     Face,
     Mode,
     Node,
@@ -101,6 +102,7 @@ impl fmt::Display for Place {
         let entry = match self.field.per {
             Per::Body => return Ok(()),
             Per::Cell => "cell",
+            Per::Drop => "drop",
             Per::Face => "face",
             Per::Mode => "mode",
             Per::Node => "node",

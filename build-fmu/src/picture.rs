@@ -59,9 +59,11 @@ impl Drop {
     fn of(droplet: &Droplet) -> Vec<Self> {
         let radius = 0.5 * droplet.diameter;
         let mut drops: Vec<Self> = Vec::new();
-        for arrival in &droplet.arrivals {
-            if drops.iter().all(|drop| drop.x != arrival.x) {
-                drops.push(Self { x: arrival.x, z: droplet.gap() + radius, radius });
+        // Where inputs release drops without being told otherwise.
+        let at_origin = droplet.is_on_demand().then_some(0.0);
+        for x in droplet.arrivals().iter().map(|arrival| arrival.x).chain(at_origin) {
+            if drops.iter().all(|drop| drop.x != x) {
+                drops.push(Self { x, z: droplet.gap() + radius, radius });
             }
         }
         drops

@@ -98,13 +98,18 @@ fn load(load: &Load) -> String {
 }
 
 fn droplet(name: &str, droplet: &Droplet) -> String {
-    let drops = match droplet.arrivals.len() {
+    let drops = match droplet.drops() {
+        count if droplet.is_on_demand() => format!("up to {count} drops, released by inputs, each"),
         1 => "a drop".to_owned(),
         count => format!("{count} drops, each"),
     };
+    let angle = match droplet.is_straight() {
+        true => String::new(),
+        false => format!(", {:.1}° from straight down", droplet.impact_angle.to_degrees()),
+    };
     let model = if droplet.dimension == 2 { "plane, one metre deep, " } else { "" };
     format!(
-        "{name}: {drops} of diameter {}, at {} K in the beginning, that arrives at {} m/s; {model}by \
+        "{name}: {drops} of diameter {}, at {} K in the beginning, that arrives at {} m/s{angle}; {model}by \
          weakly compressible smoothed particle hydrodynamics with particles {} apart.",
         metres(droplet.diameter),
         droplet.initial_temperature,

@@ -13,7 +13,7 @@ from impinge import Master, Unit  # noqa: E402
 
 NAME = "droplet_on_plate_two_units"
 HERE = Path(__file__).parent
-STOP, STEP = 2.5e-6, 5e-8  # s
+STOP, STEP = 2.5e-6, 2.5e-8  # s
 COLD = 293.15  # K
 PROBES = ["centre", "beside", "below"]
 OUTPUTS = [f"{probe}.{key}" for probe in PROBES for key in ("temperature", "stress_xx")]

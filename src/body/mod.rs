@@ -11,6 +11,7 @@ mod reservoir;
 mod solid;
 
 use std::any::Any;
+use std::sync::Arc;
 
 pub use droplet::{WallQuantity, notes_on_walls, wall_quantities};
 pub use error::BodyError;
@@ -21,7 +22,7 @@ pub use solid::{PointQuantity, point_quantities};
 
 use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::Allowance;
-use crate::method::fem::NodalFields;
+use crate::method::fem::{ElasticProblem, NodalFields};
 use crate::method::sph::{ParticleFields, Surface, SurfaceResponse, WallCells};
 use crate::scene::{self, FaceName, Scene};
 use crate::state::Layout;
@@ -118,6 +119,11 @@ pub trait Body: Send + Sync {
 
     /// What a user should know of the state at the end of a run.
     fn closing_warning(&self, _state: &[f64]) -> Option<String> {
+        None
+    }
+
+    /// What bodies that differ in what concerns heat alone share.
+    fn stiffness(&self) -> Option<Arc<ElasticProblem>> {
         None
     }
 

@@ -5,7 +5,7 @@ use clap::Args;
 use impinge::machine::available_memory;
 use impinge::model::{ParticleForecast, Timeline, check_memory, forecast};
 use impinge::scene::{
-    self, Coupling, Face, Field, Load, MaterialChoice, Probe, Scene, Shape, Solid, Wall,
+    self, Coupling, Droplet, Face, Field, Load, MaterialChoice, Probe, Scene, Shape, Solid, Wall,
 };
 use impinge::variables::{ArrayRegistry, Causality, Quantity, Registry, Value, Variable};
 use serde::Serialize;
@@ -161,14 +161,17 @@ fn droplets(scene: &Scene) -> String {
     let rows: Vec<_> = scene
         .droplets()
         .map(|(name, droplet)| {
-            let drops = match droplet.arrivals.len() {
+            let drops = match droplet.drops() {
+                count if droplet.is_on_demand() => {
+                    format!("up to {count} of {}", metres(droplet.diameter))
+                }
                 1 => metres(droplet.diameter),
                 count => format!("{count} of {}", metres(droplet.diameter)),
             };
             [
                 name.to_owned(),
                 drops,
-                engineering(droplet.impact_velocity, "m/s"),
+                speed(droplet),
                 kelvin(droplet.initial_temperature),
                 key(&droplet.method),
                 metres(droplet.spacing),
@@ -179,6 +182,14 @@ fn droplets(scene: &Scene) -> String {
     let heading =
         ["droplet", "diameter", "speed", "initially", "method", "distance of particles", "kernel"];
     table(heading, &rows)
+}
+
+fn speed(droplet: &Droplet) -> String {
+    let speed = engineering(droplet.impact_velocity, "m/s");
+    match droplet.is_straight() {
+        true => speed,
+        false => format!("{speed} at {:.1}°", droplet.impact_angle.to_degrees()),
+    }
 }
 
 fn walls(scene: &Scene) -> String {

@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use impinge::model::State;
 use impinge::scene::Scene;
-use impinge::variables::{Registry, Slot, Variable};
+use impinge::variables::{Quantity, Registry, Slot, Variable};
 
 use super::set::{self, InputValue, SetError};
 
 /// What inputs do between the rows of a table
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Between {
-    /// They change linearly
+    /// They change linearly, but for what is counted
     #[default]
     Linear,
     /// They keep the value of the row before
@@ -27,6 +27,8 @@ pub struct InputTable {
     between: Between,
     /// Places in a state's inputs of each column: several where a name stands for an array.
     columns: Vec<Vec<usize>>,
+    /// Columns that are held whatever the others do: what is counted.
+    counted: Vec<bool>,
     /// [s], ascending.
     times: Vec<f64>,
     /// Values of the columns, a row for each time.
@@ -60,6 +62,7 @@ impl InputTable {
         let mut table = Self {
             between,
             columns: columns.iter().map(|variables| places(variables)).collect(),
+            counted: columns.iter().map(|of| of[0].quantity == Some(Quantity::Count)).collect(),
             times: Vec::new(),
             rows: Vec::new(),
         };
@@ -141,11 +144,11 @@ impl InputTable {
         for (column, places) in self.columns.iter().enumerate() {
             let start = self.rows[before][column];
             let (value, rate) = match later {
-                None => (start, 0.0),
-                Some(later) => {
+                Some(later) if !self.counted[column] => {
                     let rate = (later[column] - start) / (self.times[next] - self.times[before]);
                     (start + rate * (from - self.times[before]), rate)
                 }
+                _ => (start, 0.0),
             };
             for &place in places {
                 (state.inputs[place], rates[place]) = (value, rate);

@@ -105,7 +105,7 @@ pub fn extremes_table(
             let value = model.output(state, cache, output)?;
             let text = match quantity {
                 Quantity::Temperature => kelvin(value),
-                Quantity::Ratio => format!("{value}"),
+                Quantity::Ratio | Quantity::Count => format!("{value}"),
                 quantity => engineering(value, quantity.unit()),
             };
             rows.push([variable.name.clone(), text]);

@@ -18,7 +18,9 @@ use crate::machine::available_memory;
 use crate::math::address_space::{self, PRODUCTS, SPARE};
 use crate::math::allowance::{Halt, Interrupt};
 use crate::math::thread::{STACK, aside};
-use crate::model::{BodyError, Cache, Model, ModelError, State, Tangent, initial_inputs};
+use crate::model::{
+    BodyError, Cache, Model, ModelError, State, Stiffness, Tangent, initial_inputs,
+};
 use crate::output::{FieldSeries, FolderLock, OutputError};
 use crate::scene::{self, Scene, Warning};
 use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
@@ -53,6 +55,8 @@ pub struct Unit {
     /// they are what that step ended with, and the next one holds its inputs.
     pub(super) has_set_derivatives: bool,
     pub(super) run: Option<Run>,
+    /// Stiffness of a model that has gone, for the next one, which may differ in what concerns heat alone.
+    kept: Stiffness,
     /// What is implausible in the scene as packed.
     warnings: Vec<Warning>,
     /// What the master has been warned of.
@@ -150,6 +154,7 @@ impl Unit {
             guid,
             state,
             has_set_derivatives: false,
+            kept: Vec::new(),
             packed: scene.clone(),
             scene,
             directory: String::new(),
@@ -209,7 +214,7 @@ impl Unit {
 
     /// Back to the start values, as after fmi2Instantiate; log settings and saved states stay.
     pub fn reset(&mut self) -> Answer {
-        self.run = None;
+        self.drop_run();
         self.series = None;
         self.texts.clear();
         self.scene = self.packed.clone();
@@ -314,7 +319,15 @@ impl Unit {
     }
 
     fn build(&mut self) -> Answer<Run> {
-        let model = self.model_of(&self.scene)?;
+        let model = match self.model_of(&self.scene) {
+            // What is kept may be the memory that is missing.
+            Err(_) if !self.kept.is_empty() => {
+                self.kept.clear();
+                self.model_of(&self.scene)?
+            }
+            other => other?,
+        };
+        self.kept.clear();
         self.warn_of_scene();
         for note in model.notes() {
             self.log.send(Status::Ok, &note);
@@ -383,9 +396,16 @@ impl Unit {
         if scene == self.scene {
             return;
         }
-        self.run = None;
+        self.drop_run();
         self.state.bodies.clear();
         self.scene = scene;
+    }
+
+    /// Drops the model and what follows from the state, but for its stiffness.
+    fn drop_run(&mut self) {
+        if let Some(run) = self.run.take() {
+            self.kept = run.model.stiffness();
+        }
     }
 
     /// Opens the files of fields if they are wanted, and writes the present ones.

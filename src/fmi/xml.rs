@@ -97,7 +97,9 @@ pub(super) fn units(xml: &mut Xml, used: &BTreeSet<Quantity>) -> io::Result<()> 
 
 fn base_unit(quantity: Quantity) -> Attributes {
     let exponents = ["kg", "m", "s", "K"].into_iter().zip(quantity.base_exponents());
-    exponents.filter(|(_, e)| *e != 0).map(|(name, e)| (name, e.to_string())).collect()
+    let angle = ("rad", i32::from(quantity == Quantity::Angle));
+    let all = exponents.chain([angle]).filter(|(_, e)| *e != 0);
+    all.map(|(name, e)| (name, e.to_string())).collect()
 }
 
 fn display_unit(unit: DisplayUnit) -> Attributes {
@@ -147,7 +149,7 @@ fn variables(xml: &mut Xml, registry: &Registry) -> io::Result<()> {
         let (variability, initial) = match variable.causality() {
             Causality::Parameter if variable.is_tunable => ("tunable", Some("exact")),
             Causality::Parameter => ("fixed", Some("exact")),
-            Causality::Input => ("continuous", None),
+            Causality::Input => (variability(variable.quantity), None),
             Causality::Output => ("continuous", Some("calculated")),
         };
         let mut attributes: Attributes = vec![
@@ -161,6 +163,11 @@ fn variables(xml: &mut Xml, registry: &Registry) -> io::Result<()> {
         parent(xml, "ScalarVariable", &attributes, |xml| typed(xml, variable))?;
     }
     Ok(())
+}
+
+/// How an input may change: counts in steps alone.
+pub(super) fn variability(quantity: Option<Quantity>) -> &'static str {
+    if quantity == Some(Quantity::Count) { "discrete" } else { "continuous" }
 }
 
 /// The element that tells type, bounds and start value.

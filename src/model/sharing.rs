@@ -1,99 +1,33 @@
 //! Units of one process that have equal scenes share one immutable model.
 
-use std::process;
-use std::ptr;
-use std::sync::atomic::{AtomicPtr, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::Arc;
 
 use super::{Model, ModelError, check_memory};
-use crate::math::thread::{aside, is_alone};
+use crate::math::shared_values::SharedValues;
+use crate::math::thread::aside;
+use crate::method::fem::forget_unused_stiffness;
 use crate::scene::Scene;
 
-/// A scene and the model that lives for it, if any unit still holds it.
-type Entry = (Scene, Arc<Mutex<Weak<Model>>>);
-
-/// The models of one process. Holds none alive and nothing that changes.
-struct Known {
-    process: u32,
-    entries: Mutex<Vec<Entry>>,
-}
-
-/// That of this process, or of the one that it has been forked from, whose threads are gone and may have
-/// left locks behind.
-static KNOWN: AtomicPtr<Known> = AtomicPtr::new(ptr::null_mut());
-
-/// Those of this process. What a process inherits when it is forked is taken over, unless somebody was
-/// building then.
-fn entries() -> MutexGuard<'static, Vec<Entry>> {
-    let process = process::id();
-    loop {
-        let last = KNOWN.load(Ordering::Acquire);
-        // SAFETY: null, or leaked below.
-        let known = unsafe { last.as_ref() };
-        if let Some(known) = known.filter(|known| known.process == process) {
-            return known.entries.lock().unwrap_or_else(PoisonError::into_inner);
-        }
-        let inherited =
-            known.filter(|_| is_alone()).and_then(|known| known.entries.try_lock().ok());
-        let entries = Mutex::new(inherited.map_or_else(Vec::new, |entries| entries.clone()));
-        let own = Box::into_raw(Box::new(Known { process, entries }));
-        let (set, missed) = (Ordering::AcqRel, Ordering::Relaxed);
-        if KNOWN.compare_exchange(last, own, set, missed).is_err() {
-            // SAFETY: nobody else has got it.
-            drop(unsafe { Box::from_raw(own) });
-        }
-    }
-}
+static MODELS: SharedValues<Scene, Model> = SharedValues::new();
 
 impl Model {
     /// The model of `scene`, built unless another holder in this process already has it. Those who
     /// ask for the same one meanwhile wait; those who ask for another do not. One that would take more
     /// memory than is `available` [B] is not built.
     pub fn shared(scene: &Scene, threads: usize, available: f64) -> Result<Arc<Model>, ModelError> {
-        aside(|| Self::shared_here(scene, threads, available))
+        aside(|| {
+            MODELS.get_or_make(scene, || {
+                check_memory(scene, available)?;
+                Model::build(scene, threads)
+            })
+        })
     }
 
     /// Forgets scenes whose models nobody holds any more.
     pub fn forget_unused() {
-        let mut entries = entries();
-        remove_stale(&mut entries);
-        entries.shrink_to_fit();
+        MODELS.forget_unused();
+        forget_unused_stiffness();
     }
-
-    fn shared_here(
-        scene: &Scene,
-        threads: usize,
-        available: f64,
-    ) -> Result<Arc<Model>, ModelError> {
-        let slot = slot_of(scene);
-        let mut weak = slot.lock().unwrap_or_else(|poisoned| poisoned.into_inner());
-        if let Some(model) = weak.upgrade() {
-            return Ok(model);
-        }
-        check_memory(scene, available)?;
-        let model = Arc::new(Model::build(scene, threads)?);
-        *weak = Arc::downgrade(&model);
-        Ok(model)
-    }
-}
-
-fn slot_of(scene: &Scene) -> Arc<Mutex<Weak<Model>>> {
-    let mut entries = entries();
-    if let Some((_, slot)) = entries.iter().find(|(other, _)| other == scene) {
-        return slot.clone();
-    }
-    remove_stale(&mut entries);
-    let slot = Arc::new(Mutex::new(Weak::new()));
-    entries.push((scene.clone(), slot.clone()));
-    slot
-}
-
-/// A slot that only this list holds has no builder and no waiter; without a model it is stale.
-fn remove_stale(entries: &mut Vec<Entry>) {
-    entries.retain(|(_, slot)| {
-        let stale = || slot.try_lock().is_ok_and(|weak| weak.strong_count() == 0);
-        Arc::strong_count(slot) > 1 || !stale()
-    });
 }
 
 #[cfg(test)]
@@ -117,6 +51,25 @@ mod tests {
         let weak = Arc::downgrade(&first);
         drop((first, second));
         assert!(weak.upgrade().is_none(), "nobody holds the model");
+    }
+
+    #[test]
+    fn models_that_differ_in_what_concerns_heat_share_their_stiffness() {
+        let scene = parse(SCENE, "scene.toml").unwrap();
+        let built = |edit: fn(&mut crate::material::Properties)| {
+            let mut scene = scene.clone();
+            let Some(crate::scene::Body::Solid(solid)) = scene.body.get_mut("plate") else {
+                panic!()
+            };
+            solid.mesh.depth_spacing = Some(2e-5);
+            edit(solid.material.as_mut().unwrap().properties_mut());
+            Model::build(&scene, 1).unwrap()
+        };
+        let first = built(|_| {});
+        let denser = built(|properties| properties.density *= 2.0);
+        let stiffer = built(|properties| properties.young = Some(2e11.into()));
+        assert!(Arc::ptr_eq(&first.stiffness()[0], &denser.stiffness()[0]));
+        assert!(!Arc::ptr_eq(&first.stiffness()[0], &stiffer.stiffness()[0]));
     }
 
     #[test]

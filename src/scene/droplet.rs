@@ -1,13 +1,15 @@
 //! Droplets, the walls that make units of them and their couplings to solids.
 
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::lookup::BodyInput;
 use super::types::{CellValues, Footprint, IDENTIFIER};
 use crate::kernel::Kernel;
 use crate::limits::{above_zero, length, own_temperature, plausible, whole, within};
+use crate::quantity::Quantity;
 
 /// Round drops of one fluid that arrive, along −z, above the plane z = 0.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -19,9 +21,22 @@ pub struct Droplet {
     /// Diameter [m].
     #[schemars(transform = within(1e-9, 1e2, "m", "the diameter of a drop").plausible(&plausible::DIAMETER))]
     pub diameter: f64,
-    /// Speed towards the wall at the release [m/s].
+    /// Speed at the release, straight towards the wall unless there is an angle [m/s].
     #[schemars(transform = within(0.0, 1e5, "m/s", "the speed towards the wall").plausible(&plausible::SPEED))]
     pub impact_velocity: f64,
+    /// Angle between the way of a drop at its release and the way straight down [rad].
+    #[serde(default)]
+    #[schemars(transform = within(-FRAC_PI_2, FRAC_PI_2, "rad", "").open()
+        .says("at this angle a drop does not come down", "-1.5708 to 1.5708 (rad), without these ends")
+        .otherwise("0: straight down"))]
+    pub impact_angle: f64,
+    /// Direction along the wall of drops that come at an angle, from x towards y [rad].
+    #[serde(default)]
+    #[schemars(transform = within(-TAU, TAU, "rad", "")
+        .says("the direction is more than a full turn", "-6.28319 to 6.28319 (rad)")
+        .condition("0 in a plane model")
+        .otherwise("0: along x"))]
+    pub impact_direction: f64,
     /// Uniform temperature at the release [K].
     #[schemars(transform = own_temperature())]
     pub initial_temperature: f64,
@@ -44,7 +59,7 @@ pub struct Droplet {
     #[serde(default)]
     #[schemars(extend(
         "otherwise" = "`auto`: a quarter where that is exact",
-        "condition" = "`quarter` with all drops at x = 0, y = 0"
+        "condition" = "`quarter` with all drops at x = 0, y = 0, straight down"
     ))]
     pub symmetry: DropletSymmetry,
     /// Particles on a lattice or at random with a least distance.
@@ -80,13 +95,34 @@ pub struct Droplet {
     #[serde(default)]
     #[schemars(extend("otherwise" = "true from a Weber number of 1000 on, or without tension"))]
     pub shifting: Option<bool>,
+    /// What lets drops go: times of the scene, or inputs of the unit.
+    #[serde(default)]
+    pub release: ReleaseBy,
+    /// Drops that inputs may release in a run.
+    #[schemars(transform = whole(1, 10_000, "the number of drops is out of bounds", "1 to 10000")
+        .condition("with `release = \"input\"`, which needs it")
+        .otherwise("none"))]
+    pub most: Option<usize>,
     /// A copy of the drop for each entry of the list.
-    #[serde(default = "one_arrival")]
     #[schemars(
         length(min = 1),
-        extend("otherwise" = "one at time 0", "condition" = "in the order of their times")
+        extend(
+            "otherwise" = "one at time 0",
+            "condition" = "in the order of their times; not with `release = \"input\"`"
+        )
     )]
-    pub arrivals: Vec<Arrival>,
+    pub arrivals: Option<Vec<Arrival>>,
+}
+
+/// What lets drops go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum ReleaseBy {
+    /// The times of `arrivals`.
+    #[default]
+    Arrivals,
+    /// An input that counts the drops asked for, with place, speed and temperature beside it.
+    Input,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
@@ -101,12 +137,13 @@ pub enum DropletMethod {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DropletSymmetry {
-    /// A quarter, or half of a plane model, where all drops arrive at the origin on a lattice.
+    /// A quarter, or half of a plane model, where all drops arrive at the origin on a lattice; half where they come
+    /// at an angle along x or y.
     #[default]
     Auto,
     /// The whole of all drops.
     None,
-    /// A quarter; drops must arrive at the origin.
+    /// A quarter; drops must arrive at the origin, straight down.
     Quarter,
 }
 
@@ -268,16 +305,19 @@ fn right_angle() -> f64 {
     FRAC_PI_2
 }
 
-fn one_arrival() -> Vec<Arrival> {
-    vec![Arrival::default()]
-}
-
 fn yes() -> bool {
     true
 }
 
+/// The arrival of a scene that names none.
+const ONE_ARRIVAL: [Arrival; 1] = [Arrival { time: 0.0, x: 0.0, y: 0.0 }];
+
 /// Speed of sound over the governing speed where the scene names none: density then stays within 1 %.
 const SOUND_OVER_FLOW: f64 = 10.0;
+
+/// Least speed of sound over that of the flow or its surface: below, the fluid would be compressed by 4 % and
+/// more, or its surface come loose.
+pub const LEAST_SOUND_OVER_FLOW: f64 = 5.0;
 
 /// Pressure of a drop that viscosity stops, over µU/D.
 const VISCOUS_PRESSURE: f64 = 12.0;
@@ -293,6 +333,21 @@ pub enum Governing {
 /// Weber number from which inertia rules.
 const INERTIAL: f64 = 1000.0;
 
+/// Cosine of an angle that is taken for a right one: what is left of that by rounding.
+const RIGHT: f64 = 1e-9;
+
+/// Velocity [m/s] at an angle to the way straight down and in a direction along the wall, from x towards y [rad].
+pub fn velocity(speed: f64, angle: f64, direction: f64) -> [f64; 3] {
+    let (down, aside) = (speed * angle.cos(), speed * angle.sin());
+    let (sine, cosine) = direction.sin_cos();
+    let [x, y] = match (cosine.abs() < RIGHT, sine.abs() < RIGHT) {
+        (true, _) => [0.0, sine.signum()],
+        (_, true) => [cosine.signum(), 0.0],
+        _ => [cosine, sine],
+    };
+    [aside * x, aside * y, -down]
+}
+
 impl Droplet {
     /// Gap between a drop's lowest point and the wall at its release [m].
     pub fn gap(&self) -> f64 {
@@ -302,9 +357,14 @@ impl Droplet {
     /// The larger of the speed of a drop that has fallen through its gap and its own height, and of
     /// capillary waves, √(σ/(ρR)) [m/s].
     pub fn fastest_flow(&self) -> f64 {
-        let fall = 2.0 * self.gravity * (self.gap() + self.diameter);
+        let fall = self.gain_by_fall();
         let capillary = self.fluid.surface_tension / (self.fluid.density * 0.5 * self.diameter);
         (self.impact_velocity.powi(2) + fall).max(capillary).sqrt()
+    }
+
+    /// What the square of a speed grows by over the fall of a drop through its gap and its own height [m²/s²].
+    fn gain_by_fall(&self) -> f64 {
+        2.0 * self.gravity * (self.gap() + self.diameter)
     }
 
     /// √(2σ/(ρΔx)) [m/s], the speed that belongs to Laplace's pressure 2σ/Δx of the sharpest surface that
@@ -335,9 +395,117 @@ impl Droplet {
         self.fluid.sound_speed.unwrap_or_else(|| SOUND_OVER_FLOW * self.governing_speed().1)
     }
 
-    /// Whether all drops arrive at the origin.
+    /// Whether inputs release the drops.
+    pub fn is_on_demand(&self) -> bool {
+        self.release == ReleaseBy::Input
+    }
+
+    /// When and where drops are released, as far as the scene says.
+    pub fn arrivals(&self) -> &[Arrival] {
+        match &self.arrivals {
+            Some(list) => list,
+            None if self.is_on_demand() => &[],
+            None => &ONE_ARRIVAL,
+        }
+    }
+
+    /// Drops that there are at most.
+    pub fn drops(&self) -> usize {
+        if self.is_on_demand() { self.most.unwrap_or(1) } else { self.arrivals().len() }
+    }
+
+    /// The largest speed at which a drop may be released by inputs [m/s]: the flow is a fifth of sound then.
+    pub fn fastest_release(&self) -> f64 {
+        let flow = self.sound_speed() / LEAST_SOUND_OVER_FLOW;
+        (flow * flow - self.gain_by_fall()).max(0.0).sqrt()
+    }
+
+    /// What a drop that inputs release takes from them when it starts.
+    pub fn inputs(&self) -> Vec<BodyInput> {
+        if !self.is_on_demand() {
+            return Vec::new();
+        }
+        let input =
+            |key, words, quantity, start, bounds| BodyInput { key, words, quantity, start, bounds };
+        let [any, count] = [[None; 2], [Some(0.0), self.most.map(|most| most as f64)]];
+        let release =
+            "drops asked for so far: each that is added starts with the next step, or waits";
+        let mut inputs = vec![
+            input("release", release, Quantity::Count, 0.0, count),
+            input("x", "x of the centre at the release", Quantity::Length, 0.0, any),
+            input("y", "y of the centre at the release", Quantity::Length, 0.0, any),
+            input(
+                "speed",
+                "speed at the release",
+                Quantity::Velocity,
+                self.impact_velocity,
+                [Some(0.0), None],
+            ),
+            input(
+                "temperature",
+                "temperature at the release",
+                Quantity::Temperature,
+                self.initial_temperature,
+                [Some(0.0), None],
+            ),
+            input(
+                "angle",
+                "angle at the release between the way of the drop and the way straight down",
+                Quantity::Angle,
+                self.impact_angle,
+                any,
+            ),
+            input(
+                "direction",
+                "direction along the wall of a drop that comes at an angle, from x towards y",
+                Quantity::Angle,
+                self.impact_direction,
+                any,
+            ),
+        ];
+        inputs.retain(|input| self.dimension == 3 || !["y", "direction"].contains(&input.key));
+        inputs
+    }
+
+    /// Velocity of a drop at its release [m/s].
+    pub fn velocity(&self) -> [f64; 3] {
+        velocity(self.impact_velocity, self.impact_angle, self.impact_direction)
+    }
+
+    /// Whether drops come straight down.
+    pub fn is_straight(&self) -> bool {
+        self.impact_angle == 0.0
+    }
+
+    /// Speed towards the wall at the release [m/s].
+    pub fn normal_speed(&self) -> f64 {
+        -self.velocity()[2]
+    }
+
+    /// Time that a drop takes to fall through its gap at a speed towards the wall [s], without end where it does not.
+    pub fn fall_time(&self, speed: f64) -> f64 {
+        2.0 * self.gap() / (speed + (speed * speed + 2.0 * self.gravity * self.gap()).sqrt())
+    }
+
+    /// Where a drop comes down that starts above a place [m] at a velocity [m/s]; that place if it never does.
+    pub fn landing(&self, from: [f64; 2], velocity: [f64; 3]) -> [f64; 2] {
+        let time = self.fall_time(-velocity[2]);
+        let along = |axis: usize| match time.is_finite() {
+            true => from[axis] + velocity[axis] * time,
+            false => from[axis],
+        };
+        [along(0), along(1)]
+    }
+
+    /// Where the drops of the scene come down [m].
+    pub fn landings(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let velocity = self.velocity();
+        self.arrivals().iter().map(move |arrival| self.landing([arrival.x, arrival.y], velocity))
+    }
+
+    /// Whether all drops that the scene releases arrive at the origin.
     pub fn is_centred(&self) -> bool {
-        self.arrivals.iter().all(|arrival| arrival.x == 0.0 && arrival.y == 0.0)
+        self.arrivals().iter().all(|arrival| arrival.x == 0.0 && arrival.y == 0.0)
     }
 
     /// Whether particles are shifted.
@@ -349,11 +517,15 @@ impl Droplet {
 
     /// Along which of x and y the half of the model stands for the whole.
     pub fn mirrors(&self) -> [bool; 2] {
-        let halved = match self.symmetry {
-            DropletSymmetry::Auto => self.is_centred() && self.placement == Placement::Lattice,
+        let is_even = match self.symmetry {
+            DropletSymmetry::Auto => {
+                self.is_centred() && !self.is_on_demand() && self.placement == Placement::Lattice
+            }
             symmetry => symmetry == DropletSymmetry::Quarter,
         };
-        [halved, halved && self.dimension == 3]
+        // A drop that comes at an angle mirrors itself in the plane that it moves in, if in any.
+        let [u, v, _] = self.velocity();
+        [is_even && u == 0.0, is_even && v == 0.0 && self.dimension == 3]
     }
 
     /// Diameter over which a drop spreads at most [m], the drop's own where it does not fall.
@@ -363,8 +535,9 @@ impl Droplet {
     /// much faster than their waves.
     pub fn spread_diameter(&self) -> f64 {
         let Fluid { density, viscosity, surface_tension, .. } = self.fluid;
-        let reynolds = density * self.impact_velocity * self.diameter / viscosity;
-        let weber = density * self.impact_velocity.powi(2) * self.diameter / surface_tension;
+        let speed = self.normal_speed();
+        let reynolds = density * speed * self.diameter / viscosity;
+        let weber = density * speed.powi(2) * self.diameter / surface_tension;
         let ratio = 0.87 * reynolds.powf(0.2) - 0.40 * reynolds.powf(0.4) / weber.sqrt();
         // Of a drop at rest the fit makes NaN, of which `max` takes the 1, too.
         ratio.max(1.0) * self.diameter

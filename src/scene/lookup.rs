@@ -20,6 +20,8 @@ pub struct BodyInput {
     pub words: &'static str,
     pub quantity: Quantity,
     pub start: f64,
+    /// Least and largest value, where the variable has them.
+    pub bounds: [Option<f64>; 2],
 }
 
 impl Body {
@@ -44,7 +46,8 @@ impl Body {
     /// Inputs beside those of loads, faces and walls.
     pub fn inputs(&self) -> Vec<BodyInput> {
         match self {
-            Body::Solid(_) | Body::Droplet(_) => Vec::new(),
+            Body::Solid(_) => Vec::new(),
+            Body::Droplet(droplet) => droplet.inputs(),
             Body::Reservoir(reservoir) => reservoir.inputs(),
         }
     }

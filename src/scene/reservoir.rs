@@ -43,12 +43,14 @@ impl Reservoir {
             words: "heat brought into the reservoir",
             quantity: Quantity::HeatFlow,
             start: self.heating,
+            bounds: [None; 2],
         };
         let ambient = self.ambient.map(|start| BodyInput {
             key: "ambient",
             words: "temperature of what the reservoir loses heat to",
             quantity: Quantity::Temperature,
             start,
+            bounds: [Some(0.0), None],
         });
         std::iter::once(heating).chain(ambient).collect()
     }

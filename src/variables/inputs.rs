@@ -34,8 +34,8 @@ fn body_variable(body: &str, input: &BodyInput, at: usize) -> Variable {
         slot: Slot::Input(at),
         quantity: Some(input.quantity),
         start: Some(Value::Real(input.start)),
-        min: (input.quantity == Quantity::Temperature).then_some(0.0),
-        max: None,
+        min: input.bounds[0],
+        max: input.bounds[1],
         is_tunable: false,
     }
 }

@@ -91,7 +91,9 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
 
 fn of_droplet(body: &str, droplet: &Droplet, list: &mut Vec<Variable>) {
     let mut copy = droplet.clone();
-    for constant in DropletConstant::ALL {
+    // Inputs tell speed and temperature of drops on demand.
+    let is_told = |key: &str| droplet.is_on_demand() && key == "impact_velocity";
+    for constant in DropletConstant::ALL.iter().filter(|constant| !is_told(constant.key)) {
         list.push(Variable {
             name: format!("{body}.{}", constant.key),
             description: format!("{} of {body}", constant.description),
@@ -102,6 +104,9 @@ fn of_droplet(body: &str, droplet: &Droplet, list: &mut Vec<Variable>) {
             max: None,
             is_tunable: false,
         });
+    }
+    if droplet.is_on_demand() {
+        return;
     }
     list.push(Variable {
         name: format!("{body}.initial_temperature"),

@@ -43,6 +43,7 @@ pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
         gravity: [0.0; 3],
         mirrors: [dimension == 3; 2],
         extents: [Extent::Open; 3],
+        demand: None,
         releases: vec![Release {
             time: 0.0,
             centre: [0.0; 3],

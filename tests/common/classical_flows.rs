@@ -109,6 +109,7 @@ impl Setup {
             gravity: self.gravity,
             mirrors: [false; 2],
             extents: self.extents,
+            demand: None,
             releases: Vec::new(),
             wall: self.cells.map(|cells| Wall { cells, contact_angle: 0.5 * PI, effusivity: None }),
         }

@@ -1,6 +1,6 @@
 //! States and derivatives of inputs of units with droplets.
 
-use crate::master::{DISCARD, OK, Unit};
+use crate::master::{DISCARD, ERROR, OK, Unit};
 
 /// Two drops, the second released after 0.4 µs, above a wall of tiles whose temperatures are inputs.
 pub const WALL: &str = r#"
@@ -82,7 +82,10 @@ fn go_on(unit: &Unit, input: &str, value: f64) -> Vec<(Vec<u64>, i32, String)> {
 }
 
 fn repeats_to_the_bit(scene: &str, input: &str, value: f64) {
-    let unit = started(scene);
+    go_on_from(started(scene), scene, input, value);
+}
+
+fn go_on_from(unit: Unit, scene: &str, input: &str, value: f64) {
     for _ in 0..3 {
         assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
     }
@@ -105,6 +108,61 @@ fn repeats_to_the_bit(scene: &str, input: &str, value: f64) {
 #[test]
 fn drops_above_a_wall_go_on_from_a_state_to_the_bit() {
     repeats_to_the_bit(WALL, "wall.temperature[1,1]", 310.0);
+}
+
+/// Up to four drops that inputs release above the same wall.
+pub fn on_demand() -> String {
+    let arrivals = "arrivals = [{ time = 0.0 }, { time = 4e-7, x = 8e-5 }]";
+    assert!(WALL.contains(arrivals));
+    WALL.replace(arrivals, "release = \"input\"\nmost = 4\nheight = 1e-5")
+}
+
+#[test]
+fn drops_that_wait_go_on_from_a_state_to_the_bit() {
+    let scene = on_demand();
+    let unit = started(&scene);
+    for (name, value) in [("release", 3.0), ("x", 2e-5), ("temperature", 361.0)] {
+        assert_eq!(unit.set(&format!("drop.{name}"), value), OK);
+    }
+    assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
+    assert_eq!(["drop.released", "drop.waiting"].map(|name| unit.get(name)), [1.0, 2.0]);
+    go_on_from(unit, &scene, "wall.temperature[1,1]", 310.0);
+}
+
+#[test]
+fn drops_that_cannot_be_are_refused_and_change_nothing() {
+    let unit = started(&on_demand());
+    assert_eq!(unit.set("drop.release", 2.0), OK);
+    assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
+    for (name, value, words) in [
+        ("drop.release", 1.0, "drop.release: 1 drops, where 2 have been asked for"),
+        ("drop.release", 2.5, "drop.release: 2.5 is no number of drops"),
+        ("drop.speed", 1e3, "drop.speed: a drop at 1000 m/s"),
+        ("drop.temperature", 0.0, "drop.temperature: 0 K is not above absolute zero"),
+    ] {
+        let state = unit.save();
+        let before = unit.get(name);
+        unit.messages.take();
+        assert_eq!(unit.set(name, value), OK);
+        assert_eq!(unit.step(unit.time(), STEP), ERROR, "{name} = {value}");
+        unit.expect_message(ERROR, &[words]);
+        assert_eq!(unit.restore(state), OK);
+        assert_eq!(unit.set(name, before), OK);
+    }
+    for (name, value) in [
+        ("drop.release", 5.0),
+        ("drop.release", -1.0),
+        ("drop.speed", -1.0),
+        ("drop.temperature", -1.0),
+    ] {
+        assert_eq!(unit.set(name, value), ERROR, "{name}");
+        unit.expect_message(ERROR, &[name]);
+    }
+    assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
+    // A count that is interpolated is none.
+    assert_eq!(unit.set_derivative("drop.release", 1, 1.0 / STEP), OK);
+    assert_eq!(unit.step(unit.time(), STEP), ERROR);
+    unit.expect_message(ERROR, &["drop.release: a count has no time derivative"]);
 }
 
 #[test]

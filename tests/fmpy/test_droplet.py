@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from impinge import StepDiscarded, UnitError
 from master import Unit
+from test_fmi3 import Unit as Unit3
 
 STEP = 1e-7
 AREAS = pi * 2.5e-5**2 * np.array([1, 3, 5, 7])
@@ -69,6 +70,49 @@ def test_a_step_without_meaning_is_discarded(pack):
             unit.step(STEP)
         assert any("drop: " in line and "t = " in line for line in unit.log), unit.log
         assert unit["drop.heat"] == before
+
+
+def asked_for(unit):
+    """Three drops in two places, one of which has to wait."""
+    unit.set({"drop.release": 1, "drop.x": -8e-5, "drop.speed": 30.0})
+    unit.step(STEP)
+    unit.set({"drop.release": 3, "drop.x": 8e-5, "drop.temperature": 360.0})
+    unit.step(STEP)
+
+
+def test_a_master_releases_drops(pack):
+    mass = 1000.0 * pi / 6 * 6e-5**3
+    with Unit(pack("demand")) as unit:
+        for _ in range(3):
+            unit.step(STEP)
+        assert unit["drop.mass"] == unit["drop.released"] == unit["drop.steps"] == 0
+        asked_for(unit)
+        assert (unit["drop.released"], unit["drop.waiting"]) == (2, 1)
+        assert unit["drop.mass"] == pytest.approx(2 * mass, rel=1e-9)
+        for _ in range(10):
+            unit.step(STEP)
+        released = unit["drop.released"]
+        momentum = unit["drop.momentum_z"] + unit["drop.impulse_z"]
+        assert momentum == pytest.approx(-mass * 30.0 * released, rel=1e-4)
+        scale = mass * 4180.0 * 60.0
+        assert unit["drop.heat_stored"] == pytest.approx(-unit["drop.heat"], abs=1e-6 * scale)
+        wanted = {"drop.release": "discrete", "drop.x": "continuous", "drop.speed": "continuous"}
+        assert {name: unit.variables[name].variability for name in wanted} == wanted
+        unit["drop.release"] = 2
+        with pytest.raises(FMICallException):
+            unit.step(STEP)
+        assert any("the count of all drops does not fall" in line for line in unit.log), unit.log
+
+
+def test_drops_on_demand_are_the_same_in_both_versions(pack, tmp_path):
+    with Unit(pack("demand")) as two, Unit3(pack("demand", fmi=3), tmp_path) as three:
+        for unit in (two, three):
+            asked_for(unit)
+            for _ in range(5):
+                unit.step(STEP)
+        assert three.variables["drop.release"].variability == "discrete"
+        names = [name for name in two.outputs if name.startswith("drop.")]
+        assert (three.read(names) == np.array(two.read(names))).all()
 
 
 def test_particles_are_written_beside_the_plate(pack, tmp_path):

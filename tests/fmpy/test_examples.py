@@ -17,12 +17,14 @@ COARSE = {
     },
     "moving_spot": {"spacing = 40e-6, depth_spacing": "spacing = 80e-6, depth_spacing"},
 }
+FEWER = {"stress_study": ["--samples", "4", "--levels", "3"]}
 
 
 @pytest.mark.parametrize("scene", EXAMPLES, ids=lambda path: path.parent.name)
 def test_the_example_runs(pack, tmp_path, scene):
     unit = pack(scene, COARSE.get(scene.parent.name))
     command = [sys.executable, scene.parent / "run.py", "--fmu", unit, "--out", tmp_path]
+    command += FEWER.get(scene.parent.name, [])
     ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stdout + ran.stderr
     assert list(tmp_path.rglob("*.png")), "no picture"

@@ -84,6 +84,10 @@ class Unit:
     def __setitem__(self, name, value):
         self.slave.setFloat64(self.references([name]), np.ravel(value).tolist())
 
+    def set(self, values):
+        for name, value in values.items():
+            self[name] = value
+
     def step(self, size=STEP):
         answer = self.slave.doStep(self.time, size)
         self.time += size

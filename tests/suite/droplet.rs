@@ -40,6 +40,7 @@ fn impact(resolution: f64) -> DropletPlan {
         gravity: [0.0; 3],
         mirrors: [true; 2],
         extents: [Extent::Open; 3],
+        demand: None,
         releases: vec![Release {
             time: 0.0,
             centre: [0.0, 0.0, 0.5 * (DIAMETER + spacing)],

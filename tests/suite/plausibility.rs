@@ -302,6 +302,33 @@ fn a_drop_that_does_not_arrive_in_time_is_warned_of() {
 }
 
 #[test]
+fn cells_narrower_than_particles_are_warned_of() {
+    let text = drop(WATER);
+    let line = text.lines().find(|line| line.starts_with("footprint")).unwrap().to_owned();
+    for (footprint, path) in [
+        ("rings = { count = 10, radius = 4.9e-4 }", "wall[0].footprint.rings.count = 10"),
+        (
+            "tiles = { count = [10, 4], size = [4e-4, 4e-4] }",
+            "wall[0].footprint.tiles.count = [10, 4]",
+        ),
+        (
+            "tiles = { count = [2, 9], size = [4e-4, 4e-4] }",
+            "wall[0].footprint.tiles.count = [2, 9]",
+        ),
+    ] {
+        let said = warnings(&edited(&text, &line, &format!("footprint = {{ {footprint} }}")));
+        assert!(said.len() == 1 && said[0].contains(path), "{said:?}");
+        assert!(said[0].contains("did you mean cells of 1e-4 m or more?"), "{said:?}");
+    }
+    for footprint in
+        ["rings = { count = 10, radius = 5e-4 }", "tiles = { count = [8, 4], size = [4e-4, 4e-4] }"]
+    {
+        let said = warnings(&edited(&text, &line, &format!("footprint = {{ {footprint} }}")));
+        assert_eq!(said, [""; 0]);
+    }
+}
+
+#[test]
 fn layers_are_warned_of_as_single_materials_are_and_named_ones_once() {
     let row = |(_, density, specific_heat, conductivity, young, poisson, expansion): SolidRow| {
         format!(

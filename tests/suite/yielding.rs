@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use impinge::closed_form::{Bilinear, YieldingCylinder};
 use impinge::material::{Elastoplastic, Thermoelastic, constant};
-use impinge::method::fem::elastic::{ElasticProblem, Support};
+use impinge::method::fem::elastic::{ElasticProblem, ElasticSetup, Support};
 use impinge::method::fem::{Axis, Geometry, Layering, Mesh, MeshFace, Weight};
 use impinge::method::inelastic::{InelasticError, InelasticProblem};
 
@@ -310,7 +310,12 @@ fn what_does_not_yield_deforms_as_in_elasticity() {
     for mesh in spot_bodies() {
         let temperatures = spot(&mesh, 400.0);
         let rises: Vec<f64> = temperatures.iter().map(|t| t - FREE_OF_STRESS).collect();
-        let elastic = ElasticProblem::new(&mesh, &[thermoelastic(glass)], vec![CLAMPED_BELOW], 2);
+        let elastic = ElasticProblem::new(ElasticSetup {
+            mesh: mesh.clone(),
+            laws: vec![thermoelastic(glass)],
+            supports: vec![CLAMPED_BELOW],
+            threads: 2,
+        });
         let wanted = elastic.displacement(0, &rises, &Default::default()).unwrap();
         let problem = InelasticProblem::new(&mesh, vec![law(glass)], &[CLAMPED_BELOW], 2).unwrap();
         let mut state = problem.initial_state();

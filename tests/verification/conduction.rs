@@ -39,6 +39,7 @@ fn plan(spacing: f64, extents: [Extent; 3], placement: Placement) -> DropletPlan
         gravity: [0.0; 3],
         mirrors: [false; 2],
         extents,
+        demand: None,
         releases: vec![Release {
             time: 0.0,
             centre: [0.0; 3],

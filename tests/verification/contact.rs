@@ -87,6 +87,7 @@ impl Layer {
             mirrors: [false; 2],
             extents: [Extent::Periodic(period), Extent::Periodic(period), Extent::Open],
             // Without droplets there is no temperature before contact.
+            demand: None,
             releases: if case.thin { vec![at_no_time] } else { Vec::new() },
             wall: Some(Wall { cells, contact_angle: 0.5 * PI, effusivity: case.effusivity }),
         };

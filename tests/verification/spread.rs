@@ -96,6 +96,7 @@ pub fn drop_of(weber: f64, reynolds: f64, resolution: usize) -> DropletSph {
         gravity: [0.0; 3],
         mirrors: [true; 2],
         extents: [Extent::Open; 3],
+        demand: None,
         releases: vec![Release {
             time: 0.0,
             centre: [0.0, 0.0, 0.5 * (DIAMETER + spacing)],

@@ -1,5 +1,6 @@
 //! Droplets of smoothed particles, free or above a wall or another body.
 
+mod demand;
 mod forecast;
 mod memo;
 mod notes;
@@ -17,13 +18,14 @@ pub use wall::{WallQuantity, wall_quantities};
 use std::ops::Range;
 
 use super::{Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, link};
-use crate::inputs::InputLayout;
+use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::{Allowance, cost};
 use crate::method::sph::{
     Domain, DropletSph, Failure, ParticleFields, Surface, WallCells, WallExchange,
 };
 use crate::scene::{Droplet, Scene};
 use crate::state::Layout;
+use demand::DropInputs;
 use memo::DropletMemo;
 use plan::cells_of;
 use reader::DropletReader;
@@ -33,6 +35,8 @@ pub struct DropletBody {
     name: String,
     droplet: DropletSph,
     below: Below,
+    /// Of drops on demand.
+    demand: Option<DropInputs>,
     /// Images at mirrors for each particle.
     copies: f64,
     rest: Rest,
@@ -102,9 +106,11 @@ impl DropletBody {
         let plan = plan_of(droplet, cells, effusivity);
         let (particles, _) = DropletSph::forecast(&plan);
         let threads = threads(is_large(particles));
+        let sph = DropletSph::new(plan, threads);
         Self {
             name: name.to_owned(),
-            droplet: DropletSph::new(plan, threads),
+            demand: DropInputs::of(scene, layout, (name, droplet), sph.farthest_start()),
+            droplet: sph,
             below,
             copies: droplet.mirrors().iter().map(|&m| if m { 2.0 } else { 1.0 }).product(),
             rest: Rest { density: droplet.fluid.density, temperature: droplet.initial_temperature },
@@ -129,6 +135,18 @@ impl DropletBody {
             Below::Nothing | Below::Body { .. } => Vec::new(),
         };
         droplet.advance_within(state, &temperatures, dt, allowance).map(|()| Vec::new())
+    }
+
+    /// Releases drops that the inputs have asked for.
+    fn ask(
+        &self,
+        state: &mut Vec<f64>,
+        demand: &DropInputs,
+        path: &InputPath,
+    ) -> Result<(), BodyError> {
+        let further = demand.further(path, self.droplet.asked(state))?;
+        let asked = self.droplet.ask(state, further, &demand.release(&path.at(0, 0.0)));
+        asked.map_err(|failure| self.error(failure))
     }
 
     fn error(&self, failure: Failure) -> BodyError {
@@ -197,6 +215,9 @@ impl Body for DropletBody {
     }
 
     fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        if let Some(demand) = &self.demand {
+            demand.check(inputs)?;
+        }
         let Below::Wall(wall) = &self.below else { return Ok(()) };
         match wall.inputs.clone().find(|&index| inputs[index] <= 0.0) {
             Some(index) => {
@@ -222,6 +243,9 @@ impl Body for DropletBody {
         acts: &Acts,
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
+        if let Some(demand) = &self.demand {
+            self.ask(state, demand, acts.path)?;
+        }
         let rises =
             self.advance_here(state, acts, allowance).map_err(|failure| self.error(failure))?;
         let surface = |surface: &Surface| {

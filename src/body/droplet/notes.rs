@@ -8,11 +8,16 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     let stands = wall.is_some() || scene.coupling_from(name).is_some();
     let mut notes = vec![match droplet.mirrors() {
         [true, true] => "a quarter of the drop is modelled: it mirrors itself in x = 0 and y = 0",
-        [true, false] => "half of the plane drop is modelled: it mirrors itself in x = 0",
+        [true, false] if droplet.dimension == 2 => {
+            "half of the plane drop is modelled: it mirrors itself in x = 0"
+        }
+        [true, false] => "half of the drop is modelled: it moves in x = 0, and mirrors itself there",
+        [false, true] => "half of the drop is modelled: it moves in y = 0, and mirrors itself there",
         _ => "the whole drop is modelled: nothing makes it mirror itself, or the scene asks for it",
     }
     .to_owned()];
     notes.extend(note_on_sound(droplet));
+    notes.extend(droplet.is_on_demand().then(|| note_on_demand(scene, name, droplet)));
     notes.extend(stands.then(|| note_on_first_blow(droplet)));
     if droplet.fluid.surface_tension == 0.0 {
         notes.push("surface tension is left out: the scene names none".to_owned());
@@ -47,13 +52,32 @@ pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
     scene.wall.iter().filter_map(note).collect()
 }
 
+/// What drops that inputs release wait for, and what is said of them ahead.
+fn note_on_demand(scene: &Scene, name: &str, droplet: &Droplet) -> String {
+    let fine = match scene.coupling_from(name).map(|index| &scene.coupling[index]) {
+        Some(coupling) => format!(
+            "; the mesh of `{}` is fine about the origin, out to `radius` of the coupling",
+            coupling.to
+        ),
+        None => String::new(),
+    };
+    format!(
+        "inputs release up to {} drops, at up to {:.4} m/s: a drop starts with a step, and waits while fluid is within \
+         half a distance of particles of its place, which a `height` above the film keeps free; memory and time are \
+         forecast as if all were released at once{fine}",
+        droplet.drops(),
+        droplet.fastest_release()
+    )
+}
+
 /// Time over D/U over which forces and pressures are means that hardly depend on sound and resolution.
 const WINDOW: f64 = 0.1;
 
 /// What the model's speed of sound does to the first blow, and what does not depend on it.
 fn note_on_first_blow(droplet: &Droplet) -> String {
-    let hammer = droplet.fluid.density * droplet.sound_speed() * droplet.impact_velocity;
-    let window = match droplet.impact_velocity {
+    let speed = droplet.normal_speed();
+    let hammer = droplet.fluid.density * droplet.sound_speed() * speed;
+    let window = match speed {
         speed if speed > 0.0 => format!(" = {:.1e} s", WINDOW * droplet.diameter / speed),
         _ => String::new(),
     };

@@ -1,7 +1,7 @@
 //! From a droplet of a scene to what the engine builds.
 
 use crate::method::fem::Refinement;
-use crate::method::sph::{self, DropletPlan, Extent, Release, WallCells};
+use crate::method::sph::{self, Demand, DropletPlan, Extent, Release, WallCells};
 use crate::scene::{Arrival, Coupling, Droplet, Footprint};
 
 /// What the engine builds a droplet from, above the cells of a wall or none.
@@ -11,13 +11,8 @@ pub fn plan_of(
     effusivity: Option<f64>,
 ) -> DropletPlan {
     let fluid = &droplet.fluid;
-    let releases = droplet.arrivals.iter().map(|arrival| Release {
-        time: arrival.time,
-        centre: [arrival.x, arrival.y, droplet.gap() + 0.5 * droplet.diameter],
-        diameter: droplet.diameter,
-        velocity: [0.0, 0.0, -droplet.impact_velocity],
-        temperature: droplet.initial_temperature,
-    });
+    let release = |arrival: &Arrival| release_at(droplet, arrival);
+    let expected = release(&Arrival::default());
     DropletPlan {
         dimension: droplet.dimension,
         spacing: droplet.spacing,
@@ -39,12 +34,24 @@ pub fn plan_of(
         gravity: [0.0, 0.0, -droplet.gravity],
         mirrors: droplet.mirrors(),
         extents: [Extent::Open; 3],
-        releases: releases.collect(),
+        releases: droplet.arrivals().iter().map(release).collect(),
+        demand: droplet.is_on_demand().then_some(Demand { most: droplet.drops(), expected }),
         wall: cells.map(|cells| sph::Wall {
             cells,
             contact_angle: fluid.contact_angle,
             effusivity,
         }),
+    }
+}
+
+/// A drop as the scene releases it.
+pub fn release_at(droplet: &Droplet, arrival: &Arrival) -> Release {
+    Release {
+        time: arrival.time,
+        centre: [arrival.x, arrival.y, droplet.gap() + 0.5 * droplet.diameter],
+        diameter: droplet.diameter,
+        velocity: droplet.velocity(),
+        temperature: droplet.initial_temperature,
     }
 }
 
@@ -66,8 +73,10 @@ pub fn refinements(coupling: &Coupling, droplet: &Droplet, stop_time: f64) -> Ve
         let radius = coupling.radius.unwrap_or(expected);
         let stretch = |centre: f64| [centre - radius, centre + radius];
         let feature = 0.5 * droplet.diameter;
-        let [x, y] = [arrival.x, arrival.y].map(stretch);
+        let [x, y] = droplet.landing([arrival.x, arrival.y], droplet.velocity()).map(stretch);
         Refinement { x, y, top: true, feature, heats: true }
     };
-    droplet.arrivals.iter().map(at).collect()
+    // Nobody knows where inputs will have drops fall.
+    let at_origin = droplet.is_on_demand().then(Arrival::default);
+    droplet.arrivals().iter().chain(&at_origin).map(at).collect()
 }

@@ -4,7 +4,7 @@ use super::reader::DropletReader;
 use crate::body::{Descriptor, Direct};
 use crate::method::sph::{DropletTotals, WallExchange};
 use crate::quantity::Quantity;
-use crate::scene::Scene;
+use crate::scene::{Droplet, Scene};
 
 /// A scalar of a whole droplet, and how it is read.
 struct Total {
@@ -21,6 +21,8 @@ enum Offered {
     All,
     /// Those above a wall or a solid.
     AboveAWall,
+    /// Those released by inputs.
+    OnDemand,
     /// Those on a solid, which may run over its edge.
     OnASolid,
 }
@@ -33,7 +35,7 @@ enum Read {
     Reader(fn(&mut DropletReader) -> f64),
 }
 
-const TOTALS: [Total; 28] = [
+const TOTALS: [Total; 30] = [
     of_all(
         "height",
         "height of the body of fluid above the wall, without strays",
@@ -160,6 +162,10 @@ const TOTALS: [Total; 28] = [
             pushes.sum::<f64>() - exchange.impulse_outside[2]
         }),
     ),
+    on_demand("released", "drops released so far", |totals| totals.released),
+    on_demand("waiting", "drops asked for that wait until their place is free", |totals| {
+        totals.waiting
+    }),
     Total {
         key: "force_outside",
         words: "force beyond the edge of the solid, which does not act on it, mean over the last exchange",
@@ -196,15 +202,25 @@ const fn above_a_wall(
     Total { key, words, quantity, of: Offered::AboveAWall, read }
 }
 
+const fn on_demand(
+    key: &'static str,
+    words: &'static str,
+    read: fn(&DropletTotals) -> f64,
+) -> Total {
+    Total { key, words, quantity: Quantity::Count, of: Offered::OnDemand, read: Read::Totals(read) }
+}
+
 /// The totals that a droplet of a scene offers, each with its place in the table; those of a plane model are amounts
 /// per metre of depth. No input acts at once on what moves.
 pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     let coupled = scene.coupling_from(name).is_some();
     let stands = coupled || scene.wall_under(name).is_some();
     let is_plane = scene.droplet(name).is_some_and(|droplet| droplet.dimension == 2);
+    let on_demand = scene.droplet(name).is_some_and(Droplet::is_on_demand);
     let is_offered = |total: &Total| match total.of {
         Offered::All => true,
         Offered::AboveAWall => stands,
+        Offered::OnDemand => on_demand,
         Offered::OnASolid => coupled,
     };
     let totals = TOTALS.iter().enumerate().filter(|(_, total)| is_offered(total));

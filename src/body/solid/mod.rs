@@ -18,13 +18,15 @@ pub use plan::plan;
 pub use point::{PointQuantity, point_quantities};
 pub use totals::offered_totals;
 
+use std::sync::Arc;
+
 use super::{
     Acts, Body, BodyError, Conductor, Direct, Fields, Given, Linear, Memo, Reading, Received,
 };
 use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
 use crate::math::allowance::Allowance;
-use crate::method::fem::{HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
+use crate::method::fem::{ElasticProblem, HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
 use crate::scene::{FaceName, Scene, Solid};
 use crate::state::Layout;
 use loads::BodyLoads;
@@ -258,6 +260,10 @@ impl Body for SolidBody {
         });
         let notes = self.plan.notes.iter().cloned().chain(fallback);
         notes.map(|note| format!("{}: {note}", self.name)).collect()
+    }
+
+    fn stiffness(&self) -> Option<Arc<ElasticProblem>> {
+        self.solid.stiffness()
     }
 
     fn factor_entries(&self) -> usize {

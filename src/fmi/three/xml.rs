@@ -10,7 +10,7 @@ use crate::fmi::guid::guid;
 use crate::fmi::rates::highest_output_derivative;
 use crate::fmi::xml::{
     Attributes, Xml, causality, default_experiment, leaf, log_categories, number, parent, units,
-    whole_number,
+    variability as variability_of, whole_number,
 };
 use crate::scene::{HeatMethod, Scene};
 use crate::variables::{
@@ -129,7 +129,10 @@ impl Description<'_> {
                 let variability = if is_tunable { "tunable" } else { "fixed" };
                 (causality(Causality::Parameter), variability, Some("exact"))
             }
-            Some(Causality::Input) => (causality(Causality::Input), "continuous", None),
+            Some(Causality::Input) => {
+                let quantity = self.elements(variable).first().and_then(|element| element.quantity);
+                (causality(Causality::Input), variability_of(quantity), None)
+            }
             Some(Causality::Output) => {
                 (causality(Causality::Output), "continuous", Some("calculated"))
             }

@@ -1,7 +1,8 @@
 //! Quasi-static thermo-elasticity on a structured mesh: what solves it serves all time.
 
+use std::convert::Infallible;
 use std::ops::Range;
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 use super::assembly::{Part, assemble, lower_triangle};
 use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
@@ -14,6 +15,7 @@ use crate::math::address_space::{self, PRODUCTS};
 use crate::math::cholesky::{SolverError, SparseCholesky};
 use crate::math::nested_dissection::nested_dissection;
 use crate::math::parallel;
+use crate::math::shared_values::SharedValues;
 use crate::math::stencil_matrix::StencilMatrix;
 use crate::math::thread::{STACK, aside};
 use crate::method::mesh::ShapeAt;
@@ -26,6 +28,24 @@ pub enum Support {
     Clamped,
     /// No displacement along the normal.
     Roller,
+}
+
+/// What an elastic problem follows from.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ElasticSetup {
+    pub mesh: Mesh,
+    /// Of the layers, from the lowest on.
+    pub laws: Vec<Thermoelastic>,
+    pub supports: Vec<(MeshFace, Support)>,
+    pub threads: usize,
+}
+
+/// Bodies of one process that differ in what concerns heat alone share what solves their mechanics.
+static PROBLEMS: SharedValues<ElasticSetup, ElasticProblem> = SharedValues::new();
+
+/// Forgets problems that nobody holds any more.
+pub fn forget_unused_stiffness() {
+    PROBLEMS.forget_unused();
 }
 
 /// The elastic problem of a body: everything known before time starts.
@@ -75,15 +95,17 @@ impl Factor {
 pub type Strains = Vec<f64>;
 
 impl ElasticProblem {
-    pub fn new(
-        mesh: &Mesh,
-        laws: &[Thermoelastic],
-        supports: Vec<(MeshFace, Support)>,
-        threads: usize,
-    ) -> Self {
+    /// The problem of a setup, made unless another body of this process has it.
+    pub fn shared(setup: &ElasticSetup) -> Arc<Self> {
+        let make = || Ok::<_, Infallible>(Self::new(setup.clone()));
+        let Ok(problem) = PROBLEMS.get_or_make(setup, make);
+        problem
+    }
+
+    pub fn new(ElasticSetup { mesh, laws, supports, threads }: ElasticSetup) -> Self {
         let thermal = OnceLock::new();
         let classes = mesh.parities().into_iter().map(|p| (p, OnceLock::new())).collect();
-        Self { mesh: mesh.clone(), laws: laws.to_vec(), threads, supports, thermal, classes }
+        Self { mesh, laws, threads, supports, thermal, classes }
     }
 
     /// That of a layer, counted from the lowest.

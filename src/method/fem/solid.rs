@@ -4,10 +4,13 @@ mod recovered;
 mod tangent;
 
 use super::conduction::{Conduction, HeatFailure};
-use super::elastic::{ElasticProblem, Strains};
+use std::sync::Arc;
+
+use super::elastic::{ElasticProblem, ElasticSetup, Strains};
 use super::end_response::EndResponse;
 use super::heat::HeatLoads;
 use super::plan::Plan;
+use crate::material::Thermoelastic;
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::allowance::Allowance;
 use crate::math::cholesky::SolverError;
@@ -28,7 +31,7 @@ pub struct SolidFem {
     ends: [EndResponse; 2],
     /// Node along z of each of those that are there twice on interfaces.
     nodes_of_sided: Vec<usize>,
-    elastic: Option<ElasticProblem>,
+    elastic: Option<Arc<ElasticProblem>>,
     recoveries: Recoveries,
     parities: Vec<Parity>,
 }
@@ -129,10 +132,13 @@ impl SolidFem {
         let mesh = plan.mesh.clone();
         let heat = Conduction::new(plan, threads);
         let ends = [false, true].map(|high| EndResponse::of(plan, high));
-        let elastic = plan
-            .law
-            .as_ref()
-            .map(|law| ElasticProblem::new(&mesh, law, plan.supports.clone(), threads));
+        let setup = |laws: &Vec<Thermoelastic>| ElasticSetup {
+            mesh: mesh.clone(),
+            laws: laws.clone(),
+            supports: plan.supports.clone(),
+            threads,
+        };
+        let elastic = plan.law.as_ref().map(|laws| ElasticProblem::shared(&setup(laws)));
         if let Some(elastic) = elastic.as_ref().filter(|_| plan.prepared) {
             elastic.prepare()?;
         }
@@ -188,7 +194,12 @@ impl SolidFem {
 
     /// Stored entries of all factorisations made so far.
     pub fn factor_entries(&self) -> usize {
-        self.elastic.as_ref().map_or(0, ElasticProblem::factor_entries)
+        self.elastic.as_ref().map_or(0, |elastic| elastic.factor_entries())
+    }
+
+    /// What solves its mechanics, which bodies that differ in what concerns heat alone share.
+    pub fn stiffness(&self) -> Option<Arc<ElasticProblem>> {
+        self.elastic.clone()
     }
 
     /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one

@@ -17,7 +17,7 @@ use crate::math::stencil_matrix::{Reach, StencilMatrix};
 use crate::method::fem::assembly::lower_triangle;
 use crate::method::fem::brick_inverse::BrickInverse;
 use crate::method::fem::brick_stiffness::BrickStiffness;
-use crate::method::fem::elastic::{ElasticProblem, Support};
+use crate::method::fem::elastic::{ElasticProblem, ElasticSetup, Support};
 use crate::method::fem::{Mesh, MeshFace, Parity};
 
 /// Poisson's ratio up to which conjugate gradients need few iterations.
@@ -73,7 +73,12 @@ impl TangentSolver {
             expansion: 0.0,
         };
         let laws = vec![law.clone(); mesh.layering.count()];
-        let elastic = ElasticProblem::new(mesh, &laws, supports.to_vec(), 1);
+        let elastic = ElasticProblem::new(ElasticSetup {
+            mesh: mesh.clone(),
+            laws: laws.to_vec(),
+            supports: supports.to_vec(),
+            threads: 1,
+        });
         let parity = Parity::default();
         let held = elastic.held(parity);
         let degrees = mesh.geometry.degrees();

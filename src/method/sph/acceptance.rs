@@ -1,10 +1,11 @@
 //! Whether a vector that comes from elsewhere is a state that these droplets could have come to.
 
-use super::cloud::{Cloud, WallNumbers, cloud_of, head_len, ledger_of, particles_in};
+use super::cloud::{Cloud, HeadNumbers, cloud_of, head_len, ledger_of, particles_in};
 use super::images::{Ends, Source};
 use super::kick::{DENSITIES, FARTHEST, FASTEST};
 use super::method::Method;
-use super::plan::DropletPlan;
+use super::plan::{Demand, DropletPlan};
+use super::requests::Requests;
 use crate::math::parallel::Team;
 
 /// Particles of the drops that a state has released, and their mass over ρ₀H^d.
@@ -21,20 +22,20 @@ const ROUNDING: f64 = 1e-9;
 /// lowest temperature [K], `released` what there is after so many releases.
 pub fn check(
     state: &[f64],
-    (plan, method, wall): (&DropletPlan, &Method, WallNumbers),
+    (plan, method, head): (&DropletPlan, &Method, HeadNumbers),
     coldest: impl Fn(&Cloud) -> f64,
     released: impl Fn(usize) -> Released,
 ) -> Result<(), String> {
-    let Some(count) = particles_in(state, wall) else {
+    let Some(count) = particles_in(state, head) else {
         return Err(format!("{} unknowns, which are no number of particles", state.len()));
     };
-    let drops = check_head(&state[..head_len(wall)], plan, wall)?;
+    let drops = check_head(&state[..head_len(head)], plan, method, head)?;
     let expected = released(drops);
     if count != expected.particles || count > Source::MOST {
         let expected = expected.particles;
         return Err(format!("{count} particles, where {drops} drops have {expected}"));
     }
-    let cloud = cloud_of(state, wall, &Team::new(1));
+    let cloud = cloud_of(state, head, &Team::new(1));
     check_masses(&cloud, expected)?;
     let coldest = coldest(&cloud);
     if coldest <= 0.0 {
@@ -63,10 +64,21 @@ pub fn check(
 }
 
 /// Refuses a ledger that contradicts itself or the plan; how many drops have been released.
-fn check_head(head: &[f64], plan: &DropletPlan, wall: WallNumbers) -> Result<usize, String> {
-    let [time, drops] = [head[0], head[1]];
-    let ledger = ledger_of(head, wall);
-    let due = plan.releases.iter().take_while(|release| release.time <= time).count();
+fn check_head(
+    numbers: &[f64],
+    plan: &DropletPlan,
+    method: &Method,
+    head: HeadNumbers,
+) -> Result<usize, String> {
+    let [time, drops] = [numbers[0], numbers[1]];
+    let ledger = ledger_of(numbers, head);
+    let due = match (&plan.demand, &ledger.requests) {
+        (Some(demand), Some(requests)) => {
+            check_requests(requests, drops, demand, method)?;
+            drops as usize
+        }
+        _ => plan.releases.iter().take_while(|release| release.time <= time).count(),
+    };
     if drops != due as f64 {
         return Err(format!("{drops} drops released, where {due} are due at {time} s"));
     }
@@ -80,6 +92,39 @@ fn check_head(head: &[f64], plan: &DropletPlan, wall: WallNumbers) -> Result<usi
     match numbers.into_iter().find(|&(_, number)| number < 0.0) {
         Some((what, number)) => Err(format!("{what} of {number}, which is below zero")),
         None => Ok(due),
+    }
+}
+
+/// Refuses drops on demand that nobody can have asked for.
+fn check_requests(
+    requests: &Requests,
+    released: f64,
+    demand: &Demand,
+    method: &Method,
+) -> Result<(), String> {
+    let &Requests { asked, differ, .. } = requests;
+    let most = demand.most as f64;
+    let whole = asked.fract() == 0.0 && released.fract() == 0.0;
+    if !(whole && (0.0..=asked).contains(&released) && asked <= most) {
+        return Err(format!("{released} drops released of {asked}, of at most {most}"));
+    }
+    if differ != 0.0 && differ != 1.0 {
+        return Err(format!("{differ} instead of whether drops differ"));
+    }
+    for drop in requests.drops(released, &demand.expected) {
+        let far = drop.centre.iter().any(|x| x.abs() >= FARTHEST * method.units.length);
+        let speed = drop.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+        if far || speed >= FASTEST * method.units.speed || drop.temperature <= 0.0 {
+            return Err(format!(
+                "a drop that waits at {:?} m, {speed} m/s and {} K",
+                drop.centre, drop.temperature
+            ));
+        }
+    }
+    let unused = &requests.waiting[requests.waiting(released)..];
+    match unused.as_flattened().iter().all(|number| *number == 0.0) {
+        true => Ok(()),
+        false => Err(format!("more drops wait than {asked} less {released}")),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::slice::from_mut;
 
+use super::requests::Requests;
 use super::surface::SurfaceMemory;
 use super::wall::WallExchange;
 use crate::math::parallel::Team;
@@ -72,14 +73,19 @@ pub struct Ledger {
     pub exchange: WallExchange,
     /// Of the solid below, see [`SurfaceMemory`]; nothing for a wall whose temperature is held.
     pub memory: SurfaceMemory,
+    /// Of drops on demand.
+    pub requests: Option<Requests>,
 }
 
-/// How many numbers of a state belong to the wall.
+/// How many numbers a state has beside those of its particles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct WallNumbers {
+pub struct HeadNumbers {
+    /// Cells of the wall.
     pub cells: usize,
     /// Exponentials of each cell's [`SurfaceMemory`].
     pub exponentials: usize,
+    /// Drops that may be asked for; nothing where none can be.
+    pub most: Option<usize>,
 }
 
 /// Numbers that a thread copies at once.
@@ -92,7 +98,7 @@ impl Fields for Ledger {
         let count = self.memory.given.len() / heat.len().max(1);
         let body = |name, words, width| Field { name, words, per: Per::Body, width };
         let cell = |name, words, width| Field { name, words, per: Per::Cell, width };
-        vec![
+        let mut fields = vec![
             (body("time", "time since the start [s]", 1), from_mut(&mut self.time)),
             (body("released", "drops released so far", 1), from_mut(&mut self.released)),
             (body("steps", "time steps made", 1), from_mut(&mut self.steps)),
@@ -150,7 +156,9 @@ impl Fields for Ledger {
                 ),
                 &mut self.memory.reported,
             ),
-        ]
+        ];
+        fields.extend(self.requests.iter_mut().flat_map(Requests::fields));
+        fields
     }
 }
 
@@ -176,20 +184,21 @@ impl Fields for Cloud {
 }
 
 impl Ledger {
-    /// Of a droplet to which nothing happened yet, above a wall of so many numbers.
-    pub fn none(wall: WallNumbers) -> Self {
-        let zeros = vec![0.0; wall.cells * wall.exponentials];
+    /// Of a droplet to which nothing happened yet, with so many numbers.
+    pub fn none(head: HeadNumbers) -> Self {
+        let zeros = vec![0.0; head.cells * head.exponentials];
         Self {
-            exchange: WallExchange::none(wall.cells),
+            exchange: WallExchange::none(head.cells),
             memory: SurfaceMemory { given: zeros.clone(), reported: zeros },
+            requests: head.most.map(Requests::none),
             ..Self::default()
         }
     }
 }
 
-/// The layout of the state of a number of particles above a wall.
-pub fn layout(wall: WallNumbers, particles: usize) -> Layout {
-    Layout::of(&mut Ledger::none(wall)).then(Layout::of(&mut Cloud::of(particles)))
+/// The layout of the state of a number of particles.
+pub fn layout(head: HeadNumbers, particles: usize) -> Layout {
+    Layout::of(&mut Ledger::none(head)).then(Layout::of(&mut Cloud::of(particles)))
 }
 
 impl Cloud {
@@ -295,13 +304,13 @@ impl Permutation<'_> {
 }
 
 /// Numbers of a state before those of its particles.
-pub fn head_len(wall: WallNumbers) -> usize {
-    Layout::of(&mut Ledger::none(wall)).len()
+pub fn head_len(head: HeadNumbers) -> usize {
+    Layout::of(&mut Ledger::none(head)).len()
 }
 
 /// Number of particles of a state; nothing if its length fits none.
-pub fn particles_in(state: &[f64], wall: WallNumbers) -> Option<usize> {
-    let rest = state.len().checked_sub(head_len(wall))?;
+pub fn particles_in(state: &[f64], head: HeadNumbers) -> Option<usize> {
+    let rest = state.len().checked_sub(head_len(head))?;
     let numbers = Layout::of(&mut Cloud::of(1)).len();
     (rest % numbers == 0).then_some(rest / numbers)
 }
@@ -320,16 +329,16 @@ pub fn flatten(state: &mut Vec<f64>, ledger: &mut Ledger, cloud: &mut Cloud, tea
 }
 
 /// Reads the ledger of a state.
-pub fn ledger_of(state: &[f64], wall: WallNumbers) -> Ledger {
-    let mut ledger = Ledger::none(wall);
+pub fn ledger_of(state: &[f64], head: HeadNumbers) -> Ledger {
+    let mut ledger = Ledger::none(head);
     load(&mut ledger, state);
     ledger
 }
 
 /// Reads the particles of a state.
-pub fn cloud_of(state: &[f64], wall: WallNumbers, team: &Team) -> Cloud {
-    let mut cloud = Cloud::of(particles_in(state, wall).unwrap_or(0));
-    let mut rest = &state[head_len(wall)..];
+pub fn cloud_of(state: &[f64], head: HeadNumbers, team: &Team) -> Cloud {
+    let mut cloud = Cloud::of(particles_in(state, head).unwrap_or(0));
+    let mut rest = &state[head_len(head)..];
     let mut copies = Vec::new();
     for (_, numbers) in cloud.fields() {
         let (own, after) = rest.split_at(numbers.len());
@@ -375,16 +384,22 @@ mod tests {
                 given: (0..6).map(f64::from).collect(),
                 reported: (0..6).map(|n| 0.5 * f64::from(n)).collect(),
             },
+            requests: Some(Requests {
+                asked: 3.0,
+                warmth: -7.0,
+                differ: 1.0,
+                waiting: vec![[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [0.0; 6]],
+            }),
             ..Ledger::default()
         };
-        let wall = WallNumbers { cells: 3, exponentials: 2 };
+        let head = HeadNumbers { cells: 3, exponentials: 2, most: Some(2) };
         let team = Team::new(2);
         let mut state = vec![7.0; 3];
         flatten(&mut state, &mut ledger, &mut cloud, &team);
-        assert_eq!(state.len(), layout(wall, 5).len());
-        assert_eq!(particles_in(&state, wall), Some(5));
-        assert_eq!(ledger_of(&state, wall), ledger);
-        assert_eq!(cloud_of(&state, wall, &team), cloud);
-        assert_eq!(particles_in(&state[1..], wall), None);
+        assert_eq!(state.len(), layout(head, 5).len());
+        assert_eq!(particles_in(&state, head), Some(5));
+        assert_eq!(ledger_of(&state, head), ledger);
+        assert_eq!(cloud_of(&state, head, &team), cloud);
+        assert_eq!(particles_in(&state[1..], head), None);
     }
 }

@@ -113,6 +113,7 @@ mod tests {
             gravity: [0.0, 0.0, -9.81],
             mirrors: [true, false],
             extents: [Extent::Open; 3],
+            demand: None,
             releases: vec![release],
             wall: Some(Wall { cells, contact_angle: 1.0, effusivity: None }),
         };

@@ -1,29 +1,33 @@
 //! The droplet as a body.
 
+mod demand;
+mod totals;
+
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use super::acceptance::{self, Released};
 use super::cloud::{
-    Cloud, Ledger, WallNumbers, cloud_of, flatten, layout, ledger_of, particles_in,
+    Cloud, HeadNumbers, Ledger, cloud_of, flatten, layout, ledger_of, particles_in,
 };
 use super::effort::particles_of;
 use super::failure::Failure;
 use super::images::copies;
 use super::loops::PART;
-use super::lumps::body_of_fluid;
 use super::method::Method;
 use super::placement::place;
 use super::plan::{DropletPlan, Release};
-use super::spread::spread_diameter;
 use super::stepper::Stepper;
 use super::surface::{Surface, SurfaceResponse};
-use super::units::{compression_energy, density, pressure};
+use super::units::{density, pressure};
 use super::wall::WallExchange;
 use super::wall_points::WallPoints;
 use crate::math::allowance::Allowance;
 use crate::math::parallel::Team;
 use crate::state::{Layout, store};
+
+pub use totals::DropletTotals;
+use totals::totals;
 
 /// Droplets above a wall: everything known before time starts. What changes is a flat vector, whose
 /// length grows when a droplet is released.
@@ -33,48 +37,9 @@ pub struct DropletSph {
     threads: usize,
     /// Of a solid below whose temperature somebody else computes; nothing where that is held.
     below: SurfaceResponse,
-    /// What there is after each release, found when a state from elsewhere is looked at.
+    /// What there is after each release, found when a state from elsewhere is looked at; of drops on demand, which
+    /// are all alike, after none and one.
     released: OnceLock<Vec<Released>>,
-}
-
-/// Sums over the fluid, images at mirrors included (a plane model: per metre of depth).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct DropletTotals {
-    /// [kg]
-    pub mass: f64,
-    /// [kg m/s]
-    pub momentum: [f64; 3],
-    /// [J]
-    pub kinetic_energy: f64,
-    /// Elastic energy of the weak compression [J].
-    pub compression_energy: f64,
-    /// Energy of free and wetted surface, against a dry wall [J].
-    pub surface_energy: f64,
-    /// Heat content above the temperature of the first droplet, now and when released [J].
-    pub heat: f64,
-    pub heat_released: f64,
-    /// Given to the wall since time zero [J] and [N s].
-    pub heat_to_wall: f64,
-    pub impulse_to_wall: [f64; 3],
-    /// Impulse of gravity since time zero [N s].
-    pub impulse_of_gravity: [f64; 3],
-    /// Diameter of the film that the body of fluid makes on the wall, see [`spread_diameter`] [m].
-    pub spread_diameter: f64,
-    /// Height of the body of fluid above the wall: of its highest particle [m].
-    pub height: f64,
-    /// Mass [kg] and number of particles, images left out, that have come off the body of fluid: in lumps
-    /// of less than a tenth of a drop's mass.
-    pub stray_mass: f64,
-    pub stray_particles: f64,
-    pub max_speed: f64,
-    pub max_pressure: f64,
-    /// Lowest and highest density over the density at rest.
-    pub density_range: [f64; 2],
-    /// Lowest and highest temperature [K].
-    pub temperature_range: [f64; 2],
-    /// Time steps made since time zero, and particles there are, images left out.
-    pub steps: f64,
-    pub particles: f64,
 }
 
 /// The particles of a state, images at mirrors left out.
@@ -138,14 +103,25 @@ impl DropletSph {
 
     /// Number of particles of a state.
     pub fn particles_in(&self, state: &[f64]) -> usize {
-        particles_in(state, self.wall()).unwrap_or(0)
+        particles_in(state, self.head()).unwrap_or(0)
     }
 
     /// Refuses a vector that no run of these droplets leads to, with what is wrong with it.
     pub fn check_state(&self, state: &[f64]) -> Result<(), String> {
-        let released = |drops: usize| self.released()[drops];
+        let released = |drops: usize| self.released_after(drops);
         let coldest = |cloud: &Cloud| self.coldest(cloud);
-        acceptance::check(state, (&self.plan, &self.method, self.wall()), coldest, released)
+        acceptance::check(state, (&self.plan, &self.method, self.head()), coldest, released)
+    }
+
+    fn released_after(&self, drops: usize) -> Released {
+        let all = self.released();
+        match (&self.plan.demand, all) {
+            (Some(_), [_, one]) => Released {
+                particles: drops.saturating_mul(one.particles),
+                mass: drops as f64 * one.mass,
+            },
+            _ => all[drops],
+        }
     }
 
     /// What there is after none, one, … of the releases.
@@ -153,7 +129,8 @@ impl DropletSph {
         self.released.get_or_init(|| {
             let (mut ledger, mut cloud) = (Ledger::default(), Cloud::default());
             let mut all = vec![Released::default()];
-            for release in &self.plan.releases {
+            let expected = self.plan.demand.as_ref().map(|demand| &demand.expected);
+            for release in self.plan.releases.iter().chain(expected) {
                 self.add(release, &mut ledger, &mut cloud);
                 let before = all[all.len() - 1];
                 all.push(Released {
@@ -200,14 +177,15 @@ impl DropletSph {
     ) -> Result<Vec<f64>, Failure> {
         let mut team = self.team(self.particles_in(state));
         let (mut ledger, mut cloud) =
-            (ledger_of(state, self.wall()), cloud_of(state, self.wall(), &team));
-        ledger.exchange = WallExchange::none(self.wall().cells);
+            (ledger_of(state, self.head()), cloud_of(state, self.head(), &team));
+        ledger.exchange = WallExchange::none(self.head().cells);
         ledger.exchange.duration = duration;
         let surface = surface.above(self.reference_temperature());
         let method = &self.method;
         let cells = method.wall.as_ref();
+        let before = self.before_contact(&ledger);
         let mut points =
-            cells.map(|cells| WallPoints::new(&method.points, cells, &surface, duration));
+            cells.map(|cells| WallPoints::new(&method.points, cells, &surface, before, duration));
         let end = ledger.time + duration;
         while ledger.time < end {
             let next =
@@ -252,24 +230,24 @@ impl DropletSph {
         if self.below.is_empty() {
             return Surface::held(temperature);
         }
-        let memory = ledger_of(state, self.wall()).memory;
+        let memory = ledger_of(state, self.head()).memory;
         Surface::remembered(temperature, self.below.clone(), &memory)
     }
 
     /// What the wall got during the last step; nothing before the first.
     pub fn exchange(&self, state: &[f64]) -> WallExchange {
-        ledger_of(state, self.wall()).exchange
+        ledger_of(state, self.head()).exchange
     }
 
     /// Counts what the wall got before the last step as part of that.
     pub fn add_exchange(&self, state: &mut [f64], earlier: &WallExchange) {
-        let mut ledger = ledger_of(state, self.wall());
+        let mut ledger = ledger_of(state, self.head());
         ledger.exchange.add(earlier);
         store(&mut ledger, state);
     }
 
     pub fn totals(&self, state: &[f64]) -> DropletTotals {
-        let (ledger, cloud) = (ledger_of(state, self.wall()), self.cloud(state));
+        let (ledger, cloud) = (ledger_of(state, self.head()), self.cloud(state));
         totals(&self.plan, &self.method, &ledger, &cloud)
     }
 
@@ -294,9 +272,9 @@ impl DropletSph {
     /// Number of particles that the whole plan will have, and its time step at the speed of the
     /// fastest droplet [s].
     pub fn forecast(plan: &DropletPlan) -> (usize, f64) {
-        let particles: f64 = plan.releases.iter().map(|r| particles_of(plan, r)).sum();
-        let speed = |r: &Release| r.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
-        let fastest = plan.releases.iter().map(speed).fold(0.0, f64::max);
+        let particles: f64 = plan.drops().map(|r| particles_of(plan, &r)).sum();
+        let speed = |r: Release| r.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+        let fastest = plan.drops().map(speed).fold(0.0, f64::max);
         let method = Method::of(plan);
         let gravity = plan.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
         let units = &method.units;
@@ -305,27 +283,36 @@ impl DropletSph {
         (particles.round() as usize, step)
     }
 
-    fn wall(&self) -> WallNumbers {
+    fn head(&self) -> HeadNumbers {
         let cells = self.plan.wall.as_ref().map_or(0, |wall| wall.cells.len());
-        WallNumbers { cells, exponentials: self.below.len() }
+        let most = self.plan.demand.as_ref().map(|demand| demand.most);
+        HeadNumbers { cells, exponentials: self.below.len(), most }
     }
 
     fn empty_ledger(&self) -> Ledger {
-        Ledger::none(self.wall())
+        Ledger::none(self.head())
     }
 
     /// The fields of a state; nothing of a length that fits no number of particles.
     pub fn layout(&self, state: &[f64]) -> Option<Layout> {
-        particles_in(state, self.wall()).map(|count| layout(self.wall(), count))
+        particles_in(state, self.head()).map(|count| layout(self.head(), count))
     }
 
     /// The zero of the model's temperatures [K].
     fn reference_temperature(&self) -> f64 {
-        self.plan.releases.first().map_or(0.0, |release| release.temperature)
+        self.plan.reference_temperature()
+    }
+
+    /// Temperature of all fluid before contact above the reference [K], if it has one.
+    fn before_contact(&self, ledger: &Ledger) -> Option<f64> {
+        match &ledger.requests {
+            Some(requests) => requests.before_contact(),
+            None => self.method.wall_heat.as_ref()?.before,
+        }
     }
 
     fn cloud(&self, state: &[f64]) -> Cloud {
-        cloud_of(state, self.wall(), &Team::new(1))
+        cloud_of(state, self.head(), &Team::new(1))
     }
 
     /// Adds all droplets whose time has come; whether there are any.
@@ -397,93 +384,4 @@ fn flat(ledger: &mut Ledger, cloud: &mut Cloud) -> Vec<f64> {
     let mut state = Vec::new();
     flatten(&mut state, ledger, cloud, &Team::new(1));
     state
-}
-
-/// Sums over the fluid.
-fn totals(plan: &DropletPlan, method: &Method, ledger: &Ledger, cloud: &Cloud) -> DropletTotals {
-    let units = &method.units;
-    let images = copies(plan.mirrors);
-    let heat_unit = units.energy() / method.heat_unit;
-    let mut totals = DropletTotals {
-        surface_energy: ledger.surface_energy,
-        heat_to_wall: ledger.heat_to_wall,
-        impulse_to_wall: ledger.impulse_to_wall,
-        impulse_of_gravity: ledger.impulse_of_gravity,
-        heat_released: ledger.heat_released,
-        steps: ledger.steps,
-        particles: cloud.len() as f64,
-        density_range: [f64::INFINITY, f64::NEG_INFINITY],
-        temperature_range: [f64::INFINITY, f64::NEG_INFINITY],
-        max_pressure: f64::NEG_INFINITY,
-        ..DropletTotals::default()
-    };
-    let reference = plan.releases.first().map_or(0.0, |release| release.temperature);
-    for i in 0..cloud.len() {
-        let mass = images * cloud.mass[i];
-        let speed = cloud.velocity[i].iter().map(|v| v * v).sum::<f64>();
-        totals.mass += mass * units.mass();
-        for a in 0..3 {
-            let mirrored = a < 2 && plan.mirrors[a];
-            let share = if mirrored { 0.0 } else { mass };
-            totals.momentum[a] += share * cloud.velocity[i][a] * units.mass() * units.speed;
-        }
-        totals.kinetic_energy += 0.5 * mass * speed * units.energy();
-        totals.compression_energy += mass * compression_energy(cloud.density[i]) * units.energy();
-        totals.heat += mass * heat_unit * cloud.temperature[i];
-        totals.max_speed = totals.max_speed.max(speed.sqrt() * units.speed);
-        totals.max_pressure =
-            totals.max_pressure.max(pressure(cloud.density[i]) * units.pressure());
-        let [low, high] = totals.density_range;
-        let ratio = 1.0 + cloud.density[i];
-        totals.density_range = [low.min(ratio), high.max(ratio)];
-        let [low, high] = totals.temperature_range;
-        let temperature = cloud.temperature[i] + reference;
-        totals.temperature_range = [low.min(temperature), high.max(temperature)];
-    }
-    let body = body(plan, ledger, cloud);
-    for (i, &in_body) in body.iter().enumerate() {
-        if in_body {
-            totals.height = totals.height.max(cloud.position[i][2] * units.length);
-        } else {
-            totals.stray_mass += images * cloud.mass[i] * units.mass();
-            totals.stray_particles += 1.0;
-        }
-    }
-    // Without a wall there is nothing to spread on, however low particles fall.
-    if plan.wall.is_some() {
-        let places = wetting_places(plan, cloud, &body);
-        totals.spread_diameter = plan.spacing * spread_diameter(&places, plan.dimension);
-    }
-    totals
-}
-
-/// Whether each particle belongs to the body of fluid.
-fn body(plan: &DropletPlan, ledger: &Ledger, cloud: &Cloud) -> Vec<bool> {
-    let places: Vec<_> = cloud.position.iter().map(|x| x.map(|x| x * plan.support)).collect();
-    let mass: f64 = cloud.mass.iter().sum();
-    body_of_fluid(&places, &cloud.mass, mass / ledger.released.max(1.0))
-}
-
-/// Height over Δx below which a particle's middle is at the wall: that of its first layer, with as much
-/// again to move in.
-const AT_WALL: f64 = 1.5;
-
-/// Places over Δx, round their middle, of all particles of the body that lie on the wall; images at
-/// mirrors included.
-fn wetting_places(plan: &DropletPlan, cloud: &Cloud, body: &[bool]) -> Vec<[f64; 2]> {
-    let spacing = 1.0 / plan.support;
-    let at_wall = |&i: &usize| body[i] && cloud.position[i][2] < AT_WALL * spacing;
-    let wetting: Vec<usize> = (0..cloud.len()).filter(at_wall).collect();
-    let mass: f64 = wetting.iter().map(|&i| cloud.mass[i]).sum();
-    let middle = |a: usize| match plan.mirrors[a] {
-        true => 0.0,
-        false => wetting.iter().map(|&i| cloud.mass[i] * cloud.position[i][a]).sum::<f64>() / mass,
-    };
-    let middle = [middle(0), middle(1)];
-    let sides = |a: usize| if plan.mirrors[a] { &[1.0, -1.0][..] } else { &[1.0] };
-    let images = |i: usize| {
-        let [x, y] = [0, 1].map(|a| (cloud.position[i][a] - middle[a]) / spacing);
-        sides(0).iter().flat_map(move |p| sides(1).iter().map(move |q| [p * x, q * y]))
-    };
-    wetting.into_iter().flat_map(images).collect()
 }

@@ -99,9 +99,9 @@ struct Drop {
 
 /// Steps and computing time for a second of the run.
 fn rates_at(plan: &DropletPlan, method: &Method, run: RunSettings, time: f64) -> Effort {
-    let released = plan.releases.iter().filter(|release| release.time <= time);
+    let released = plan.drops().filter(|release| release.time <= time);
     let drops: Vec<Drop> =
-        released.map(|release| drop_at(plan, release, run.spread, time)).collect();
+        released.map(|release| drop_at(plan, &release, run.spread, time)).collect();
     let particles: f64 = drops.iter().map(|drop| drop.particles).sum();
     if particles == 0.0 {
         return Effort::default();
@@ -140,10 +140,11 @@ fn drop_at(plan: &DropletPlan, release: &Release, spread: Option<f64>, time: f64
     let diameter = release.diameter;
     let gravity = plan.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
     let speed = release.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
+    let falling = -release.velocity[2];
     let across = diameter / plan.spacing;
     let gap = (release.centre[2] - 0.5 * diameter).max(0.0);
     let age = time - release.time;
-    let fallen = speed * age + 0.5 * gravity * age * age;
+    let fallen = falling * age + 0.5 * gravity * age * age;
     let (down, spread) = spread.map_or((0.0, 1.0), |spread| (fallen - gap, spread));
     let speed = (speed * speed + 2.0 * gravity * fallen.min(gap)).sqrt();
     let area = (3.0 * down.max(0.0) / diameter).min(spread * spread);

@@ -34,8 +34,10 @@ pub struct DropletPlan {
     pub mirrors: [bool; 2],
     /// How far the model goes along x, y and z.
     pub extents: [Extent; 3],
-    /// In the order of their times.
+    /// In the order of their times; none where drops are released on demand.
     pub releases: Vec<Release>,
+    /// Drops that somebody else releases, see [`DropletSph::ask`](super::DropletSph::ask).
+    pub demand: Option<Demand>,
     /// Nothing for a droplet in free space.
     pub wall: Option<Wall>,
 }
@@ -83,6 +85,28 @@ pub struct Release {
     pub velocity: [f64; 3],
     /// [K]
     pub temperature: f64,
+}
+
+/// Drops that are released when they are asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Demand {
+    /// How many there may be.
+    pub most: usize,
+    /// A drop as it is expected. All have its diameter; its temperature is the model's reference.
+    pub expected: Release,
+}
+
+impl DropletPlan {
+    /// All drops that there may be; those on demand as if all were asked for at once.
+    pub fn drops(&self) -> impl Iterator<Item = Release> + '_ {
+        let asked = self.demand.iter().flat_map(|demand| (0..demand.most).map(|_| demand.expected));
+        self.releases.iter().copied().chain(asked)
+    }
+
+    /// The zero of the model's temperatures [K].
+    pub fn reference_temperature(&self) -> f64 {
+        self.drops().next().map_or(0.0, |drop| drop.temperature)
+    }
 }
 
 /// The rigid plane z = 0, to which the fluid sticks.

@@ -30,8 +30,8 @@ pub struct WallHeat {
     capacity: f64,
     /// [s]
     unit_of_time: f64,
-    /// Temperature of all fluid before contact above the reference, if it has one.
-    before: Option<f64>,
+    /// Temperature of all fluid before contact above the reference, if the plan's releases have one.
+    pub before: Option<f64>,
 }
 
 /// A particle at the wall.
@@ -132,6 +132,7 @@ impl WallHeat {
     fn settle(&self, points: &mut WallPoints, dt: f64, team: &Team) {
         let seconds = dt * self.unit_of_time;
         let response = &points.surface.response;
+        let before = points.before;
         let count = response.len();
         let weights = weights(&response.rates, seconds);
         let part = points.time / points.duration;
@@ -150,8 +151,8 @@ impl WallHeat {
         // Conductance of the fluid above each column [J/K], and its product with the fluid's temperature.
         let mut sums = vec![[0.0; 2]; walls.len()];
         for _ in 0..PASSES {
-            contacts =
-                team.map(points.points.len(), |n| self.contact(&points.points[n], &walls, dt));
+            contacts = team
+                .map(points.points.len(), |n| self.contact(&points.points[n], &walls, before, dt));
             sums.fill([0.0; 2]);
             for (point, contact) in points.points.iter().zip(&contacts) {
                 for &(column, part) in &point.below {
@@ -185,8 +186,9 @@ impl WallHeat {
         }
     }
 
-    /// How the fluid at a point exchanges heat with what is below, of which the columns' temperatures are given.
-    fn contact(&self, point: &Point, walls: &[f64], dt: f64) -> Contact {
+    /// How the fluid at a point exchanges heat with what is below, of which the columns' temperatures are given, as
+    /// that of the fluid before contact.
+    fn contact(&self, point: &Point, walls: &[f64], before: Option<f64>, dt: f64) -> Contact {
         let [bare, covered] = COVERED;
         let layers = point.mass / self.layer;
         if layers <= bare {
@@ -198,7 +200,7 @@ impl WallHeat {
         let thickness = self.spacing * layers / cover;
         let diffusion = self.conduction * dt / (thickness * thickness);
         let wall = wall_below(point, walls);
-        let deficit = self.before.map(|before| (before - fluid) / (before - wall));
+        let deficit = before.map(|before| (before - fluid) / (before - wall));
         let relaxation = self.law.relaxation(deficit.filter(|d| d.is_finite()), diffusion);
         Contact { conductance: self.capacity * point.mass * relaxation, fluid, relaxation }
     }

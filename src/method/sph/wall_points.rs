@@ -82,6 +82,8 @@ pub struct WallPoints<'a> {
     lattice: &'a PointLattice,
     cells: &'a WallCells,
     pub surface: &'a Surface,
+    /// Temperature of all fluid before contact above the reference [K], if it has one.
+    pub before: Option<f64>,
     pages: HashMap<[i32; 2], usize>,
     last: ([i32; 2], usize),
     pub points: Vec<Point>,
@@ -181,12 +183,14 @@ impl<'a> WallPoints<'a> {
         lattice: &'a PointLattice,
         cells: &'a WallCells,
         surface: &'a Surface,
+        before: Option<f64>,
         duration: f64,
     ) -> Self {
         Self {
             lattice,
             cells,
             surface,
+            before,
             pages: HashMap::new(),
             last: ([i32::MIN; 2], 0),
             points: Vec::new(),

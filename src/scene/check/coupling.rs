@@ -154,11 +154,13 @@ fn fit(checker: &mut Checker, path: &Path, droplet: &Droplet, shape: &Shape) {
     if matches!(shape, Shape::Disc(_)) {
         let message = "a disc is modelled axisymmetric: all drops must arrive at x = 0, y = 0";
         checker.require(droplet.is_centred(), path, message, "a box, or arrivals at the centre");
+        let message = "a disc is modelled axisymmetric: all drops must come straight down";
+        checker.require(droplet.is_straight(), path, message, "a box, or impact_angle = 0.0");
     }
     let radius = 0.5 * droplet.diameter;
     let half = lateral_extents(shape).map(|extent| 0.5 * extent);
-    let beyond = droplet.arrivals.iter().position(|arrival| {
-        let [x, y] = [arrival.x, arrival.y].map(f64::abs);
+    let beyond = droplet.landings().position(|place| {
+        let [x, y] = place.map(f64::abs);
         !fits(x + radius, half[0]) || !fits(y + radius, half[1])
     });
     if let Some(beyond) = beyond {

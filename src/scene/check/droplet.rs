@@ -3,16 +3,13 @@
 use std::f64::consts::PI;
 
 use super::{Checker, fits, number};
-use crate::scene::droplet::{Arrival, Droplet, DropletSymmetry};
+use crate::scene::droplet::{Arrival, Droplet, DropletSymmetry, LEAST_SOUND_OVER_FLOW};
 use crate::scene::locate::Path;
 
 /// Fewest particles across a drop that make it one.
 const FEWEST_ACROSS: f64 = 6.0;
 /// More particles than this fit no machine of today.
 const MOST_PARTICLES: f64 = 2e7;
-/// Least speed of sound over that of the flow or its surface: below, the fluid would be compressed by 4 % and
-/// more, or its surface come loose.
-const LEAST_SOUND_OVER_FLOW: f64 = 5.0;
 
 pub fn check(checker: &mut Checker) {
     for (name, droplet) in checker.scene.droplets() {
@@ -23,6 +20,8 @@ pub fn check(checker: &mut Checker) {
         // What moves the surface depends on the distance of particles.
         if is_sound(checker, &path) {
             sound(checker, &path.at("fluid.sound_speed"), droplet);
+            release(checker, &path, droplet);
+            direction(checker, &path.at("impact_direction"), droplet);
             arrivals(checker, &path.at("arrivals"), name, droplet);
             symmetry(checker, &path.at("symmetry"), droplet);
         }
@@ -39,7 +38,7 @@ fn resolution(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let across = droplet.diameter / droplet.spacing;
     let coarsest = droplet.diameter / FEWEST_ACROSS;
     let volume = if droplet.dimension == 3 { PI / 6.0 } else { PI / 4.0 };
-    let drops = droplet.arrivals.len() as f64;
+    let drops = droplet.drops() as f64;
     let copies: f64 = droplet.mirrors().map(|m| if m { 2.0 } else { 1.0 }).iter().product();
     let particles = volume * across.powi(droplet.dimension as i32) * drops / copies;
     if !fits(droplet.spacing, coarsest) {
@@ -83,8 +82,31 @@ fn sound(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     }
 }
 
+/// Drops are released either at times or by inputs, which say nothing of how many there will be.
+fn release(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    let (message, allowed) = match (droplet.is_on_demand(), droplet.most, &droplet.arrivals) {
+        (true, None, _) => {
+            ("inputs release the drops, of which there is no largest number", "a whole number")
+        }
+        (true, _, Some(_)) => {
+            let message = "inputs release the drops, which have no times of arrival";
+            checker.refuse(&path.at("arrivals"), message, "no such key, or release = \"arrivals\"");
+            return;
+        }
+        (false, Some(_), _) => (
+            "`arrivals` release the drops, and say how many there are",
+            "no such key, or release = \"input\"",
+        ),
+        _ => return,
+    };
+    checker.refuse(&path.at("most"), message, allowed);
+}
+
 fn arrivals(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
-    let list = &droplet.arrivals;
+    let list = droplet.arrivals();
+    if droplet.is_on_demand() {
+        return;
+    }
     checker.require(!list.is_empty(), path, "there is no arrival", "at least one arrival");
     for (i, arrival) in list.iter().enumerate() {
         let path = path.index(i);
@@ -109,14 +131,25 @@ fn arrivals(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
     }
 }
 
+fn direction(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    let fine = droplet.dimension == 3 || droplet.impact_direction == 0.0;
+    let message = "drops of a plane model move along x, against it at a negative angle";
+    checker.require(fine, path, message, "0");
+}
+
 /// Whether a drop is released where an earlier one still is: it falls freely, its centre to the
 /// wall at most.
 fn meets(droplet: &Droplet, earlier: &Arrival, later: &Arrival, free: bool) -> bool {
     let time = (later.time - earlier.time).max(0.0);
-    let fall = droplet.impact_velocity * time + 0.5 * droplet.gravity * time * time;
+    let [u, v, _] = droplet.velocity();
+    let speed = droplet.normal_speed();
+    let fall = speed * time + 0.5 * droplet.gravity * time * time;
     let deepest = droplet.gap() + 0.5 * droplet.diameter;
     let fall = if free { fall } else { fall.min(deepest) };
-    let apart = (later.x - earlier.x).hypot(later.y - earlier.y);
+    // What has come down does not go on along the wall for certain.
+    let aside = if free { time } else { time.min(droplet.fall_time(speed)) };
+    let along = |v: f64| if v == 0.0 { 0.0 } else { v * aside };
+    let apart = (later.x - earlier.x - along(u)).hypot(later.y - earlier.y - along(v));
     !fits(droplet.diameter, apart.hypot(fall))
 }
 
@@ -124,4 +157,7 @@ fn symmetry(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let fine = droplet.symmetry != DropletSymmetry::Quarter || droplet.is_centred();
     let message = "a quarter needs all drops to arrive at x = 0, y = 0";
     checker.require(fine, path, message, "auto, none");
+    let fine = droplet.symmetry != DropletSymmetry::Quarter || droplet.is_straight();
+    let message = "a quarter needs all drops to come straight down";
+    checker.require(fine, path, message, "auto, none, or impact_angle = 0.0");
 }

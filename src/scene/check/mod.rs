@@ -187,7 +187,7 @@ fn is_sound(shape: &Shape) -> bool {
 }
 
 /// Whether a length is at most as large as another.
-fn fits(length: f64, limit: f64) -> bool {
+pub(super) fn fits(length: f64, limit: f64) -> bool {
     length <= limit * (1.0 + SLACK)
 }
 

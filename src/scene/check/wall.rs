@@ -44,6 +44,8 @@ fn fit(checker: &mut Checker, path: &Path, footprint: &Footprint, droplet: &Drop
         Footprint::Rings { .. } => {
             let message = "rings need all drops to arrive at x = 0, y = 0";
             checker.require(droplet.is_centred(), &path, message, "tiles");
+            let message = "rings need all drops to come straight down";
+            checker.require(droplet.is_straight(), &path, message, "tiles, or impact_angle = 0.0");
         }
         _ => {}
     }

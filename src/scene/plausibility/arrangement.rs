@@ -2,8 +2,8 @@
 //! loads that the mesh does not see.
 
 use super::Reviewer;
-use crate::scene::check::number;
-use crate::scene::droplet::{Arrival, Coupling, Droplet};
+use crate::scene::check::{fits, number};
+use crate::scene::droplet::{Coupling, Droplet, Wall};
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::types::{Footprint, Load, Mesh, Solid};
@@ -29,6 +29,11 @@ pub fn review(reviewer: &mut Reviewer) {
             apart(reviewer, &path, i, (coupling, droplet));
         }
     }
+    for (i, wall) in scene.wall.iter().enumerate() {
+        if let Some(droplet) = scene.droplet(&wall.under) {
+            resolved(reviewer, &root.key("wall").index(i).key("footprint"), wall, droplet);
+        }
+    }
     for (i, load) in scene.load.iter().enumerate() {
         seen(reviewer, &root.key("load").index(i), load);
     }
@@ -52,9 +57,9 @@ fn caught(reviewer: &mut Reviewer, path: &Path, name: &str) {
 
 /// Warns of a droplet whose first drop does not come down by the stop time.
 fn arrives(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
-    let Some(arrival) = droplet.arrivals.first() else { return };
+    let Some(arrival) = droplet.arrivals().first() else { return };
     let stop = reviewer.scene.stop_time;
-    let down = arrival.time + fall_time(droplet);
+    let down = arrival.time + droplet.fall_time(droplet.normal_speed());
     // A drop that is released half a distance of particles above the wall touches it.
     if down <= stop * (1.0 + 1e-9) || (arrival.time < stop && droplet.gap() <= droplet.spacing) {
         return;
@@ -69,12 +74,6 @@ fn arrives(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     let message =
         format!("the drop does not arrive before the stop time of {} s: {why}", number(stop));
     reviewer.warn(&path.key(key), message);
-}
-
-/// Time that a drop takes to fall through its gap [s].
-fn fall_time(droplet: &Droplet) -> f64 {
-    let (speed, gravity, gap) = (droplet.impact_velocity, droplet.gravity, droplet.gap());
-    2.0 * gap / (speed + (speed * speed + 2.0 * gravity * gap).sqrt())
 }
 
 /// Warns of fine meshes and of drops that are wider than the plate.
@@ -94,8 +93,8 @@ fn width(reviewer: &mut Reviewer, path: &Path, coupling: &Coupling, droplet: &Dr
         reviewer.warn(&path.key("radius"), message);
     }
     let reach = 0.5 * droplet.spread_diameter();
-    let beyond = droplet.arrivals.iter().any(|arrival| {
-        let [x, y] = [arrival.x, arrival.y].map(f64::abs);
+    let beyond = droplet.landings().any(|place| {
+        let [x, y] = place.map(f64::abs);
         x + reach > half[0] || y + reach > half[1]
     });
     if beyond {
@@ -119,8 +118,8 @@ fn apart(
     for earlier in scene.coupling[..i].iter().filter(|earlier| earlier.to == coupling.to) {
         let Some(other) = scene.droplet(&earlier.from) else { continue };
         let reach = 0.5 * (droplet.spread_diameter() + other.spread_diameter());
-        let meet = |a: &Arrival, b: &Arrival| (a.x - b.x).hypot(a.y - b.y) < reach;
-        if droplet.arrivals.iter().any(|a| other.arrivals.iter().any(|b| meet(a, b))) {
+        let meet = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < reach;
+        if droplet.landings().any(|a| other.landings().any(|b| meet(a, b))) {
             let message = format!(
                 "`{}` and `{}` are expected to spread over each other, and droplets of two bodies do not see \
                  each other: did you mean `arrivals` of one?",
@@ -128,6 +127,30 @@ fn apart(
             );
             reviewer.warn(&path.key("from"), message);
         }
+    }
+}
+
+/// Warns of cells that are narrower than particles, which then tell one cell from the next by chance alone.
+fn resolved(reviewer: &mut Reviewer, path: &Path, wall: &Wall, droplet: &Droplet) {
+    let (key, widths) = match wall.footprint {
+        Footprint::Rings { count, radius } => ("rings", vec![radius / count as f64]),
+        Footprint::Tiles { count, size } => {
+            let axes = if droplet.dimension == 2 { 0..1 } else { 0..2 };
+            ("tiles", axes.map(|axis| size[axis] / count[axis] as f64).collect())
+        }
+        _ => return,
+    };
+    let narrowest = widths.into_iter().fold(f64::INFINITY, f64::min);
+    if !fits(droplet.spacing, narrowest) {
+        let message = format!(
+            "cells of {} m are narrower than the film can resolve: particles of `{}` are {} m apart, so that fluxes of \
+             single cells differ by chance; did you mean cells of {} m or more?",
+            number(narrowest),
+            wall.under,
+            number(droplet.spacing),
+            number(2.0 * droplet.spacing)
+        );
+        reviewer.warn(&path.key(key).key("count"), message);
     }
 }
 

@@ -1,0 +1,55 @@
+"""Many runs of a unit or a scene: sweeps, Latin hypercubes, Sobol's indices.
+
+Names are imported when they are first asked for: processes that run rows need few of them.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from impinge.study.distributions import Levels, LogUniform, Normal, Uniform
+    from impinge.study.outputs import Output, final, maximum, minimum, of_run, over_time
+    from impinge.study.sampling import Grid, LatinHypercube, Paired, Sobol
+    from impinge.study.sensitivity import sobol_indices
+    from impinge.study.signals import Table
+    from impinge.study.study import Study
+
+__all__ = [
+    "Grid",
+    "LatinHypercube",
+    "Levels",
+    "LogUniform",
+    "Normal",
+    "Output",
+    "Paired",
+    "Sobol",
+    "Study",
+    "Table",
+    "Uniform",
+    "final",
+    "maximum",
+    "minimum",
+    "of_run",
+    "over_time",
+    "sobol_indices",
+]
+
+_MODULES = {
+    "distributions": ("Levels", "LogUniform", "Normal", "Uniform"),
+    "outputs": ("Output", "final", "maximum", "minimum", "of_run", "over_time"),
+    "sampling": ("Grid", "LatinHypercube", "Paired", "Sobol"),
+    "sensitivity": ("sobol_indices",),
+    "signals": ("Table",),
+    "study": ("Study",),
+}
+_PLACES = {name: module for module, names in _MODULES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _PLACES:
+        raise AttributeError(f"module 'impinge.study' has no attribute '{name}'")
+    return getattr(import_module(f"impinge.study.{_PLACES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    return sorted([*globals(), *__all__])

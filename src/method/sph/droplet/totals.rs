@@ -1,0 +1,149 @@
+//! Sums over the fluid of a state.
+
+use crate::method::sph::cloud::{Cloud, Ledger};
+use crate::method::sph::images::copies;
+use crate::method::sph::lumps::body_of_fluid;
+use crate::method::sph::method::Method;
+use crate::method::sph::plan::DropletPlan;
+use crate::method::sph::spread::spread_diameter;
+use crate::method::sph::units::{compression_energy, pressure};
+
+/// Sums over the fluid, images at mirrors included (a plane model: per metre of depth).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DropletTotals {
+    /// [kg]
+    pub mass: f64,
+    /// [kg m/s]
+    pub momentum: [f64; 3],
+    /// [J]
+    pub kinetic_energy: f64,
+    /// Elastic energy of the weak compression [J].
+    pub compression_energy: f64,
+    /// Energy of free and wetted surface, against a dry wall [J].
+    pub surface_energy: f64,
+    /// Heat content above the temperature of the first droplet, now and when released [J].
+    pub heat: f64,
+    pub heat_released: f64,
+    /// Given to the wall since time zero [J] and [N s].
+    pub heat_to_wall: f64,
+    pub impulse_to_wall: [f64; 3],
+    /// Impulse of gravity since time zero [N s].
+    pub impulse_of_gravity: [f64; 3],
+    /// Diameter of the film that the body of fluid makes on the wall, see [`spread_diameter`] [m].
+    pub spread_diameter: f64,
+    /// Height of the body of fluid above the wall: of its highest particle [m].
+    pub height: f64,
+    /// Mass [kg] and number of particles, images left out, that have come off the body of fluid: in lumps
+    /// of less than a tenth of a drop's mass.
+    pub stray_mass: f64,
+    pub stray_particles: f64,
+    pub max_speed: f64,
+    pub max_pressure: f64,
+    /// Lowest and highest density over the density at rest.
+    pub density_range: [f64; 2],
+    /// Lowest and highest temperature [K].
+    pub temperature_range: [f64; 2],
+    /// Time steps made since time zero, and particles there are, images left out.
+    pub steps: f64,
+    pub particles: f64,
+    /// Drops released so far, and drops asked for that wait.
+    pub released: f64,
+    pub waiting: f64,
+}
+
+/// Sums over the fluid.
+pub fn totals(
+    plan: &DropletPlan,
+    method: &Method,
+    ledger: &Ledger,
+    cloud: &Cloud,
+) -> DropletTotals {
+    let units = &method.units;
+    let images = copies(plan.mirrors);
+    let heat_unit = units.energy() / method.heat_unit;
+    let mut totals = DropletTotals {
+        surface_energy: ledger.surface_energy,
+        heat_to_wall: ledger.heat_to_wall,
+        impulse_to_wall: ledger.impulse_to_wall,
+        impulse_of_gravity: ledger.impulse_of_gravity,
+        heat_released: ledger.heat_released,
+        steps: ledger.steps,
+        particles: cloud.len() as f64,
+        released: ledger.released,
+        waiting: (ledger.requests.as_ref())
+            .map_or(0.0, |requests| requests.waiting(ledger.released) as f64),
+        density_range: [f64::INFINITY, f64::NEG_INFINITY],
+        temperature_range: [f64::INFINITY, f64::NEG_INFINITY],
+        max_pressure: f64::NEG_INFINITY,
+        ..DropletTotals::default()
+    };
+    let reference = plan.reference_temperature();
+    for i in 0..cloud.len() {
+        let mass = images * cloud.mass[i];
+        let speed = cloud.velocity[i].iter().map(|v| v * v).sum::<f64>();
+        totals.mass += mass * units.mass();
+        for a in 0..3 {
+            let mirrored = a < 2 && plan.mirrors[a];
+            let share = if mirrored { 0.0 } else { mass };
+            totals.momentum[a] += share * cloud.velocity[i][a] * units.mass() * units.speed;
+        }
+        totals.kinetic_energy += 0.5 * mass * speed * units.energy();
+        totals.compression_energy += mass * compression_energy(cloud.density[i]) * units.energy();
+        totals.heat += mass * heat_unit * cloud.temperature[i];
+        totals.max_speed = totals.max_speed.max(speed.sqrt() * units.speed);
+        totals.max_pressure =
+            totals.max_pressure.max(pressure(cloud.density[i]) * units.pressure());
+        let [low, high] = totals.density_range;
+        let ratio = 1.0 + cloud.density[i];
+        totals.density_range = [low.min(ratio), high.max(ratio)];
+        let [low, high] = totals.temperature_range;
+        let temperature = cloud.temperature[i] + reference;
+        totals.temperature_range = [low.min(temperature), high.max(temperature)];
+    }
+    let body = body(plan, ledger, cloud);
+    for (i, &in_body) in body.iter().enumerate() {
+        if in_body {
+            totals.height = totals.height.max(cloud.position[i][2] * units.length);
+        } else {
+            totals.stray_mass += images * cloud.mass[i] * units.mass();
+            totals.stray_particles += 1.0;
+        }
+    }
+    // Without a wall there is nothing to spread on, however low particles fall.
+    if plan.wall.is_some() {
+        let places = wetting_places(plan, cloud, &body);
+        totals.spread_diameter = plan.spacing * spread_diameter(&places, plan.dimension);
+    }
+    totals
+}
+
+/// Whether each particle belongs to the body of fluid.
+fn body(plan: &DropletPlan, ledger: &Ledger, cloud: &Cloud) -> Vec<bool> {
+    let places: Vec<_> = cloud.position.iter().map(|x| x.map(|x| x * plan.support)).collect();
+    let mass: f64 = cloud.mass.iter().sum();
+    body_of_fluid(&places, &cloud.mass, mass / ledger.released.max(1.0))
+}
+
+/// Height over Δx below which a particle's middle is at the wall: that of its first layer, with as much
+/// again to move in.
+const AT_WALL: f64 = 1.5;
+
+/// Places over Δx, round their middle, of all particles of the body that lie on the wall; images at
+/// mirrors included.
+fn wetting_places(plan: &DropletPlan, cloud: &Cloud, body: &[bool]) -> Vec<[f64; 2]> {
+    let spacing = 1.0 / plan.support;
+    let at_wall = |&i: &usize| body[i] && cloud.position[i][2] < AT_WALL * spacing;
+    let wetting: Vec<usize> = (0..cloud.len()).filter(at_wall).collect();
+    let mass: f64 = wetting.iter().map(|&i| cloud.mass[i]).sum();
+    let middle = |a: usize| match plan.mirrors[a] {
+        true => 0.0,
+        false => wetting.iter().map(|&i| cloud.mass[i] * cloud.position[i][a]).sum::<f64>() / mass,
+    };
+    let middle = [middle(0), middle(1)];
+    let sides = |a: usize| if plan.mirrors[a] { &[1.0, -1.0][..] } else { &[1.0] };
+    let images = |i: usize| {
+        let [x, y] = [0, 1].map(|a| (cloud.position[i][a] - middle[a]) / spacing);
+        sides(0).iter().flat_map(move |p| sides(1).iter().map(move |q| [p * x, q * y]))
+    };
+    wetting.into_iter().flat_map(images).collect()
+}

@@ -1,0 +1,86 @@
+//! Drops that were asked for: how many, and those of them that wait for their place.
+
+use std::slice::from_mut;
+
+use super::plan::Release;
+use crate::state::{Field, Per};
+
+/// Numbers of a drop that waits: x and y of its centre [m], its velocity [m/s] and its temperature [K].
+const NUMBERS: usize = 6;
+
+/// What a state knows of drops on demand.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Requests {
+    /// Drops asked for so far, a whole number.
+    pub asked: f64,
+    /// Temperature of the first drop above the reference [K].
+    pub warmth: f64,
+    /// 1 once a drop was released at another temperature than the first, 0 before.
+    pub differ: f64,
+    /// Drops that wait in the order in which they were asked for, then zeros: as many as there may be.
+    pub waiting: Vec<[f64; NUMBERS]>,
+}
+
+impl Requests {
+    /// Nothing was asked for yet of so many drops.
+    pub fn none(most: usize) -> Self {
+        Self { waiting: vec![[0.0; NUMBERS]; most], ..Self::default() }
+    }
+
+    pub fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
+        let field = |name, words, per, width| Field { name, words, per, width };
+        let body = |name, words| field(name, words, Per::Body, 1);
+        let waits = "place [m], velocity [m/s] and temperature [K] of a drop that waits";
+        vec![
+            (body("asked", "drops asked for so far"), from_mut(&mut self.asked)),
+            (
+                body("warmth", "temperature of the first drop above the reference [K]"),
+                from_mut(&mut self.warmth),
+            ),
+            (
+                body("differ", "1 where drops had different temperatures"),
+                from_mut(&mut self.differ),
+            ),
+            (field("waiting", waits, Per::Drop, NUMBERS), self.waiting.as_flattened_mut()),
+        ]
+    }
+
+    /// Number of drops that wait, where so many were released.
+    pub fn waiting(&self, released: f64) -> usize {
+        ((self.asked - released) as usize).min(self.waiting.len())
+    }
+
+    /// Puts drops in the place of those that wait.
+    pub fn wait(&mut self, drops: &[Release]) {
+        self.waiting.fill([0.0; NUMBERS]);
+        for (place, drop) in self.waiting.iter_mut().zip(drops) {
+            let ([x, y, _], [u, v, w]) = (drop.centre, drop.velocity);
+            *place = [x, y, u, v, w, drop.temperature];
+        }
+    }
+
+    /// Those that wait, as they differ from one that is expected.
+    pub fn drops(&self, released: f64, expected: &Release) -> Vec<Release> {
+        let drop = |&[x, y, u, v, w, temperature]: &[f64; NUMBERS]| Release {
+            centre: [x, y, expected.centre[2]],
+            velocity: [u, v, w],
+            temperature,
+            ..*expected
+        };
+        self.waiting[..self.waiting(released)].iter().map(drop).collect()
+    }
+
+    /// Notes that a drop is released as one of some, at a temperature above the reference [K].
+    pub fn note(&mut self, released: f64, warmth: f64) {
+        if released == 0.0 {
+            self.warmth = warmth;
+        } else if warmth != self.warmth {
+            self.differ = 1.0;
+        }
+    }
+
+    /// The temperature above the reference at which all drops were released [K], if it is one.
+    pub fn before_contact(&self) -> Option<f64> {
+        (self.differ == 0.0).then_some(self.warmth)
+    }
+}
