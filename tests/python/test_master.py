@@ -381,6 +381,17 @@ def test_families_connect_whole_and_inputs_follow_functions(pack, folder):
     assert heat == pytest.approx(exact, rel=1e-8)
 
 
+def test_whole_numbers_do_not_keep_others_from_following_paths(pack):
+    """The place of the load is set as if it were a whole number; its flux is a ramp."""
+    plate = pack("tiles", {"count = [2, 3]": "count = [1, 1]"})
+    inputs = {"p.patch.heat_flux": lambda time: 1e12 * time, "p.patch.x": 1e-5}
+    with Master({"p": plate}, inputs=inputs, step=2e-5, outputs=["p.block.heat_in"]) as master:
+        (participant,) = master.participants.values()
+        participant.connect(participant.names, np.array([True, False]), 1)
+        heat = master.run(1e-4)["p.block.heat_in"].values[-1]
+    assert heat == pytest.approx(1.1e-4 * 0.9e-4 * 1e12 * 1e-4**2 / 2, rel=1e-9)
+
+
 def test_runs_go_on_and_units_may_be_shared(folder):
     whole = lumps(folder, 1.0, 1.0)
     with Master(whole, RING, step=0.1) as once, Master(whole, RING, step=0.1) as twice:
