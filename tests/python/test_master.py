@@ -220,6 +220,19 @@ def test_adaptive_steps_keep_to_their_tolerance(folder):
     assert np.log(errors[0] / errors[2]) / np.log(steps[2] / steps[0]) > 1.7, rows
 
 
+def test_a_count_of_energy_agrees_with_the_paths_that_were_set(pack, folder):
+    """A plate's own count of heat against what its tile was told to take over each step."""
+    count = Bond("law.y", total="plate.block.heat_in")
+    for fmi in (2, 3):
+        units = plate_and_law(pack, folder)
+        units["plate"] = pack("tiles", {"count = [2, 3]": "count = [1, 1]"}, fmi=fmi)
+        for scheme in ("gauss-seidel", "iterate"):
+            with Master(units, SPLIT, scheme=scheme, step=1e-5, energy=[count]) as master:
+                result = master.run(1e-4)
+            assert result["energy passed: law.y"].values[-1] > 1e-8
+            assert result.attrs["energy_residual.law.y"] < 1e-9
+
+
 LAW = {"d": -4e3, "e": 4e3 * 350.0}
 
 
