@@ -197,10 +197,10 @@ def test_iterated_masses_are_stable_and_of_second_order(folder):
 def test_the_energy_residual_falls_with_the_tolerance(folder):
     found = []
     for tolerance in (1e-2, 1e-4, 1e-6):
-        options = {"acceleration": "aitken", "tolerance": tolerance, "energy": [("b.y", "a.y")]}
+        options = {"acceleration": "none", "tolerance": tolerance, "energy": [("b.y", "a.y")]}
         with Master(masses(folder), RING, step=0.1, **options) as master:
             found.append(master.run(10.0).attrs["energy_residual.b.y*a.y"])
-    assert found[0] > 10 * found[1] > 100 * found[2] or found[2] < 1e-12, found
+    assert found[0] > 10 * found[1] > 100 * found[2] > 0, found
     with Master(masses(folder), RING, scheme="jacobi", step=0.1, energy=["b.y"]) as held:
         assert held.run(10.0).attrs["energy_residual.b.y"] > 0.01
 
