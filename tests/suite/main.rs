@@ -28,6 +28,7 @@ mod nonlinear_heat;
 mod nonlinear_solids;
 mod output;
 mod particles;
+mod peaks;
 mod plausibility;
 mod recovered_stress;
 mod reservoirs;
