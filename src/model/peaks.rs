@@ -1,6 +1,7 @@
 //! Running maxima of bodies, each with its time and place.
 //!
 //! They are noted at communication points alone: as a step begins, under the inputs that it begins with, and as it ends.
+//! Parts of a step that a host is told of are steps, too.
 
 use super::{Cache, Model, ModelError, State};
 use crate::body::{BodyError, Extreme, PeakPart};
@@ -49,6 +50,9 @@ impl Model {
     /// Notes the present values in the running maxima of a state, whose inputs must make sense. What is as high as before
     /// keeps its time and place. An error changes nothing.
     pub fn note_peaks(&self, state: &mut State, cache: &mut Cache) -> Result<(), ModelError> {
+        if !self.peaks.is_empty() {
+            self.expect_room_to_step(state)?;
+        }
         let noted = self.with_stack(|| self.note_peaks_here(state, cache));
         Ok(noted.map_err(|(_, error)| error)?)
     }

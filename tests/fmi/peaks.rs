@@ -54,8 +54,9 @@ fn a_jump_is_noted_as_a_step_begins_and_stays() {
     assert!((time - 1.02e-6).abs() < 1e-9, "{time}");
     assert!(unit.get("plate.peak_von_mises") > 10.0 * unit.get("plate.max_von_mises"));
     assert_eq!(unit.get("plate.peak_temperature_time"), 1.02e-6 + 1e-8, "until the flux was gone");
-    let place = ["x", "y", "z"].map(|axis| unit.get(&format!("plate.peak_temperature_{axis}")));
-    assert_eq!(place, [0.0; 3]);
+    // Of the four images of a place within the spot the one that is meshed.
+    let [x, y, z] = ["x", "y", "z"].map(|axis| unit.get(&format!("plate.peak_temperature_{axis}")));
+    assert!(x >= 0.0 && y >= 0.0 && x.hypot(y) < 6e-5 && z == 0.0, "{x}, {y}, {z}");
 }
 
 #[test]
@@ -77,6 +78,7 @@ fn from_the_end_of_initialization_on_nothing_follows_at_once() {
     assert_eq!(unit.step(1e-6, 1e-8), OK);
     assert_eq!(unit.get("plate.peak_von_mises"), higher);
     assert_eq!(unit.get("plate.peak_von_mises_time"), 1e-6);
+    unit.messages.take();
     assert_eq!(unit.output_derivatives_in(&[peak], &[1], &mut [0.0]), ERROR);
     unit.expect_message(ERROR, &["have no derivative"]);
 }

@@ -145,7 +145,7 @@ fn a_running_maximum_is_the_highest_of_what_the_body_tells_at_communication_poin
                 times.insert(found.to_bits());
             }
         }
-        assert!(times.len() > 4, "{name}: maxima are of {} times", times.len());
+        assert!(times.len() > 2, "{name}: maxima are of {} times", times.len());
         for (quantity, (highest, [_, so_far])) in highest.iter().zip(KEYS).enumerate() {
             let at = place(&mut kept, so_far);
             let (value, _, fields) = highest.0.as_ref().unwrap();
@@ -419,7 +419,7 @@ fn running_maxima_follow_no_input_at_once_and_have_no_rate() {
     let changes = trial.changes(&[peak.clone(), now.clone()], &[("spot.pressure", 1.0)]);
     assert!(changes[0] == changes[1] && changes[0] > 0.1, "{changes:?}");
     trial.step(1e-6);
-    assert_eq!(trial.changes(&[peak.clone()], &[("spot.pressure", 1.0)]), [0.0]);
+    assert_eq!(trial.changes(std::slice::from_ref(&peak), &[("spot.pressure", 1.0)]), [0.0]);
     let mut tangent = trial.model.time_tangent(&trial.state, &mut Cache::default()).unwrap();
     let output = trial.output(&peak);
     let rate = trial.model.output_rate(&trial.state, &mut Cache::default(), &mut tangent, &output);
