@@ -4,7 +4,7 @@ from math import exp, pi, sqrt
 
 import numpy as np
 import pytest
-from impinge import Connection, Master, Unit
+from impinge import Connection, Master, StepDiscarded, Unit
 from impinge.master import Bond, Graded, MasterError, MasterWarning
 from linear_unit import make
 
@@ -245,6 +245,35 @@ def test_graded_steps_are_of_second_order_after_a_jump(pack, folder):
         with Master(plate_and_law(pack, folder), SPLIT, step=step) as master:
             equal.append(float(master.run(1e-4)["plate.centre.temperature"][-1]) - ends[3])
     assert abs(equal[1]) > 2 * errors[1]
+
+
+def test_steps_that_a_unit_refuses_are_shortened(pack, folder):
+    """A law near absolute zero: the heat that leaves at first, if it went on so over a step, would
+    take more than the plate holds."""
+    units = plate_and_law(pack, folder)
+    cold = make(folder, "cold", d=-3e6, e=3e6 * 20.0)
+    with Master({**units, "law": cold}, SPLIT, scheme="gauss-seidel", step=4e-4) as master:
+        with pytest.raises(StepDiscarded, match="below absolute zero"):
+            master.run(2e-3)
+    options = {"adaptive": True, "tolerance": 1e-2, "energy": ["law.y"]}
+    with Master({**units, "law": cold}, SPLIT, step=4e-4, **options) as master:
+        result = master.run(2e-3)
+    temperature = result["plate.centre.temperature"].values
+    assert (temperature > 0).all() and temperature[-1] < 200.0
+    assert result.attrs["rejected"] > 2
+    assert result.attrs["energy_residual.law.y"] < 1e-3
+
+
+def test_guesses_that_a_unit_refuses_are_halved(pack, folder):
+    """A bottom at 400 K − 5 (T − 293 K) of the top's temperature: at rest T = 1865/6 K; the second
+    guess without relaxation is far below absolute zero."""
+    law = make(folder, "steep", d=-5.0, e=400.0 + 5 * 293.0)
+    units = {"plate": pack("tiles"), "law": law}
+    ring = [("plate.centre.temperature", "law.u"), ("law.y", "plate.block.bottom.temperature")]
+    options = {"acceleration": "aitken", "relaxation": 1.0, "order": 0, "step": 0.1}
+    with Master(units, ring, **options) as master:
+        result = master.run(0.3)
+    assert result["plate.centre.temperature"].values[-1] == pytest.approx(1865 / 6, rel=1e-4)
 
 
 def test_units_of_fmi_3_are_held_and_say_so(pack, folder):
