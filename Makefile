@@ -6,6 +6,7 @@ BIN := $(VENV)/bin
 PEERS := .venv-peers
 MASTERS := .venv-masters
 NAMES := $(sort $(patsubst examples/%/scene.toml,%,$(wildcard examples/*/scene.toml)))
+EXAMPLES := $(sort $(patsubst examples/%/run.py,%,$(wildcard examples/*/run.py)))
 RELEASE := target/release
 PY_FILES := $(wildcard python build-fmu/*.py tests/conftest.py tests/fmpy tests/python tests/verification benches examples)
 
@@ -21,12 +22,12 @@ demo: build $(VENV)/ready ## pack the alumina plate, run it and draw pictures
 	$(BIN)/python examples/alumina_plate/run.py
 	@echo "Pictures:"; find out/alumina_plate -name '*.png' -o -name '*.gif' | sort | sed 's/^/  /'
 
-units: build ## pack every example scene into out/
+units: build ## pack every example that is one unit into out/
 	@mkdir -p out
 	@set -e; for name in $(NAMES); do $(RELEASE)/build-fmu examples/$$name/scene.toml -o out/$$name.fmu; done
 
 examples: units $(VENV)/ready ## run every example
-	@set -e; for name in $(NAMES); do echo "== $$name"; $(BIN)/python examples/$$name/run.py; done
+	@set -e; for name in $(EXAMPLES); do echo "== $$name"; $(BIN)/python examples/$$name/run.py; done
 
 test: rust-test python-test ## everything that is fast
 
