@@ -23,6 +23,8 @@ class Fmi2(Slave):
     """An instance by the functions of FMI 2.0."""
 
     prefix = "fmi2"
+    state = "FMUstate"
+    deserialize = "DeSerialize"
     types = {key: NUMBERS[key] for key in ("Real", "Integer", "Boolean", "Enumeration")}
     _functions = {"Enumeration": "Integer"}
 
@@ -105,30 +107,6 @@ class Fmi2(Slave):
         value = c_int(0)
         ask = self.function("GetBooleanStatus", c_int, c_void_p)
         return ask(_TERMINATED, byref(value)) <= 1 and bool(value.value)
-
-    # States
-
-    def get_state(self, handle: c_void_p) -> None:
-        self.call("GetFMUstate", byref(handle), types=(c_void_p,))
-
-    def set_state(self, handle: c_void_p) -> None:
-        self.call("SetFMUstate", handle, types=(c_void_p,))
-
-    def free_state(self, handle: c_void_p) -> None:
-        self.call("FreeFMUstate", byref(handle), types=(c_void_p,))
-
-    def to_bytes(self, handle: c_void_p) -> bytes:
-        size = c_size_t()
-        self.call("SerializedFMUstateSize", handle, byref(size), types=(c_void_p, c_void_p))
-        buffer = ctypes.create_string_buffer(size.value)
-        types = (c_void_p, c_void_p, c_size_t)
-        self.call("SerializeFMUstate", handle, buffer, size, types=types)
-        return buffer.raw
-
-    def from_bytes(self, content: bytes, handle: c_void_p) -> None:
-        types = (c_char_p, c_size_t, c_void_p)
-        arguments = (content, len(content), byref(handle))
-        self.call("DeSerializeFMUstate", *arguments, types=types)
 
     # Derivatives
 

@@ -23,6 +23,8 @@ class Fmi3(Slave):
     """An instance by the functions of FMI 3.0, without Event Mode."""
 
     prefix = "fmi3"
+    state = "FMUState"
+    deserialize = "Deserialize"
     boolean = c_bool
     types = {**NUMBERS, "Boolean": np.bool_, "Enumeration": np.int64}
     _functions = {"Enumeration": "Int64"}
@@ -136,30 +138,6 @@ class Fmi3(Slave):
             if last <= time:
                 raise UnitError(f"{self.log.name}: a step ends early at {last!r} s, where it began")
             time, rest = last, end - last
-
-    # States
-
-    def get_state(self, handle: c_void_p) -> None:
-        self.call("GetFMUState", byref(handle), types=(c_void_p,))
-
-    def set_state(self, handle: c_void_p) -> None:
-        self.call("SetFMUState", handle, types=(c_void_p,))
-
-    def free_state(self, handle: c_void_p) -> None:
-        self.call("FreeFMUState", byref(handle), types=(c_void_p,))
-
-    def to_bytes(self, handle: c_void_p) -> bytes:
-        size = c_size_t()
-        self.call("SerializedFMUStateSize", handle, byref(size), types=(c_void_p, c_void_p))
-        buffer = ctypes.create_string_buffer(size.value)
-        types = (c_void_p, c_void_p, c_size_t)
-        self.call("SerializeFMUState", handle, buffer, size, types=types)
-        return buffer.raw
-
-    def from_bytes(self, content: bytes, handle: c_void_p) -> None:
-        types = (c_char_p, c_size_t, c_void_p)
-        arguments = (content, len(content), byref(handle))
-        self.call("DeserializeFMUState", *arguments, types=types)
 
     # Derivatives
 

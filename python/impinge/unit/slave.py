@@ -3,7 +3,7 @@
 import ctypes
 import os
 from collections.abc import Callable
-from ctypes import c_char_p
+from ctypes import byref, c_char_p, c_size_t, c_void_p
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -50,6 +50,9 @@ class Slave:
     """
 
     prefix = ""
+    # What both versions call states, and the word before that for reading one from bytes.
+    state = ""
+    deserialize = ""
 
     def __init__(self, package: Package, log: Log):
         self.package = package
@@ -106,3 +109,27 @@ class Slave:
             self.function("SetDebugLogging", *types)(True, len(wanted), ctypes.addressof(names))
 
     boolean: Any = ctypes.c_int
+
+    # States
+
+    def get_state(self, handle: c_void_p) -> None:
+        self.call(f"Get{self.state}", byref(handle), types=(c_void_p,))
+
+    def set_state(self, handle: c_void_p) -> None:
+        self.call(f"Set{self.state}", handle, types=(c_void_p,))
+
+    def free_state(self, handle: c_void_p) -> None:
+        self.call(f"Free{self.state}", byref(handle), types=(c_void_p,))
+
+    def to_bytes(self, handle: c_void_p) -> bytes:
+        size = c_size_t()
+        self.call(f"Serialized{self.state}Size", handle, byref(size), types=(c_void_p, c_void_p))
+        buffer = ctypes.create_string_buffer(size.value)
+        types = (c_void_p, c_void_p, c_size_t)
+        self.call(f"Serialize{self.state}", handle, buffer, size, types=types)
+        return buffer.raw
+
+    def from_bytes(self, content: bytes, handle: c_void_p) -> None:
+        types = (c_char_p, c_size_t, c_void_p)
+        arguments = (content, len(content), byref(handle))
+        self.call(f"{self.deserialize}{self.state}", *arguments, types=types)
