@@ -1,0 +1,108 @@
+"""The pictures of the example."""
+
+from pathlib import Path
+
+import numpy as np
+import shared
+import warm_up
+
+SIZE = (40.0, 12.0)  # mm of the bed
+
+
+def draw_print(done, folder: Path) -> Path:
+    """Control over the run, the bed's surface after each drop, and a drop's milliseconds."""
+    figure = shared.new_figure(1, 1, height=8.6)[0]
+    figure.clear()
+    grid = figure.add_gridspec(3, 4, height_ratios=[1.25, 0.85, 1.0])
+    draw_control(figure.add_subplot(grid[0, :2]), figure.add_subplot(grid[0, 2:]), done)
+    draw_surfaces([figure.add_subplot(grid[1, k]) for k in range(4)], done)
+    draw_drop([figure.add_subplot(grid[2, :2]), figure.add_subplot(grid[2, 2:])], done)
+    figure.suptitle("Drops of 160 °C on a bed that a controller holds at 120 °C")
+    return shared.save(figure, folder, "printing")
+
+
+def releases(done) -> np.ndarray:
+    """Times of the record at which another drop had been released."""
+    released = done.of("drop.released")
+    return done.table["time"].values[1:][np.diff(released) > 0] - warm_up.SAMPLE
+
+
+def draw_control(left, right, done) -> None:
+    times = done.table["time"].values
+    begun = releases(done)
+    for probe, label in zip(warm_up.PROBES, ["thermocouple", "middle"], strict=True):
+        left.plot(times, done.of(probe) - shared.ZERO_CELSIUS, label=label)
+    left.axhline(warm_up.WANTED - shared.ZERO_CELSIUS, **shared.CLOSED_FORM, label="set point")
+    power = done.table["controller.power"].values
+    right.step(times, power, where="post", label="heater", color=shared.COLOURS[0])
+    flow = np.diff(done.of("drop.heat")) / np.diff(times)
+    right.stairs(flow, times, color=shared.COLOURS[1], linewidth=2, label="drops")
+    lost = np.diff(done.of("bed.heat_lost")) / np.diff(times)
+    right.plot(0.5 * (times[1:] + times[:-1]), lost, color=shared.COLOURS[3], label="lost")
+    for plot in (left, right):
+        for t in begun:
+            plot.axvline(t, color="0.8", linewidth=1, zorder=0)
+        plot.set(xlabel="time / s", xlim=(begun[0] - 1.0, times[-1]))
+        plot.legend(loc="best")
+    left.set(ylabel="°C", ylim=(112, 146), title="The bed feels the drops")
+    right.set(ylabel="power / W", ylim=(0, None), title="The heater makes room for their heat")
+
+
+def draw_surfaces(plots, done) -> None:
+    times = done.table["time"].values
+    begun = releases(done)
+    field = done.of("surface.temperature") - shared.ZERO_CELSIUS
+    moments = [begun[min(k, len(begun) - 1)] + 0.2 for k in range(3)] + [times[-1]]
+    if len(begun) == 4:
+        moments = [begun[0] + 0.1, begun[1] + 0.1, begun[3] + 0.1, times[-1]]
+    rows = [int(np.argmin(np.abs(times - t))) for t in moments]
+    low, high = field[rows].min(), field[rows].max()
+    for plot, row in zip(plots, rows, strict=True):
+        image = shared.show_field(plot, field[row], SIZE, cmap="inferno", vmin=low, vmax=high)
+        plot.set_title(f"{times[row]:.1f} s: {field[row].max():.1f} °C at most", fontsize=11)
+        plot.set(xlabel="mm")
+    shared.add_colour_bar(image, "°C")
+
+
+def draw_drop(plots, done) -> None:
+    drop = done.drop
+    ms = drop["time"] * 1e3
+    plots[0].plot(ms, drop["drop.spread_diameter"] * 1e3, label="diameter on the bed")
+    plots[0].plot(ms, drop["drop.height"] * 1e3, label="height")
+    plots[0].set(xlabel="time since its release / ms", ylabel="mm", ylim=(0, None))
+    plots[0].set_title("The first drop, millisecond by millisecond")
+    plots[1].plot(ms, drop["drop.heat_flow"], label="heat flow into the bed / W")
+    plots[1].plot(
+        ms, drop["bed.max_temperature"] - drop["bed.max_temperature"][0], label="hottest place / K"
+    )
+    plots[1].set(xlabel="time since its release / ms", ylim=(0, None))
+    plots[1].set_title("The heat of contact")
+    for plot in plots:
+        plot.legend()
+
+
+def draw_plans(runs: dict, folder: Path) -> Path:
+    """The plan beside the PI controller."""
+    figure, axes = shared.new_figure(2, 2, height=7.5, sharex=True, height_ratios=[1.6, 1])
+    for column, other in enumerate(("", ", other bed")):
+        names = [f"plan anew{other}" if other else "plan", f"PI{other}"]
+        top, bottom = axes[:, column]
+        for name, colour in zip(names, shared.COLOURS, strict=False):
+            run = runs[name]
+            label = name.removesuffix(other) if other else name
+            celsius = run.temperatures - shared.ZERO_CELSIUS
+            top.plot(run.times, celsius[:, 0], color=colour, label=f"{label}: thermocouple")
+            top.plot(run.times, celsius[:, 1], ":", color=colour, label=f"{label}: middle")
+            bottom.step(run.times, run.powers, where="post", color=colour, label=label)
+        wanted, limit = (each - shared.ZERO_CELSIUS for each in (warm_up.WANTED, warm_up.HOTTEST))
+        top.axhline(wanted, **shared.CLOSED_FORM)
+        top.axhline(limit, color="0.6", linewidth=1)
+        top.text(6.0, limit + 1, "limit of the middle", color="0.5", ha="right")
+        bottom.axhline(warm_up.HIGHEST, color="0.6", linewidth=1)
+        bottom.set(xlabel="time / s", ylabel="heater / W")
+        top.set(ylabel="°C", xlim=(0, 6.0))
+        top.legend(loc="lower right")
+    axes[0, 0].set_title("The bed that the map was made of")
+    axes[0, 1].set_title("A bed that stores 10 % more and loses 30 % more below")
+    figure.suptitle("From 25 °C to 120 °C: a plan by the linear map, and a PI controller")
+    return shared.save(figure, folder, "plans")
