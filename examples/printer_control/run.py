@@ -5,7 +5,7 @@ import os
 import sys
 import time
 from dataclasses import dataclass
-from math import pi
+from math import pi, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -20,11 +20,12 @@ from pythonfmu import FmuBuilder  # noqa: E402
 
 NAME = "printer_control"
 HERE = Path(__file__).parent
-START, INTERVAL, AFTER = 9.0, 0.35, 0.7  # s: the first drop, the next ones, how long after the last
+START, INTERVAL, AFTER = 9.0, 0.35, 1.1  # s: the first drop, the next ones, how long after the last
 FIRST, PITCH, DROPS = -10e-3, 10e-3, 3  # m, m
 DIAMETER, DENSITY, SPECIFIC_HEAT, SPEED, GRAVITY = 5e-3, 1300.0, 1800.0, 0.15, 9.81
 MASS = pi / 6 * DIAMETER**3 * DENSITY  # kg of a drop
 HOT = 433.15  # K
+EFFUSIVITIES = [sqrt(1.0 * DENSITY * SPECIFIC_HEAT), sqrt(167.0 * 2700.0 * 896.0)]  # drop, bed
 TOTALS = ["bed.heat_in", "bed.heat_stored", "bed.heat_lost", "bed.max_temperature"]
 TOTALS += [
     f"drop.{key}"
@@ -89,17 +90,34 @@ def print_drops(fmu: Path, folder: Path, settings: dict[str, float], drops: int)
 
 def look_at_a_drop(printer: Unit) -> dict[str, np.ndarray]:
     """The first drop in steps of a millisecond; then the unit goes back to where it was."""
-    names = [f"drop.{key}" for key in ("height", "spread_diameter", "heat", "heat_flow")]
-    names += ["bed.max_temperature", "drop.kinetic_energy"]
-    rows = []
-    with printer.state() as before:
+    names = ["drop.height", "drop.spread_diameter", "drop.heat"]
+    rows, rises = [], []
+    before = printer["surface.temperature"]
+    below = before[int((FIRST + 20e-3) / 40e-3 * len(before))].mean()
+    with printer.state() as state:
         printer.set({"drop.release": 1, "drop.x": FIRST})
         for _ in range(ZOOM_STEPS):
             printer.step(ZOOM)
             rows.append(printer.get(names))
-        printer.restore(before)
-    columns = dict(zip(names, np.transpose(rows), strict=True))
-    return {"time": ZOOM * np.arange(1, ZOOM_STEPS + 1), **columns}
+            rises.append((printer["surface.temperature"] - before).max())
+        printer.restore(state)
+    times = ZOOM * np.arange(1, ZOOM_STEPS + 1)
+    told = dict(zip(names, np.transpose(rows), strict=True))
+    exact = heat_of_contact(times, told["drop.spread_diameter"], HOT - below)
+    return {"time": times, **told, "rise": np.array(rises), "exact": exact}
+
+
+def heat_of_contact(times: np.ndarray, diameters: np.ndarray, difference: float) -> np.ndarray:
+    """Heat [J] that half spaces at rest pass through a disc that grows,
+
+        Q(t) = ΔT e₁ e₂ / (e₁ + e₂) ∫ 2 √((t − τ) / π) dA(τ)
+
+    with their effusivities e [W √s/(m² K)] and the area A [m²] (H. S. Carslaw, J. C. Jaeger,
+    Conduction of Heat in Solids, Oxford 1959, §2.9)."""
+    first, second = EFFUSIVITIES
+    grown = np.diff(pi / 4 * np.maximum.accumulate(diameters) ** 2, prepend=0.0)
+    since = np.maximum(times[:, None] - (times - ZOOM / 2)[None, :], 0.0)
+    return difference * first * second / (first + second) * 2 * np.sqrt(since / pi) @ grown
 
 
 def check_balances(done: Print, drops: int) -> None:
@@ -171,7 +189,7 @@ def compare(folder: Path, settings: dict[str, float], found, fmu_run: Print):
     for name, run in runs.items():
         values = [run.rise_time, run.overshoot, run.settling_time]
         values += [run.temperatures[:, 1].max() - shared.ZERO_CELSIUS, run.energy]
-        rows.append([name, *(f"{value:.2f}" for value in values)])
+        rows.append([name, *("–" if np.isnan(value) else f"{value:.2f}" for value in values)])
     head = ["", "rise/s", "overshoot/K", "within 1 K/s", "middle at most/°C", "heat/J"]
     shared.print_table(head, rows)
     best_seconds = min(warm_up.make_plan(found).seconds for _ in range(5))
@@ -209,6 +227,9 @@ def main(given: list[str] | None = None) -> None:
     print(f"PI: {settings['gain']:.2f} W/K, {settings['integral_time']:.2f} s")
     done = print_drops(options.fmu, options.out, settings, options.drops)
     printed = time.perf_counter()
+    share = done.drop["drop.heat"][-1] / done.drop["exact"][-1] - 1
+    print(f"the first drop's heat after {ZOOM * ZOOM_STEPS * 1e3:.0f} ms, beside half spaces", end="")
+    print(f" below the disc that it covers: {share:+.1%}")
     print(f"printed {options.drops} drops in {printed - mapped:.1f} s")
     report_print(done)
     check_balances(done, options.drops)

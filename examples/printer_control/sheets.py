@@ -36,32 +36,34 @@ def draw_control(left, right, done) -> None:
     power = done.table["controller.power"].values
     right.step(times, power, where="post", label="heater", color=shared.COLOURS[0])
     flow = np.diff(done.of("drop.heat")) / np.diff(times)
-    right.stairs(flow, times, color=shared.COLOURS[1], linewidth=2, label="drops")
+    right.stairs(flow, times, baseline=None, color=shared.COLOURS[1], linewidth=2, label="drops")
     lost = np.diff(done.of("bed.heat_lost")) / np.diff(times)
     right.plot(0.5 * (times[1:] + times[:-1]), lost, color=shared.COLOURS[3], label="lost")
     for plot in (left, right):
         for t in begun:
             plot.axvline(t, color="0.8", linewidth=1, zorder=0)
         plot.set(xlabel="time / s", xlim=(begun[0] - 1.0, times[-1]))
-        plot.legend(loc="best")
-    left.set(ylabel="°C", ylim=(112, 146), title="The bed feels the drops")
-    right.set(ylabel="power / W", ylim=(0, None), title="The heater makes room for their heat")
+        plot.legend(loc="upper left", ncols=3)
+    left.set(ylabel="°C", ylim=(115, 145), title="The bed feels the drops")
+    right.set(ylabel="power / W", ylim=(0, 22), title="The heater makes room for their heat")
 
 
 def draw_surfaces(plots, done) -> None:
+    """What the drops have added, each a tenth of a second after it was let go, and at the end."""
     times = done.table["time"].values
     begun = releases(done)
-    field = done.of("surface.temperature") - shared.ZERO_CELSIUS
-    moments = [begun[min(k, len(begun) - 1)] + 0.2 for k in range(3)] + [times[-1]]
-    if len(begun) == 4:
-        moments = [begun[0] + 0.1, begun[1] + 0.1, begun[3] + 0.1, times[-1]]
+    field = done.of("surface.temperature")
+    before = field[int(np.argmin(np.abs(times - begun[0])))]
+    moments = [*(begun + 0.1), *([times[-1]] * 3)][:4]
     rows = [int(np.argmin(np.abs(times - t))) for t in moments]
-    low, high = field[rows].min(), field[rows].max()
-    for plot, row in zip(plots, rows, strict=True):
-        image = shared.show_field(plot, field[row], SIZE, cmap="inferno", vmin=low, vmax=high)
-        plot.set_title(f"{times[row]:.1f} s: {field[row].max():.1f} °C at most", fontsize=11)
+    rises = field[rows] - before
+    for plot, row, rise in zip(plots, rows, rises, strict=True):
+        image = shared.show_field(
+            plot, rise, SIZE, cmap="inferno", vmin=rises.min(), vmax=rises.max()
+        )
+        plot.set_title(f"{times[row]:.2f} s: up to +{rise.max():.1f} K", fontsize=11)
         plot.set(xlabel="mm")
-    shared.add_colour_bar(image, "°C")
+    shared.add_colour_bar(image, "K")
 
 
 def draw_drop(plots, done) -> None:
@@ -69,15 +71,13 @@ def draw_drop(plots, done) -> None:
     ms = drop["time"] * 1e3
     plots[0].plot(ms, drop["drop.spread_diameter"] * 1e3, label="diameter on the bed")
     plots[0].plot(ms, drop["drop.height"] * 1e3, label="height")
-    plots[0].set(xlabel="time since its release / ms", ylabel="mm", ylim=(0, None))
-    plots[0].set_title("The first drop, millisecond by millisecond")
-    plots[1].plot(ms, drop["drop.heat_flow"], label="heat flow into the bed / W")
-    plots[1].plot(
-        ms, drop["bed.max_temperature"] - drop["bed.max_temperature"][0], label="hottest place / K"
-    )
-    plots[1].set(xlabel="time since its release / ms", ylim=(0, None))
+    plots[0].set(ylabel="mm", title="The first drop, millisecond by millisecond")
+    plots[1].plot(ms, drop["drop.heat"] * 1e3, label="heat given / mJ")
+    plots[1].plot(ms, drop["exact"] * 1e3, **shared.CLOSED_FORM, label="half spaces at rest / mJ")
+    plots[1].plot(ms, drop["rise"] * 100, label="rise of the surface / 0.01 K")
     plots[1].set_title("The heat of contact")
     for plot in plots:
+        plot.set(xlabel="time since its release / ms", ylim=(0, None))
         plot.legend()
 
 

@@ -41,9 +41,9 @@ class Run:
 
     @property
     def settling_time(self) -> float:
-        """When the thermocouple has come within 1 K for good [s]."""
-        outside = np.flatnonzero(np.abs(self.temperatures[:, 0] - WANTED) > 1.0)
-        return float(self.times[min(outside[-1] + 1, len(self.times) - 1)])
+        """When the thermocouple has come within 1 K for good [s]; not a number if it has not."""
+        outside = int(np.flatnonzero(np.abs(self.temperatures[:, 0] - WANTED) > 1.0)[-1])
+        return float(self.times[outside + 1]) if outside + 1 < len(self.times) else np.nan
 
     @property
     def overshoot(self) -> float:
