@@ -4,9 +4,11 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PEERS := .venv-peers
+MASTERS := .venv-masters
 NAMES := $(sort $(patsubst examples/%/scene.toml,%,$(wildcard examples/*/scene.toml)))
+EXAMPLES := $(sort $(patsubst examples/%/run.py,%,$(wildcard examples/*/run.py)))
 RELEASE := target/release
-PY_FILES := $(wildcard python build-fmu/*.py tests/fmpy tests/verification benches examples)
+PY_FILES := $(wildcard python build-fmu/*.py tests/conftest.py tests/fmpy tests/python tests/verification benches examples)
 
 .DEFAULT_GOAL := help
 .PHONY: help demo units examples test rust-test python-test fuzz verify bench bench-droplet build clean
@@ -20,12 +22,12 @@ demo: build $(VENV)/ready ## pack the alumina plate, run it and draw pictures
 	$(BIN)/python examples/alumina_plate/run.py
 	@echo "Pictures:"; find out/alumina_plate -name '*.png' -o -name '*.gif' | sort | sed 's/^/  /'
 
-units: build ## pack every example scene into out/
+units: build ## pack every example that is one unit into out/
 	@mkdir -p out
 	@set -e; for name in $(NAMES); do $(RELEASE)/build-fmu examples/$$name/scene.toml -o out/$$name.fmu; done
 
 examples: units $(VENV)/ready ## run every example
-	@set -e; for name in $(NAMES); do echo "== $$name"; $(BIN)/python examples/$$name/run.py; done
+	@set -e; for name in $(EXAMPLES); do echo "== $$name"; $(BIN)/python examples/$$name/run.py; done
 
 test: rust-test python-test ## everything that is fast
 
@@ -45,14 +47,14 @@ rust-test:
 python-test: build $(VENV)/ready
 	$(BIN)/ruff check $(PY_FILES)
 	$(BIN)/ruff format --check $(PY_FILES)
-	$(BIN)/python -m pytest tests/fmpy --numprocesses auto --maxprocesses 4 --dist worksteal
+	$(BIN)/python -m pytest tests/fmpy tests/python --numprocesses auto --maxprocesses 4 --dist worksteal
 
 SECONDS ?= 600
 
 fuzz: ## drive the C ABI with random calls for SECONDS seconds
 	FUZZ_SECONDS=$(SECONDS) cargo test --release --test fmi fuzz:: -- --nocapture
 
-verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent finite-element code
+verify: build $(VENV)/ready-verify $(MASTERS)/ready ## slow: closed forms, and an independent finite-element code
 	cargo test --release --features verification --test verification -- --nocapture --test-threads 1
 	$(BIN)/python tests/verification/particles.py target/tmp out/verification/particles.png
 	$(BIN)/python tests/verification/flows.py target/tmp out/verification
@@ -63,11 +65,14 @@ verify: build $(VENV)/ready-verify ## slow: closed forms, and an independent fin
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/verification/plasticity.py
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python tests/verification/calculix.py
 	$(BIN)/python tests/verification/nonlinear_heat.py
+	$(BIN)/python tests/verification/robin_split.py out/verification/robin_split.png
 
 bench: build $(VENV)/ready-verify ## time against an independent finite-element code, and units beside those of others
 	$(BIN)/python benches/alumina_plate.py
 	$(BIN)/python benches/nonlinear.py
 	$(BIN)/python benches/units.py
+	$(BIN)/python benches/python_unit.py
+	OMP_NUM_THREADS=1 $(BIN)/python benches/surfaces.py
 	$(BIN)/python benches/studies.py
 	$(BIN)/python benches/plans.py
 	cargo bench --bench elastic_iterations
@@ -88,8 +93,10 @@ $(VENV)/bin/python:
 		$$sudo apt-get update && $$sudo apt-get install -y --no-install-recommends python3-venv \
 		&& $(PYTHON) -m venv $(VENV); }
 
-$(VENV)/ready: python/requirements.txt | $(VENV)/bin/python
+# The package is installed as it stands: changes of its sources need no new installation.
+$(VENV)/ready: python/requirements.txt python/pyproject.toml | $(VENV)/bin/python
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -r python/requirements.txt
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-build-isolation --no-deps -e ./python
 	@touch $@
 
 $(VENV)/ready-verify: python/requirements-verify.txt $(VENV)/ready
@@ -101,7 +108,12 @@ $(PEERS)/ready: python/requirements-peers.txt | $(VENV)/bin/python
 	$(PEERS)/bin/python -m pip install --quiet --disable-pip-version-check -r python/requirements-peers.txt
 	@touch $@
 
+$(MASTERS)/ready: python/requirements-masters.txt | $(VENV)/bin/python
+	@$(BIN)/python -m venv $(MASTERS)
+	$(MASTERS)/bin/python -m pip install --quiet --disable-pip-version-check -r python/requirements-masters.txt
+	@touch $@
+
 clean: ## remove everything that was built
 	cargo clean
-	rm -rf $(VENV) $(PEERS) out .pytest_cache .ruff_cache
+	rm -rf $(VENV) $(PEERS) $(MASTERS) out .pytest_cache .ruff_cache python/build python/impinge.egg-info
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

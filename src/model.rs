@@ -5,6 +5,7 @@ mod error;
 mod joints;
 mod memory;
 mod parts;
+mod peaks;
 mod reader;
 mod schedule;
 mod sharing;
@@ -16,6 +17,7 @@ mod timeline;
 pub use cache::Cache;
 pub use error::ModelError;
 pub use memory::check_memory;
+pub use peaks::Peak;
 pub use reader::Reader;
 pub use start_rates::start_rates;
 pub use tangent::Tangent;
@@ -48,6 +50,8 @@ pub struct Model {
     links: Vec<Link>,
     joints: Vec<Joint>,
     schedule: Vec<Group>,
+    /// Of each running maximum the place of its body and its number among those of the body.
+    peaks: Vec<(usize, usize)>,
     /// What a step of the droplets takes, at most [B].
     memory_of_droplets: usize,
 }
@@ -65,6 +69,8 @@ pub struct State {
     /// Unknowns of each body, in the order of their names. Those of a droplet grow in number when a drop is
     /// released.
     pub bodies: Vec<Vec<f64>>,
+    /// Running maxima, body by body in the order of their lists; none as long as nothing is noted.
+    pub peaks: Vec<Peak>,
 }
 
 /// What solves the mechanics of several bodies.
@@ -84,6 +90,9 @@ impl Model {
             joints.iter().map(|joint| joint.sides.each_ref().map(|side| side.body)).collect();
         let schedule = Group::all(bodies.len(), &links, &pairs);
         let droplets = forecast(scene).droplets;
+        let places = bodies.iter().enumerate();
+        let peaks = places.flat_map(|(place, body)| (0..body.peaks()).map(move |n| (place, n)));
+        let peaks = peaks.collect();
         let memory_of_droplets = droplets.iter().map(|droplet| droplet.memory).sum::<f64>();
         Ok(Self {
             scene: scene.clone(),
@@ -92,6 +101,7 @@ impl Model {
             links,
             joints,
             schedule,
+            peaks,
             memory_of_droplets: memory_of_droplets as usize,
         })
     }
@@ -107,7 +117,8 @@ impl Model {
     /// Time zero, inputs at their start values.
     pub fn initial_state(&self) -> State {
         let bodies = aside(|| self.bodies.iter().map(|body| body.initial_state()).collect());
-        State { time: 0.0, inputs: initial_inputs(&self.scene), derivatives: Vec::new(), bodies }
+        let inputs = initial_inputs(&self.scene);
+        State { time: 0.0, inputs, derivatives: Vec::new(), bodies, peaks: Vec::new() }
     }
 
     /// Whether all inputs make sense: finite, temperatures above absolute zero, footprints on their
@@ -153,21 +164,48 @@ impl Model {
         for s in path.turns(dt).into_iter().chain((!path.is_held()).then_some(dt)) {
             self.check_underway(&path.at(0, s), s)?;
         }
+        self.with_stack(|| self.step_here(allowance, state, cache, (&path, dt)))
+    }
+
+    fn step_here(
+        &self,
+        allowance: &Allowance,
+        state: &mut State,
+        cache: &mut Cache,
+        (path, dt): (&InputPath, f64),
+    ) -> Result<(), ModelError> {
+        let mut next = state.clone();
+        // What inputs make jump is there before any heat has moved.
+        self.note_peaks_here(&mut next, cache).map_err(|(_, error)| error)?;
         cache.update(self, state);
-        let mut bodies = state.bodies.clone();
-        self.advance(&mut bodies, cache, (&path, dt), allowance)?;
-        state.bodies = bodies;
-        state.time += dt;
+        self.advance(&mut next.bodies, cache, (path, dt), allowance)?;
+        next.time += dt;
         if path.is_held() {
-            state.derivatives.clear();
+            next.derivatives.clear();
         } else {
             let rest = path.from(dt);
             let (inputs, derivatives) =
                 rest.derivatives().split_first().expect("inputs stand first");
-            (state.inputs, state.derivatives) = (inputs.clone(), derivatives.to_vec());
+            (next.inputs, next.derivatives) = (inputs.clone(), derivatives.to_vec());
         }
         cache.forget_states(self);
+        if let Err((place, error)) = self.note_peaks_here(&mut next, cache) {
+            // It holds what follows from a state that is not taken.
+            cache.clear();
+            let body = self.bodies[place].name().to_owned();
+            let is_too_large = matches!(error, BodyError::NotFinite(_));
+            return Err(if is_too_large { BodyError::Overflow { body } } else { error }.into());
+        }
+        *state = next;
         Ok(())
+    }
+
+    /// Runs `work` on a thread of ours if steps take more stack than a host's thread need have.
+    fn with_stack<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        match self.bodies.iter().any(|body| body.steps_are_deep()) {
+            true => aside(work),
+            false => work(),
+        }
     }
 
     fn check_underway(&self, inputs: &[f64], after: f64) -> Result<(), ModelError> {
@@ -185,6 +223,11 @@ impl Model {
         output: &Output,
     ) -> Result<f64, ModelError> {
         self.reader(state, cache)?.value(output)
+    }
+
+    /// Brings what the cache holds up to date with a state whose inputs make sense.
+    pub fn refresh(&self, state: &State, cache: &mut Cache) {
+        cache.update(self, state);
     }
 
     /// Reads outputs of a state one after another; looks at the inputs once for all of them.

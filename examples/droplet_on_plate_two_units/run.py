@@ -26,7 +26,7 @@ CONNECTIONS = [
 
 
 def couple(drop: Path, plate: Path, step: float):
-    """Both units in turns: the drop above the plate as it was, the plate under what the drop gave."""
+    """Both units in turns: the drop above the plate as it was, the plate under what it gave."""
     units = {"drop": drop, "plate": plate}
     outputs = [f"plate.{name}" for name in (*OUTPUTS, "plate.heat_in")]
     outputs += ["drop.drop.heat", "drop.wall.heat_flow_outside"]
@@ -93,7 +93,8 @@ def draw(two, one: dict[str, np.ndarray], folder: Path):
 def main(given: list[str] | None = None):
     parser = argparse.ArgumentParser(description=__doc__)
     for name in ("drop", "plate", "together"):
-        parser.add_argument(f"--{name}", type=Path, default=HERE / f"{name}.toml", help="scene or unit")
+        scene = HERE / f"{name}.toml"
+        parser.add_argument(f"--{name}", type=Path, default=scene, help="scene or unit")
     parser.add_argument("--step", type=float, default=STEP, help="s [default: %(default)s]")
     parser.add_argument("--out", type=Path, default=shared.ROOT / "out" / NAME, help="folder")
     options = parser.parse_args(given)

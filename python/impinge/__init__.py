@@ -44,8 +44,8 @@ _LATER = {
     "Master": ("impinge.master", None),
     "Surface": ("impinge.surface", "surface"),
     "Study": ("impinge.study", "study"),
-    "linear_map": ("impinge.linear", "study"),
-    "step_sensitivity": ("impinge.linear", "study"),
+    "linear_map": ("impinge.linear", "control"),
+    "step_sensitivity": ("impinge.linear", "control"),
 }
 
 

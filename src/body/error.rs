@@ -61,7 +61,8 @@ pub enum BodyError {
     Halted { body: String, halt: Halt },
     /// What has no derivative.
     #[error(
-        "what droplets give, and what follows from heat that is not linear, is known step by step: it has no derivative"
+        "what droplets give, what follows from heat that is not linear, and running maxima are known step by step: they \
+         have no derivative"
     )]
     NoRate,
 }

@@ -17,11 +17,12 @@ pub use droplet::{WallQuantity, notes_on_walls, wall_quantities};
 pub use error::BodyError;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
 pub use link::{Joint, Link, Side};
-pub use read::{Descriptor, Direct, Reading, totals};
+pub use read::{Descriptor, Direct, PeakPart, Reading, peaks, totals};
 pub use solid::{PointQuantity, point_quantities};
 
 use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::Allowance;
+pub use crate::method::fem::Extreme;
 use crate::method::fem::{ElasticProblem, NodalFields};
 use crate::method::sph::{ParticleFields, Surface, SurfaceResponse, WallCells};
 use crate::scene::{self, FaceName, Scene};
@@ -49,6 +50,9 @@ pub trait Body: Send + Sync {
     /// What follows from inputs, held, and from what was received through ports during the last step; filled further
     /// as the body is read.
     fn memo(&self, inputs: &[f64], received: &[Received]) -> Memo;
+
+    /// Takes over from the memo of other inputs what is the same under these, of the same state.
+    fn carry_over(&self, _from: Memo, _to: &mut Memo) {}
 
     /// Forgets what follows from the state; what acts stays.
     fn forget_state(&self, _memo: &mut Memo) {}
@@ -83,6 +87,26 @@ pub trait Body: Send + Sync {
 
     /// A value, where the memo is that of what acts and of the state.
     fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError>;
+
+    /// How many running maxima are kept of the body.
+    fn peaks(&self) -> usize {
+        0
+    }
+
+    /// What the running maximum of a number is of, as it is now, where the memo is that of what acts and of the state.
+    fn observe(
+        &self,
+        _state: &[f64],
+        _memo: &mut Memo,
+        which: usize,
+    ) -> Result<Extreme, BodyError> {
+        panic!("{} has no running maximum {which}", self.name())
+    }
+
+    /// Refuses a running maximum that no run of this body leads to, with what is wrong with it.
+    fn check_peak(&self, _which: usize, _peak: &Extreme) -> Result<(), String> {
+        Ok(())
+    }
 
     /// Whether a value follows inputs without delay.
     fn follows_at_once(&self, _reading: &Reading) -> bool {

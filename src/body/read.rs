@@ -34,9 +34,26 @@ pub enum Reading {
     Mean { quantity: usize, field: usize, cell: usize },
     /// Of the whole body: its place among the [totals](totals) of the body.
     Total(usize),
+    /// Of the running maximum of a number among those of the body. It is no part of the body's state but of the model's.
+    Peak { which: usize, part: PeakPart },
     /// Of a cell of the wall below, or of what lies beyond its cells; `quantity` is the place among the
     /// [quantities of walls](super::wall_quantities).
     Cell { quantity: usize, cell: usize },
+}
+
+/// What is told of a running maximum.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PeakPart {
+    Value,
+    /// When it was.
+    Time,
+    /// Where it was, along x, y or z.
+    Along(usize),
+}
+
+/// The running maxima that are kept of a scene's body, in the order of their numbers.
+pub fn peaks(scene: &Scene, name: &str) -> Vec<Descriptor> {
+    scene.solid(name).map_or_else(Vec::new, solid::kept_peaks)
 }
 
 /// The totals that a scene's body offers, each with its place in the table of its kind.

@@ -248,9 +248,9 @@ impl Running<'_> {
         for &to in rows.iter().chain([&end]) {
             let is_whole = from == start && to == end;
             self.advance((from, to), if is_whole { length } else { to - from })?;
+            self.state.set_time(to);
             from = to;
         }
-        self.state.time = end;
         Ok(())
     }
 
@@ -272,13 +272,17 @@ impl Running<'_> {
             summary::balances(self.model, &self.state, &mut self.cache).map_err(named)?;
         let extremes =
             summary::extremes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
+        let peaks =
+            summary::peaks_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let overflows = self.model.warnings(&self.state);
         let strays = self.model.closing_warnings(&self.state);
         let balances_off = balances.iter().filter_map(summary::Balance::warning);
         for warning in balances_off.chain(overflows).chain(strays) {
             super::print_message("warning", &warning);
         }
-        Ok(format!("{}\n{extremes}", summary::balance_table(&balances)))
+        let balances = summary::balance_table(&balances);
+        let peaks = if peaks.is_empty() { peaks } else { format!("\n{peaks}") };
+        Ok(format!("{balances}\n{extremes}{peaks}"))
     }
 }
 

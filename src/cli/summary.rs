@@ -1,6 +1,6 @@
-use impinge::body::Reading;
+use impinge::body::{PeakPart, Reading};
 use impinge::model::{Cache, Model, ModelError, State};
-use impinge::variables::{Quantity, Registry, Slot};
+use impinge::variables::{Output, Quantity, Registry, Slot, Variable};
 
 use super::table::table;
 use super::units::{engineering, kelvin};
@@ -103,15 +103,40 @@ pub fn extremes_table(
             || matches!(quantity, Quantity::Temperature | Quantity::Stress);
         if is_total && is_shown {
             let value = model.output(state, cache, output)?;
-            let text = match quantity {
-                Quantity::Temperature => kelvin(value),
-                Quantity::Ratio | Quantity::Count => format!("{value}"),
-                quantity => engineering(value, quantity.unit()),
-            };
-            rows.push([variable.name.clone(), text]);
+            rows.push([variable.name.clone(), shown(value, quantity)]);
         }
     }
     Ok(table(["at the end", "value"], &rows))
+}
+
+/// The running maxima at `state` as a table, each with its time and place; nothing where none are kept.
+pub fn peaks_table(model: &Model, state: &State, cache: &mut Cache) -> Result<String, ModelError> {
+    let mut rows = Vec::new();
+    for Variable { name, slot, quantity, .. } in Registry::of(model.scene()).variables {
+        let (Slot::Output(output), Some(quantity)) = (slot, quantity) else { continue };
+        let Reading::Peak { which, part: PeakPart::Value } = output.reading else { continue };
+        let mut part = |part| {
+            let output = Output { body: output.body, reading: Reading::Peak { which, part } };
+            model.output(state, cache, &output)
+        };
+        let value = shown(part(PeakPart::Value)?, quantity);
+        let time = engineering(part(PeakPart::Time)?, "s");
+        let [x, y, z] = [0, 1, 2].map(|axis| part(PeakPart::Along(axis)));
+        let at = [x?, y?, z?].map(|length| engineering(length, "m")).join(", ");
+        rows.push([name, value, time, at]);
+    }
+    match rows.is_empty() {
+        true => Ok(String::new()),
+        false => Ok(table(["highest so far", "value", "at", "x, y, z"], &rows)),
+    }
+}
+
+fn shown(value: f64, quantity: Quantity) -> String {
+    match quantity {
+        Quantity::Temperature => kelvin(value),
+        Quantity::Ratio | Quantity::Count => format!("{value}"),
+        quantity => engineering(value, quantity.unit()),
+    }
 }
 
 #[cfg(test)]

@@ -93,7 +93,7 @@ impl Unit {
         let (run, state) = self.run()?;
         let (model, cache) = (Arc::clone(&run.model), &mut run.cache);
         // Of a change nothing is solved yet, and for those of parameters models are built.
-        let is_deep = outputs.iter().any(|output| model.is_deep(&Cache::default(), output))
+        let is_deep = outputs.iter().any(|output| model.is_deep(state, &Cache::default(), output))
             || changes.iter().any(|change| matches!(change, Change::Parameter(_)));
         aside_if(is_deep, || {
             let mut follow = |direction: &[f64]| -> Result<Vec<f64>, ModelError> {
@@ -158,7 +158,8 @@ impl Unit {
         self.run()?;
         self.expect_room()?;
         let (run, state) = self.run()?;
-        let is_deep = outputs.iter().any(|out| run.model.is_deep(&Cache::default(), out));
+        let none = Cache::default();
+        let is_deep = outputs.iter().any(|out| run.model.is_deep(state, &none, out));
         aside_if(is_deep, || {
             let tangent = match &mut run.tangent {
                 Some(tangent) => tangent,

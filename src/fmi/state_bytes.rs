@@ -6,7 +6,7 @@
 //! | 4 | version of the format |
 //! | 8 | length of everything, checksum included |
 //! | 38 | GUID of the unit: scene, variables and program version |
-//! | … | contents: phase, parameters, experiment, time, inputs, their derivatives, unknowns |
+//! | … | contents: phase, parameters, experiment, time, inputs, their derivatives, unknowns, running maxima |
 //! | 16 | first half of the SHA-256 of everything before |
 //!
 //! Numbers are little-endian, counts 64 bits wide, and each body's unknowns carry their own count:
@@ -18,13 +18,13 @@ use super::legality::{Fmi2, Function, Phase};
 use super::saved::Snapshot;
 use super::types::{Answer, Refusal};
 use super::unit::{Experiment, Unit};
-use crate::model::State;
+use crate::model::{Peak, State};
 use crate::scene::Scene;
 use crate::variables::{Parameter, Registry, Slot};
 
 const MARK: &[u8; 8] = b"impinge\n";
 /// To be raised whenever what bodies keep in their states changes.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const GUID_LENGTH: usize = 38;
 const HEAD: usize = MARK.len() + 4 + 8 + GUID_LENGTH;
 const CHECKSUM: usize = 16;
@@ -63,6 +63,9 @@ impl Unit {
             let (inputs, count) = (&snapshot.state.inputs, self.state.inputs.len());
             let mut lists = std::iter::once(inputs).chain(&snapshot.state.derivatives);
             return match lists.find(|list| list.len() != count) {
+                None if !snapshot.state.peaks.is_empty() => {
+                    Err(contradicts("running maxima of no bodies".into()))
+                }
                 None => Ok(snapshot),
                 Some(list) => Err(contradicts(format!("{} inputs, not {count}", list.len()))),
             };
@@ -140,6 +143,7 @@ fn write_snapshot(out: &mut Writer, snapshot: &Snapshot, registry: &Registry) {
     out.count(usize::from(snapshot.has_set_derivatives));
     out.lists(&state.derivatives);
     out.lists(&state.bodies);
+    out.numbers(state.peaks.iter().map(Peak::numbers).collect::<Vec<_>>().as_flattened());
 }
 
 /// Refuses times that no run can have.
@@ -212,10 +216,15 @@ impl Reader<'_> {
             other => return Err(format!("{other}, where yes or no is asked")),
         };
         let (derivatives, bodies) = (self.lists()?, self.lists()?);
+        let peaks = self.peaks()?;
+        if let Some(peak) = peaks.iter().find(|peak| peak.time < experiment.start) {
+            let (time, start) = (peak.time, experiment.start);
+            return Err(format!("a running maximum at {time} s, before the start at {start} s"));
+        }
         if !self.0.is_empty() {
             return Err(format!("{} bytes too many", self.0.len()));
         }
-        let state = State { time, inputs, derivatives, bodies };
+        let state = State { time, inputs, derivatives, bodies, peaks };
         Ok(Snapshot {
             phase,
             scene,
@@ -244,6 +253,14 @@ impl Reader<'_> {
         let bytes = self.take(count.checked_mul(8).ok_or("its contents end too early")?)?;
         let (values, _) = bytes.as_chunks::<8>();
         Ok(values.iter().map(|value| f64::from_le_bytes(*value)).collect())
+    }
+
+    fn peaks(&mut self) -> Result<Vec<Peak>, String> {
+        let numbers = self.numbers()?;
+        let (peaks, []) = numbers.as_chunks() else {
+            return Err(format!("{} numbers of running maxima, which have five", numbers.len()));
+        };
+        Ok(peaks.iter().copied().map(Peak::of_numbers).collect())
     }
 
     fn number(&mut self) -> Result<f64, String> {
@@ -318,6 +335,6 @@ mod tests {
         let sum = checksum(&bytes[..end]);
         bytes[end..].copy_from_slice(&sum);
         let refusal = unit.deserialize(&bytes).err().unwrap();
-        assert!(refusal.message.contains("version 1; this program reads 2"), "{}", refusal.message);
+        assert!(refusal.message.contains("version 1; this program reads 3"), "{}", refusal.message);
     }
 }

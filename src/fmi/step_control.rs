@@ -62,7 +62,7 @@ impl StepControl {
     ) -> Result<(), ModelError> {
         let Some(ask) = self.ask.as_ref().filter(|_| model.parts(step) > 1.0) else {
             model.step_within(allowance, state, cache, step)?;
-            state.time = point + step;
+            state.set_time(point + step);
             return Ok(());
         };
         model.foresee(state, step, allowance)?;
@@ -87,7 +87,7 @@ impl StepControl {
                 return Err(error);
             }
             now = next;
-            state.time = now;
+            state.set_time(now);
             if now < end
                 && let Some(wanted) = ask(now, may_end).filter(|_| may_end)
             {

@@ -114,7 +114,7 @@ impl Packed {
 /// Time and inputs at their start, without unknowns.
 fn start_state(packed: &Scene) -> State {
     let inputs = initial_inputs(packed);
-    State { time: 0.0, inputs, derivatives: Vec::new(), bodies: Vec::new() }
+    State { time: 0.0, inputs, derivatives: Vec::new(), bodies: Vec::new(), peaks: Vec::new() }
 }
 
 /// Reads the scene in a unit's folder of resources and compares the GUID, in FMI 3.0 the
@@ -201,7 +201,11 @@ impl Unit {
 
     /// Builds the model if nobody has asked for it yet; from here on parameters are fixed.
     pub fn finish_initialization(&mut self) -> Answer {
-        self.run()?;
+        let registry = Arc::clone(&self.registry);
+        let (run, state) = self.run()?;
+        // From here on running maxima follow no input at once.
+        let noted = run.model.note_peaks(state, &mut run.cache);
+        noted.map_err(|error| Refusal::error(explain(&registry, error).message))?;
         self.phase = Phase::StepComplete;
         Ok(self.open_series())
     }
@@ -386,7 +390,7 @@ impl Unit {
     pub(super) fn forget_past_inputs(&mut self) {
         self.forget_past_derivatives();
         if let Some(run) = &mut self.run {
-            run.cache.clear();
+            run.cache.expect_inputs();
             run.checked = false;
         }
     }
@@ -398,6 +402,7 @@ impl Unit {
         }
         self.drop_run();
         self.state.bodies.clear();
+        self.state.peaks.clear();
         self.scene = scene;
     }
 

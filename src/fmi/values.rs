@@ -53,7 +53,9 @@ impl Unit {
         self.expect_room()?;
         let (run, state) = self.run()?;
         let (model, cache) = (Arc::clone(&run.model), &mut run.cache);
-        let is_deep = variables.iter().filter_map(output_of).any(|out| model.is_deep(cache, out));
+        model.refresh(state, cache);
+        let mut outputs = variables.iter().filter_map(output_of);
+        let is_deep = outputs.any(|output| model.is_deep(state, cache, output));
         let read = || {
             let reader = model.reader(state, cache);
             let mut reader = reader.map_err(|error| explain(registry, error))?;

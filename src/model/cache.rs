@@ -3,7 +3,7 @@ use super::{Model, State};
 use crate::body::Memo;
 
 /// Values derived from one state, computed when first asked for. Clear it when the state changes;
-/// changed inputs are noticed.
+/// changed inputs are noticed, and what does not follow them at once is kept.
 #[derive(Debug, Default)]
 pub struct Cache {
     inputs: Vec<f64>,
@@ -15,6 +15,11 @@ impl Cache {
     /// Forgets everything.
     pub fn clear(&mut self) {
         *self = Self::default();
+    }
+
+    /// Expects other inputs. What does not follow them at once is kept.
+    pub fn expect_inputs(&mut self) {
+        self.inputs.clear();
     }
 
     /// Forgets all that depends on the unknowns.
@@ -34,9 +39,14 @@ impl Cache {
         }
         self.inputs = state.inputs.to_vec();
         let given = model.through_links(state);
-        let memo =
-            |place: usize| model.bodies[place].memo(&self.inputs, &Exchange::with(&given, place));
-        self.memos = (0..model.bodies.len()).map(memo).collect();
+        let mut old = std::mem::take(&mut self.memos).into_iter();
+        for (place, body) in model.bodies.iter().enumerate() {
+            let mut memo = body.memo(&self.inputs, &Exchange::with(&given, place));
+            if let Some(old) = old.next() {
+                body.carry_over(old, &mut memo);
+            }
+            self.memos.push(memo);
+        }
     }
 
     /// What the bodies remember where that follows from no inputs: of a change, say.

@@ -1,4 +1,5 @@
 use super::{BodyError, Cache, Model, ModelError, State};
+use crate::body::Reading;
 use crate::variables::Output;
 
 /// Outputs of one state whose inputs have been found in order; see [`Model::reader`].
@@ -12,6 +13,9 @@ impl Reader<'_> {
     /// The value of an output; an error where it is no finite number.
     pub fn value(&mut self, output: &Output) -> Result<f64, ModelError> {
         let place = output.body;
+        if let Reading::Peak { which, part } = output.reading {
+            return self.model.read_peak(self.state, self.cache, (place, which), part);
+        }
         let (body, unknowns) = (&self.model.bodies[place], &self.state.bodies[place]);
         let value = body.read(unknowns, self.cache.memo(place), &output.reading)?;
         Ok(BodyError::unless_finite(value)?)
@@ -19,9 +23,12 @@ impl Reader<'_> {
 }
 
 impl Model {
-    /// Whether an output takes a solution of mechanics that the cache does not have: more stack than a
-    /// host's thread need have.
-    pub fn is_deep(&self, cache: &Cache, output: &Output) -> bool {
+    /// Whether an output of a state takes a solution of mechanics that the cache, which is up to date with it, does not
+    /// have: more stack than a host's thread need have.
+    pub fn is_deep(&self, state: &State, cache: &Cache, output: &Output) -> bool {
+        if matches!(output.reading, Reading::Peak { .. }) && !state.peaks.is_empty() {
+            return false;
+        }
         self.bodies[output.body].is_deep(cache.known(output.body), &output.reading)
     }
 }

@@ -4,7 +4,6 @@ use super::{Cache, Model, ModelError, State};
 use crate::body::{Acts, BodyError, Given, Link, Received};
 use crate::inputs::InputPath;
 use crate::math::allowance::Allowance;
-use crate::math::thread::aside;
 use crate::method::sph::Surface;
 use crate::scene::FaceName;
 
@@ -69,16 +68,9 @@ impl Model {
         (path, dt): Part,
         allowance: &Allowance,
     ) -> Result<(), ModelError> {
-        let mut all = || {
-            let mut groups = self.schedule.iter();
-            groups.try_for_each(|group| {
-                self.advance_group(group, states, cache, (path, dt), allowance)
-            })
-        };
-        let advanced = match self.bodies.iter().any(|body| body.steps_are_deep()) {
-            true => aside(all),
-            false => all(),
-        };
+        let mut groups = self.schedule.iter();
+        let advanced = groups
+            .try_for_each(|group| self.advance_group(group, states, cache, (path, dt), allowance));
         Ok(advanced?)
     }
 

@@ -4,8 +4,8 @@ use super::{HIGHEST_INPUT_DERIVATIVE, Model, ModelError, State};
 
 impl Model {
     /// Refuses a state that this model cannot go on from: a wrong number of inputs or bodies,
-    /// unknowns of a length that a body does not take, numbers that are not finite, or particles that no
-    /// run leads to.
+    /// unknowns of a length that a body does not take, numbers that are not finite, or particles and running maxima that
+    /// no run leads to.
     pub fn check_state(&self, state: &State) -> Result<(), ModelError> {
         let refuse = |message: String| Err(ModelError::State(message));
         let orders = state.derivatives.len();
@@ -40,6 +40,6 @@ impl Model {
             }
             body.check_state(unknowns).or_else(refuse)?;
         }
-        Ok(())
+        self.check_peaks(state)
     }
 }

@@ -2,7 +2,7 @@
 
 use super::schedule::Exchange;
 use super::{BodyError, Cache, Model, ModelError, State};
-use crate::body::Body;
+use crate::body::{Body, Reading};
 use crate::inputs::InputPath;
 use crate::variables::Output;
 
@@ -54,7 +54,7 @@ impl Model {
     }
 
     /// The change of an output, see [`Linear::read_rate`](crate::body::Linear::read_rate). Between steps a body that
-    /// is not linear follows no input; in time its outputs have no rate.
+    /// is not linear follows no input; in time its outputs have no rate, nor have running maxima.
     pub fn output_rate(
         &self,
         state: &State,
@@ -64,6 +64,14 @@ impl Model {
     ) -> Result<f64, ModelError> {
         cache.update(self, state);
         let place = output.body;
+        if matches!(output.reading, Reading::Peak { .. }) {
+            match (*in_time, state.peaks.is_empty()) {
+                (true, _) => return Err(BodyError::NoRate.into()),
+                // What was noted follows no input.
+                (false, false) => return Ok(0.0),
+                (false, true) => {}
+            }
+        }
         let rate = match self.bodies[place].linear() {
             Some(linear) => linear.read_rate(
                 (&state.bodies[place], cache.memo(place)),

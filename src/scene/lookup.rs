@@ -140,10 +140,11 @@ impl Scene {
         self.load.iter().filter(move |load| split_place(&load.on).is_some_and(|(on, _)| on == body))
     }
 
-    /// Whether a probe or field gives stresses or displacements of a body.
+    /// Whether a probe, a field or a running maximum gives stresses or displacements of a body.
     pub fn gives_mechanics(&self, body: &str) -> bool {
         let mechanical = |gives: &[Gives]| gives.iter().any(Gives::is_mechanical);
-        self.probe.iter().any(|probe| probe.body == body && mechanical(&probe.gives))
+        self.solid(body).is_some_and(Solid::has_stress_peaks)
+            || self.probe.iter().any(|probe| probe.body == body && mechanical(&probe.gives))
             || self.field.iter().any(|field| field.body() == Some(body) && mechanical(&field.gives))
     }
 }
@@ -162,6 +163,11 @@ impl Solid {
     /// How particles conduct heat; `None` where finite elements do.
     pub fn sph(&self) -> Option<SphSettings> {
         (self.heat == HeatMethod::Sph).then(|| self.sph.unwrap_or_default())
+    }
+
+    /// Whether running maxima of stress are kept, for which it is solved at every communication point.
+    pub fn has_stress_peaks(&self) -> bool {
+        self.peaks.iter().any(PeakOf::is_mechanical)
     }
 
     /// The conditions on a face, those of `sides` included on the lateral faces of a box.
@@ -316,6 +322,13 @@ impl Carries {
     /// Whether it is a traction.
     pub fn is_mechanical(&self) -> bool {
         matches!(self, Carries::Pressure | Carries::Shear)
+    }
+}
+
+impl PeakOf {
+    /// Whether it comes from the displacements.
+    pub fn is_mechanical(&self) -> bool {
+        !matches!(self, PeakOf::Temperature)
     }
 }
 

@@ -145,6 +145,22 @@ pub struct Solid {
         transform = Keys(FaceName::ALL.map(FaceName::as_str))
     )]
     pub faces: BTreeMap<FaceName, Face>,
+    /// Running maxima of the body that become outputs, each with its time and place.
+    #[serde(default)]
+    #[schemars(extend("uniqueItems" = true))]
+    pub peaks: Vec<PeakOf>,
+}
+
+/// What a running maximum over a body and over time is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum PeakOf {
+    /// Temperature.
+    Temperature,
+    /// The von Mises stress.
+    VonMises,
+    /// The largest principal stress, which opens cracks in brittle solids.
+    MaxPrincipal,
 }
 
 /// A layer of a body, which covers it from side to side.

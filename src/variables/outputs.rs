@@ -2,7 +2,9 @@
 
 use super::inputs::cell_labels;
 use super::registry::{Output, Slot, Variable};
-use crate::body::{Descriptor, PointQuantity, Reading, point_quantities, totals, wall_quantities};
+use crate::body::{
+    Descriptor, PeakPart, PointQuantity, Reading, peaks, point_quantities, totals, wall_quantities,
+};
 use crate::quantity::Quantity;
 use crate::scene::{Field, Gives, Probe, Sampling, Scene, Side, Wall};
 
@@ -129,6 +131,31 @@ fn of_body(scene: &Scene, name: &str, list: &mut Vec<Variable>) {
         let description = format!("{words}{} ({name})", depth(quantity));
         let reading = Reading::Total(total);
         list.push(variable(format!("{name}.{key}"), description, quantity, (body, reading)));
+    }
+    for (which, descriptor) in peaks(scene, name).into_iter().enumerate() {
+        of_peak((body, name), which, &descriptor, list);
+    }
+}
+
+/// A running maximum, then when and where it was.
+fn of_peak(
+    (body, name): (usize, &str),
+    which: usize,
+    descriptor: &Descriptor,
+    list: &mut Vec<Variable>,
+) {
+    let Descriptor { key, words, quantity, .. } = descriptor;
+    let highest = format!("the highest {words} of the body at any communication point so far");
+    let mut add = |end: &str, description: String, quantity, part| {
+        let reading = Reading::Peak { which, part };
+        let description = format!("{description} ({name})");
+        list.push(variable(format!("{name}.{key}{end}"), description, quantity, (body, reading)));
+    };
+    add("", highest.replacen("the ", "", 1), *quantity, PeakPart::Value);
+    add("_time", format!("time of {highest}"), Quantity::Time, PeakPart::Time);
+    for (axis, letter) in ["x", "y", "z"].into_iter().enumerate() {
+        let end = format!("_{letter}");
+        add(&end, format!("{letter} of {highest}"), Quantity::Length, PeakPart::Along(axis));
     }
 }
 

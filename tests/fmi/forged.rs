@@ -22,7 +22,7 @@ const NUMBERS_OF_A_PARTICLE: usize = 29;
 
 /// A saved state, part by part.
 #[derive(Clone)]
-struct Forged {
+pub struct Forged {
     head: Vec<u8>,
     phase: u64,
     threads: u64,
@@ -32,6 +32,8 @@ struct Forged {
     has_set_derivatives: u64,
     derivatives: Vec<Vec<f64>>,
     bodies: Vec<Vec<f64>>,
+    /// Value, time, x, y and z of each running maximum.
+    pub peaks: Vec<f64>,
 }
 
 /// What is left of some bytes.
@@ -60,7 +62,7 @@ impl Reader<'_> {
 }
 
 impl Forged {
-    fn of(bytes: &[u8]) -> Self {
+    pub fn of(bytes: &[u8]) -> Self {
         let mut rest = Reader(&bytes[HEAD..bytes.len() - CHECKSUM]);
         let (phase, threads, length) = (rest.count(), rest.count(), rest.count());
         let state = Self {
@@ -72,13 +74,14 @@ impl Forged {
             has_set_derivatives: rest.count(),
             derivatives: rest.lists(),
             bodies: rest.lists(),
+            peaks: rest.numbers(),
         };
         assert!(rest.0.is_empty());
         state
     }
 
     /// The bytes, with their true length and checksum.
-    fn bytes(&self) -> Vec<u8> {
+    pub fn bytes(&self) -> Vec<u8> {
         let count = |value: usize| (value as u64).to_le_bytes();
         let numbers = |list: &Vec<f64>| {
             let values = list.iter().flat_map(|value| value.to_le_bytes());
@@ -97,6 +100,7 @@ impl Forged {
         bytes.extend(self.has_set_derivatives.to_le_bytes());
         bytes.extend(lists(&self.derivatives));
         bytes.extend(lists(&self.bodies));
+        bytes.extend(numbers(&self.peaks));
         let length = bytes.len() + CHECKSUM;
         bytes[12..20].copy_from_slice(&count(length));
         let sum = Sha256::digest(&bytes);
@@ -248,6 +252,7 @@ fn what_surrounds_the_unknowns_is_looked_at_too() {
     forge(&|s| s.lists[4][0] = f64::NAN, "not finite");
     forge(&|s| s.has_set_derivatives = 2, "yes or no");
     forge(&|s| s.bodies.push(Vec::new()), "bodies");
+    forge(&|s| s.peaks = vec![300.0, 0.0, 0.0, 0.0, 0.0], "1 running maxima; the scene has 0");
 }
 
 /// From a phase that cannot be left a unit could be neither reset nor freed.

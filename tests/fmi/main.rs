@@ -14,6 +14,7 @@ mod logging;
 mod long_steps;
 mod master;
 mod model_description;
+mod peaks;
 mod refusals;
 mod states;
 mod stepping;

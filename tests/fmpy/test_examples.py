@@ -28,3 +28,18 @@ def test_the_example_runs(pack, tmp_path, scene):
     ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert ran.returncode == 0, ran.stdout + ran.stderr
     assert list(tmp_path.rglob("*.png")), "no picture"
+
+
+def test_the_example_of_two_units_runs(pack, tmp_path):
+    folder = ROOT / "examples/droplet_on_plate_two_units"
+    coarse = {
+        "drop": {"\nspacing = 3.5e-6": "\nspacing = 10e-6"},
+        "plate": {"mesh = { spacing = 5e-6,": "mesh = { spacing = 20e-6,"},
+    }
+    command = [sys.executable, folder / "run.py", "--step", "2.5e-7", "--out", tmp_path]
+    for name in ("drop", "plate", "together"):
+        edits = coarse.get(name, coarse["drop"] | coarse["plate"])
+        command += [f"--{name}", pack(folder / f"{name}.toml", edits)]
+    ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    assert list(tmp_path.rglob("*.png")), "no picture"

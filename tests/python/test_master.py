@@ -4,7 +4,7 @@ from math import exp, pi, sqrt
 
 import numpy as np
 import pytest
-from impinge import Connection, Master, Unit
+from impinge import Connection, Master, StepDiscarded, Unit
 from impinge.master import Bond, Graded, MasterError, MasterWarning
 from linear_unit import make
 
@@ -197,10 +197,10 @@ def test_iterated_masses_are_stable_and_of_second_order(folder):
 def test_the_energy_residual_falls_with_the_tolerance(folder):
     found = []
     for tolerance in (1e-2, 1e-4, 1e-6):
-        options = {"acceleration": "aitken", "tolerance": tolerance, "energy": [("b.y", "a.y")]}
+        options = {"acceleration": "none", "tolerance": tolerance, "energy": [("b.y", "a.y")]}
         with Master(masses(folder), RING, step=0.1, **options) as master:
             found.append(master.run(10.0).attrs["energy_residual.b.y*a.y"])
-    assert found[0] > 10 * found[1] > 100 * found[2] or found[2] < 1e-12, found
+    assert found[0] > 10 * found[1] > 100 * found[2] > 0, found
     with Master(masses(folder), RING, scheme="jacobi", step=0.1, energy=["b.y"]) as held:
         assert held.run(10.0).attrs["energy_residual.b.y"] > 0.01
 
@@ -218,6 +218,19 @@ def test_adaptive_steps_keep_to_their_tolerance(folder):
     assert (rejected > 0).all()  # the first proposal is far too long
     assert (errors < 50 * np.array([1e-2, 1e-3, 1e-4])).all(), errors
     assert np.log(errors[0] / errors[2]) / np.log(steps[2] / steps[0]) > 1.7, rows
+
+
+def test_a_count_of_energy_agrees_with_the_paths_that_were_set(pack, folder):
+    """A plate's own count of heat against what its tile was told to take over each step."""
+    count = Bond("law.y", total="plate.block.heat_in")
+    for fmi in (2, 3):
+        units = plate_and_law(pack, folder)
+        units["plate"] = pack("tiles", {"count = [2, 3]": "count = [1, 1]"}, fmi=fmi)
+        for scheme in ("gauss-seidel", "iterate"):
+            with Master(units, SPLIT, scheme=scheme, step=1e-5, energy=[count]) as master:
+                result = master.run(1e-4)
+            assert result["energy passed: law.y"].values[-1] > 1e-8
+            assert result.attrs["energy_residual.law.y"] < 1e-9
 
 
 LAW = {"d": -4e3, "e": 4e3 * 350.0}
@@ -245,6 +258,35 @@ def test_graded_steps_are_of_second_order_after_a_jump(pack, folder):
         with Master(plate_and_law(pack, folder), SPLIT, step=step) as master:
             equal.append(float(master.run(1e-4)["plate.centre.temperature"][-1]) - ends[3])
     assert abs(equal[1]) > 2 * errors[1]
+
+
+def test_steps_that_a_unit_refuses_are_shortened(pack, folder):
+    """A law near absolute zero: the heat that leaves at first, if it went on so over a step, would
+    take more than the plate holds."""
+    units = plate_and_law(pack, folder)
+    cold = make(folder, "cold", d=-3e6, e=3e6 * 20.0)
+    with Master({**units, "law": cold}, SPLIT, scheme="gauss-seidel", step=4e-4) as master:
+        with pytest.raises(StepDiscarded, match="below absolute zero"):
+            master.run(2e-3)
+    options = {"adaptive": True, "tolerance": 1e-2, "energy": ["law.y"]}
+    with Master({**units, "law": cold}, SPLIT, step=4e-4, **options) as master:
+        result = master.run(2e-3)
+    temperature = result["plate.centre.temperature"].values
+    assert (temperature > 0).all() and temperature[-1] < 200.0
+    assert result.attrs["rejected"] > 2
+    assert result.attrs["energy_residual.law.y"] < 1e-3
+
+
+def test_guesses_that_a_unit_refuses_are_halved(pack, folder):
+    """A bottom at 400 K − 5 (T − 293 K) of the top's temperature: at rest T = 1865/6 K; the second
+    guess without relaxation is far below absolute zero."""
+    law = make(folder, "steep", d=-5.0, e=400.0 + 5 * 293.0)
+    units = {"plate": pack("tiles"), "law": law}
+    ring = [("plate.centre.temperature", "law.u"), ("law.y", "plate.block.bottom.temperature")]
+    options = {"acceleration": "aitken", "relaxation": 1.0, "order": 0, "step": 0.1}
+    with Master(units, ring, **options) as master:
+        result = master.run(0.3)
+    assert result["plate.centre.temperature"].values[-1] == pytest.approx(1865 / 6, rel=1e-4)
 
 
 def test_units_of_fmi_3_are_held_and_say_so(pack, folder):
@@ -350,6 +392,17 @@ def test_families_connect_whole_and_inputs_follow_functions(pack, folder):
     area = 1.1e-4 * 0.9e-4
     exact = area * (1e6 * 5e-5 + 3e6 * 5e-5 + 1e10 * 5e-5**2 / 2)
     assert heat == pytest.approx(exact, rel=1e-8)
+
+
+def test_whole_numbers_do_not_keep_others_from_following_paths(pack):
+    """The place of the load is set as if it were a whole number; its flux is a ramp."""
+    plate = pack("tiles", {"count = [2, 3]": "count = [1, 1]"})
+    inputs = {"p.patch.heat_flux": lambda time: 1e12 * time, "p.patch.x": 1e-5}
+    with Master({"p": plate}, inputs=inputs, step=2e-5, outputs=["p.block.heat_in"]) as master:
+        (participant,) = master.participants.values()
+        participant.connect(participant.names, np.array([True, False]), 1)
+        heat = master.run(1e-4)["p.block.heat_in"].values[-1]
+    assert heat == pytest.approx(1.1e-4 * 0.9e-4 * 1e12 * 1e-4**2 / 2, rel=1e-9)
 
 
 def test_runs_go_on_and_units_may_be_shared(folder):

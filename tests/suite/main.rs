@@ -30,6 +30,7 @@ mod nonlinear_solids;
 mod oblique;
 mod output;
 mod particles;
+mod peaks;
 mod plausibility;
 mod recovered_stress;
 mod reservoirs;

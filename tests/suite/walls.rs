@@ -162,22 +162,27 @@ fn uneven_films_give_as_much_to_the_axis_on_average() {
     }
 }
 
-/// Alumina.
-const PLATE: &str =
-    "{ model = \"thermoelastic\", density = 3950.0, specific_heat = 900.0, conductivity = 10.0 }";
-const EFFUSIVITY: f64 = 5962.4;
+/// Density, specific heat, conductivity of a plate.
+const ALUMINA: [f64; 3] = [3950.0, 900.0, 10.0];
+const POLYMER: [f64; 3] = [1200.0, 1500.0, 0.2];
+const AEROGEL: [f64; 3] = [100.0, 1000.0, 0.02];
 /// Radii in a ring whose mean temperature is taken, at equal parts of its area.
 const RADII: usize = 4;
 
 /// A drop on a plate in one unit, and as two units that take turns, with the same probes in the plate.
-fn one_and_two(count: usize, width: f64, step: f64) -> [Trial; 3] {
+fn one_and_two(solid: [f64; 3], count: usize, width: f64, step: f64) -> [Trial; 3] {
+    let [density, specific_heat, conductivity] = solid;
+    let effusivity = solid.iter().product::<f64>().sqrt();
+    let material = format!(
+        "{{ model = \"thermoelastic\", density = {density:?}, specific_heat = {specific_heat:?}, conductivity = {conductivity:?} }}"
+    );
     let head = format!("name = \"Halves\"\nstop_time = 3e-6\nstep = {step:?}\n");
     let drop = "[body.drop]\nkind = \"droplet\"\ndiameter = 1e-4\nimpact_velocity = 20.0\ninitial_temperature = \
                 373.15\nspacing = 8e-6\nfluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4000.0, \
                 conductivity = 0.6, surface_tension = 0.059 }\n";
     let plate = format!(
         "[body.plate]\nkind = \"solid\"\nshape = {{ disc = {{ radius = 3e-4, thickness = 5e-5 }} }}\n\
-         initial_temperature = 293.15\nmaterial = {PLATE}\nmesh = {{ spacing = 3e-6, depth_spacing = 5e-7, growth = \
+         initial_temperature = 293.15\nmaterial = {material}\nmesh = {{ spacing = 3e-6, depth_spacing = 5e-7, growth = \
          1.3, order = 1 }}\n"
     );
     let rings = format!(
@@ -185,7 +190,7 @@ fn one_and_two(count: usize, width: f64, step: f64) -> [Trial; 3] {
         count as f64 * width
     );
     let wall = format!(
-        "[[wall]]\nname = \"wall\"\nunder = \"drop\"\n{rings}\neffusivity = {EFFUSIVITY:?}\nstart = {{ temperature = \
+        "[[wall]]\nname = \"wall\"\nunder = \"drop\"\n{rings}\neffusivity = {effusivity:?}\nstart = {{ temperature = \
          293.15 }}\n"
     );
     let load = format!(
@@ -217,12 +222,19 @@ fn ring_temperature(trial: &mut Trial, ring: usize) -> f64 {
     (0..RADII).map(at).sum::<f64>() / RADII as f64
 }
 
-/// Rings half as wide as particles, as wide and twice as wide, coupled by their mean temperatures.
+/// Rings half as wide as particles, as wide and twice as wide, coupled by their mean temperatures. Heat may be off by a
+/// part of that of one scene.
 #[test]
 fn two_units_are_as_warm_at_the_centre_as_one() {
-    for width in [4e-6, 8e-6, 16e-6] {
+    for (solid, width, of_heat) in [
+        (ALUMINA, 4e-6, 0.01),
+        (ALUMINA, 8e-6, 0.01),
+        (ALUMINA, 16e-6, 0.01),
+        (POLYMER, 8e-6, 0.01),
+        (AEROGEL, 8e-6, 0.05),
+    ] {
         let (count, step) = ((2e-4f64 / width).round() as usize, 5e-8);
-        let [mut whole, mut drop, mut plate] = one_and_two(count, width, step);
+        let [mut whole, mut drop, mut plate] = one_and_two(solid, count, width, step);
         for _ in 0..60 {
             whole.step(step);
             drop.step(step);
@@ -237,7 +249,7 @@ fn two_units_are_as_warm_at_the_centre_as_one() {
             }
         }
         let [one, two] = [&mut whole, &mut plate].map(|trial| trial.get("plate.heat_in"));
-        assert!(off(two, one) < 0.01, "{width}: {one} J, {two} J");
+        assert!(off(two, one) < of_heat, "{width}: {one} J, {two} J");
         assert!(off(two, drop.get("drop.heat")) < 1e-3, "{width}: {two} J");
         let rise = whole.get("centre.temperature") - COLD;
         let differences: Vec<f64> = (0..5)
@@ -250,6 +262,6 @@ fn two_units_are_as_warm_at_the_centre_as_one() {
         let most = 0.015 * rise;
         assert!(differences.iter().all(|d| d.abs() < most), "{width}: {differences:?} {rise}");
         // A wider ring does not know how the flux differs within it.
-        assert!(width > 1e-5 || centre.abs() < 0.01 * rise, "{width}: {centre} of {rise} K");
+        assert!(width > 1e-5 || centre.abs() < 0.015 * rise, "{width}: {centre} of {rise} K");
     }
 }

@@ -12,6 +12,12 @@ import numpy as np
 
 from impinge.master.errors import MasterError
 
+_FARTHEST = 1e3  # times a residual that a step may be long
+
+
+def _norm(values: np.ndarray) -> float:
+    return float(np.sqrt(values @ values))
+
 
 class Acceleration:
     """Fixed-point iteration with a constant factor: `x + ω r`."""
@@ -25,6 +31,9 @@ class Acceleration:
     def next(self, x: np.ndarray, g: np.ndarray, weight: np.ndarray) -> np.ndarray:
         """The next guess after `G(x) = g` has been found."""
         return x + self.relaxation * (g - x)
+
+    def forget(self) -> None:
+        """Called when a guess was such that a unit refused it."""
 
     def end(self) -> None:
         """Called when a step has been accepted."""
@@ -70,8 +79,9 @@ class LeastSquares(Acceleration):
     keeps all columns of a step and, if asked to, those of earlier ones.
     """
 
-    def __init__(self, depth: int, reuse: int, relaxation: float = 0.5, filter: float = 1e-8):
+    def __init__(self, depth: int, reuse: int, relaxation: float = 0.5, filter: float = 1e-3):
         super().__init__(relaxation)
+        self._noise = 1e-9  # share of scales below which differences say nothing
         self._depth, self._filter = depth, filter
         self._past: deque[list[tuple[np.ndarray, np.ndarray]]] = deque(maxlen=max(reuse, 0))
         self._columns: list[tuple[np.ndarray, np.ndarray]] = []
@@ -91,7 +101,12 @@ class LeastSquares(Acceleration):
         if not columns:
             return x + self.relaxation * residual
         c, kept = self._solve([change * weight for change, _ in columns], residual * weight)
-        return g + sum((weight * columns[i][1] for weight, i in zip(c, kept, strict=True)), 0 * g)
+        new = g + sum((share * columns[i][1] for share, i in zip(c, kept, strict=True)), 0 * g)
+        if _norm((new - x) * weight) > _FARTHEST * _norm(residual * weight):
+            self._past.clear()  # such columns tell of something else
+            self._columns = []
+            return x + self.relaxation * residual
+        return new
 
     def _solve(
         self, columns: list[np.ndarray], residual: np.ndarray
@@ -106,8 +121,8 @@ class LeastSquares(Acceleration):
             for _ in range(2):  # twice is enough
                 for vector in basis:
                     rest -= (vector @ rest) * vector
-            length = np.sqrt(rest @ rest)
-            if length > self._filter * np.sqrt(change @ change):
+            length = _norm(rest)
+            if length > max(self._filter * _norm(change), self._noise):
                 basis.append(rest / length)
                 kept.append(i)
         if not kept:
@@ -115,6 +130,10 @@ class LeastSquares(Acceleration):
         q = np.array(basis).T
         r = q.T @ np.array([columns[i] for i in kept]).T
         return np.linalg.solve(np.triu(r), -(q.T @ residual)), kept
+
+    def forget(self) -> None:
+        self._past.clear()
+        self._columns, self._last = [], None
 
     def end(self) -> None:
         if self._past.maxlen and self._columns:

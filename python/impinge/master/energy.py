@@ -23,11 +23,15 @@ class Bond:
         the flux is the power; None where the flux itself is one, as of heat.
     area: by which the flux is multiplied [m²]; of each cell for families. Read from the cells of
         either unit if left out, else 1.
+    total: an output that counts the energy [J] that has left the source or come to the target: it
+        knows what happened within steps. Without it, fluxes between the ends of a step are taken
+        to follow the polynomial through what the source says at these.
     """
 
     flux: str
     effort: str | None = None
     area: Any = None
+    total: str | None = None
 
 
 def bond(given: Any) -> Bond:
@@ -56,10 +60,18 @@ class Balance:
             if units[unit].variable(variable).unit != "K":  # a heat flux is a power by itself
                 self.effort = _link(given.effort, links)
         self.area = _area(given, self.link, units)
+        self._count = None
+        if given.total is not None:
+            unit, variable = split(given.total, units)
+            self._count = units[unit].reader([variable])
         self.passed = 0.0
         self.moved = 0.0
         self.residual = 0.0
         self.largest = 0.0
+
+    def begin(self) -> None:
+        """Called at the start of the run."""
+        self._counted = float(self._count()[0]) if self._count else 0.0
 
     def add(self, size: float, arrived: np.ndarray, given: np.ndarray) -> None:
         """A step of `size` [s]: the means of all inputs as targets followed them, and as sources
@@ -68,10 +80,16 @@ class Balance:
         if self.effort is not None:
             place = self.effort.place
             came, left = came * given[place], left * arrived[place]
-        power = float(np.sum(self.area * left))
-        self.passed += size * power
-        self.moved += size * abs(power)
-        self.residual += size * float(np.sum(self.area * (left - came)))
+        energy = size * float(np.sum(self.area * left))
+        if self._count is not None:
+            before, self._counted = self._counted, float(self._count()[0])
+            energy = self._counted - before
+            lost = energy - size * float(np.sum(self.area * came))
+        else:
+            lost = size * float(np.sum(self.area * (left - came)))
+        self.passed += energy
+        self.moved += abs(energy)
+        self.residual += lost
         self.largest = max(self.largest, abs(self.residual))
 
 

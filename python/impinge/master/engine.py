@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from impinge.master import waveform
 from impinge.master.acceleration import Acceleration
 from impinge.master.connection import Link
 from impinge.master.participant import Participant
+
+_BACK = 6  # how often a guess that a unit refuses is halved
 
 
 @dataclass
@@ -189,13 +192,12 @@ class Engine:
     ) -> None:
         places, real = component.places, component.real
         component.acceleration.begin()
+        last = self.history.nodes[-1][1][places]  # a guess that units have borne
+        step = (component, time, end, size, middle)
         for count in range(1, self.max_iterations + 1):
             if count > 1:
-                for participant in component.members:
-                    participant.restore()
-            self.last_iterations += 1
-            x = self.guess[places].copy()
-            self._sweep(component, time, end, size, middle)
+                self._go_back(component)
+            x = self._bear(step, last)
             g = self.true[places]
             if not np.isfinite(g).all():
                 raise NoConvergence("values are not finite")
@@ -207,10 +209,34 @@ class Engine:
                 return
             new = component.acceleration.next(x, g, weight)
             self.guess[places] = np.where(real, new, x)
+            last = x
         raise NoConvergence(
             f"the residual is {residual[real].max():.2g}, not {tolerance:.2g}, of the scale after"
             f" {self.max_iterations} iterations"
         )
+
+    def _bear(self, step: tuple[Any, ...], last: np.ndarray) -> np.ndarray:
+        """Takes the step on the present guess, or, as long as a unit refuses that, on guesses
+        half-way back to one that it has borne. Returns the guess."""
+        component, *_ = step
+        places = component.places
+        for attempt in range(_BACK + 1):
+            x = self.guess[places].copy()
+            self.last_iterations += 1
+            try:
+                self._sweep(*step)
+                return x
+            except UnitError:
+                if attempt == _BACK:
+                    raise
+                component.acceleration.forget()
+                self._go_back(component)
+                self.guess[places] = (x + last) / 2
+        raise AssertionError("unreachable")
+
+    def _go_back(self, component: Component) -> None:
+        for participant in component.members:
+            participant.restore()
 
     # After a step
 

@@ -270,6 +270,8 @@ class Master:
             participant.probe(engine.inputs[place], weight[place])
         engine.begin(self.time)
         self._schedule.restart(self.time)
+        for balance in self._balances:
+            balance.begin()
         self._record.add(self.time, self._balances)
         self._has_begun = True
 

@@ -35,12 +35,10 @@ class Participant:
         self.names = list(names)
         self.writer = self.unit.writer(names) if names else None
         self.order = min(order, self.unit.can.interpolates) if paths.any() else 0
-        self.path_writer = None
         self._paths = paths
-        if self.order and paths.all():
-            self.path_writer = self.unit.path_writer(names, self.order)
-        elif self.order:
-            self.order = 0  # whole numbers among them: all are held
+        self.path_writer, self._rest = None, None
+        if self.order:
+            self._connect_paths(names)
         sources: dict[str, slice] = {}
         count = 0
         for link in self.links_out:
@@ -54,6 +52,17 @@ class Participant:
         self.is_direct = any(
             follows_at_once(units, one, other) for one in self.links_in for other in self.links_out
         )
+
+    def _connect_paths(self, names: Sequence[str]) -> None:
+        """Inputs that follow paths are set apart from whole numbers and the like."""
+        sizes = [self.unit.variable(name).size for name in names]
+        begins = np.cumsum([0, *sizes[:-1]])
+        follows = [bool(self._paths[begin]) for begin in begins]
+        chosen = [name for name, does in zip(names, follows, strict=True) if does]
+        others = [name for name, does in zip(names, follows, strict=True) if not does]
+        self.path_writer = self.unit.path_writer(chosen, self.order)
+        if others:
+            self._rest = self.unit.writer(others)
 
     @property
     def can_go_back(self) -> bool:
@@ -94,24 +103,30 @@ class Participant:
     def write_path(
         self, a: np.ndarray, b: np.ndarray, c: np.ndarray, end: np.ndarray, size: float
     ) -> np.ndarray:
-        """Sets its inputs over the next step: a path as good as the unit can follow. Returns the
-        means of what it follows."""
+        """Sets its inputs over the next step: a path as good as the unit can follow, and what
+        whole numbers and the like are at its beginning. Returns the means of what it follows."""
         if self.writer is None:
             return a
-        if self.path_writer is not None:
-            writer = self.path_writer
-            writer.values[:] = a
-            if writer.second is not None:
-                writer.first[:] = b
-                writer.second[:] = c
-            else:  # the chord of the path
-                writer.first[:] = b + c * (size / 2)
-            writer()
-            return waveform.mean(a, b, c, size)
-        held = end if self.held == "end" else waveform.mean(a, b, c, size)
-        self.writer.values[:] = np.where(self._paths, held, end)
-        self.writer()
-        return self.writer.values
+        if self.path_writer is None:
+            held = end if self.held == "end" else waveform.mean(a, b, c, size)
+            self.writer.values[:] = np.where(self._paths, held, a)
+            self.writer()
+            return self.writer.values
+        means = waveform.mean(a, b, c, size)
+        if self._rest is not None:
+            self._rest.values[:] = a[~self._paths]
+            self._rest()
+            means = np.where(self._paths, means, a)
+            a, b, c = a[self._paths], b[self._paths], c[self._paths]
+        writer = self.path_writer
+        writer.values[:] = a
+        if writer.second is not None:
+            writer.first[:] = b
+            writer.second[:] = c
+        else:  # the chord of the path
+            writer.first[:] = b + c * (size / 2)
+        writer()
+        return means
 
     def step_to(self, time: float) -> None:
         """Advances to a time, unless it is memoryless and has been there already."""

@@ -120,10 +120,11 @@ class Fmi3(Slave):
 
     def do_step(self, time: float, size: float) -> None:
         event, terminate, early = self._flags
-        end = time + size
+        # Not `end - time`, which differs by rounding: the unit goes as it would under FMI 2.
+        end, rest = time + size, size
         while True:
             self._last.value = time
-            status = self._do_step(time, end - time, self._keep_past, *self._results)
+            status = self._do_step(time, rest, self._keep_past, *self._results)
             last = self._last.value
             if status == _DISCARD:
                 raise self.discarded(last, terminate.value)
@@ -134,7 +135,7 @@ class Fmi3(Slave):
                 return
             if last <= time:
                 raise UnitError(f"{self.log.name}: a step ends early at {last!r} s, where it began")
-            time = last
+            time, rest = last, end - last
 
     # States
 

@@ -56,9 +56,13 @@ class Slave:
         self.log = log
         self._library = load(package)
         self.component: int | None = None
+        self._functions_found: dict[str, Callable[..., Any]] = {}
 
     def function(self, name: str, *types: Any, result: Any = ctypes.c_int) -> Callable[..., Any]:
         """The function of this name, whose first argument is the component."""
+        known = self._functions_found.get(name)
+        if known is not None:
+            return known
         try:
             found = self._library[self.prefix + name]
         except AttributeError as error:
@@ -67,7 +71,8 @@ class Slave:
             ) from error
         found.argtypes = [ctypes.c_void_p, *types]
         found.restype = result
-        return partial(found, self.component)
+        self._functions_found[name] = partial(found, self.component)
+        return self._functions_found[name]
 
     def call(self, name: str, *arguments: Any, types: tuple[Any, ...] = ()) -> None:
         """Calls a function that is not called often."""

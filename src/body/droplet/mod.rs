@@ -297,7 +297,7 @@ impl Body for DropletBody {
                 };
                 wall_quantities()[quantity].read(reader.exchange(), cell, &wall.areas)
             }
-            Reading::Point { .. } | Reading::Mean { .. } => {
+            Reading::Point { .. } | Reading::Mean { .. } | Reading::Peak { .. } => {
                 panic!("points are registered for solids")
             }
         })

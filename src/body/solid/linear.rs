@@ -8,7 +8,7 @@ use super::memo::SolidMemo;
 use super::point::point_quantities;
 use super::reader::SolidReader;
 use super::{SolidBody, totals};
-use crate::body::{BodyError, Linear, Memo, Reading};
+use crate::body::{BodyError, Linear, Memo, PeakPart, Reading};
 
 /// A solid and a change of it.
 pub struct SolidChange<'a> {
@@ -60,6 +60,9 @@ impl Linear for SolidBody {
                 point_quantities()[quantity].mean_rate(&mut both, (self.means(field), cell))
             }
             Reading::Total(place) => totals::rate(&mut both, place),
+            // Where and when it is stays, as long as nothing is noted.
+            Reading::Peak { which, part: PeakPart::Value } => self.highest_rate(&mut both, which),
+            Reading::Peak { .. } => Ok(0.0),
             Reading::Cell { .. } => panic!("cells are registered for what stands on a wall"),
         }
     }

@@ -1,7 +1,7 @@
 use std::any::Any;
 
 use super::SolidBody;
-use crate::body::{BodyError, Memo};
+use crate::body::{BodyError, Extreme, Memo};
 use crate::method::fem::{Deformation, NodalFields, SolidLoads, Temperatures};
 
 /// What acts on a solid, and what follows from that and from a state, computed when first asked for.
@@ -16,8 +16,8 @@ pub struct SolidMemo {
     thermal: Option<Temperatures>,
     is_change: bool,
     deformation: Option<Deformation>,
-    max_temperature: Option<f64>,
-    max_stress: Option<[f64; 2]>,
+    hottest: Option<Extreme>,
+    most_stressed: Option<[Extreme; 2]>,
     /// The last point asked for: its components are read one after another.
     stress: Option<([f64; 3], [f64; 6])>,
 }
@@ -42,6 +42,23 @@ impl SolidMemo {
     pub fn of_mut(memo: &mut Memo) -> &mut Self {
         let memo: &mut (dyn Any + Send + Sync) = memo.as_mut();
         memo.downcast_mut().expect(OWN)
+    }
+
+    /// A memo, for what it remembers to be taken over.
+    pub fn taken(memo: Memo) -> Self {
+        let memo: Box<dyn Any> = memo;
+        *memo.downcast().expect(OWN)
+    }
+
+    /// Takes over what follows from the same state, where what acts differs by no more than heat that flows, which takes
+    /// time: temperatures and stress follow prescribed temperatures and forces alone at once.
+    pub fn carry_over(&mut self, from: Self) {
+        if !from.loads().acts_at_once_as(self.loads()) || self.is_change != from.is_change {
+            return;
+        }
+        let outside = std::mem::take(&mut self.outside);
+        let with_received = self.with_received.take();
+        *self = Self { outside, with_received, ..from };
     }
 
     /// Forgets all that depends on the state.
@@ -116,32 +133,37 @@ impl SolidMemo {
     }
 
     pub fn has_max_stress(&self) -> bool {
-        self.max_stress.is_some()
+        self.most_stressed.is_some()
     }
 
-    pub fn max_temperature(&mut self, body: &SolidBody, state: &[f64]) -> f64 {
-        if let Some(known) = self.max_temperature {
+    /// Highest temperature.
+    pub fn hottest(&mut self, body: &SolidBody, state: &[f64]) -> Extreme {
+        if let Some(known) = self.hottest {
             return known;
         }
-        let value = body.solid.max_temperature(self.heat(body, state));
-        self.max_temperature = Some(value);
-        value
+        let found = body.solid.hottest(self.heat(body, state));
+        self.hottest = Some(found);
+        found
     }
 
     /// Highest von Mises and largest principal stress.
-    pub fn max_stress(&mut self, body: &SolidBody, state: &[f64]) -> Result<[f64; 2], BodyError> {
-        if let Some(known) = self.max_stress {
+    pub fn most_stressed(
+        &mut self,
+        body: &SolidBody,
+        state: &[f64],
+    ) -> Result<[Extreme; 2], BodyError> {
+        if let Some(known) = self.most_stressed {
             return Ok(known);
         }
-        let value = match body.max_borne_stress(state, self.heat(body, state))? {
-            Some(value) => value,
+        let found = match body.most_borne(state, self.heat(body, state))? {
+            Some(found) => found,
             None => {
                 let (temperatures, deformation) = self.solve(body, state)?;
-                body.solid.max_stress(temperatures, deformation)
+                body.solid.most_stressed(temperatures, deformation)
             }
         };
-        self.max_stress = Some(value);
-        Ok(value)
+        self.most_stressed = Some(found);
+        Ok(found)
     }
 
     pub fn stress_at(

@@ -6,6 +6,7 @@ mod linear;
 mod loads;
 mod means;
 mod memo;
+mod peaks;
 mod plan;
 mod point;
 mod port;
@@ -14,6 +15,7 @@ mod totals;
 mod yielding;
 
 pub use forecast::{BodyForecast, PRODUCT_RATE, ParticleForecast, forecast_solid};
+pub use peaks::kept_peaks;
 pub use plan::plan;
 pub use point::{PointQuantity, point_quantities};
 pub use totals::offered_totals;
@@ -21,13 +23,14 @@ pub use totals::offered_totals;
 use std::sync::Arc;
 
 use super::{
-    Acts, Body, BodyError, Conductor, Direct, Fields, Given, Linear, Memo, Reading, Received,
+    Acts, Body, BodyError, Conductor, Direct, Extreme, Fields, Given, Linear, Memo, Reading,
+    Received,
 };
 use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
 use crate::math::allowance::Allowance;
 use crate::method::fem::{ElasticProblem, HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
-use crate::scene::{FaceName, Scene, Solid};
+use crate::scene::{FaceName, PeakOf, Scene, Shape, Solid};
 use crate::state::Layout;
 use loads::BodyLoads;
 use means::means_of;
@@ -51,6 +54,9 @@ pub struct SolidBody {
     ports: Vec<Port>,
     /// Of fields, by their places among the scene's.
     means: Vec<(usize, FaceMeans)>,
+    shape: Shape,
+    /// Of what running maxima are kept.
+    peaks: Vec<PeakOf>,
     threads: usize,
 }
 
@@ -87,6 +93,8 @@ impl SolidBody {
             yielding,
             loads,
             ports,
+            shape: solid.shape,
+            peaks: solid.peaks.clone(),
             threads,
         })
     }
@@ -171,6 +179,10 @@ impl Body for SolidBody {
         Box::new(memo)
     }
 
+    fn carry_over(&self, from: Memo, to: &mut Memo) {
+        SolidMemo::of_mut(to).carry_over(SolidMemo::taken(from));
+    }
+
     fn forget_state(&self, memo: &mut Memo) {
         SolidMemo::of_mut(memo).forget_state();
     }
@@ -206,8 +218,22 @@ impl Body for SolidBody {
                 point_quantities()[quantity].mean(&mut reader, (self.means(field), cell))
             }
             Reading::Total(place) => totals::read(&mut reader, place),
+            Reading::Peak { .. } => panic!("running maxima are no part of a body's state"),
             Reading::Cell { .. } => panic!("cells are registered for what stands on a wall"),
         }
+    }
+
+    fn peaks(&self) -> usize {
+        self.peaks.len()
+    }
+
+    fn observe(&self, state: &[f64], memo: &mut Memo, which: usize) -> Result<Extreme, BodyError> {
+        let memo = SolidMemo::of_mut(memo);
+        self.highest(&mut SolidReader { body: self, state, memo }, which)
+    }
+
+    fn check_peak(&self, which: usize, peak: &Extreme) -> Result<(), String> {
+        self.check_highest(which, peak)
     }
 
     fn follows_at_once(&self, reading: &Reading) -> bool {
@@ -216,6 +242,8 @@ impl Body for SolidBody {
                 point_quantities()[quantity].descriptor.direct
             }
             Reading::Total(place) => totals::direct(place),
+            // Before anything is noted, of the present value.
+            Reading::Peak { .. } => return true,
             Reading::Cell { .. } => Direct::Nothing,
         };
         direct != Direct::Nothing
@@ -230,6 +258,9 @@ impl Body for SolidBody {
             }
             Reading::Total(place) => {
                 totals::is_mechanical(place) && !memo.is_some_and(SolidMemo::has_max_stress)
+            }
+            Reading::Peak { which, .. } => {
+                self.is_stress_peak(which) && !memo.is_some_and(SolidMemo::has_max_stress)
             }
             Reading::Cell { .. } => false,
         }
@@ -275,6 +306,7 @@ impl Body for SolidBody {
     }
 
     fn steps_are_deep(&self) -> bool {
-        self.yielding.is_some() || !self.solid.conducts_linearly()
+        let notes_stress = self.peaks.iter().any(PeakOf::is_mechanical);
+        self.yielding.is_some() || !self.solid.conducts_linearly() || notes_stress
     }
 }

@@ -22,8 +22,14 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
         (true, true) => Mechanics::Wanted,
     };
     let newton = takes_newton(scene, solid).then_some(TEMPERATURES * scene.fidelity.tolerance);
-    Plan::new(solid, PlanRequest { mechanics, refinements: &refinements, shortest, newton })
+    let request = PlanRequest { mechanics, refinements: &refinements, shortest, newton };
+    let mut plan = Plan::new(solid, request);
+    plan.notes.extend(solid.has_stress_peaks().then(|| NOTE_ON_PEAKS.to_owned()));
+    plan
 }
+
+const NOTE_ON_PEAKS: &str = "stress is solved at every communication point, for its running maxima; twice where a \
+                             traction or a prescribed temperature jumps there";
 
 /// Differences of temperatures that a tolerance is a part of [K].
 const TEMPERATURES: f64 = 100.0;

@@ -1,6 +1,6 @@
 use super::SolidBody;
 use super::memo::SolidMemo;
-use crate::body::BodyError;
+use crate::body::{BodyError, Extreme};
 use crate::coupling::FaceMeans;
 use crate::method::fem::HeatTotals;
 
@@ -51,12 +51,22 @@ impl SolidReader<'_> {
 
     /// [K]
     pub fn max_temperature(&mut self) -> f64 {
-        self.memo.max_temperature(self.body, self.state)
+        self.hottest().value
     }
 
     /// Highest von Mises and largest principal stress [Pa].
     pub fn max_stress(&mut self) -> Result<[f64; 2], BodyError> {
-        self.memo.max_stress(self.body, self.state)
+        Ok(self.most_stressed()?.map(|extreme| extreme.value))
+    }
+
+    /// Highest temperature [K].
+    pub fn hottest(&mut self) -> Extreme {
+        self.memo.hottest(self.body, self.state)
+    }
+
+    /// Highest von Mises and largest principal stress [Pa].
+    pub fn most_stressed(&mut self) -> Result<[Extreme; 2], BodyError> {
+        self.memo.most_stressed(self.body, self.state)
     }
 
     pub fn heat_totals(&self) -> HeatTotals {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::SolidBody;
-use crate::body::{Acts, BodyError};
+use crate::body::{Acts, BodyError, Extreme};
 use crate::material::FlowLaw;
 use crate::material::stress::{max_principal, von_mises};
 use crate::math::allowance::Allowance;
@@ -217,11 +217,11 @@ impl SolidBody {
 
     /// Highest von Mises and largest principal stress of a body that yields [Pa], at the points where its law holds:
     /// extrapolated to nodes, stress goes beyond what the body bears. Nothing of other bodies.
-    pub(super) fn max_borne_stress(
+    pub(super) fn most_borne(
         &self,
         state: &[f64],
         temperatures: &Temperatures,
-    ) -> Result<Option<[f64; 2]>, BodyError> {
+    ) -> Result<Option<[Extreme; 2]>, BodyError> {
         let Some(yielding) = self.yielding.as_ref().filter(|yielding| yielding.yields) else {
             return Ok(None);
         };
@@ -229,7 +229,8 @@ impl SolidBody {
         let points = yielding.problem.points(&state[self.heat_len..], &nodal);
         let points = points.map_err(|error| self.inelastic_error(error))?;
         let highest = |measure: fn([f64; 6]) -> f64| {
-            points.iter().map(|point| measure(point.stress)).fold(f64::NEG_INFINITY, f64::max)
+            let values: Vec<f64> = points.iter().map(|point| measure(point.stress)).collect();
+            Extreme::of(&values, |point| yielding.problem.place_of_point(point))
         };
         Ok(Some([highest(von_mises), highest(max_principal)]))
     }

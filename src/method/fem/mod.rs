@@ -30,7 +30,7 @@ pub use elastic::{ElasticProblem, forget_unused_stiffness};
 pub use heat::{HeatLoads, HeatProblem, ThermalFace};
 pub use nonlinear::{NonlinearFailure, heat_mesh};
 pub use plan::{Mechanics, Plan, PlanRequest, Refinement};
-pub use solid::{Deformation, NodalFields, SolidFem, SolidLoads, Temperatures};
+pub use solid::{Deformation, Extreme, NodalFields, SolidFem, SolidLoads, Temperatures};
 pub use solver_choice::{
     expected_entries, factor_memory, solver_memory, suits_conjugate_gradients,
 };

@@ -1,5 +1,6 @@
 //! A solid: heat and elasticity on one mesh, and what can be read from their solution.
 
+mod extremes;
 mod recovered;
 mod tangent;
 
@@ -11,13 +12,13 @@ use super::end_response::EndResponse;
 use super::heat::HeatLoads;
 use super::plan::Plan;
 use crate::material::Thermoelastic;
-use crate::material::stress::{max_principal, von_mises};
 use crate::math::allowance::Allowance;
 use crate::math::cholesky::SolverError;
 use crate::method::heat_totals::HeatTotals;
 use crate::method::mesh::Axis;
 use crate::method::mesh::{Geometry, Mesh, Parity};
 use crate::state::Layout;
+pub use extremes::Extreme;
 use recovered::{FaceStresses, Recoveries};
 
 /// Everything known of a solid before time starts.
@@ -119,6 +120,18 @@ impl SolidLoads {
             force: self.force.iter().map(empty).collect(),
             faces: self.faces.iter().map(|values| vec![0.0; values.len()]).collect(),
         }
+    }
+
+    /// Whether what acts without delay is the same to the bit: face values, among them prescribed temperatures, and forces.
+    pub fn acts_at_once_as(&self, other: &Self) -> bool {
+        let same = |a: &[f64], b: &[f64]| {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
+        };
+        fn lists(loads: &SolidLoads) -> Vec<&Vec<f64>> {
+            loads.force.iter().flatten().flatten().chain(&loads.faces).collect()
+        }
+        let (own, other) = (lists(self), lists(other));
+        own.len() == other.len() && own.iter().zip(other).all(|(own, other)| same(own, other))
     }
 
     fn thermal(&self) -> HeatLoads<'_> {
@@ -343,45 +356,6 @@ impl SolidFem {
         let weights = self.sided_weights(place);
         let counts = self.mesh.sided_counts();
         weighted(&deformation.plastic_strain, weights.each_ref(), counts, (0, 1))
-    }
-
-    /// Highest nodal temperature [K].
-    pub fn max_temperature(&self, temperatures: &Temperatures) -> f64 {
-        let mut highest = f64::NEG_INFINITY;
-        for image in self.images(temperatures) {
-            let rise = self.rise_of_image(temperatures, image);
-            highest = rise.into_iter().fold(highest, f64::max);
-        }
-        self.initial_temperature + highest
-    }
-
-    /// Lowest nodal temperature [K].
-    pub fn min_temperature(&self, temperatures: &Temperatures) -> f64 {
-        let mut lowest = f64::INFINITY;
-        for image in self.images(temperatures) {
-            let rise = self.rise_of_image(temperatures, image);
-            lowest = rise.into_iter().fold(lowest, f64::min);
-        }
-        self.initial_temperature + lowest
-    }
-
-    /// Highest von Mises and largest principal stress over all nodes [Pa].
-    pub fn max_stress(&self, temperatures: &Temperatures, deformation: &Deformation) -> [f64; 2] {
-        let mut highest = [f64::NEG_INFINITY; 2];
-        let nodal = self.nodal_strains(deformation);
-        for image in self.images(&deformation.displacement) {
-            for stress in self.stress_in(temperatures, deformation, &nodal, image) {
-                // Not `max`, which would pass over a stress that is no number.
-                for (highest, value) in
-                    highest.iter_mut().zip([von_mises(stress), max_principal(stress)])
-                {
-                    if !(*highest >= value || highest.is_nan()) {
-                        *highest = value;
-                    }
-                }
-            }
-        }
-        highest
     }
 
     /// Values at all nodes of the whole body, from temperatures above the initial one, those above the one without stress

@@ -49,6 +49,22 @@ impl Grid {
 }
 
 impl InelasticProblem {
+    /// Where a point lies, by its number in [`Self::points`] [m]; mirror images are left out.
+    pub fn place_of_point(&self, number: usize) -> [f64; 3] {
+        let shapes = &self.grid.kit.shapes;
+        let (element, point) = (number / shapes.points, number % shapes.points);
+        let per_layer = self.grid.per_layer();
+        let element = self.grid.place(element / per_layer, element % per_layer);
+        let local = shapes.places[point].0;
+        [0, 1, 2].map(|axis: usize| match self.mesh.axes[axis].elements() {
+            0 => 0.0,
+            _ => {
+                let [low, high] = self.mesh.axes[axis].bounds(element[axis]);
+                0.5 * ((1.0 - local[axis]) * low + (1.0 + local[axis]) * high)
+            }
+        })
+    }
+
     /// Stress at the nodes, those on interfaces between layers twice: xx, yy, zz, xy, yz, xz, of a section rr, tt, zz, 0,
     /// 0, rz [Pa].
     pub fn nodal_stress(

@@ -29,6 +29,9 @@ pub fn check(checker: &mut Checker) {
             overlap_with_sides(checker, &path, solid, name);
         }
         symmetry(checker, &path.at("symmetry"), solid);
+        if !solid.peaks.is_empty() {
+            checker.distinct(&path.at("peaks"), &solid.peaks);
+        }
         if is_sound(&solid.shape) {
             spacing(checker, &path.at("mesh"), &solid.mesh, &solid.shape);
         }

@@ -25,6 +25,33 @@ fn a_run_writes_a_row_a_step_and_fields() {
 }
 
 #[test]
+fn a_run_tells_running_maxima_with_their_times_and_places() {
+    let place = Workplace::new();
+    let peaks = "peaks = [\"temperature\", \"von_mises\"]\nmesh = {";
+    fs::write(place.path("scene.toml"), SCENE.replacen("mesh = {", peaks, 1)).unwrap();
+    let report = place.run(&["--fields-every", "0"]).succeeds().stdout();
+    for words in ["highest so far", "plate.peak_temperature", "plate.peak_von_mises"] {
+        assert!(report.contains(words), "`{words}` is missing in: {report}");
+    }
+    let (header, rows) = place.table("out/HotSpot");
+    let column = |name: &str| {
+        let before =
+            &header[..header.find(name).unwrap_or_else(|| panic!("no {name} in {header}"))];
+        // Quoted names have a comma each.
+        before.matches(',').count() - before.matches('"').count() / 2
+    };
+    let mut highest = f64::NEG_INFINITY;
+    for row in &rows {
+        highest = highest.max(row[column("plate.max_temperature")]);
+        assert_eq!(row[column("plate.peak_temperature [K]")], highest);
+        assert_eq!(row[column("plate.peak_temperature_time [s]")], row[0], "ever hotter");
+        assert_eq!(row[column("plate.peak_temperature_z [m]")], 0.0);
+    }
+    let notes = place.call(&["check", "scene.toml"]).succeeds().stdout();
+    assert!(notes.contains("stress is solved at every communication point"), "{notes}");
+}
+
+#[test]
 fn a_stop_time_between_steps_is_hit_exactly() {
     let place = Workplace::new();
     let options = ["--until", "3.5e-7", "--out", "short", "--fields-every", "2"];

@@ -1,0 +1,93 @@
+"""Tables with columns x, y, z, time and values, as text."""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+
+from .errors import SurfaceError
+
+
+def read_table(path: Path) -> tuple[list[str], np.ndarray]:
+    """Names of the columns without their units, and numbers, shape (rows, columns).
+
+    The first line that is no comment (#) names the columns: ``x [mm], y [mm], heat_flux``. Columns
+    are parted by commas, semicolons or tabs.
+
+    Raises
+    ------
+    SurfaceError
+        With file, line and column of what is not a number.
+    """
+    lines = _lines(path)
+    if not lines:
+        raise SurfaceError(f"{path}: is empty")
+    line, header = lines[0]
+    mark = next((m for m in (";", "\t") if m in header), ",")
+    names = [re.sub(r"\s+\[[^\]]*\]\s*$", "", n).strip() for n in _cells(header, mark)]
+    if len(set(names)) < len(names):
+        twice = next(n for n in names if names.count(n) > 1)
+        raise SurfaceError(f"{path}: line {line}: column `{twice}` stands twice")
+    if all(_is_number(n) for n in names):
+        raise SurfaceError(
+            f"{path}: line {line}: names of columns are needed, such as x,y,heat_flux"
+        )
+    rows = np.empty((len(lines) - 1, len(names)))
+    for k, (line, text) in enumerate(lines[1:]):
+        rows[k] = numbers(path, line, _cells(text, mark), names)
+    return names, rows
+
+
+def read_matrix(path: Path) -> np.ndarray:
+    """Numbers without names of columns; shape (lines, columns)."""
+    lines = _lines(path)
+    if not lines:
+        raise SurfaceError(f"{path}: is empty")
+    mark = next((m for m in (";", "\t", ",") if m in lines[0][1]), None)
+    width = len(_cells(lines[0][1], mark))
+    return np.array([numbers(path, line, _cells(text, mark), width) for line, text in lines])
+
+
+def numbers(path: Path, line: int, cells: list[str], names: list[str] | int) -> list[float]:
+    """Numbers of a line; an error names the column of what is none."""
+    columns = names if isinstance(names, list) else [str(k + 1) for k in range(names)]
+    if len(cells) != len(columns):
+        raise SurfaceError(
+            f"{path}: line {line}: {len(cells)} columns, where there are {len(columns)}"
+        )
+    values = []
+    for name, text in zip(columns, cells, strict=True):
+        if not _is_number(text):
+            raise SurfaceError(f"{path}: line {line}: column {name}: `{text}` is not a number")
+        values.append(float(text))
+        if not np.isfinite(values[-1]):
+            raise SurfaceError(f"{path}: line {line}: column {name}: {text} is not finite")
+    return values
+
+
+def _lines(path: Path) -> list[tuple[int, str]]:
+    try:
+        text = path.read_text(encoding="utf-8-sig")
+    except FileNotFoundError:
+        raise SurfaceError(f"{path}: no such file") from None
+    except UnicodeDecodeError as error:
+        raise SurfaceError(f"{path}: no text: {error}") from None
+    kept = ((k, line) for k, line in enumerate(text.splitlines(), 1))
+    return [(k, line) for k, line in kept if line.strip() and not line.lstrip().startswith("#")]
+
+
+def _cells(line: str, mark: str | None) -> list[str]:
+    if mark is None:
+        return line.split()
+    return [cell.strip() for cell in next(csv.reader([line], delimiter=mark))]
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,356 @@
+"""Reading surfaces with their fields, at one time or over time."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .csv_files import read_table
+from .errors import SurfaceError, need
+from .placement import Placement
+from .series import Series
+from .surface import Surface, plane
+from .vtk_xml import read_pvd, read_vtk_xml
+
+# Cells of meshio that lie on surfaces, and how many of their nodes are corners
+FACES = {"triangle": 3, "triangle6": 3, "triangle7": 3, "quad": 4, "quad8": 4, "quad9": 4}
+HDF5 = {".h5", ".hdf5", ".hdf"}
+
+
+def read(
+    path: str | Path,
+    placement: Placement | None = None,
+    *,
+    values: str | None = None,
+    face: float | None = None,
+    tolerance: float | None = None,
+) -> Surface:
+    """A surface of a file, with its fields in ``surface.data``.
+
+    ============================  ==============================================================
+    .csv, .txt                    columns x, y (and z) and fields: scattered points
+    .h5, .hdf5                    ``points`` (n, 2 or 3), ``cells`` (m, 3 or 4) unless scattered,
+                                  fields of n or m rows
+    .vtp, .vts, .vtr              VTK's XML of polygons and of grids that are flat
+    .vtu, .vtk, .msh, .stl, …     formats of meshio: triangles and quadrilaterals
+    ============================  ==============================================================
+
+    Parameters
+    ----------
+    placement
+        Where the face lies in the file's coordinates, and their unit.
+    values
+        "cells" or "points": which fields are read. By default those of cells, if there are any.
+    face
+        Read only the cells that lie at this height z of the placed coordinates [m], to the
+        tolerance.
+    tolerance
+        How far nodes may lie off a plane [m]; by default 1e-6 of their extent.
+
+    Raises
+    ------
+    SurfaceError
+        With the file, and of tables line and column, of what cannot be read.
+    """
+    path = Path(path)
+    surface, series = _read_any(path, placement, values, face, tolerance)
+    many = [name for name, one in series.items() if len(one) > 1]
+    if many:
+        raise SurfaceError(
+            f"{path}: `{many[0]}` has {len(series[many[0]])} times; read_series reads them"
+        )
+    return replace(
+        surface, data={**surface.data, **{name: one.values[0] for name, one in series.items()}}
+    )
+
+
+def read_series(
+    path: str | Path,
+    placement: Placement | None = None,
+    *,
+    values: str | None = None,
+    face: float | None = None,
+    tolerance: float | None = None,
+) -> tuple[Surface, dict[str, Series]]:
+    """A surface and its fields over time: of a .csv with a column ``time``, an HDF5 file with
+    ``time`` (n,) and fields of n frames, a .pvd, an .xdmf series, or a single time, which is taken
+    as 0 s.
+
+    All frames are to have the same places.
+    """
+    path = Path(path)
+    surface, series = _read_any(path, placement, values, face, tolerance)
+    fixed = {name: Series(np.zeros(1), field[None]) for name, field in surface.data.items()}
+    return replace(surface, data={}), {**fixed, **series}
+
+
+def _read_any(
+    path: Path,
+    placement: Placement | None,
+    values: str | None,
+    face: float | None,
+    tolerance: float | None,
+) -> tuple[Surface, dict[str, Series]]:
+    if not path.is_file():
+        raise SurfaceError(f"{path}: no such file")
+    make = _Maker(path, placement or Placement(), values, face, tolerance)
+    suffix = path.suffix.lower()
+    if suffix in (".csv", ".txt"):
+        return _read_csv(path, make)
+    if suffix in HDF5:
+        return _read_hdf5(path, make)
+    if suffix == ".pvd":
+        return _join(path, [(time, lambda p=p: _read_mesh(p, make)) for time, p in read_pvd(path)])
+    if suffix == ".xdmf":
+        return _read_xdmf(path, make)
+    return _read_mesh(path, make), {}
+
+
+class _Maker:
+    """Makes a surface of points, cells and fields as one file brings them."""
+
+    def __init__(
+        self,
+        path: Path,
+        placement: Placement | None,
+        values: str | None,
+        face: float | None,
+        tolerance: float | None,
+    ) -> None:
+        self.path, self.placement = path, placement
+        self.values, self.face, self.tolerance = values, face, tolerance
+        if values not in (None, "cells", "points"):
+            raise SurfaceError(f"values: `{values}` is none of cells, points")
+
+    def __call__(
+        self, points: np.ndarray, cells: np.ndarray | None, at_points: dict, at_cells: dict
+    ) -> Surface:
+        try:
+            return self._make(points, cells, at_points, at_cells)
+        except SurfaceError as error:
+            raise SurfaceError(f"{self.path}: {error}") from None
+
+    def _make(
+        self,
+        points: np.ndarray,
+        cells: np.ndarray | None,
+        at_points: dict[str, np.ndarray],
+        at_cells: dict[str, np.ndarray],
+    ) -> Surface:
+        if cells is None:
+            return replace(Surface.points(points, self.placement), data=at_points)
+        kept = np.arange(len(cells)) if self.face is None else self._on_face(points, cells)
+        values = self.values or ("cells" if at_cells or not at_points else "points")
+        options = {"values": values, "tolerance": self.tolerance}
+        used, corners = np.unique(cells[kept], return_inverse=True)
+        corners = corners.reshape(-1, cells.shape[1])
+        # Here, so that the error tells the file's own number of the node
+        plane(self.placement.to_face(points), used, self.tolerance)
+        surface = Surface.triangles(points[used], corners, self.placement, **options)
+        if values == "cells":
+            data = {name: field[kept] for name, field in at_cells.items()}
+        else:
+            data = {name: field[used] for name, field in at_points.items()}
+        return replace(surface, data=data)
+
+    def _on_face(self, points: np.ndarray, cells: np.ndarray) -> np.ndarray:
+        placed = self.placement.to_face(points)
+        tolerance = self.tolerance or 1e-6 * np.ptp(placed[:, :2], axis=0).max()
+        kept = np.flatnonzero((np.abs(placed[cells, 2] - self.face) <= tolerance).all(axis=1))
+        if not len(kept):
+            low, high = placed[:, 2].min(), placed[:, 2].max()
+            raise SurfaceError(
+                f"no cell lies at z = {self.face:.6g} m (tolerance "
+                f"{tolerance:.3g} m); "
+                f"they lie from {low:.6g} to {high:.6g} m"
+            )
+        return kept
+
+
+def _read_csv(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
+    names, rows = read_table(path)
+    axes = [name for name in ("x", "y", "z") if name in names]
+    if axes[:2] != ["x", "y"]:
+        raise SurfaceError(f"{path}: columns x and y are needed; there are {', '.join(names)}")
+    columns = dict(zip(names, rows.T, strict=True))
+    fields = [name for name in names if name not in (*axes, "time")]
+    places = np.column_stack([columns[axis] for axis in axes])
+    if "time" not in columns:
+        return make(places, None, {name: columns[name] for name in fields}, {}), {}
+    times, frame = np.unique(columns["time"], return_inverse=True)
+    order = np.lexsort((*places.T[::-1], frame))
+    many = len(rows) // len(times)
+    by_frame = (
+        places[order].reshape(len(times), -1, len(axes)) if many * len(times) == len(rows) else None
+    )
+    if by_frame is None or (np.bincount(frame) != many).any() or (by_frame != by_frame[0]).any():
+        raise SurfaceError(f"{path}: times have different places; every time needs all of them")
+    surface = make(by_frame[0], None, {}, {})
+    return surface, {n: Series(times, columns[n][order].reshape(len(times), many)) for n in fields}
+
+
+def _read_hdf5(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
+    h5py = need("h5py")
+
+    try:
+        with h5py.File(path) as file:
+            content = {
+                name: item[()] for name, item in file.items() if isinstance(item, h5py.Dataset)
+            }
+    except OSError as error:
+        raise SurfaceError(f"{path}: {error}") from None
+    if "points" not in content:
+        raise SurfaceError(
+            f"{path}: no dataset `points` of shape (n, 2 or 3); there are {', '.join(content)}"
+        )
+    points, cells = content.pop("points"), content.pop("cells", None)
+    times = content.pop("time", None)
+    frames, still = {}, {}
+    for name, field in content.items():
+        is_frames = times is not None and field.ndim >= 2 and len(field) == len(times)
+        (frames if is_frames else still)[name] = np.moveaxis(field, 0, 1) if is_frames else field
+    # Places first: frames become columns of one field.
+    fields = {**still, **frames}
+    for name, field in fields.items():
+        if field.ndim == 0 or len(field) not in (len(points), 0 if cells is None else len(cells)):
+            raise SurfaceError(
+                f"{path}: `{name}` of shape {content[name].shape} fits neither points nor cells"
+            )
+    at_points = {n: f for n, f in fields.items() if len(f) == len(points)}
+    at_cells = {n: f for n, f in fields.items() if n not in at_points}
+    surface = make(points, cells, at_points, at_cells)
+    series = {
+        n: Series(times, np.moveaxis(surface.data[n], 1, 0)) for n in frames if n in surface.data
+    }
+    return replace(surface, data={n: f for n, f in surface.data.items() if n not in frames}), series
+
+
+def _read_xdmf(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
+    meshio = need("meshio")
+
+    try:
+        with meshio.xdmf.TimeSeriesReader(path) as reader:
+            points, blocks = reader.read_points_cells()
+            frames = []
+            for k in range(reader.num_steps):
+                time, at_points, at_cells = reader.read_data(k)
+                frames.append((time, at_points, at_cells))
+    except (meshio.ReadError, ElementTree.ParseError, AttributeError, KeyError, OSError):
+        return _read_mesh(path, make), {}
+    if not frames:
+        return _read_mesh(path, make), {}
+
+    def load(frame: tuple[float, dict, dict]) -> Callable[[], Surface]:
+        mesh = meshio.Mesh(points, blocks, frame[1], frame[2])
+        return lambda: _of_mesh(path, mesh, make)
+
+    return _join(path, [(frame[0], load(frame)) for frame in frames])
+
+
+def _join(
+    path: Path, frames: list[tuple[float, Callable[[], Surface]]]
+) -> tuple[Surface, dict[str, Series]]:
+    """One surface and the series of its fields, of frames each on its own."""
+    surface = frames[0][1]()
+    data: dict[str, list] = {name: [field] for name, field in surface.data.items()}
+    for time, load in frames[1:]:
+        other = load()
+        if (
+            other.shape != surface.shape
+            or np.abs(other.coordinates - surface.coordinates).max() > 0
+        ):
+            raise SurfaceError(
+                f"{path}: the places at {time} s are others than at {frames[0][0]} s"
+            )
+        if set(other.data) != set(data):
+            raise SurfaceError(
+                f"{path}: at {time} s there are {', '.join(other.data)}, before {', '.join(data)}"
+            )
+        for name, field in other.data.items():
+            data[name].append(field)
+    times = np.array([time for time, _ in frames])
+    return replace(surface, data={}), {
+        name: Series(times, np.array(fields)) for name, fields in data.items()
+    }
+
+
+def _read_mesh(path: Path, make: _Maker) -> Surface:
+    if not path.is_file():
+        raise SurfaceError(f"{path}: no such file")
+    if path.suffix.lower() in (".vtp", ".vts", ".vtr"):
+        return _of_vtk(path, make)
+    return _of_mesh(path, load_mesh(path), make)
+
+
+def load_mesh(path: Path) -> Any:
+    """A mesh as meshio reads it."""
+    meshio = need("meshio")
+
+    try:
+        return meshio.read(path)
+    except (Exception, SystemExit) as error:  # of readers of many formats: anything
+        raise SurfaceError(f"{path}: {str(error) or 'meshio knows no such format'}") from None
+
+
+def _of_mesh(path: Path, mesh: Any, make: _Maker) -> Surface:
+    blocks = [k for k, block in enumerate(mesh.cells) if block.type in FACES]
+    at_points = dict(mesh.point_data)
+    if not blocks:
+        kinds = {block.type for block in mesh.cells}
+        if kinds <= {"vertex"}:
+            return make(mesh.points, None, at_points, {})
+        raise SurfaceError(
+            f"{path}: no triangles or quadrilaterals, but {', '.join(sorted(kinds))}"
+        )
+    cells = []
+    for k in blocks:
+        corners = mesh.cells[k].data[:, : FACES[mesh.cells[k].type]]
+        cells.append(
+            corners if corners.shape[1] == 4 else np.column_stack([corners, corners[:, 2]])
+        )
+    at_cells = {
+        name: np.concatenate([np.asarray(data[k]) for k in blocks])
+        for name, data in mesh.cell_data.items()
+    }
+    return make(mesh.points, np.concatenate(cells).astype(np.int64), at_points, at_cells)
+
+
+def _of_vtk(path: Path, make: _Maker) -> Surface:
+    file = read_vtk_xml(path)
+    if file.kind == "PolyData":
+        ends, nodes = file.geometry["Polys.offsets"], file.geometry["Polys.connectivity"]
+        begin = np.concatenate([[0], ends[:-1]]).astype(int)
+        many = (ends - begin).astype(int)
+        if not np.isin(many, (3, 4)).all():
+            cell = int(np.flatnonzero(~np.isin(many, (3, 4)))[0])
+            raise SurfaceError(f"{path}: polygon {cell} has {many[cell]} corners, not 3 or 4")
+        fourth = begin + np.minimum(3, many - 1)
+        cells = nodes[np.column_stack([begin, begin + 1, begin + 2, fourth])].astype(np.int64)
+        return make(file.geometry["Points"], cells, file.points, file.cells)
+    points, shape = lattice(path, file)
+    flat = [k for k in range(3) if shape[k] == 1]
+    if len(flat) != 1:
+        raise SurfaceError(f"{path}: a grid of {' × '.join(map(str, shape))} points is no surface")
+    number = np.arange(len(points)).reshape(shape, order="F").squeeze()
+    cells = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], axis=2)
+    at_cells = {name: field for name, field in file.cells.items()}
+    return make(points, cells.transpose(1, 0, 2).reshape(-1, 4), file.points, at_cells)
+
+
+def lattice(path: Path, file: Any) -> tuple[np.ndarray, tuple[int, int, int]]:
+    """Points of a grid, shape (n, 3), the first index fastest, and how many there are along each
+    index.
+    """
+    if file.kind == "RectilinearGrid":
+        axes = list(file.geometry.values())[:3]
+        shape = tuple(len(axis) for axis in axes)
+        grid = np.meshgrid(*axes, indexing="ij")
+        return np.column_stack([a.ravel(order="F") for a in grid]), shape
+    if file.kind == "StructuredGrid" and file.dimensions:
+        return file.geometry["Points"], file.dimensions
+    raise SurfaceError(f"{path}: a {file.kind} is neither a grid nor polygons")

@@ -1,0 +1,84 @@
+//! Of what running maxima of a solid are kept.
+
+use super::SolidBody;
+use super::linear::SolidChange;
+use super::reader::SolidReader;
+use crate::body::{BodyError, Descriptor, Direct, Extreme};
+use crate::quantity::Quantity;
+use crate::scene::{PeakOf, Shape, Solid};
+
+/// Slack of places, which rounding moves, over the body's extents.
+const SLACK: f64 = 1e-9;
+
+/// The running maxima that are kept of a solid of a scene. They follow no input at once: what an input makes jump is
+/// noted when a step begins.
+pub fn kept_peaks(solid: &Solid) -> Vec<Descriptor> {
+    let descriptor = |of: &PeakOf| {
+        let (key, words, quantity) = match of {
+            PeakOf::Temperature => ("peak_temperature", "temperature", Quantity::Temperature),
+            PeakOf::VonMises => ("peak_von_mises", "von Mises stress", Quantity::Stress),
+            PeakOf::MaxPrincipal => {
+                ("peak_max_principal", "principal stress, tension positive", Quantity::Stress)
+            }
+        };
+        Descriptor { key, words, quantity, direct: Direct::Nothing }
+    };
+    solid.peaks.iter().map(descriptor).collect()
+}
+
+impl SolidBody {
+    /// The highest value over the body now, and its place.
+    pub(super) fn highest(
+        &self,
+        reader: &mut SolidReader,
+        which: usize,
+    ) -> Result<Extreme, BodyError> {
+        Ok(match self.peaks[which] {
+            PeakOf::Temperature => reader.hottest(),
+            PeakOf::VonMises => reader.most_stressed()?[0],
+            PeakOf::MaxPrincipal => reader.most_stressed()?[1],
+        })
+    }
+
+    /// How fast that value changes.
+    pub(super) fn highest_rate(
+        &self,
+        both: &mut SolidChange,
+        which: usize,
+    ) -> Result<f64, BodyError> {
+        Ok(match self.peaks[which] {
+            PeakOf::Temperature => both.max_temperature_rate(),
+            PeakOf::VonMises => both.max_stress_rate()?[0],
+            PeakOf::MaxPrincipal => both.max_stress_rate()?[1],
+        })
+    }
+
+    /// Whether it follows from displacements.
+    pub(super) fn is_stress_peak(&self, which: usize) -> bool {
+        self.peaks[which].is_mechanical()
+    }
+
+    /// Refuses what is no value of this body, or lies outside of it.
+    pub(super) fn check_highest(&self, which: usize, peak: &Extreme) -> Result<(), String> {
+        let Extreme { value, at } = *peak;
+        let is_value = match self.peaks[which] {
+            PeakOf::Temperature => value > 0.0,
+            PeakOf::VonMises => value >= 0.0,
+            PeakOf::MaxPrincipal => true,
+        };
+        if !is_value {
+            return Err(format!("{value} as a running maximum of {}", self.name));
+        }
+        let [x, y, z] = at;
+        let reaches = |coordinate: f64, extent: f64| coordinate.abs() <= extent * (1.0 + SLACK);
+        let within = match self.shape {
+            Shape::Box([lx, ly, _]) => reaches(x, lx / 2.0) && reaches(y, ly / 2.0),
+            Shape::Disc(disc) => reaches(x.hypot(y), disc.radius),
+        };
+        let thickness = self.shape.thickness();
+        match within && reaches(z, thickness) && z <= SLACK * thickness {
+            true => Ok(()),
+            false => Err(format!("a running maximum of {} at {at:?}, outside of it", self.name)),
+        }
+    }
+}

@@ -1,0 +1,119 @@
+//! The highest and lowest values of a solid, and where they are.
+
+use super::{Deformation, SolidFem, Temperatures};
+use crate::material::stress::{max_principal, von_mises};
+use crate::method::mesh::Geometry;
+
+/// The highest of some values over a body, and its place [m]. Of places whose values differ by rounding alone it is the
+/// one nearest to the centre of the top, of those the first: so that a body that is alike on both sides tells of neither.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extreme {
+    pub value: f64,
+    pub at: [f64; 3],
+}
+
+/// Difference of values that rounding and iterations leave, over the largest of them.
+const ROUNDING: f64 = 1e-9;
+
+/// The highest of some values with the square of its distance from the centre of the top [m²].
+struct Candidate {
+    extreme: Extreme,
+    distance: f64,
+    slack: f64,
+}
+
+impl Extreme {
+    /// Of values with places by their numbers; what is no number is the highest.
+    pub fn of(values: &[f64], place: impl Fn(usize) -> [f64; 3]) -> Self {
+        Candidate::of(values, place).extreme
+    }
+}
+
+impl Candidate {
+    fn of(values: &[f64], place: impl Fn(usize) -> [f64; 3]) -> Self {
+        let (mut value, mut largest) = (f64::NEG_INFINITY, 0.0_f64);
+        for &other in values {
+            // Not `max`, which would pass over what is no number.
+            if !(value >= other || value.is_nan()) {
+                value = other;
+            }
+            largest = largest.max(other.abs());
+        }
+        let slack = ROUNDING * largest;
+        let (mut at, mut distance) = ([0.0; 3], f64::INFINITY);
+        let high = values.iter().enumerate().filter(|(_, other)| **other >= value - slack);
+        for (number, _) in high {
+            let other = place(number);
+            let square = other.iter().map(|coordinate| coordinate * coordinate).sum();
+            if square < distance {
+                (at, distance) = (other, square);
+            }
+        }
+        Self { extreme: Extreme { value, at }, distance, slack }
+    }
+
+    /// The highest of several.
+    fn highest(all: Vec<Self>) -> Extreme {
+        let values: Vec<f64> = all.iter().map(|own| own.extreme.value).collect();
+        let Extreme { value, .. } = Extreme::of(&values, |_| [0.0; 3]);
+        let slack = all.iter().fold(0.0_f64, |most, own| most.max(own.slack));
+        let high = all.iter().filter(|own| own.extreme.value >= value - slack);
+        let nearest = high.reduce(|one, two| if two.distance < one.distance { two } else { one });
+        Extreme { value, at: nearest.map_or([0.0; 3], |own| own.extreme.at) }
+    }
+}
+
+impl SolidFem {
+    /// Highest nodal temperature [K].
+    pub fn hottest(&self, temperatures: &Temperatures) -> Extreme {
+        let of_image = |image| {
+            let rises = self.rise_of_image(temperatures, image);
+            Candidate::of(&rises, |node| self.place_of_sided(node, image))
+        };
+        let rise =
+            Candidate::highest(self.images(temperatures).into_iter().map(of_image).collect());
+        Extreme { value: self.initial_temperature + rise.value, ..rise }
+    }
+
+    /// Lowest nodal temperature [K].
+    pub fn min_temperature(&self, temperatures: &Temperatures) -> f64 {
+        let mut lowest = f64::INFINITY;
+        for image in self.images(temperatures) {
+            let rise = self.rise_of_image(temperatures, image);
+            lowest = rise.into_iter().fold(lowest, f64::min);
+        }
+        self.initial_temperature + lowest
+    }
+
+    /// Highest von Mises and largest principal stress over all nodes [Pa].
+    pub fn most_stressed(
+        &self,
+        temperatures: &Temperatures,
+        deformation: &Deformation,
+    ) -> [Extreme; 2] {
+        let nodal = self.nodal_strains(deformation);
+        let mut found = [Vec::new(), Vec::new()];
+        for image in self.images(&deformation.displacement) {
+            let stresses = self.stress_in(temperatures, deformation, &nodal, image);
+            let measures: [fn([f64; 6]) -> f64; 2] = [von_mises, max_principal];
+            for (measure, found) in measures.into_iter().zip(&mut found) {
+                let values: Vec<f64> = stresses.iter().map(|stress| measure(*stress)).collect();
+                found.push(Candidate::of(&values, |node| self.place_of_sided(node, image)));
+            }
+        }
+        found.map(Candidate::highest)
+    }
+
+    /// Where a node of an image lies, by its number among those that are there twice on interfaces [m].
+    fn place_of_sided(&self, number: usize, image: [bool; 2]) -> [f64; 3] {
+        let [nx, ny, _] = self.mesh.sided_counts();
+        let [x, y, z] = self.mesh.axes.each_ref();
+        let signed = |coordinate: f64, image: bool| if image { -coordinate } else { coordinate };
+        let along_y = match self.mesh.geometry {
+            Geometry::Box => signed(y.nodes[number / nx % ny], image[1]),
+            Geometry::Axisymmetric => 0.0,
+        };
+        let level = self.nodes_of_sided[number / (nx * ny)];
+        [signed(x.nodes[number % nx], image[0]), along_y, z.nodes[level]]
+    }
+}

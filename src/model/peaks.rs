@@ -1,0 +1,127 @@
+//! Running maxima of bodies, each with its time and place.
+//!
+//! They are noted at communication points alone: as a step begins, under the inputs that it begins with, and as it ends.
+//! Parts of a step that a host is told of are steps, too.
+
+use super::{Cache, Model, ModelError, State};
+use crate::body::{BodyError, Extreme, PeakPart};
+
+/// The highest value that a body had so far.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// [s]
+    pub time: f64,
+    pub highest: Extreme,
+}
+
+impl Peak {
+    /// Value, time, x, y and z.
+    pub fn numbers(&self) -> [f64; 5] {
+        let Extreme { value, at: [x, y, z] } = self.highest;
+        [value, self.time, x, y, z]
+    }
+
+    /// The inverse of [`Self::numbers`].
+    pub fn of_numbers([value, time, x, y, z]: [f64; 5]) -> Self {
+        Self { time, highest: Extreme { value, at: [x, y, z] } }
+    }
+
+    fn part(&self, part: PeakPart) -> f64 {
+        match part {
+            PeakPart::Value => self.highest.value,
+            PeakPart::Time => self.time,
+            PeakPart::Along(axis) => self.highest.at[axis],
+        }
+    }
+}
+
+impl State {
+    /// Sets the time that a step came to where who steps knows it free of accumulated rounding; what was noted at the
+    /// end of that step was at that time.
+    pub fn set_time(&mut self, time: f64) {
+        for peak in self.peaks.iter_mut().filter(|peak| peak.time == self.time) {
+            peak.time = time;
+        }
+        self.time = time;
+    }
+}
+
+impl Model {
+    /// Notes the present values in the running maxima of a state, whose inputs must make sense. What is as high as before
+    /// keeps its time and place. An error changes nothing.
+    pub fn note_peaks(&self, state: &mut State, cache: &mut Cache) -> Result<(), ModelError> {
+        if !self.peaks.is_empty() {
+            self.expect_room_to_step(state)?;
+        }
+        let noted = self.with_stack(|| self.note_peaks_here(state, cache));
+        Ok(noted.map_err(|(_, error)| error)?)
+    }
+
+    /// The same without a look at the stack that is left; an error with the place of its body.
+    pub(super) fn note_peaks_here(
+        &self,
+        state: &mut State,
+        cache: &mut Cache,
+    ) -> Result<(), (usize, BodyError)> {
+        if self.peaks.is_empty() {
+            return Ok(());
+        }
+        cache.update(self, state);
+        let peaks = (0..self.peaks.len()).map(|number| {
+            let now = self.peak_now(state, cache, number);
+            let now = now.map_err(|error| (self.peaks[number].0, error))?;
+            let known = state.peaks.get(number).copied();
+            Ok(known.filter(|known| known.highest.value >= now.highest.value).unwrap_or(now))
+        });
+        state.peaks = peaks.collect::<Result<_, _>>()?;
+        Ok(())
+    }
+
+    /// A part of a running maximum; before anything is noted, of the present value.
+    pub(super) fn read_peak(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+        (body, which): (usize, usize),
+        part: PeakPart,
+    ) -> Result<f64, ModelError> {
+        let number = self.peaks.iter().position(|place| *place == (body, which));
+        let number = number.expect("registered from a body that keeps it");
+        match state.peaks.get(number) {
+            Some(peak) => Ok(peak.part(part)),
+            None => Ok(self.peak_now(state, cache, number)?.part(part)),
+        }
+    }
+
+    fn peak_now(&self, state: &State, cache: &mut Cache, number: usize) -> Result<Peak, BodyError> {
+        let (place, which) = self.peaks[number];
+        let (body, unknowns) = (&self.bodies[place], &state.bodies[place]);
+        let highest = body.observe(unknowns, cache.memo(place), which)?;
+        BodyError::unless_finite(highest.value)?;
+        Ok(Peak { time: state.time, highest })
+    }
+
+    /// Refuses running maxima that no run leads to the state with.
+    pub(super) fn check_peaks(&self, state: &State) -> Result<(), ModelError> {
+        let refuse = |message: String| Err(ModelError::State(message));
+        let (found, wanted) = (state.peaks.len(), self.peaks.len());
+        if found != 0 && found != wanted {
+            return refuse(format!("{found} running maxima; the scene has {wanted}"));
+        }
+        for (peak, &(place, which)) in state.peaks.iter().zip(&self.peaks) {
+            let body = &self.bodies[place];
+            if !peak.numbers().iter().all(|number| number.is_finite()) {
+                return refuse(format!("a running maximum of {} is not finite", body.name()));
+            }
+            if peak.time > state.time {
+                let (later, name) = (peak.time, body.name());
+                return refuse(format!(
+                    "a running maximum of {name} at {later} s, after the state's {} s",
+                    state.time
+                ));
+            }
+            body.check_peak(which, &peak.highest).or_else(refuse)?;
+        }
+        Ok(())
+    }
+}
