@@ -1,13 +1,15 @@
 """The schedule of a printer as a unit: `pythonfmu build -f schedule.py`."""
 
+from math import floor
+
 from pythonfmu import Fmi2Causality, Fmi2Slave, Fmi2Variability, Integer, Real
 
 
 class Schedule(Fmi2Slave):
     """Counts drops up, one every `interval` from `start` on, and moves along a line between them.
 
-    After a step the outputs are those of its beginning: a master that lets the printer advance after
-    the schedule (Gauss–Seidel) so releases drops in the step that begins when they are due.
+    Outputs are those of the end of a step: a master gives counts to the printer at the beginning
+    of its next one. Drops are at least two steps apart, as places go ahead of counts by one.
     """
 
     description = "When and where drops fall: a count, and the place of the last one"
@@ -29,10 +31,10 @@ class Schedule(Fmi2Slave):
         self._look(0.0)
 
     def do_step(self, current_time, step_size):
-        self._look(current_time)
+        self._look(current_time + step_size)
         return True
 
     def _look(self, time):
-        due = int((time - self.start) / self.interval + 1e-6) + 1 if time >= self.start - 1e-9 else 0
-        self.release = min(due, self.count)
+        due = floor((time - self.start) / self.interval + 1e-6) + 1
+        self.release = min(max(due, 0), self.count)
         self.x = self.first + self.pitch * max(self.release - 1, 0)

@@ -85,15 +85,14 @@ def draw_plans(runs: dict, folder: Path) -> Path:
     """The plan beside the PI controller."""
     figure, axes = shared.new_figure(2, 2, height=7.5, sharex=True, height_ratios=[1.6, 1])
     for column, other in enumerate(("", ", other bed")):
-        names = [f"plan anew{other}" if other else "plan", f"PI{other}"]
+        names = [("plan anew" if other else "plan"), "PI by rule", "PI searched"]
         top, bottom = axes[:, column]
         for name, colour in zip(names, shared.COLOURS, strict=False):
-            run = runs[name]
-            label = name.removesuffix(other) if other else name
+            run = runs[f"{name}{other}"]
             celsius = run.temperatures - shared.ZERO_CELSIUS
-            top.plot(run.times, celsius[:, 0], color=colour, label=f"{label}: thermocouple")
-            top.plot(run.times, celsius[:, 1], ":", color=colour, label=f"{label}: middle")
-            bottom.step(run.times, run.powers, where="post", color=colour, label=label)
+            top.plot(run.times, celsius[:, 0], color=colour, label=f"{name}: thermocouple")
+            top.plot(run.times, celsius[:, 1], ":", color=colour, label=f"{name}: middle")
+            bottom.step(run.times, run.powers, where="post", color=colour, label=name)
         wanted, limit = (each - shared.ZERO_CELSIUS for each in (warm_up.WANTED, warm_up.HOTTEST))
         top.axhline(wanted, **shared.CLOSED_FORM)
         top.axhline(limit, color="0.6", linewidth=1)
