@@ -50,7 +50,9 @@ def make(name: str, folder: Path) -> Path:
     return Path(FmuBuilder.build_FMU(HERE / f"{name}.py", dest=folder))
 
 
-def print_drops(fmu: Path, folder: Path, settings: dict[str, float], drops: int) -> Print:
+def print_drops(
+    fmu: Path, folder: Path, settings: dict[str, float], drops: int, after: float
+) -> Print:
     """Warms the bed up, lets drops fall, and waits."""
     line = {"start": START, "interval": INTERVAL, "first": FIRST, "pitch": PITCH, "count": drops}
     units = {
@@ -79,7 +81,7 @@ def print_drops(fmu: Path, folder: Path, settings: dict[str, float], drops: int)
     with master:
         master.run(START)
         drop = look_at_a_drop(master.units["printer"])
-        table = master.run(START + INTERVAL * (drops - 1) + AFTER)
+        table = master.run(START + INTERVAL * (drops - 1) + after)
     return Print(table, drop)
 
 
@@ -208,10 +210,18 @@ def main(given: list[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--fmu", type=Path, default=HERE / "scene.toml", help="scene or unit")
     parser.add_argument("--drops", type=int, default=DROPS, help="[default: %(default)s]")
+    parser.add_argument(
+        "--after",
+        type=float,
+        default=AFTER,
+        help="s, to go on after the last [default: %(default)s]",
+    )
     parser.add_argument("--out", type=Path, default=shared.ROOT / "out" / NAME, help="folder")
     options = parser.parse_args(given)
     if not 1 <= options.drops <= DROPS:
         parser.error(f"--drops {options.drops} (allowed: 1 to {DROPS})")
+    if not options.after >= 2 * warm_up.SAMPLE:
+        parser.error(f"--after {options.after} (allowed: {2 * warm_up.SAMPLE} s or more)")
     options.out.mkdir(parents=True, exist_ok=True)
     began = time.perf_counter()
     with Unit(HERE / "bed.toml") as bed:
@@ -220,7 +230,7 @@ def main(given: list[str] | None = None) -> None:
     mapped = time.perf_counter()
     print(f"map of {found.steps} steps in {mapped - began:.2f} s, adds up to {found.defect:.0e}")
     print(f"PI: {settings['gain']:.2f} W/K, {settings['integral_time']:.2f} s")
-    done = print_drops(options.fmu, options.out, settings, options.drops)
+    done = print_drops(options.fmu, options.out, settings, options.drops, options.after)
     printed = time.perf_counter()
     share = done.drop["drop.heat"][-1] / done.drop["exact"][-1] - 1
     print(f"the first drop's heat after {ZOOM * ZOOM_STEPS * 1e3:.0f} ms:", end="")

@@ -15,11 +15,10 @@ COARSE = {
         "\nspacing = 2.5e-6": "\nspacing = 4e-6",
         "spacing = 7.5e-6, depth_spacing": "spacing = 12e-6, depth_spacing",
     },
-    "printer_control": {"spacing = 0.625e-3 ": "spacing = 0.83e-3 "},
     "moving_spot": {"spacing = 40e-6, depth_spacing": "spacing = 80e-6, depth_spacing"},
 }
 FEWER = {
-    "printer_control": ["--drops", "1"],
+    "printer_control": ["--drops", "1", "--after", "0.15"],
     "stress_study": ["--samples", "4", "--levels", "3"],
 }
 
