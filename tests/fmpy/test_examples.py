@@ -17,7 +17,10 @@ COARSE = {
     },
     "moving_spot": {"spacing = 40e-6, depth_spacing": "spacing = 80e-6, depth_spacing"},
 }
-FEWER = {"stress_study": ["--samples", "4", "--levels", "3"]}
+FEWER = {
+    "printer_control": ["--drops", "1", "--after", "0.15"],
+    "stress_study": ["--samples", "4", "--levels", "3"],
+}
 
 
 @pytest.mark.parametrize("scene", EXAMPLES, ids=lambda path: path.parent.name)
