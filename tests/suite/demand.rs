@@ -315,3 +315,27 @@ fn a_scene_says_either_when_or_how_many() {
         "spacing",
     );
 }
+
+/// Fluid beyond the edge of a plate has nothing below: it keeps its heat, and all temperatures stay between those of
+/// drop and plate, whatever the drops of the scene would be like.
+#[test]
+fn fluid_over_an_edge_relaxes_towards_nothing() {
+    for corner in [[1.5e-4, 0.0], [1.6e-4, 1.3e-4], [-1.7e-4, 1.7e-4]] {
+        let scene = drop(ON_DEMAND) + &plate("box = [3.6e-4, 3.6e-4, 2e-5]");
+        let mut trial = Trial::new(&scene);
+        let [x, y] = corner;
+        // The scene's own temperature, 350 K, lies beyond both.
+        ask(&mut trial, &[("release", 1.0), ("x", x), ("y", y), ("temperature", 320.0)]);
+        let mut given: f64 = 0.0;
+        for _ in 0..100 {
+            trial.step(STEP);
+            given = given.max(trial.get("drop.heat").abs());
+            let [most, least] =
+                ["max", "min"].map(|key| trial.get(&format!("drop.{key}_temperature")));
+            assert!(most <= 320.0 + 1e-2 && least >= 300.0 - 1e-2, "{corner:?}: {least} to {most}");
+        }
+        let drift = trial.get("drop.heat_drift").abs();
+        assert!(trial.get("drop.force_outside").abs() + trial.get("drop.released") > 0.0);
+        assert!(given > 1e-9 && drift < 1e-4 * given, "{corner:?}: {drift} J of {given} J");
+    }
+}

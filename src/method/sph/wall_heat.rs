@@ -177,7 +177,8 @@ impl WallHeat {
         }
         for (point, contact) in points.points.iter_mut().zip(contacts) {
             (point.mass, point.temperature_sum) = (0.0, 0.0);
-            point.relaxation = contact.relaxation;
+            // Where nothing is below, as beyond the edge of a body, there is nothing to relax towards.
+            point.relaxation = contact.relaxation * covered(point);
             point.wall = wall_below(point, &walls);
             if let Some((column, part)) = point.beyond {
                 let fall = contact.fluid - walls[column as usize];
@@ -213,6 +214,11 @@ fn wall_below(point: &Point, walls: &[f64]) -> f64 {
         (sum + part * walls[column as usize], whole + part)
     });
     if whole > 0.0 { sum / whole } else { 0.0 }
+}
+
+/// Part of a point's square that has something below it.
+fn covered(point: &Point) -> f64 {
+    point.below.iter().chain(&point.beyond).map(|&(_, part)| part).sum()
 }
 
 /// φ₀ and φ₁ for each rate.
