@@ -12,7 +12,7 @@ mod version;
 mod words;
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{self, ExitCode};
 
@@ -112,11 +112,13 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     }
     if let Some(target) = &arguments.xml {
         refuse_inputs(target, &[path])?;
+        refuse_other_files(target, b"<?xml")?;
         return write(target, arguments.fmi.model_description(&scene, &text).as_bytes());
     }
     let library_path = library::path(arguments.library.as_deref())?;
     let target = arguments.output.clone().unwrap_or_else(|| format!("{}.fmu", scene.name).into());
     refuse_inputs(&target, &[path, &library_path])?;
+    refuse_other_files(&target, b"PK")?;
     let library = library::read(&library_path, arguments.fmi)?;
     let reference = if arguments.reference {
         reference::entries(&scene, arguments.fmi)?
@@ -141,6 +143,25 @@ fn refuse_inputs(target: &Path, inputs: &[&Path]) -> Result<(), String> {
             input.display()
         )),
     }
+}
+
+/// Refuses to replace a file that does not begin as what is written.
+fn refuse_other_files(target: &Path, begins: &[u8]) -> Result<(), String> {
+    let is_other = |path: &Path| {
+        let mut head = vec![0; begins.len()];
+        let Ok(mut file) = fs::File::open(path) else { return false };
+        match file.read(&mut head) {
+            Ok(0) | Err(_) => false,
+            Ok(count) => head[..count] != begins[..count],
+        }
+    };
+    if !target.is_file() || !is_other(target) {
+        return Ok(());
+    }
+    Err(format!(
+        "{} is there and was not made by this program (allowed: another file, or to remove this one first)",
+        target.display()
+    ))
 }
 
 #[cfg(unix)]

@@ -34,8 +34,8 @@ pub enum CliError {
         folder.display()
     )]
     Taken { folder: PathBuf },
-    #[error("{} could be one of the files of the run; allowed: another folder (--out)", scene.display())]
-    SceneInFolder { scene: PathBuf },
+    #[error("{} could be one of the files of the run; allowed: another folder (--out)", file.display())]
+    ReadInFolder { file: PathBuf },
     #[error("cannot print: {0}")]
     Print(io::Error),
 }
@@ -45,6 +45,10 @@ impl CliError {
     pub fn from_model(error: ModelError, scene: &Scene) -> Self {
         match error {
             ModelError::Body(BodyError::Input { index, message }) => {
+                Self::Input { name: input_name(scene, index), message }
+            }
+            ModelError::Body(BodyError::Underway { index, message, after }) => {
+                let message = format!("{message}, {after} s into the step");
                 Self::Input { name: input_name(scene, index), message }
             }
             other => Self::Model(other),

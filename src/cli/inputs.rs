@@ -1,9 +1,12 @@
 //! Inputs over time from a table of comma-separated values.
 
 use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
+use impinge::machine::available_memory;
 use impinge::model::State;
 use impinge::scene::Scene;
 use impinge::variables::{Quantity, Registry, Slot, Variable};
@@ -40,6 +43,10 @@ pub struct InputTable {
 pub enum TableError {
     #[error("cannot read {}: {reason}", path.display())]
     Unreadable { path: PathBuf, reason: csv::Error },
+    #[error("cannot read {}: {reason}", path.display())]
+    Unopened { path: PathBuf, reason: io::Error },
+    #[error("{} has more than {most} bytes; allowed: fewer rows, as inputs change linearly between them", path.display())]
+    TooLarge { path: PathBuf, most: u64 },
     #[error("{}: no first column `time`; allowed: `time` or `time [s]`, then names of inputs", path.display())]
     NoTime { path: PathBuf },
     #[error("{}: no rows; allowed: at least one time with values", path.display())]
@@ -54,8 +61,9 @@ impl InputTable {
     /// Reads the table in a file for the inputs of a scene's unit; `set` are names that are set otherwise.
     pub fn read(path: &Path, between: Between, scene: &Scene) -> Result<Self, TableError> {
         let unreadable = |reason| TableError::Unreadable { path: path.to_owned(), reason };
+        let text = text_of(path)?;
         let mut reader =
-            csv::ReaderBuilder::new().trim(csv::Trim::All).from_path(path).map_err(unreadable)?;
+            csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_slice());
         let header = reader.headers().map_err(unreadable)?.clone();
         let registry = Registry::of(scene);
         let columns = columns(path, &header, &registry)?;
@@ -112,6 +120,11 @@ impl InputTable {
         self.columns.iter().flatten().copied()
     }
 
+    /// Rows at times in a run that ends at `stop` [s], each of which may cut a step.
+    pub fn rows_until(&self, stop: f64) -> usize {
+        self.times.iter().filter(|time| (0.0..stop).contains(*time)).count()
+    }
+
     /// The least and the largest value of each input.
     pub fn extremes(&self) -> Vec<InputValue> {
         let of_column = |(column, places): (usize, &Vec<usize>)| {
@@ -156,6 +169,25 @@ impl InputTable {
         }
         state.derivatives = if later.is_some() { vec![rates] } else { Vec::new() };
     }
+}
+
+/// Bytes of a table, at most: some million rows.
+const LARGEST: u64 = 100_000_000;
+/// Memory that a table takes over its bytes, at most.
+const SPREAD: u64 = 8;
+
+/// The bytes of a file, or of what is no file, which are not more than the machine has room for.
+fn text_of(path: &Path) -> Result<Vec<u8>, TableError> {
+    let unopened = |reason| TableError::Unopened { path: path.to_owned(), reason };
+    let most = LARGEST.min(available_memory() as u64 / SPREAD);
+    let too_large = || TableError::TooLarge { path: path.to_owned(), most };
+    let file = File::open(path).map_err(unopened)?;
+    if file.metadata().map_err(unopened)?.len() > most {
+        return Err(too_large());
+    }
+    let mut text = Vec::new();
+    file.take(most + 1).read_to_end(&mut text).map_err(unopened)?;
+    if text.len() as u64 > most { Err(too_large()) } else { Ok(text) }
 }
 
 /// Part of a step by which times may differ that were computed.

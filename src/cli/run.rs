@@ -19,6 +19,9 @@ use super::units::engineering;
 /// Number of times at which fields are written, about, if the user does not say.
 const SNAPSHOTS: usize = 50;
 
+/// Rows of inputs per step from which on a run says that they make it longer.
+const ROWS_PER_STEP: usize = 10;
+
 /// Extensions of files that runs write.
 const WRITTEN: [&str; 5] = ["csv", "pvd", "vtp", "vtr", "vtu"];
 
@@ -71,6 +74,14 @@ impl Run {
             .map_err(|error| CliError::from_model(error, &scene))?;
         let timeline = Timeline::new(scene.step, scene.stop_time);
         let table = self.input_table(&scene, &inputs)?;
+        let rows = table.as_ref().map_or(0, |table| table.rows_until(scene.stop_time));
+        if rows > ROWS_PER_STEP * timeline.count {
+            let steps = timeline.count;
+            let note = format!(
+                "{rows} rows of inputs cut {steps} steps: this takes as long as that many steps do"
+            );
+            super::print_message("note", &note);
+        }
         let mut run = Running {
             state: start(&model, &inputs, (table.as_ref(), timeline.length(0)))?,
             cache: Cache::default(),
@@ -125,14 +136,18 @@ impl Run {
         }
     }
 
-    /// Refuses to write where the scene may be one of the files of the run.
-    fn keep_scene(&self, folder: &Path) -> Result<(), CliError> {
-        let Ok(scene) = self.scene.canonicalize() else { return Ok(()) };
-        let is_there = folder.canonicalize().is_ok_and(|folder| scene.parent() == Some(&folder));
-        let extension = scene.extension().and_then(|extension| extension.to_str());
-        match is_there && extension.is_some_and(|name| WRITTEN.contains(&name)) {
-            true => Err(CliError::SceneInFolder { scene: self.scene.clone() }),
-            false => Ok(()),
+    /// Refuses to write where what is read may be one of the files of the run.
+    fn keep_what_is_read(&self, folder: &Path) -> Result<(), CliError> {
+        let could_be_written = |file: &&PathBuf| {
+            let Ok(place) = file.canonicalize() else { return false };
+            let is_there = folder.canonicalize().is_ok_and(|own| place.parent() == Some(&own));
+            let extension = place.extension().and_then(|extension| extension.to_str());
+            is_there && extension.is_some_and(|name| WRITTEN.contains(&name))
+        };
+        match [Some(&self.scene), self.inputs.as_ref()].into_iter().flatten().find(could_be_written)
+        {
+            Some(file) => Err(CliError::ReadInFolder { file: file.clone() }),
+            None => Ok(()),
         }
     }
 
@@ -146,7 +161,7 @@ impl Run {
         if is_taken && !self.overwrite {
             return Err(CliError::Taken { folder });
         }
-        self.keep_scene(&folder)?;
+        self.keep_what_is_read(&folder)?;
         let every = self.fields_every.unwrap_or(run.timeline.count.div_ceil(SNAPSHOTS));
         let table = CsvTable::create(&table, run.model)?;
         let fields = match every {

@@ -102,14 +102,11 @@ fn check_requests(
     demand: &Demand,
     method: &Method,
 ) -> Result<(), String> {
-    let &Requests { asked, differ, .. } = requests;
+    let &Requests { asked, .. } = requests;
     let most = demand.most as f64;
     let whole = asked.fract() == 0.0 && released.fract() == 0.0;
     if !(whole && (0.0..=asked).contains(&released) && asked <= most) {
         return Err(format!("{released} drops released of {asked}, of at most {most}"));
-    }
-    if differ != 0.0 && differ != 1.0 {
-        return Err(format!("{differ} instead of whether drops differ"));
     }
     for drop in requests.drops(released, &demand.expected) {
         let far = drop.centre.iter().any(|x| x.abs() >= FARTHEST * method.units.length);

@@ -19,6 +19,8 @@ pub struct Cloud {
     pub density: Vec<f64>,
     /// Above the model's reference [K].
     pub temperature: Vec<f64>,
+    /// At the release, above the reference [K].
+    pub initial: Vec<f64>,
     /// By fluid and by the wall, without what follows.
     pub acceleration: Vec<[[f64; 3]; 2]>,
     /// By surface tension: by fluid along x, y, z and by the wall along z.
@@ -39,6 +41,7 @@ pub struct Part<'a> {
     pub mass: &'a [f64],
     pub density: &'a mut [f64],
     pub temperature: &'a mut [f64],
+    pub initial: &'a [f64],
     pub acceleration: &'a [[[f64; 3]; 2]],
     pub tension: &'a [[f64; 4]],
     pub potential: &'a [f64],
@@ -172,6 +175,10 @@ impl Fields for Cloud {
             (of("density", "density over that at rest, less 1", 1), &mut self.density),
             (of("temperature", "temperature above the reference [K]", 1), &mut self.temperature),
             (
+                of("initial", "temperature at the release above the reference [K]", 1),
+                &mut self.initial,
+            ),
+            (
                 of("acceleration", "acceleration by fluid and by the wall", 6),
                 self.acceleration.as_flattened_mut().as_flattened_mut(),
             ),
@@ -220,6 +227,7 @@ impl Cloud {
         let mut mass = self.mass.chunks(size);
         let mut density = self.density.chunks_mut(size);
         let mut temperature = self.temperature.chunks_mut(size);
+        let mut initial = self.initial.chunks(size);
         let mut acceleration = self.acceleration.chunks(size);
         let mut tension = self.tension.chunks(size);
         let mut potential = self.potential.chunks(size);
@@ -233,6 +241,7 @@ impl Cloud {
                 mass: mass.next()?,
                 density: density.next()?,
                 temperature: temperature.next()?,
+                initial: initial.next()?,
                 acceleration: acceleration.next()?,
                 tension: tension.next()?,
                 potential: potential.next()?,
@@ -250,6 +259,7 @@ impl Cloud {
         self.mass.push(mass);
         self.density.push(0.0);
         self.temperature.push(temperature);
+        self.initial.push(temperature);
         self.acceleration.push([[0.0; 3]; 2]);
         self.tension.push([0.0; 4]);
         self.potential.push(0.0);
@@ -265,6 +275,7 @@ impl Cloud {
         permute.apply(&mut self.mass);
         permute.apply(&mut self.density);
         permute.apply(&mut self.temperature);
+        permute.apply(&mut self.initial);
         permute.apply(&mut self.acceleration);
         permute.apply(&mut self.tension);
         permute.apply(&mut self.potential);
@@ -280,6 +291,7 @@ impl Cloud {
             mass: vec![0.0; count],
             density: vec![0.0; count],
             temperature: vec![0.0; count],
+            initial: vec![0.0; count],
             acceleration: vec![[[0.0; 3]; 2]; count],
             tension: vec![[0.0; 4]; count],
             potential: vec![0.0; count],
@@ -386,8 +398,6 @@ mod tests {
             },
             requests: Some(Requests {
                 asked: 3.0,
-                warmth: -7.0,
-                differ: 1.0,
                 waiting: vec![[1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [0.0; 6]],
             }),
             ..Ledger::default()

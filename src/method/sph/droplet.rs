@@ -93,6 +93,8 @@ impl DropletSph {
             let mass = particles.mass[i] / units.mass();
             cloud.push(position, velocity, mass, particles.temperature[i] - reference);
             cloud.density[i] = particles.density[i] / units.density - 1.0;
+            // They are as the plan's fluid has become.
+            cloud.initial[i] = 0.0;
         }
         let released = self.plan.releases.len() as f64;
         let mut ledger = Ledger { released, ..self.empty_ledger() };
@@ -183,9 +185,8 @@ impl DropletSph {
         let surface = surface.above(self.reference_temperature());
         let method = &self.method;
         let cells = method.wall.as_ref();
-        let before = self.before_contact(&ledger);
         let mut points =
-            cells.map(|cells| WallPoints::new(&method.points, cells, &surface, before, duration));
+            cells.map(|cells| WallPoints::new(&method.points, cells, &surface, duration));
         let end = ledger.time + duration;
         while ledger.time < end {
             let next =
@@ -301,14 +302,6 @@ impl DropletSph {
     /// The zero of the model's temperatures [K].
     fn reference_temperature(&self) -> f64 {
         self.plan.reference_temperature()
-    }
-
-    /// Temperature of all fluid before contact above the reference [K], if it has one.
-    fn before_contact(&self, ledger: &Ledger) -> Option<f64> {
-        match &ledger.requests {
-            Some(requests) => requests.before_contact(),
-            None => self.method.wall_heat.as_ref()?.before,
-        }
     }
 
     fn cloud(&self, state: &[f64]) -> Cloud {

@@ -13,10 +13,6 @@ const NUMBERS: usize = 6;
 pub struct Requests {
     /// Drops asked for so far, a whole number.
     pub asked: f64,
-    /// Temperature of the first drop above the reference [K].
-    pub warmth: f64,
-    /// 1 once a drop was released at another temperature than the first, 0 before.
-    pub differ: f64,
     /// Drops that wait in the order in which they were asked for, then zeros: as many as there may be.
     pub waiting: Vec<[f64; NUMBERS]>,
 }
@@ -33,14 +29,6 @@ impl Requests {
         let waits = "place [m], velocity [m/s] and temperature [K] of a drop that waits";
         vec![
             (body("asked", "drops asked for so far"), from_mut(&mut self.asked)),
-            (
-                body("warmth", "temperature of the first drop above the reference [K]"),
-                from_mut(&mut self.warmth),
-            ),
-            (
-                body("differ", "1 where drops had different temperatures"),
-                from_mut(&mut self.differ),
-            ),
             (field("waiting", waits, Per::Drop, NUMBERS), self.waiting.as_flattened_mut()),
         ]
     }
@@ -68,19 +56,5 @@ impl Requests {
             ..*expected
         };
         self.waiting[..self.waiting(released)].iter().map(drop).collect()
-    }
-
-    /// Notes that a drop is released as one of some, at a temperature above the reference [K].
-    pub fn note(&mut self, released: f64, warmth: f64) {
-        if released == 0.0 {
-            self.warmth = warmth;
-        } else if warmth != self.warmth {
-            self.differ = 1.0;
-        }
-    }
-
-    /// The temperature above the reference at which all drops were released [K], if it is one.
-    pub fn before_contact(&self) -> Option<f64> {
-        (self.differ == 0.0).then_some(self.warmth)
     }
 }

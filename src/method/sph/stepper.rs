@@ -467,6 +467,7 @@ fn exchange_heat(
                 share,
                 mass: part.mass[k],
                 temperature: part.temperature[k],
+                initial: part.initial[k],
             })
         };
         (0..part.mass.len()).filter_map(touching).collect::<Vec<_>>()

@@ -30,8 +30,6 @@ pub struct WallHeat {
     capacity: f64,
     /// [s]
     unit_of_time: f64,
-    /// Temperature of all fluid before contact above the reference, if the plan's releases have one.
-    pub before: Option<f64>,
 }
 
 /// A particle at the wall.
@@ -44,6 +42,8 @@ pub struct Touching {
     pub share: f64,
     pub mass: f64,
     pub temperature: f64,
+    /// Before contact.
+    pub initial: f64,
 }
 
 /// What a point gives to a step: heat capacity times relaxation [J/K], and temperature of the fluid.
@@ -62,8 +62,6 @@ impl WallHeat {
             return None;
         }
         let capacity = fluid.density * fluid.specific_heat;
-        let first = plan.releases.first().map(|release| release.temperature);
-        let same = plan.releases.iter().all(|release| Some(release.temperature) == first);
         Some(Self {
             law: ContactLaw::of(plan.kernel, plan.support, plan.dimension),
             conduction: fluid.conductivity / (capacity * units.speed * units.length),
@@ -71,7 +69,6 @@ impl WallHeat {
             layer: fluid.density * plan.spacing * area / units.mass(),
             capacity: fluid.specific_heat * units.mass(),
             unit_of_time: units.time(),
-            before: (first.is_some() && same).then_some(0.0),
         })
     }
 
@@ -112,7 +109,7 @@ impl WallHeat {
     /// Adds the fluid at the wall up in its points.
     fn gather(&self, touching: &[Touching], points: &mut WallPoints) -> Vec<Stencil> {
         let mut stencils = Vec::with_capacity(touching.len());
-        for Touching { at, share, mass, temperature, .. } in touching {
+        for Touching { at, share, mass, temperature, initial, .. } in touching {
             let stencil = points.stencil(*at);
             for (index, weight) in stencil.weights() {
                 if !points.points[index].active {
@@ -122,6 +119,7 @@ impl WallHeat {
                 let part = weight * share * mass;
                 point.mass += part;
                 point.temperature_sum += part * temperature;
+                point.initial_sum += part * initial;
             }
             stencils.push(stencil);
         }
@@ -132,7 +130,6 @@ impl WallHeat {
     fn settle(&self, points: &mut WallPoints, dt: f64, team: &Team) {
         let seconds = dt * self.unit_of_time;
         let response = &points.surface.response;
-        let before = points.before;
         let count = response.len();
         let weights = weights(&response.rates, seconds);
         let part = points.time / points.duration;
@@ -151,8 +148,8 @@ impl WallHeat {
         // Conductance of the fluid above each column [J/K], and its product with the fluid's temperature.
         let mut sums = vec![[0.0; 2]; walls.len()];
         for _ in 0..PASSES {
-            contacts = team
-                .map(points.points.len(), |n| self.contact(&points.points[n], &walls, before, dt));
+            contacts =
+                team.map(points.points.len(), |n| self.contact(&points.points[n], &walls, dt));
             sums.fill([0.0; 2]);
             for (point, contact) in points.points.iter().zip(&contacts) {
                 for &(column, part) in &point.below {
@@ -176,7 +173,7 @@ impl WallHeat {
             }
         }
         for (point, contact) in points.points.iter_mut().zip(contacts) {
-            (point.mass, point.temperature_sum) = (0.0, 0.0);
+            (point.mass, point.temperature_sum, point.initial_sum) = (0.0, 0.0, 0.0);
             // Where nothing is below, as beyond the edge of a body, there is nothing to relax towards.
             point.relaxation = contact.relaxation * covered(point);
             point.wall = wall_below(point, &walls);
@@ -187,9 +184,8 @@ impl WallHeat {
         }
     }
 
-    /// How the fluid at a point exchanges heat with what is below, of which the columns' temperatures are given, as
-    /// that of the fluid before contact.
-    fn contact(&self, point: &Point, walls: &[f64], before: Option<f64>, dt: f64) -> Contact {
+    /// How the fluid at a point exchanges heat with what is below, of which the columns' temperatures are given.
+    fn contact(&self, point: &Point, walls: &[f64], dt: f64) -> Contact {
         let [bare, covered] = COVERED;
         let layers = point.mass / self.layer;
         if layers <= bare {
@@ -201,8 +197,10 @@ impl WallHeat {
         let thickness = self.spacing * layers / cover;
         let diffusion = self.conduction * dt / (thickness * thickness);
         let wall = wall_below(point, walls);
-        let deficit = before.map(|before| (before - fluid) / (before - wall));
-        let relaxation = self.law.relaxation(deficit.filter(|d| d.is_finite()), diffusion);
+        // Where drops meet that were not equally warm, the mean of what came to the point counts.
+        let before = point.initial_sum / point.mass;
+        let deficit = (before - fluid) / (before - wall);
+        let relaxation = self.law.relaxation(Some(deficit).filter(|d| d.is_finite()), diffusion);
         Contact { conductance: self.capacity * point.mass * relaxation, fluid, relaxation }
     }
 }

@@ -52,9 +52,11 @@ pub struct Point {
     pub below: Vec<(u32, f64)>,
     /// The part beyond the outermost cells of a wall that goes on there, and the column whose temperature it has.
     pub beyond: Option<(u32, f64)>,
-    /// Sums over the fluid at the wall of mass, and of mass times temperature, each over their units.
+    /// Sums over the fluid at the wall of mass, and of mass times temperature, now and at the release, each over their
+    /// units.
     pub mass: f64,
     pub temperature_sum: f64,
+    pub initial_sum: f64,
     /// Mean temperature of the wall [K], and part of its difference to that of the fluid that the latter loses.
     pub wall: f64,
     pub relaxation: f64,
@@ -82,8 +84,6 @@ pub struct WallPoints<'a> {
     lattice: &'a PointLattice,
     cells: &'a WallCells,
     pub surface: &'a Surface,
-    /// Temperature of all fluid before contact above the reference [K], if it has one.
-    pub before: Option<f64>,
     pages: HashMap<[i32; 2], usize>,
     last: ([i32; 2], usize),
     pub points: Vec<Point>,
@@ -183,14 +183,12 @@ impl<'a> WallPoints<'a> {
         lattice: &'a PointLattice,
         cells: &'a WallCells,
         surface: &'a Surface,
-        before: Option<f64>,
         duration: f64,
     ) -> Self {
         Self {
             lattice,
             cells,
             surface,
-            before,
             pages: HashMap::new(),
             last: ([i32::MIN; 2], 0),
             points: Vec::new(),

@@ -51,7 +51,6 @@ impl DropletSph {
         let mut waiting: Vec<Release> = Vec::new();
         for drop in drops {
             if waiting.iter().all(|first| are_apart(first, &drop)) && self.is_free(&cloud, &drop) {
-                requests.note(ledger.released, drop.temperature - self.reference_temperature());
                 self.add(&drop, &mut ledger, &mut cloud);
                 ledger.released += 1.0;
             } else {
