@@ -58,7 +58,7 @@ impl Place {
 #[test]
 fn a_file_that_cannot_be_written_whole_is_as_it_was() {
     let place = Place::new();
-    fs::write(place.path("unit.fmu"), "earlier").unwrap();
+    fs::write(place.path("unit.fmu"), "PK earlier").unwrap();
     let shell = Command::new("sh")
         .current_dir(place.0.path())
         .args([
@@ -71,7 +71,7 @@ fn a_file_that_cannot_be_written_whole_is_as_it_was() {
         .unwrap();
     let said = String::from_utf8_lossy(&shell.stderr);
     assert!(!shell.status.success() && said.contains("cannot write"), "{said}");
-    assert_eq!(fs::read(place.path("unit.fmu")).unwrap(), b"earlier");
+    assert_eq!(fs::read(place.path("unit.fmu")).unwrap(), b"PK earlier");
     assert_eq!(place.names(), ["lib.so", "scene.toml", "unit.fmu"]);
     assert!(place.shell("scene.toml -o unit.fmu --library lib.so").status.success());
     assert!(fs::read(place.path("unit.fmu")).unwrap().starts_with(b"PK"));
@@ -89,6 +89,23 @@ fn nothing_is_written_where_something_is_read() {
     place.refused("scene.toml --xml scene.toml", "which is read");
     assert_eq!(fs::read_to_string(place.path("scene.toml")).unwrap(), SCENE);
     assert_eq!(fs::read(place.path("lib.so")).unwrap(), fs::read(library()).unwrap());
+}
+
+#[test]
+fn files_that_are_no_units_are_not_replaced() {
+    let place = Place::new();
+    for (name, options) in [("other.toml", ""), ("notes.txt", "--xml notes.txt")] {
+        fs::write(place.path(name), "mine").unwrap();
+        let target = if options.is_empty() { format!("-o {name}") } else { options.to_owned() };
+        place.refused(
+            &format!("scene.toml {target} --library lib.so"),
+            "was not made by this program",
+        );
+        assert_eq!(fs::read_to_string(place.path(name)).unwrap(), "mine");
+    }
+    fs::write(place.path("empty.fmu"), "").unwrap();
+    assert!(place.shell("scene.toml -o empty.fmu --library lib.so").status.success());
+    assert!(place.shell("scene.toml -o empty.fmu --library lib.so").status.success());
 }
 
 #[test]

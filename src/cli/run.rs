@@ -3,7 +3,7 @@ use std::time::Instant;
 
 use clap::Args;
 use impinge::machine::available_memory;
-use impinge::model::{Cache, Model, State, Timeline, check_memory};
+use impinge::model::{Cache, Model, ModelError, State, Timeline, check_memory};
 use impinge::output::{CsvTable, FieldSeries, FolderLock, OutputError};
 use impinge::scene::{self, Scene};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -13,7 +13,7 @@ use super::error::input_name;
 use super::idle;
 use super::inputs::{Between, InputTable};
 use super::set::{self, Assignment, InputValue};
-use super::summary;
+use super::summary::{self, Balance};
 use super::units::engineering;
 
 /// Number of times at which fields are written, about, if the user does not say.
@@ -87,6 +87,7 @@ impl Run {
             cache: Cache::default(),
             timeline,
             table,
+            balances: Vec::new(),
             model: &model,
         };
         let note = || idle::note(&scene, &run.state.inputs);
@@ -224,6 +225,7 @@ impl Record {
         let is_due = is_last || (self.every > 0 && done.is_multiple_of(self.every));
         if is_last || done.is_multiple_of(self.rows_every) {
             self.table.write(run.model, &run.state, &mut run.cache)?;
+            run.look_at_balances()?;
         }
         match &mut self.fields {
             Some(fields) if is_due => fields.write(run.model, &run.state, &mut run.cache),
@@ -239,6 +241,8 @@ struct Running<'a> {
     cache: Cache,
     timeline: Timeline,
     table: Option<InputTable>,
+    /// Of the last row that was written.
+    balances: Vec<Balance>,
 }
 
 impl Running<'_> {
@@ -280,22 +284,29 @@ impl Running<'_> {
         })
     }
 
+    /// Brings the heat balances up to date.
+    fn look_at_balances(&mut self) -> Result<(), ModelError> {
+        let mut balances = summary::balances(self.model, &self.state, &mut self.cache)?;
+        Balance::join(&mut balances, &self.balances);
+        self.balances = balances;
+        Ok(())
+    }
+
     /// The heat balance and the extremes; warns on standard error if the heat does not add up.
     fn report(&mut self) -> Result<String, CliError> {
         let named = |error| CliError::from_model(error, self.model.scene());
-        let balances =
-            summary::balances(self.model, &self.state, &mut self.cache).map_err(named)?;
+        self.look_at_balances().map_err(named)?;
         let extremes =
             summary::extremes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let peaks =
             summary::peaks_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let overflows = self.model.warnings(&self.state);
         let strays = self.model.closing_warnings(&self.state);
-        let balances_off = balances.iter().filter_map(summary::Balance::warning);
+        let balances_off = self.balances.iter().filter_map(Balance::warning);
         for warning in balances_off.chain(overflows).chain(strays) {
             super::print_message("warning", &warning);
         }
-        let balances = summary::balance_table(&balances);
+        let balances = summary::balance_table(&self.balances);
         let peaks = if peaks.is_empty() { peaks } else { format!("\n{peaks}") };
         Ok(format!("{balances}\n{extremes}{peaks}"))
     }

@@ -17,15 +17,24 @@ pub struct Balance {
     heat_in: f64,
     stored: f64,
     lost: f64,
+    /// Largest of these at any time so far: what has come and gone is no measure of what rounding leaves.
+    largest: f64,
     /// Relative residual above which something is wrong.
     expected: f64,
 }
 
 impl Balance {
-    /// `|in − stored − lost| / max(|in|, |stored|, |lost|)`; zero where nothing moved.
+    /// `|in − stored − lost|` over the largest of these so far; zero where nothing moved.
     fn residual(&self) -> f64 {
-        let scale = self.heat_in.abs().max(self.stored.abs()).max(self.lost.abs());
-        if scale == 0.0 { 0.0 } else { (self.heat_in - self.stored - self.lost).abs() / scale }
+        let off = (self.heat_in - self.stored - self.lost).abs();
+        if self.largest == 0.0 { 0.0 } else { off / self.largest }
+    }
+
+    /// Counts what was largest in earlier balances of the same bodies.
+    pub fn join(balances: &mut [Self], earlier: &[Self]) {
+        for (now, before) in balances.iter_mut().zip(earlier) {
+            now.largest = now.largest.max(before.largest);
+        }
     }
 
     /// What to say if the heat does not add up.
@@ -76,7 +85,8 @@ pub fn balances(
             continue;
         };
         let (heat_in, stored, lost) = (heat_in?, stored?, lost?);
-        list.push(Balance { body: body.to_owned(), heat_in, stored, lost, expected });
+        let largest = [heat_in, stored, lost].into_iter().map(f64::abs).fold(0.0, f64::max);
+        list.push(Balance { body: body.to_owned(), heat_in, stored, lost, largest, expected });
     }
     Ok(list)
 }
@@ -144,7 +154,8 @@ mod tests {
     use super::*;
 
     fn balance(heat_in: f64, stored: f64, lost: f64) -> Balance {
-        Balance { body: "plate".into(), heat_in, stored, lost, expected: BALANCED }
+        let largest = [heat_in, stored, lost].into_iter().map(f64::abs).fold(0.0, f64::max);
+        Balance { body: "plate".into(), heat_in, stored, lost, largest, expected: BALANCED }
     }
 
     #[test]

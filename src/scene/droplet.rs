@@ -446,7 +446,7 @@ impl Droplet {
                 "temperature at the release",
                 Quantity::Temperature,
                 self.initial_temperature,
-                [Some(0.0), None],
+                [Some(0.0), Some(1e9)],
             ),
             input(
                 "angle",
@@ -460,7 +460,7 @@ impl Droplet {
                 "direction along the wall of a drop that comes at an angle, from x towards y",
                 Quantity::Angle,
                 self.impact_direction,
-                any,
+                [Some(-TAU), Some(TAU)],
             ),
         ];
         inputs.retain(|input| self.dimension == 3 || !["y", "direction"].contains(&input.key));

@@ -110,7 +110,7 @@ impl DropInputs {
         }
         let landing = self.droplet.landing(centre, values.velocity());
         for (axis, (x, reach)) in landing.into_iter().zip(self.reach).enumerate() {
-            if x.abs() > reach * (1.0 + ROUNDING) {
+            if x.abs() > reach.max(ROUNDING * self.droplet.diameter) * (1.0 + ROUNDING) {
                 let allowed = match reach {
                     0.0 => "0".to_owned(),
                     reach => format!("{} to {} m", -short(reach), short(reach)),
@@ -158,7 +158,9 @@ impl DropInputs {
     /// The drop that is asked for.
     pub fn release(&self, inputs: &[f64]) -> Release {
         let values = self.values(inputs);
-        let Values { centre: [x, y], temperature, .. } = values;
+        let Values { centre, temperature, .. } = values;
+        // A centre that rounding moved off the middle is there.
+        let [x, y] = [0, 1].map(|axis| if self.reach[axis] == 0.0 { 0.0 } else { centre[axis] });
         let [_, _, z] = self.at_origin.centre;
         Release { centre: [x, y, z], velocity: values.velocity(), temperature, ..self.at_origin }
     }

@@ -1,5 +1,6 @@
 //! What a user should know of a droplet before it runs.
 
+use super::plan::fine_radius;
 use crate::scene::{Droplet, Governing, Scene, Wall};
 
 /// What was chosen or left out, and why: a sentence each.
@@ -56,8 +57,10 @@ pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
 fn note_on_demand(scene: &Scene, name: &str, droplet: &Droplet) -> String {
     let fine = match scene.coupling_from(name).map(|index| &scene.coupling[index]) {
         Some(coupling) => format!(
-            "; the mesh of `{}` is fine about the origin, out to `radius` of the coupling",
-            coupling.to
+            "; the mesh of `{}` is fine about the origin, out to {:.3e} m (`radius` of the coupling): drops that fall \
+             beyond heat elements too coarse for them",
+            coupling.to,
+            fine_radius(coupling, droplet, scene.stop_time)
         ),
         None => String::new(),
     };

@@ -64,13 +64,17 @@ pub fn cells_of(footprint: &Footprint) -> Option<WallCells> {
     }
 }
 
-/// Where a droplet spreads: as far as it is expected to, but no faster than it arrives.
+/// Out to which distance from where a drop lands the mesh below is fine [m], where so much time is left [s]: as far as
+/// the drop is expected to spread, but no faster than it arrives.
+pub fn fine_radius(coupling: &Coupling, droplet: &Droplet, time: f64) -> f64 {
+    let soonest = 0.5 * droplet.diameter + droplet.fastest_flow() * time;
+    coupling.radius.unwrap_or((0.5 * droplet.spread_diameter()).min(soonest))
+}
+
+/// Where droplets spread on a solid.
 pub fn refinements(coupling: &Coupling, droplet: &Droplet, stop_time: f64) -> Vec<Refinement> {
     let at = |arrival: &Arrival| {
-        let time = (stop_time - arrival.time).max(0.0);
-        let soonest = 0.5 * droplet.diameter + droplet.fastest_flow() * time;
-        let expected = (0.5 * droplet.spread_diameter()).min(soonest);
-        let radius = coupling.radius.unwrap_or(expected);
+        let radius = fine_radius(coupling, droplet, (stop_time - arrival.time).max(0.0));
         let stretch = |centre: f64| [centre - radius, centre + radius];
         let feature = 0.5 * droplet.diameter;
         let [x, y] = droplet.landing([arrival.x, arrival.y], droplet.velocity()).map(stretch);

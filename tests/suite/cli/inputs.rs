@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{Called, Workplace};
+use super::{Called, SCENE, Workplace};
 
 /// A run of the scene with a table of inputs.
 fn run_with(place: &Workplace, table: &str, options: &[&str]) -> Called {
@@ -97,4 +97,26 @@ fn what_is_wrong_with_a_table_is_said_with_line_and_column() {
     place.run(&["--between", "held"]).fails(2, &["--inputs"]);
     place.run(&["--rows-every", "0"]).fails(2, &["rows-every"]);
     assert!(!place.path("out").exists());
+}
+
+#[test]
+fn a_run_never_writes_over_its_table() {
+    let place = Workplace::new();
+    fs::create_dir(place.path("w")).unwrap();
+    fs::write(place.path("w/outputs.csv"), "time,spot.heat_flux\n0,1\n").unwrap();
+    place
+        .run(&["--inputs", "w/outputs.csv", "--out", "w", "--overwrite"])
+        .fails(1, &["outputs.csv could be one of the files of the run"]);
+    let kept = fs::read_to_string(place.path("w/outputs.csv")).unwrap();
+    assert_eq!(kept, "time,spot.heat_flux\n0,1\n");
+}
+
+#[test]
+fn heat_that_came_and_went_is_no_measure_of_what_rounding_leaves() {
+    let place = Workplace::new();
+    let scene = SCENE.replace("bottom = { temperature = 293.15 }\n", "");
+    fs::write(place.path("scene.toml"), scene).unwrap();
+    let table = "time,spot.heat_flux\n0,1e8\n5e-7,1e8\n5e-7,-1e8\n1e-6,-1e8\n";
+    let run = run_with(&place, table, &[]).succeeds();
+    assert_eq!(run.stderr(), "");
 }
