@@ -94,13 +94,11 @@ fn nothing_is_written_where_something_is_read() {
 #[test]
 fn files_that_are_no_units_are_not_replaced() {
     let place = Place::new();
-    for (name, options) in [("other.toml", ""), ("notes.txt", "--xml notes.txt")] {
+    for (name, target) in
+        [("other.toml", "-o other.toml --library lib.so"), ("notes.txt", "--xml notes.txt")]
+    {
         fs::write(place.path(name), "mine").unwrap();
-        let target = if options.is_empty() { format!("-o {name}") } else { options.to_owned() };
-        place.refused(
-            &format!("scene.toml {target} --library lib.so"),
-            "was not made by this program",
-        );
+        place.refused(&format!("scene.toml {target}"), "was not made by this program");
         assert_eq!(fs::read_to_string(place.path(name)).unwrap(), "mine");
     }
     fs::write(place.path("empty.fmu"), "").unwrap();
