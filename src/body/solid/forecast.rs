@@ -8,7 +8,7 @@ use crate::method::fem::{
     Geometry, expected_entries, factor_memory, particle_cost, solver_memory,
     suits_conjugate_gradients,
 };
-use crate::scene::{CellValues, Scene, Solid};
+use crate::scene::{CellShape, CellValues, Coupling, Load, Scene, Solid};
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct BodyForecast {
@@ -81,7 +81,11 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     // Of bricks nothing is assembled.
     let assembly = if by_bricks { 3e-7 } else { 2e-5 };
     let iterations = if by_bricks { n / BRICK_RATE } else { 0.0 };
-    let classes = loaded_classes(scene, name, plan.mesh.mirrored);
+    let at_start = |axis| is_odd_at_start(scene, name, axis);
+    let classes = count_classes(plan.mesh.mirrored, at_start);
+    // Memory is taken when a class is first loaded; time is told as of a run that loads all that it may.
+    let later =
+        count_classes(plan.mesh.mirrored, |axis| at_start(axis) || becomes_odd(scene, name, axis));
     let spacing = plan.mesh.axes.each_ref().map(|axis| {
         let steps = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
         steps.fold([f64::INFINITY, 0.0], |[low, high], step| [low.min(step), high.max(step)])
@@ -124,11 +128,11 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
             + classes * solver
             + 8.0 * (20.0 * unknowns[0] as f64 + modes + columns)
             + 12.0 * links,
-        build_time: classes * operations / (FACTOR_RATE * threads)
+        build_time: later * operations / (FACTOR_RATE * threads)
             + assembly * n
             + rows / ROW_RATE
             + columns * plan.mesh.sided_counts()[2] as f64 / (COLUMN_RATE * threads),
-        step_time: classes * (entries / SOLVE_RATE + iterations / threads + 5e-7 * n)
+        step_time: later * (entries / SOLVE_RATE + iterations / threads + 5e-7 * n)
             + nonlinear_time
             + 1e-7 * unknowns[0] as f64
             + columns / SOLVE_RATE
@@ -137,18 +141,35 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     }
 }
 
-/// How many symmetry classes the loads have a part in at the start: each has a solver of its own.
-fn loaded_classes(scene: &Scene, name: &str, mirrored: [bool; 2]) -> f64 {
-    let odd = |axis: usize| {
-        scene.loads_on(name).any(|load| {
-            let start = &load.start;
-            let place = [start.x, start.y][axis].unwrap_or(0.0);
-            let shear = [&start.shear_x, &start.shear_y][axis];
-            let values = [&start.heat_flux, &start.pressure, &start.shear_x, &start.shear_y];
-            let uneven = values.iter().any(|values| matches!(values, Some(CellValues::Tiles(_))));
-            place != 0.0 || shear.is_some() || uneven
-        })
-    };
-    let axes = [0, 1].into_iter().filter(|&axis| mirrored[axis] && odd(axis));
+/// How many symmetry classes are loaded, each of which has a solver of its own.
+fn count_classes(mirrored: [bool; 2], is_odd: impl Fn(usize) -> bool) -> f64 {
+    let axes = [0, 1].into_iter().filter(|&axis| mirrored[axis] && is_odd(axis));
     axes.fold(1.0, |count, _| 2.0 * count)
+}
+
+/// Whether loads have a part at the start that is odd about the plane across an axis.
+fn is_odd_at_start(scene: &Scene, name: &str, axis: usize) -> bool {
+    scene.loads_on(name).any(|load| {
+        let start = &load.start;
+        let place = [start.x, start.y][axis].unwrap_or(0.0);
+        let shear = [&start.shear_x, &start.shear_y][axis];
+        let values = [&start.heat_flux, &start.pressure, &start.shear_x, &start.shear_y];
+        let uneven = values.iter().any(|values| matches!(values, Some(CellValues::Tiles(_))));
+        place != 0.0 || shear.is_some() || uneven
+    })
+}
+
+/// Whether what acts may come to have such a part: tiles, footprints with room to move, drops that fall beside the
+/// plane.
+fn becomes_odd(scene: &Scene, name: &str, axis: usize) -> bool {
+    let of_load = |load: &Load| {
+        let tiles =
+            matches!(load.footprint.cells(), Some(CellShape::Tiles(count)) if count[axis] > 1);
+        let range = [load.range.x, load.range.y][axis];
+        tiles || range.is_some_and(|range| range != [0.0; 2])
+    };
+    let of_droplet = |coupling: &Coupling| {
+        scene.droplet(&coupling.from).is_some_and(|droplet| !droplet.mirrors()[axis])
+    };
+    scene.loads_on(name).any(of_load) || scene.couplings_to(name).any(of_droplet)
 }
