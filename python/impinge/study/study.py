@@ -6,6 +6,7 @@ import hashlib
 import os
 import sys
 import tempfile
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -25,7 +26,7 @@ from .processes import Processes
 from .runner import Experiment, Row
 from .sampling import Design, Grid, Sampler
 from .scenes import Scene, Variant
-from .signals import Signal, signal_of, takes_parameters
+from .signals import Signal, Table, signal_of, takes_parameters, timeline
 from .worker import Job
 
 
@@ -41,6 +42,7 @@ class Study:
     inputs: what inputs, or tunable parameters, do in all runs: a value, a function of time [s] or
         of time and the row's values, a `Table`, or a pair (times, values). Inputs are parabolas
         over a step where the unit interpolates them, all else is held at its value in the middle.
+        Where functions jump, steps are cut (the mean is held if the unit cannot).
     outputs: names of variables (their value at the stop), `over_time`, `maximum`, `minimum` of
         them, or `of_run` for a function of a run.
     stop, step: of every run, in s; those that the unit proposes if left out.
@@ -74,6 +76,7 @@ class Study:
         self.design: Design = self.sampler.design(self.parameters)
         self._texts: dict[str, str] = {}  # scenes by hash
         self.rows = [self._row(index, values) for index, values in enumerate(self.design.rows)]
+        self._warn_of_inputs()
         self.unit_hash = identity.hash_of_unit(self.package.folder)
         shared = identity.hash_of_experiment(self.unit_hash, self.experiment)
         self.keys = [identity.key_of_row(shared, row) for row in self.rows]
@@ -239,6 +242,17 @@ class Study:
                 raise UnitError(f"`{name}` is a {told} (allowed: inputs, tunable parameters)")
             signals[name] = signal_of(name, given)
         return Experiment(stop, min(step, stop), signals, kept)
+
+    def _warn_of_inputs(self) -> None:
+        """Says what functions of time do, in the first row, that steps cannot follow."""
+        experiment = self.experiment
+        moving = {n: s for n, s in experiment.inputs.items() if callable(s) or isinstance(s, Table)}
+        if not moving or not self.rows:
+            return
+        cut = self.package.can.variable_steps
+        line = timeline(experiment.stop, experiment.step, moving, cut, self.rows[0].sampled)
+        for note in line.notes:
+            warnings.warn(note, UserWarning, stacklevel=3)
 
     def _check_outputs(self) -> None:
         """Refuses what the unit has not; changed scenes may have other variables than it."""
