@@ -8,9 +8,10 @@ from pathlib import Path
 import meshio
 import numpy as np
 import pytest
-from impinge import Surface
+from impinge import Surface, Unit, linear_map
 from impinge.adapt import read_inputs
 from impinge.adapt.cli import main
+from impinge.linear import plan
 from impinge.unit.build import find_program
 
 DOCS = Path(__file__).parents[2] / "docs"
@@ -73,3 +74,20 @@ def test_the_command_speaks_of_its_own_options(tmp_path, capsys):
         main(["--help"])
     told = capsys.readouterr().out
     assert "``" not in told and "Files of other tools" in told
+
+
+def test_the_plan_of_two_outputs_that_studies_tell_keeps_its_limits(monkeypatch, capsys):
+    """The rim stays below 340 K, and what is printed is short."""
+    monkeypatch.chdir(DOCS.parent)
+    text = (DOCS / "studies.md").read_text()
+    (example,) = [b for b in re.findall(r"```python\n(.*?)```", text, re.S) if "highest" in b]
+    names = {"np": np, "Unit": Unit, "linear_map": linear_map, "plan": plan}
+    exec(example, names)
+    assert len(capsys.readouterr().out.splitlines()) == 2
+    found, course = names["found"], names["course"]
+    made = plan(
+        found, course, weights=[1.0, 0.0], highest=[np.inf, 340.0], upper=1e4, lower=0.0,
+        changes=1e-7,
+    )  # fmt: skip
+    assert made.outputs[1:, 1].max() <= 340.0 + 1e-6
+    assert abs(made.outputs[-1, 0] - 333.15) < 1.0
