@@ -6,7 +6,6 @@ import hashlib
 import os
 import sys
 import tempfile
-import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -18,7 +17,7 @@ from tqdm import tqdm
 from impinge.errors import UnitError
 from impinge.unit import Package, open_package
 
-from . import dataset, identity
+from . import checks, dataset, identity
 from .distributions import Distribution, distribution_of, is_held
 from .journal import Finished, Journal, read
 from .outputs import Output, output_of
@@ -26,7 +25,7 @@ from .processes import Processes
 from .runner import Experiment, Row
 from .sampling import Design, Grid, Sampler
 from .scenes import Scene, Variant
-from .signals import Signal, Table, signal_of, takes_parameters, timeline
+from .signals import Signal, signal_of, takes_parameters
 from .worker import Job
 
 
@@ -49,7 +48,8 @@ class Study:
     sampler: `Grid` (default), `Paired`, `LatinHypercube` or `Sobol`.
     fmi: the version that a scene is built for.
 
-    Raises `UnitError` or `ValueError` for what does not fit the unit, before anything runs.
+    Raises `UnitError` or `ValueError` for what does not fit the unit or the scene, before anything
+    runs; what both ends of a range or of levels are refused for counts as that.
     """
 
     def __init__(
@@ -74,9 +74,10 @@ class Study:
         self.kinds = {name: self._kind(name) for name in self.parameters}
         self._check_outputs()
         self.design: Design = self.sampler.design(self.parameters)
-        self._texts: dict[str, str] = {}  # scenes by hash
+        self.texts: dict[str, str] = {}  # scenes by hash
         self.rows = [self._row(index, values) for index, values in enumerate(self.design.rows)]
-        self._warn_of_inputs()
+        checks.check_values(self)
+        checks.warn_of_inputs(self)
         self.unit_hash = identity.hash_of_unit(self.package.folder)
         shared = identity.hash_of_experiment(self.unit_hash, self.experiment)
         self.keys = [identity.key_of_row(shared, row) for row in self.rows]
@@ -214,7 +215,7 @@ class Study:
 
     def _prepare(self, row: Row) -> Variant:
         assert self.scene
-        return self.scene.variant(self._texts[row.scene])
+        return self.scene.variant(self.texts[row.scene])
 
     # What names and values mean
 
@@ -242,17 +243,6 @@ class Study:
                 raise UnitError(f"`{name}` is a {told} (allowed: inputs, tunable parameters)")
             signals[name] = signal_of(name, given)
         return Experiment(stop, min(step, stop), signals, kept)
-
-    def _warn_of_inputs(self) -> None:
-        """Says what functions of time do, in the first row, that steps cannot follow."""
-        experiment = self.experiment
-        moving = {n: s for n, s in experiment.inputs.items() if callable(s) or isinstance(s, Table)}
-        if not moving or not self.rows:
-            return
-        cut = self.package.can.variable_steps
-        line = timeline(experiment.stop, experiment.step, moving, cut, self.rows[0].sampled)
-        for note in line.notes:
-            warnings.warn(note, UserWarning, stacklevel=3)
 
     def _check_outputs(self) -> None:
         """Refuses what the unit has not; changed scenes may have other variables than it."""
@@ -303,7 +293,7 @@ class Study:
             assert self.scene
             text = self.scene.changed(by_kind["scene"])
             scene = hashlib.sha256(text.encode()).hexdigest()
-            self._texts[scene] = text
+            self.texts[scene] = text
         asks = any(callable(s) and takes_parameters(s) for s in self.experiment.inputs.values())
         sampled = dict(values) if asks else {}
         return Row(index, by_kind["parameter"], by_kind["input"], sampled, scene)
