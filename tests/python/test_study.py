@@ -1,8 +1,13 @@
 """Studies: designs, scenes, inputs, what is kept, what fails."""
 
 import os
+import re
+import shlex
 import signal
+import subprocess
+import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,9 +28,18 @@ from impinge.study import (
     over_time,
     sobol_indices,
 )
+from impinge.study.identity import told
 from impinge.study.runner import Runner
 from linear_unit import make
 from slab import AREA, SCENE, top_temperature
+
+SCRIPT = """
+from impinge import Study
+given = {{"plate.top.flux": ten}}
+table = Study("{}", {{}}, inputs=given, outputs=["plate.heat_in"]).run(1, progress=False)
+print(table.attrs["command"])
+print(repr(table.attrs["inputs"]))
+"""
 
 
 @pytest.fixture(scope="module")
@@ -302,6 +316,7 @@ def test_tables_tell_where_they_come_from(slab, tmp_path):
     study = Study(
         slab,
         {"plate.conductivity": (5.0, 20.0)},
+        inputs={"plate.top.flux": lambda t: 1e3 if t < 0.5 else 0.0},
         outputs=["top.temperature"],
         sampler=LatinHypercube(3),
     )
@@ -312,6 +327,27 @@ def test_tables_tell_where_they_come_from(slab, tmp_path):
     assert stored.attrs["scene"] == SCENE
     assert stored.attrs["unit_sha256"] == study.unit_hash
     assert any(text.startswith("numpy ") for text in stored.attrs["versions"])
+    (function,) = np.atleast_1d(stored.attrs["inputs"])
+    assert "lambda t: 1e3 if t < 0.5 else 0.0" in function and " at 0x" not in function
+    assert re.search("sha256 [0-9a-f]{64}", function)
+    for call in (np.sin, eval("lambda t: t")):  # without a source
+        assert re.search("(sin|<lambda>), sha256 [0-9a-f]{64}$", told(call))
+    program, *_ = shlex.split(stored.attrs["command"])
+    assert Path(program).is_absolute() and Path(stored.attrs["working_folder"]) == Path.cwd()
+    script = tmp_path / "script.py"
+    script.write_text("def ten(t): return 10.0\n" + SCRIPT.format(slab))
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    ran = subprocess.run(
+        [sys.executable, "script.py", "a b"],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    command, function = ran.stdout.splitlines()
+    assert shlex.split(command) == [sys.executable, str(script.resolve()), "a b"]
+    assert "function __main__.ten, sha256" in function and "def ten(t): return 10.0" in function
     assert {"command", "date", "stop", "step", "generation_tool"} <= set(stored.attrs)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shlex
 import sys
 import tempfile
 from collections.abc import Iterable, Mapping
@@ -321,8 +322,14 @@ class Study:
 
     @property
     def command(self) -> str:
-        """How the process was called."""
-        return " ".join(sys.argv)
+        """How the process was called, with the path of its script."""
+        words = list(sys.orig_argv) or [sys.executable, *sys.argv]
+        words[0] = sys.executable or words[0]
+        script = Path(sys.argv[0]) if sys.argv and sys.argv[0] else None
+        if script is not None and script.is_file():
+            same = {sys.argv[0], os.path.relpath(script)}
+            words = [str(script.resolve()) if word in same else word for word in words]
+        return shlex.join(words)
 
 
 def _groups(rows: list[Row]) -> list[list[Row]]:
