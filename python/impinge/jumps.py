@@ -28,30 +28,27 @@ class Watched:
         self.name, self.function, self.is_constant = name, function, is_constant
         self._low: np.ndarray | None = None
         self._high: np.ndarray | None = None
+        self.range = self.tolerance = 0.0
 
     def __call__(self, time: float) -> np.ndarray:
         """The flat value at a time."""
         value = np.array(self.function(float(time)), float).ravel()
-        if not np.all(np.isfinite(value)):
+        if not np.isfinite(value).all():
             raise ValueError(f"input {self.name} is not finite at {time:.9g} s")
-        self._low = value if self._low is None else np.minimum(self._low, value)
-        self._high = value if self._high is None else np.maximum(self._high, value)
+        if self._low is None or self._high is None:
+            self._widen(value, value)
+        elif (value < self._low).any() or (value > self._high).any():
+            self._widen(np.minimum(self._low, value), np.maximum(self._high, value))
         return value
 
-    @property
-    def range(self) -> float:
-        """How far apart values have been by now, the largest of all elements."""
-        if self._low is None or self._high is None or not self._low.size:
-            return 0.0
-        return float(np.max(self._high - self._low))
-
-    @property
-    def tolerance(self) -> float:
-        """The least change that is a jump, above what rounding makes."""
-        if self._low is None or self._high is None or not self._low.size:
-            return 0.0
-        largest = float(max(np.abs(self._low).max(), np.abs(self._high).max()))
-        return _SHARE * self.range + 1e-13 * largest
+    def _widen(self, low: np.ndarray, high: np.ndarray) -> None:
+        """Takes in what the function has shown: `range`, how far apart values are, the largest of
+        all elements, and `tolerance`, the least change that is a jump, above what rounding makes.
+        """
+        self._low, self._high = low, high
+        self.range = float((high - low).max(initial=0.0))
+        largest = float(max(np.abs(low).max(initial=0.0), np.abs(high).max(initial=0.0)))
+        self.tolerance = _SHARE * self.range + 1e-13 * largest
 
     def look(self, begin: float, end: float) -> None:
         """Takes values over a step, so that what is a jump is known from the first one on."""
