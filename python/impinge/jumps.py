@@ -11,6 +11,7 @@ _NEAR = 1e-9  # of a step: how far before and after a time "just before" and "ju
 _SHARE = 1e-6  # of all that a function has shown: what counts as a jump
 _STEEP = 0.1  # of the same: by how much a function may leave its parabola without a word
 _MOST = 64  # jumps that are looked for within one step
+_KNOWN = 64  # values that are kept
 
 
 class Watched:
@@ -28,10 +29,14 @@ class Watched:
         self.name, self.function, self.is_constant = name, function, is_constant
         self._low: np.ndarray | None = None
         self._high: np.ndarray | None = None
+        self._known: dict[float, np.ndarray] = {}  # values that the same step asks for again
         self.range = self.tolerance = 0.0
 
     def __call__(self, time: float) -> np.ndarray:
         """The flat value at a time."""
+        known = self._known.get(time)
+        if known is not None:
+            return known
         value = np.array(self.function(float(time)), float).ravel()
         if not np.isfinite(value).all():
             raise ValueError(f"input {self.name} is not finite at {time:.9g} s")
@@ -39,6 +44,9 @@ class Watched:
             self._widen(value, value)
         elif (value < self._low).any() or (value > self._high).any():
             self._widen(np.minimum(self._low, value), np.maximum(self._high, value))
+        if len(self._known) >= _KNOWN:
+            self._known.clear()
+        self._known[time] = value
         return value
 
     def _widen(self, low: np.ndarray, high: np.ndarray) -> None:
