@@ -1,5 +1,8 @@
 """What may go wrong, as exceptions that repeat what a unit has to say."""
 
+from importlib import import_module
+from types import ModuleType
+
 
 class ImpingeError(Exception):
     """Any error of this package."""
@@ -30,3 +33,17 @@ class StepDiscarded(UnitError):
         super().__init__(what, messages)
         self.time = time
         self.terminated = terminated
+
+
+def need(module: str, command: str, why: str) -> ModuleType:
+    """A module that not everyone has; `command` installs it, `why` needs it.
+
+    Raises `ImportError` that says so.
+    """
+    try:
+        return import_module(module)
+    except ModuleNotFoundError as error:
+        missing = error.name or module
+        if missing.split(".")[0] != module.split(".")[0]:
+            raise  # it is there, and lacks something itself
+        raise ImportError(f"{why} needs `{missing}`, which is not installed: {command}") from None

@@ -24,7 +24,8 @@ def library(folder):
 def make(folder, name, a=(), b=(), c=(), *, d=0.0, e=0.0, f=None, g=0.0, u=0.0, x=None, **told):
     """Writes `name.fmu`: x' = A x + b u, y = c x + d u + e, z = Δ(f x + g u)/Δt, from u and x on.
 
-    told: units of measurement `u_unit`, `y_unit`, and whether it `interpolates` and has `states`.
+    told: units of measurement `u_unit`, `y_unit`, and whether it `interpolates`, has `states` and
+        takes `variable` steps.
     """
     n = len(b)
     blocks = [np.reshape(a, (n, n)), b, c, d, e, np.zeros(n) if f is None else f, g, u]
@@ -38,7 +39,9 @@ def make(folder, name, a=(), b=(), c=(), *, d=0.0, e=0.0, f=None, g=0.0, u=0.0, 
     return path
 
 
-def description(name, is_direct, u, u_unit="", y_unit="", interpolates=True, states=True):
+def description(
+    name, is_direct, u, u_unit="", y_unit="", interpolates=True, states=True, variable=True
+):
     def real(key, reference, causality, unit, start=""):
         unit = f'unit="{unit}"' if unit else ""
         return (
@@ -47,9 +50,10 @@ def description(name, is_direct, u, u_unit="", y_unit="", interpolates=True, sta
         )
 
     can, goes_back = str(interpolates).lower(), str(states).lower()
+    any_step = str(variable).lower()
     return f"""<?xml version="1.0" encoding="UTF-8"?>
 <fmiModelDescription fmiVersion="2.0" modelName="{name}" guid="{{linear}}">
-<CoSimulation modelIdentifier="Linear" canHandleVariableCommunicationStepSize="true"
+<CoSimulation modelIdentifier="Linear" canHandleVariableCommunicationStepSize="{any_step}"
  canInterpolateInputs="{can}" canGetAndSetFMUstate="{goes_back}"
  canSerializeFMUstate="{goes_back}"/>
 <UnitDefinitions>

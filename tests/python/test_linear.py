@@ -1,7 +1,9 @@
 """Linear maps, realisations, sensitivities over a step, and plans."""
 
+import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +11,8 @@ import pytest
 from impinge import ImpingeError, Unit, UnitError, linear_map, step_sensitivity
 from impinge.linear import LinearMap, NotLinear, NotRealised, plan
 from impinge.linear.command import main
+from impinge.study import Sobol
+from impinge.study.distributions import Uniform
 from linear_unit import make
 from slab import AREA, HEAT_CAPACITY, SCENE, top_temperature
 
@@ -190,6 +194,35 @@ def test_units_of_other_tools_have_maps(tmp_path, direct):
     with Unit(make(tmp_path, "None", a, b, c, states=False, **values)) as unit:
         with pytest.raises(UnitError, match="cannot save its state"):
             linear_map(unit, ["u"], ["y"], step, steps)
+
+
+def test_maps_models_and_plans_print_in_a_line(bed):
+    _, found = bed
+    planned = plan(found, 330.0, weights=[1.0, 0.0, 0.0], lower=[0.0, -5e3, 290.0], upper=9e3)
+    for thing, words in (
+        (found, "heater.heat_flux, fan.heat_flux, bed.top.ambient to .* 16 steps of 10 s"),
+        (found.state_space(1e-6), "states, step 10 s, error [0-9.]+e-"),
+        (planned, "16 steps of 3 inputs, 3 outputs, cost"),
+    ):
+        assert "\n" not in repr(thing) and len(repr(thing)) < 220
+        assert re.search(words, repr(thing))
+
+
+def test_what_is_not_installed_is_named_with_what_installs_it(bed, monkeypatch):
+    _, found = bed
+    for module in ("control", "casadi", "quadprog", "osqp", "SALib", "SALib.sample", "distributed"):
+        monkeypatch.setitem(sys.modules, module, None)
+    for call, words in (
+        (found.to_control, r'to_control\(\) needs `control`.*pip install "impinge\[control\]"'),
+        (found.to_casadi, "needs `casadi`.*: pip install casadi"),
+        (lambda: plan(found, 330.0, solver="quadprog"), r'quadprog.*pip install "impinge\[con'),
+        (lambda: plan(found, 330.0, solver="osqp"), "osqp.*: pip install osqp"),
+        (lambda: Sobol(4).design({"a": Uniform(0.0, 1.0)}), r'pip install "impinge\[study\]"'),
+    ):
+        with pytest.raises(ImportError, match=words):
+            call()
+    extras = tomllib.loads((ROOT / "python/pyproject.toml").read_text())["project"]
+    assert any(word.startswith("control") for word in extras["optional-dependencies"]["control"])
 
 
 def test_python_control_and_casadi_take_the_model(bed):

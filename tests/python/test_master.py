@@ -229,7 +229,7 @@ def test_a_count_of_energy_agrees_with_the_paths_that_were_set(pack, folder):
         for scheme in ("gauss-seidel", "iterate"):
             with Master(units, SPLIT, scheme=scheme, step=1e-5, energy=[count]) as master:
                 result = master.run(1e-4)
-            assert result["energy passed: law.y"].values[-1] > 1e-8
+            assert result["energy_passed.law.y"].values[-1] > 1e-8
             assert result.attrs["energy_residual.law.y"] < 1e-9
 
 
@@ -381,6 +381,13 @@ def test_families_connect_whole_and_inputs_follow_functions(pack, folder):
     assert result.attrs["order_of_units"] == "drop plate"
     # A mean over a step arrives whole in the same step.
     assert result.attrs["energy_residual.drop.wall.heat_flux"] == 0.0
+    assert (result["energy_residual.drop.wall.heat_flux"] == 0.0).all()
+    assert result["energy_passed.drop.wall.heat_flux"].attrs["units"] == "J"
+    radius = result["drop.wall.heat_flux:r"]
+    assert radius.dims == ("drop.wall.heat_flux:0",) and radius.attrs["units"] == "m"
+    outer, inner = result["drop.wall.heat_flux:outer"], result["drop.wall.heat_flux:inner"]
+    assert inner[0] == 0.0 and (outer[:-1].values == inner[1:].values).all()
+    assert radius.values == pytest.approx((inner.values + outer.values) / 2)
 
     def flux(time):
         return 1e6 if time < 5e-5 else 3e6 + 1e10 * (time - 5e-5)

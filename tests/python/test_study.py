@@ -1,8 +1,13 @@
 """Studies: designs, scenes, inputs, what is kept, what fails."""
 
 import os
+import re
+import shlex
 import signal
+import subprocess
+import sys
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -23,9 +28,18 @@ from impinge.study import (
     over_time,
     sobol_indices,
 )
+from impinge.study.identity import told
 from impinge.study.runner import Runner
 from linear_unit import make
 from slab import AREA, SCENE, top_temperature
+
+SCRIPT = """
+from impinge import Study
+given = {{"plate.top.flux": ten}}
+table = Study("{}", {{}}, inputs=given, outputs=["plate.heat_in"]).run(1, progress=False)
+print(table.attrs["command"])
+print(repr(table.attrs["inputs"]))
+"""
 
 
 @pytest.fixture(scope="module")
@@ -212,6 +226,14 @@ def test_rows_that_fail_keep_their_message_and_can_be_retried(slab, tmp_path):
     xr.testing.assert_equal(table, again)
 
 
+def test_ends_that_are_refused_are_told_before_rows_fail(slab):
+    base = {"outputs": ["top.temperature"]}
+    with pytest.warns(UserWarning, match="rows with plate.conductivity = -1.0 will fail.*at least"):
+        Study(slab, {"plate.conductivity": (-1.0, 5.0)}, **base)
+    with pytest.warns(UserWarning, match="rows with body.plate.shape.box.2 = -1.0 will fail"):
+        Study(slab, {"body.plate.shape.box.2": [1e-3, -1.0, 2e-3]}, **base)
+
+
 def test_processes_that_die_and_rows_that_hang_do_not_end_a_study(slab):
     def odd(t, p):
         if p["way"] == 1:
@@ -294,6 +316,7 @@ def test_tables_tell_where_they_come_from(slab, tmp_path):
     study = Study(
         slab,
         {"plate.conductivity": (5.0, 20.0)},
+        inputs={"plate.top.flux": lambda t: 1e3 if t < 0.5 else 0.0},
         outputs=["top.temperature"],
         sampler=LatinHypercube(3),
     )
@@ -304,6 +327,27 @@ def test_tables_tell_where_they_come_from(slab, tmp_path):
     assert stored.attrs["scene"] == SCENE
     assert stored.attrs["unit_sha256"] == study.unit_hash
     assert any(text.startswith("numpy ") for text in stored.attrs["versions"])
+    (function,) = np.atleast_1d(stored.attrs["inputs"])
+    assert "lambda t: 1e3 if t < 0.5 else 0.0" in function and " at 0x" not in function
+    assert re.search("sha256 [0-9a-f]{64}", function)
+    for call in (np.sin, eval("lambda t: t")):  # without a source
+        assert re.search("(sin|<lambda>), sha256 [0-9a-f]{64}$", told(call))
+    program, *_ = shlex.split(stored.attrs["command"])
+    assert Path(program).is_absolute() and Path(stored.attrs["working_folder"]) == Path.cwd()
+    script = tmp_path / "script.py"
+    script.write_text("def ten(t): return 10.0\n" + SCRIPT.format(slab))
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}
+    ran = subprocess.run(
+        [sys.executable, "script.py", "a b"],
+        cwd=tmp_path,
+        env=environment,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    command, function = ran.stdout.splitlines()
+    assert shlex.split(command) == [sys.executable, str(script.resolve()), "a b"]
+    assert "function __main__.ten, sha256" in function and "def ten(t): return 10.0" in function
     assert {"command", "date", "stop", "step", "generation_tool"} <= set(stored.attrs)
 
 
@@ -354,6 +398,12 @@ def test_tunable_parameters_are_set_as_inputs_are(tmp_path):
         ({"parameters": {"body.plate.nothing.here": [1.0]}}, "no parameter, input or key"),
         ({"parameters": {"top.temperature": [1.0]}}, "cannot be set"),
         ({"parameters": {"stop_time": [1.0]}}, "study's stop"),
+        ({"parameters": {"probe.top.att": [1.0]}}, "unknown key `att`.*did you mean `at`"),
+        ({"parameters": {"body.plate.mesh.spacin": (1e-4, 1e-3)}}, "`spacin`.*allowed: .*spacing"),
+        ({"parameters": {"body.plate.shape.box.2": (-2.0, -1.0)}}, "box.2 = -2.0: .*allowed: "),
+        ({"parameters": {"plate.conductivity": -1.0}}, "conductivity = -1.0: .*at least 0"),
+        ({"parameters": {"plate.conductivity": (-3.0, -1.0)}}, "conductivity = -3.0: .*at least 0"),
+        ({"parameters": {"plate.poisson": [0.7, 0.9]}}, "no parameter, input or key"),
         ({"parameters": {"plate.density": (2.0, 1.0)}}, "range that grows"),
         ({"parameters": {"plate.density": [np.nan]}}, "finite"),
         ({"inputs": {"plate.density": 1.0}}, "fixed|parameter"),
@@ -370,5 +420,5 @@ def test_tunable_parameters_are_set_as_inputs_are(tmp_path):
 )
 def test_what_does_not_fit_is_refused_before_anything_runs(slab, given, what):
     base = {"parameters": {"plate.density": (1.0, 2.0)}, "outputs": ["top.temperature"]}
-    with pytest.raises((ValueError, UnitError), match=what):
+    with pytest.raises((ValueError, UnitError), match="(?s)" + what):
         Study(slab, **{**base, **given})

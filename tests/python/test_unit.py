@@ -317,3 +317,28 @@ def test_a_package_can_be_looked_at_without_an_instance(pack):
     assert package.variables["patch.shear_x"].shape == (2, 3)
     assert package.variable("patch.shear_x[2,3]").shape == ()
     assert package.variables["patch.shear_x"].references.size == 6
+
+
+def test_programs_are_found_from_within_a_checkout(tmp_path, monkeypatch):
+    """As after `pip install ./python`, where the package lies in no checkout."""
+    build = sys.modules["impinge.unit.build"]
+    package = tmp_path / "site-packages/impinge/unit/build.py"
+    monkeypatch.setattr(build, "__file__", str(package))
+    monkeypatch.delenv("IMPINGE_BIN", raising=False)
+    monkeypatch.setenv("PATH", str(tmp_path))
+    checkout, other = tmp_path / "work/checkout", tmp_path / "work/other"
+    for folder, name in ((checkout, "impinge"), (other, "other")):
+        (folder / "target/release").mkdir(parents=True)
+        (folder / "inner").mkdir()
+        (folder / "Cargo.toml").write_text(f'[package]\nname = "{name}"\n')
+        (folder / "target/release" / build.PROGRAM).write_text("")
+    monkeypatch.chdir(checkout / "inner")
+    assert build.find_program() == checkout / "target/release" / build.PROGRAM
+    for folder in (other / "inner", tmp_path):  # of another project, and of none
+        monkeypatch.chdir(folder)
+        with pytest.raises(UnitError, match=r"export IMPINGE_BIN=\$PWD/target/release"):
+            build.find_program()
+    (checkout / "target/release" / build.PROGRAM).unlink()
+    monkeypatch.chdir(checkout)
+    with pytest.raises(UnitError, match="neither on PATH nor in .*checkout/target/release"):
+        build.find_program()

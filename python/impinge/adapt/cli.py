@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import argparse
+import re
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+
+import numpy as np
 
 from ..surface import Placement, Series, Surface, SurfaceError
 from ..surface.files import load_mesh
@@ -27,14 +30,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         options.run(options)
     except (SurfaceError, OSError) as error:
-        print(f"{PROGRAM}: {error}", file=sys.stderr)
+        print(f"{PROGRAM}: {_in_options(str(error))}", file=sys.stderr)
         return 2
     return 0
 
 
+def _in_options(told: str) -> str:
+    """An error of the functions in words of the command: options in place of arguments."""
+    amounts = 'quantity="extensive" carries their amounts'
+    told = told.replace(amounts, "`impinge-adapt spray` carries amounts of drops")
+    told = told.replace("(interval)", "(--interval)")
+    return re.sub(r'\b(kind|outside)="(\w+)"', r"--\1 \2", told)
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog=PROGRAM, description=__doc__.splitlines()[0] + ": files in and out of units"
+        prog=PROGRAM,
+        description="Files of other tools to tables of inputs of units, and fields of units onto"
+        " meshes of other tools.",
+        epilog="Formats, orientation and examples: docs/adapt.md of the repository.",
     )
     commands = parser.add_subparsers(required=True, metavar="COMMAND")
     laser = commands.add_parser("laser", help="maps of a beam's power to heat flux over time")
@@ -100,8 +114,9 @@ def _parser() -> argparse.ArgumentParser:
             "--variable", default="heat_flux", help="quantity of the load [default: %(default)s]"
         )
         command.add_argument("--hold", action="store_true", help="frames hold until the next")
+        choices = ["error", "drop", "nearest"] if command is cfd else ["error", "drop"]
         command.add_argument(
-            "--outside", choices=["error", "drop"], default="error", help="for what falls beside"
+            "--outside", choices=choices, default="error", help="for what falls beside"
         )
         command.add_argument("-o", "--out", type=Path, help="table for impinge run --inputs")
 
@@ -225,6 +240,13 @@ def _write(options: argparse.Namespace, target: Surface, frames: Series, unit: s
     if options.out is None:
         raise SurfaceError("-o: the name of the table is needed")
     name = options.onto.rpartition(":")[2]
+    missing = ~np.isfinite(frames.values)
+    if missing.any():
+        count = int(missing.reshape(len(frames), -1).any(axis=0).sum())
+        raise SurfaceError(
+            f"{options.files[0]}: {count} of {target.size} cells of {name} lie off its field and"
+            " would get no value; --outside nearest gives them that of the nearest place"
+        )
     write_inputs(
         options.out,
         {f"{name}.{options.variable}": frames},

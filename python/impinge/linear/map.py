@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from impinge.errors import need
 from impinge.unit import Unit
 
-from .realisation import StateSpace, realise
+from .realisation import StateSpace, named, realise
 from .rollout import Rollout
 
 
@@ -43,6 +44,12 @@ class LinearMap:
     ramp: np.ndarray | None
     changes: np.ndarray
     defect: float
+
+    def __repr__(self) -> str:
+        return (
+            f"<impinge.linear.LinearMap of {named(self.inputs)} to {named(self.outputs)}:"
+            f" {self.steps} steps of {self.step:g} s, defect {self.defect:.1e}>"
+        )
 
     @property
     def steps(self) -> int:
@@ -130,8 +137,7 @@ class LinearMap:
     def to_casadi(self, steps: int | None = None) -> Any:
         """A CasADi function of all inputs (inputs, n) and the free response (outputs, n) at ends of
         steps 1 … n, to outputs (outputs, n) there; `self.free[1:].T` is the map's own."""
-        import casadi
-
+        casadi = need("casadi", "pip install casadi", "to_casadi()")
         count = self.steps if steps is None else steps
         matrix, _ = self.matrices(count)
         inputs = casadi.SX.sym("inputs", len(self.inputs), count)

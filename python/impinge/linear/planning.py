@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from impinge.errors import ImpingeError
+from impinge.errors import ImpingeError, need
 
 from .map import LinearMap
 
@@ -39,6 +39,13 @@ class Plan:
     outputs: np.ndarray
     cost: float
     seconds: float
+
+    def __repr__(self) -> str:
+        steps, count = self.inputs.shape
+        return (
+            f"<impinge.linear.Plan: {steps} steps of {count} inputs,"
+            f" {self.outputs.shape[1]} outputs, cost {self.cost:.6g}, {self.seconds * 1e3:.3g} ms>"
+        )
 
 
 def quadratic_program(
@@ -161,6 +168,8 @@ def _solver(name: str | None, program: QuadraticProgram) -> Callable[..., np.nda
     if name is not None:
         if name not in _SOLVERS:
             raise ValueError(f"solver {name!r} (allowed: {', '.join(_SOLVERS)})")
+        needed = {"osqp": "pip install osqp scipy"}.get(name, 'pip install "impinge[control]"')
+        need(name, needed, f"solver={name!r}")
         return _SOLVERS[name]
     for module, solve in _SOLVERS.items():
         try:

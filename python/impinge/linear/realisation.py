@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from impinge.errors import ImpingeError
+from impinge.errors import ImpingeError, need
 
 if TYPE_CHECKING:
     from .map import LinearMap
@@ -54,6 +54,12 @@ class StateSpace:
     error: float
     hankel: np.ndarray
 
+    def __repr__(self) -> str:
+        return (
+            f"<impinge.linear.StateSpace of {named(self.inputs)} to {named(self.outputs)}:"
+            f" {self.order} states, step {self.step:g} s, error {self.error:.1e}>"
+        )
+
     @property
     def order(self) -> int:
         """The number of states."""
@@ -84,8 +90,7 @@ class StateSpace:
 
     def to_control(self) -> Any:
         """As `control.StateSpace` of python-control, with names and step."""
-        import control
-
+        control = need("control", 'pip install "impinge[control]"', "to_control()")
         return control.ss(
             self.A,
             self.B,
@@ -98,8 +103,7 @@ class StateSpace:
 
     def to_casadi(self) -> Any:
         """As a CasADi function (x, v) to (the next x, w)."""
-        import casadi
-
+        casadi = need("casadi", "pip install casadi", "to_casadi()")
         state = casadi.SX.sym("x", self.order)
         change = casadi.SX.sym("v", len(self.inputs))
         a, b, c, d = (casadi.DM(m) for m in (self.A, self.B, self.C, self.D))
@@ -182,6 +186,11 @@ def _error(found: LinearMap, space: StateSpace, given: np.ndarray) -> float:
     relative = missed.sum(axis=0)[total > 0.0] / total[total > 0.0]
     error = float(relative.max(initial=0.0))
     return error if np.isfinite(error) else np.inf
+
+
+def named(names: tuple[str, ...]) -> str:
+    """Names for one line: all where they are few."""
+    return ", ".join(names) if len(names) <= 3 else f"{names[0]} and {len(names) - 1} more"
 
 
 def _plain(name: str) -> str:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from impinge.errors import UnitError
+from impinge.jumps import Watched
 from impinge.master import waveform
 from impinge.master.acceleration import Acceleration
 from impinge.master.connection import Link
@@ -43,7 +44,8 @@ class Engine:
 
     order: degree of the polynomials in time through values that are known or iterated.
     extrapolation: degree of those through earlier values alone.
-    drives: inputs that functions of time give: (place, function).
+    drives: inputs that functions of time give: (place, function). Of those that jump within the
+        next step, `means` holds what they are held at; elsewhere it is not a number.
     """
 
     def __init__(
@@ -51,7 +53,7 @@ class Engine:
         participants: Sequence[Participant],
         links: Sequence[Link],
         components: Sequence[Component],
-        drives: Sequence[tuple[slice, Callable[[float], np.ndarray]]],
+        drives: Sequence[tuple[slice, Watched]],
         order: int,
         extrapolation: int,
         max_iterations: int,
@@ -65,6 +67,7 @@ class Engine:
         self.history = waveform.History(3)
         self.iterations = 0
         self.last_iterations = 0
+        self.means: np.ndarray | None = None
         self._driven = np.zeros(count, bool)
         for place, _ in drives:
             self._driven[place] = True
@@ -86,10 +89,14 @@ class Engine:
         late = [p.name for p in self.participants if p.answers_late]
         self._stale = self._mask([k for k in self.links if k.source_unit in late])
 
-    def drive(self, inputs: np.ndarray, time: float) -> None:
-        """Puts the values of functions of time in."""
+    def drive_after(self, inputs: np.ndarray, time: float, size: float) -> None:
+        """Puts the values of functions of time in as a step of `size` begins."""
         for place, function in self.drives:
-            inputs[place] = function(time)
+            inputs[place] = function.after(time, size)
+
+    def _drive_before(self, inputs: np.ndarray, time: float, size: float) -> None:
+        for place, function in self.drives:
+            inputs[place] = function.before(time, size)
 
     def weights(self) -> np.ndarray:
         """One over the scale of each input."""
@@ -105,23 +112,24 @@ class Engine:
 
     # A step
 
-    def advance(self, time: float, end: float, before: float, tolerance: float) -> None:
+    def advance(self, time: float, end: float, tolerance: float) -> None:
         """Takes all units from `time` to `end`; what they then are is not yet accepted.
 
-        `before` is the time just before a jump at the end of the step, else `end`: functions of
-        time are evaluated there. Afterwards `guess` holds the inputs that paths end at, `true`
-        those that outputs say, `arrived` the means of what targets followed.
+        Functions of time are evaluated just before the end. Afterwards `guess` holds the inputs
+        that paths end at, `true` those that outputs say, `arrived` the means of what targets
+        followed.
         """
         size = end - time
         self.guess = self._extrapolate(end)
-        self.drive(self.guess, before)
+        self._drive_before(self.guess, end, size)
         self.true = self.guess.copy()
         self.arrived = np.zeros_like(self.inputs)
         self.last_iterations = 0
         middle = None
         if self.order == 2 and self.drives:
             middle = np.zeros_like(self.inputs)
-            self.drive(middle, (time + before) / 2)
+            for place, function in self.drives:
+                middle[place] = function((time + end) / 2)
         for component in self.components:
             if component.iterates:
                 self._iterate(component, time, end, size, tolerance, middle)
@@ -172,6 +180,8 @@ class Engine:
             changes.append((self._driven, [now, ((time + end) / 2, middle), (end, self.guess)]))
         elif self.order:
             changes.append((self._driven, [self.history.nodes[-1], (end, self.guess)]))
+        if self.means is not None:
+            changes.append((np.isfinite(self.means), [(end, self.means)]))
         for mask, nodes in changes:
             mask = mask[place]
             if mask.any():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ import xarray
 from tqdm import tqdm
 
 from impinge.errors import UnitError
+from impinge.jumps import Watched
 from impinge.master.acceleration import acceleration as make_acceleration
 from impinge.master.connection import Connection, Link, links, split
 from impinge.master.energy import Balance, bond
@@ -48,7 +49,8 @@ class Master:
     adaptive: steps as long as the error allows; those that miss it are repeated shorter.
     graded: `Graded(over, exponent)`, or the time `over`: shorter steps after the start and jumps.
     jumps: times [s] at which inputs jump; no path reaches across them.
-    inputs: values, or functions of time, of inputs that no connection sets.
+    inputs: values, or functions of time [s], of inputs that no connection sets. Steps end where
+        these jump, or hold the mean where units take steps of one length.
     energy: powers to balance: `Bond`s, or pairs (flux output, effort output).
     outputs: what to record beside the sources of connections.
     memoryless: units without a state of their own, which may take a step again without going back.
@@ -86,6 +88,7 @@ class Master:
     ):
         _check_choices(scheme, order, extrapolation, max_iterations)
         self.notes: list[str] = []
+        self._warned: set[str] = set()
         self._own: list[Unit] = []
         self.units: dict[str, Unit] = {}
         try:
@@ -153,7 +156,7 @@ class Master:
             if name in targets:
                 raise MasterError(f"{name} is set by a connection already")
             driven.setdefault(unit, []).append((variable, value))
-        self._drives: list[tuple[slice, Callable[[float], np.ndarray]]] = []
+        self._drives: list[tuple[slice, Watched]] = []
         count = 0
         for name, participant in self.participants.items():
             participant.memoryless = name in memoryless
@@ -167,7 +170,7 @@ class Master:
                 target = self.units[name].variable(variable)
                 place = slice(count, count + target.size)
                 count += target.size
-                self._drives.append((place, _function(value, target.shape)))
+                self._drives.append((place, _function(f"{name}.{variable}", value, target.shape)))
                 names.append(variable)
                 real = target.is_real and target.variability == "continuous"
                 paths.append(np.full(target.size, real))
@@ -238,7 +241,7 @@ class Master:
         progress: whether a bar is shown; only in runs of more than two seconds if left out.
         """
         if not self._has_begun:
-            self._begin()
+            self._begin(stop)
         bar = tqdm(
             total=stop,
             initial=self.time,
@@ -256,10 +259,14 @@ class Master:
                     bar.update(0)
         return self._record.dataset(self._balances, self._attributes())
 
-    def _begin(self) -> None:
+    def _begin(self, stop: float = np.inf) -> None:
         engine = self._engine
         self._read_start(engine.inputs)
-        engine.drive(engine.inputs, self.time)
+        self._schedule.restart(self.time)
+        size = self._schedule.end_of_step(self.time, stop) - self.time
+        for _, function in self._drives:
+            function.look(self.time, self.time + size)
+        engine.drive_after(engine.inputs, self.time, size)
         # Twice: what follows inputs at once may have been read before these were set.
         for _ in range(2):
             self._exchange(engine.inputs, self._iteration_tolerance)
@@ -269,7 +276,6 @@ class Master:
             place = participant.place
             participant.probe(engine.inputs[place], weight[place])
         engine.begin(self.time)
-        self._schedule.restart(self.time)
         for balance in self._balances:
             balance.begin()
         self._record.add(self.time, self._balances)
@@ -283,12 +289,15 @@ class Master:
     def _step(self, stop: float) -> bool:
         """Tries a step; whether it was accepted."""
         end = self._schedule.end_of_step(self.time, stop)
+        for _, function in self._drives:
+            function.look(self.time, end)
+        end = self._cut(end)
         size = end - self.time
         is_jump = end in self._schedule.jumps
+        self._cross(size)
         self._save()
         try:
-            before = end - 1e-9 * size if is_jump else end
-            self._engine.advance(self.time, end, before, self._iteration_tolerance)
+            self._engine.advance(self.time, end, self._iteration_tolerance)
         except (NoConvergence, UnitError) as error:
             if not self._may_go_on(error, size):
                 return False
@@ -296,6 +305,53 @@ class Master:
             return False
         self._accept(end, size, is_jump)
         return True
+
+    def _cut(self, end: float) -> float:
+        """The end of the step, or where before that an input jumps. Where a unit takes steps of one
+        length alone, the mean of that input is held over the step."""
+        self._engine.means = None
+        found = [(place, f, f.jumps(self.time, end)) for place, f in self._drives]
+        jumping = [each for each in found if each[2]]
+        steep = [f.name for _, f, at in found if not at and f.is_steep(self.time, end)]
+        if steep and "steep" not in self._warned:
+            self._warned.add("steep")
+            self._note(
+                f"{steep[0]} changes within the step from {self.time:.6g} s as no parabola does:"
+                " what it brings in is not exact"
+            )
+        if not jumping:
+            return end
+        if all(unit.can.variable_steps for unit in self.units.values()):
+            return min(at[0] for _, _, at in jumping)
+        self._engine.means = means = np.full(len(self._engine.inputs), np.nan)
+        for place, function, _ in jumping:
+            means[place] = function.mean(self.time, end)
+        if "jump" not in self._warned:
+            self._warned.add("jump")
+            _, function, at = jumping[0]
+            self._note(
+                f"{function.name} jumps at {at[0]:.6g} s, within a step, and units take steps of"
+                " one length: its mean over the step is held"
+            )
+        return end
+
+    def _cross(self, size: float) -> None:
+        """Goes over to what functions of time are just after the beginning of the step, where they
+        jump there."""
+        engine = self._engine
+        new = engine.inputs.copy()
+        engine.drive_after(new, self.time, size)
+        if not any(
+            np.abs(new[place] - engine.inputs[place]).max(initial=0.0) > function.tolerance
+            for place, function in self._drives
+            if not function.is_constant
+        ):
+            return
+        engine.inputs[:] = new
+        self._exchange(engine.inputs, self._iteration_tolerance)
+        engine.begin(self.time)
+        if self.adaptive or self._schedule.graded:
+            self._schedule.restart(self.time)
 
     def _save(self) -> None:
         for component in self.components:
@@ -349,7 +405,7 @@ class Master:
         self.steps += 1
         self.most_iterations = max(self.most_iterations, engine.last_iterations)
         if is_jump:
-            engine.drive(engine.inputs, end)
+            engine.drive_after(engine.inputs, end, size)
         if is_jump or any(c.guessed and not c.iterates for c in self.components):
             self._exchange(engine.inputs, self._iteration_tolerance)
             engine.history.nodes[-1] = (end, engine.inputs.copy())
@@ -413,12 +469,13 @@ def _check_choices(scheme: str, order: int, extrapolation: int | None, max_itera
         raise MasterError(f"max_iterations is {max_iterations}; it must be at least 1")
 
 
-def _function(value: Any, shape: tuple[int, ...]) -> Callable[[float], np.ndarray]:
+def _function(name: str, value: Any, shape: tuple[int, ...]) -> Watched:
     """A constant or a function of time as a function of time that gives a flat array."""
     if callable(value):
-        return lambda time: np.broadcast_to(np.asarray(value(time), float), shape).ravel()
+        function = lambda time: np.broadcast_to(np.asarray(value(time), float), shape)  # noqa: E731
+        return Watched(name, function)
     constant = np.broadcast_to(np.asarray(value, float), shape).ravel()
-    return lambda time: constant
+    return Watched(name, lambda _: constant, is_constant=True)
 
 
 def _list(names: Sequence[str]) -> str:

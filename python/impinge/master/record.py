@@ -13,6 +13,11 @@ from impinge.master.connection import split
 from impinge.master.energy import Balance
 from impinge.unit import Unit, Variable
 
+_ENERGIES = {
+    "passed": "energy that has left by the connection since the start",
+    "residual": "the part of it that has not arrived",
+}
+
 
 class Record:
     """Rows of values at accepted points of time."""
@@ -55,7 +60,8 @@ class Record:
         for i, balance in enumerate(balances):
             for j, what in enumerate(("passed", "residual")):
                 series = [row[i][j] for row in self._energies]
-                arrays[f"energy {what}: {balance.name}"] = ("time", series, {"units": "J"})
+                about = {"units": "J", "description": _ENERGIES[what]}
+                arrays[f"energy_{what}.{balance.name}"] = ("time", series, about)
         return xarray.Dataset(arrays, coordinates, dict(attributes))
 
 
@@ -71,6 +77,26 @@ def _attributes(variable: Variable) -> dict[str, str]:
 def _coordinates(unit: Unit, variable: Variable, dimensions: Sequence[str]) -> dict[str, Any]:
     if not variable.shape:
         return {}
+    return {**_radii(unit, variable, dimensions), **_places(unit, variable, dimensions)}
+
+
+def _radii(unit: Unit, variable: Variable, dimensions: Sequence[str]) -> dict[str, Any]:
+    """Of rings: the mean radius `r`, and the radii `inner` and `outer` [m]."""
+    try:
+        cells = unit.cells(variable.name)
+    except UnitError:
+        return {}
+    if "inner" not in cells or "outer" not in cells:
+        return {}
+    inner, outer = (np.asarray(cells[key], float).ravel() for key in ("inner", "outer"))
+    if variable.shape != inner.shape:
+        return {}
+    key = dimensions[0].rpartition(":")[0]
+    radii = {"r": (inner + outer) / 2, "inner": inner, "outer": outer}
+    return {f"{key}:{what}": (dimensions, radius, {"units": "m"}) for what, radius in radii.items()}
+
+
+def _places(unit: Unit, variable: Variable, dimensions: Sequence[str]) -> dict[str, Any]:
     try:
         places = unit.coordinates(variable.name)
     except UnitError:

@@ -20,6 +20,8 @@ from typing import Any
 
 import cloudpickle
 
+from impinge.errors import need
+
 from .journal import Finished
 from .processes import Batch, Prepare, Server
 from .runner import Experiment, Row
@@ -44,6 +46,7 @@ class Cluster:
         dask: Any,
         timeout: float | None,
     ):
+        need("distributed", 'pip install "impinge[study]"', "run(dask=…)")
         from distributed import Client, as_completed
 
         self._own = None if isinstance(dask, Client) else Client(dask)

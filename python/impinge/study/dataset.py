@@ -17,6 +17,7 @@ import impinge
 from impinge.errors import UnitError
 from impinge.unit.variable import stem_of
 
+from . import identity
 from .distributions import is_held
 from .journal import Finished
 from .outputs import Output
@@ -170,7 +171,9 @@ def _provenance(study: Study, status: np.ndarray) -> dict[str, Any]:
         "varying": study.varying,
         "distributions": [f"{name}: {d}" for name, d in study.parameters.items()],
         "outputs": [output.name for output in experiment.outputs],
-        "inputs": [f"{name}: {signal!r}" for name, signal in experiment.inputs.items()],
+        "inputs": [
+            f"{name}: {identity.told(signal)}" for name, signal in experiment.inputs.items()
+        ],
         "stop": experiment.stop,
         "step": experiment.step,
         "rows": len(status),
@@ -183,6 +186,7 @@ def _provenance(study: Study, status: np.ndarray) -> dict[str, Any]:
         ],
         "machine": platform.platform(),
         "command": study.command,
+        "working_folder": os.getcwd(),
         "date": datetime.now(UTC).isoformat(timespec="seconds"),
     }
 

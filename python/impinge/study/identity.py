@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import inspect
 import json
 import types
 from collections.abc import Callable, Mapping
@@ -42,6 +43,19 @@ def key_of_row(experiment: str, row: Row) -> str:
     """The key of a row of an experiment, given by its hash."""
     said = [experiment, row.scene, dict(row.parameters), dict(row.inputs), dict(row.sampled)]
     return hashlib.sha256(json.dumps(said, sort_keys=True).encode()).hexdigest()[:32]
+
+
+def told(signal: Any) -> str:
+    """An input over time in words: a function by its name, hash and, where it is known, source."""
+    if not callable(signal):
+        return repr(signal)
+    name = getattr(signal, "__qualname__", type(signal).__qualname__)
+    try:
+        source = inspect.cleandoc(inspect.getsource(signal))
+    except (OSError, TypeError):  # typed in, or not of Python
+        source = ""
+    head = f"{getattr(signal, '__module__', '') or ''}.{name}".lstrip(".")
+    return f"function {head}, sha256 {_hash_of_function(signal)}" + (f"\n{source}" * bool(source))
 
 
 def _tell(thing: Any) -> Any:

@@ -18,7 +18,7 @@ from impinge.unit import Package, State, Unit, open_package
 from .journal import Finished
 from .outputs import Output
 from .scenes import Variant
-from .signals import Signal, Table, course, parts
+from .signals import Signal, Table, Timeline, takes_parameters, timeline
 
 _LONGEST_MESSAGE = 4000
 
@@ -64,6 +64,7 @@ class Live:
     fresh: bool = True  # just initialised
     state: State | None = None
     readers: dict[tuple[str, ...], Any] = field(default_factory=dict)
+    timeline: Timeline | None = None  # where it is the same in all rows
 
     def reader(self, names: tuple[str, ...]) -> Any:
         if names not in self.readers:
@@ -178,8 +179,8 @@ class Run:
         signals = {**experiment.inputs, **row.inputs}
         held = {n: s for n, s in signals.items() if not (callable(s) or isinstance(s, Table))}
         moving = {n: s for n, s in signals.items() if n not in held}
-        can = self.unit.can
-        self.times = parts(experiment.stop, experiment.step, moving, can.variable_steps)
+        line = self._timeline(moving, row.sampled)
+        self.times, self.courses = line.times, line.courses
         near = self.times / experiment.step
         self.is_multiple = np.abs(near - np.rint(near)) < 1e-9 * np.maximum(near, 1.0)
         self.is_multiple[-1] = True
@@ -188,7 +189,15 @@ class Run:
         self.sizes[even] = experiment.step  # one length, which units may remember
         if held:
             self.unit.set(held)
-        self.courses = {n: course(s, self.times, row.sampled) for n, s in moving.items()}
+
+    def _timeline(self, moving: Mapping[str, Signal], sampled: Mapping[str, Any]) -> Timeline:
+        if self.live.timeline is not None:
+            return self.live.timeline
+        stop, step = self.experiment.stop, self.experiment.step
+        found = timeline(stop, step, moving, self.unit.can.variable_steps, sampled)
+        if not any(callable(s) and takes_parameters(s) for s in moving.values()):
+            self.live.timeline = found
+        return found
 
     def series(self) -> dict[str, np.ndarray]:
         """Values of all variables that outputs need, shape (times, *shape of the variable): at all

@@ -9,6 +9,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from impinge.errors import need
+
 from .distributions import Distribution, Levels, is_held
 
 
@@ -97,7 +99,7 @@ class Sobol:
     second_order: bool = False
 
     def design(self, parameters: Mapping[str, Distribution]) -> Design:
-        from SALib.sample import sobol
+        sobol = need("SALib.sample.sobol", 'pip install "impinge[study]"', "Sobol")
 
         _check_count("samples", self.samples, 2)
         if self.samples & (self.samples - 1):

@@ -8,6 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
+from impinge.errors import need
+
 from .sampling import unit_problem
 
 
@@ -32,7 +34,7 @@ def sobol_indices(
     I. M. Sobol', Math. Comput. Simul. 55 (2001), doi 10.1016/S0378-4754(00)00270-6;
     A. Saltelli et al., Comput. Phys. Commun. 181 (2010), doi 10.1016/j.cpc.2009.09.018.
     """
-    from SALib.analyze import sobol
+    sobol = need("SALib.analyze.sobol", 'pip install "impinge[study]"', "sobol_indices")
 
     if results.attrs.get("sampler_kind") != "Sobol":
         kind = results.attrs.get("sampler_kind", "no sampler")

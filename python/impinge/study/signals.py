@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from impinge.jumps import Watched
+
 
 @dataclass(frozen=True, eq=False)
 class Table:
@@ -90,19 +92,98 @@ class Course:
     ends: np.ndarray
 
 
-def course(signal: Signal, times: np.ndarray, parameters: Mapping[str, Any]) -> Course:
-    """What an input that is no constant does between `times` [s], ascending."""
+def watched(name: str, function: Function, parameters: Mapping[str, Any]) -> Watched:
+    """A function of time, and of the row's parameters where it asks for them."""
+    if takes_parameters(function):
+        return Watched(name, lambda time: function(time, parameters))
+    return Watched(name, function)
+
+
+@dataclass(frozen=True)
+class Timeline:
+    """When steps begin and end [s], and what inputs do over them.
+
+    notes: what functions do that steps cannot follow, in words.
+    """
+
+    times: np.ndarray
+    courses: dict[str, Course]
+    notes: tuple[str, ...] = ()
+
+
+def timeline(
+    stop: float,
+    step: float,
+    signals: Mapping[str, Signal],
+    cut: bool,
+    parameters: Mapping[str, Any],
+) -> Timeline:
+    """Steps and what inputs that are no constants do over them.
+
+    Where a function of time jumps within a step, the step is cut there; the mean over the step is
+    held where the unit takes no steps of other lengths.
+    """
+    times = parts(stop, step, signals, cut)
+    notes: list[str] = []
+    functions = {
+        name: watched(name, signal, parameters)
+        for name, signal in signals.items()
+        if callable(signal)
+    }
+    jumps: dict[str, list[list[float]]] = {}
+    for name, function in functions.items():
+        steps = list(zip(times[:-1].tolist(), times[1:].tolist(), strict=True))
+        for begin, end in steps:
+            function.look(begin, end)
+        jumps[name] = [function.jumps(begin, end) for begin, end in steps]
+        smooth = (s for s, at in zip(steps, jumps[name], strict=True) if not at)
+        steep = next((each for each in smooth if function.is_steep(*each)), None)
+        if steep is not None:
+            notes.append(
+                f"input {name} changes within the step from {steep[0]:.6g} to {steep[1]:.6g} s as"
+                " no parabola does: what it brings in is not exact (shorter steps help)"
+            )
+    if cut:
+        knots = [np.array(at) for each in jumps.values() for at in each if at]
+        times = _with_knots(times, np.concatenate([np.empty(0), *knots]), step)
+    courses = {}
+    for name, signal in signals.items():
+        if name not in functions:
+            assert isinstance(signal, Table)
+            courses[name] = _course_of_table(signal, times)
+            continue
+        courses[name] = _course_of_function(functions[name], times)
+        inside = [] if cut else [k for k, at in enumerate(jumps[name]) if at]
+        for k in inside:
+            mean = functions[name].mean(times[k], times[k + 1])
+            for rows in (courses[name].begins, courses[name].middles, courses[name].ends):
+                rows[k] = mean
+        if inside:
+            notes.append(
+                f"input {name} jumps at {jumps[name][inside[0]][0]:.6g} s, within a step, and the"
+                " unit takes steps of one length: its mean over the step is held"
+            )
+    return Timeline(times, courses, tuple(notes))
+
+
+def _course_of_table(table: Table, times: np.ndarray) -> Course:
     middles = (times[1:] + times[:-1]) / 2
-    if isinstance(signal, Table):
-        return Course(
-            _rows(signal.at(t, "right") for t in times[:-1]),
-            _rows(signal.at(t, "right") for t in middles),
-            _rows(signal.at(t, "left") for t in times[1:]),
-        )
-    assert callable(signal)
-    more = (parameters,) if takes_parameters(signal) else ()
-    nodes = _rows(signal(float(t), *more) for t in times)
-    return Course(nodes[:-1], _rows(signal(float(t), *more) for t in middles), nodes[1:])
+    return Course(
+        _rows(table.at(t, "right") for t in times[:-1]),
+        _rows(table.at(t, "right") for t in middles),
+        _rows(table.at(t, "left") for t in times[1:]),
+    )
+
+
+def _course_of_function(function: Watched, times: np.ndarray) -> Course:
+    """The function at the beginnings and ends of steps, one-sided, and in their middles."""
+    steps = list(zip(times[:-1].tolist(), np.diff(times).tolist(), strict=True))
+    ends = zip(times[1:].tolist(), np.diff(times).tolist(), strict=True)
+    return Course(
+        _rows(function.after(begin, size) for begin, size in steps),
+        _rows(function(begin + size / 2) for begin, size in steps),
+        _rows(function.before(end, size) for end, size in ends),
+    )
 
 
 def _rows(values: Any) -> np.ndarray:
@@ -121,8 +202,12 @@ def parts(stop: float, step: float, signals: Mapping[str, Signal], cut: bool) ->
     if not cut:
         return times
     knots = [s.times for s in signals.values() if isinstance(s, Table)]
-    extra = np.concatenate([np.empty(0), *knots])
-    extra = extra[(extra > 0.0) & (extra < stop)]
+    return _with_knots(times, np.concatenate([np.empty(0), *knots]), step)
+
+
+def _with_knots(times: np.ndarray, extra: np.ndarray, step: float) -> np.ndarray:
+    """Times and knots between them, but those that are as good as one of the times."""
+    extra = extra[(extra > 0.0) & (extra < times[-1])]
     if len(extra):
         nearest = times[np.abs(times[:, None] - extra[None, :]).argmin(axis=0)]
         extra = extra[np.abs(nearest - extra) > 1e-9 * step]

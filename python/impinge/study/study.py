@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+import shlex
 import sys
 import tempfile
 from collections.abc import Iterable, Mapping
@@ -17,7 +18,7 @@ from tqdm import tqdm
 from impinge.errors import UnitError
 from impinge.unit import Package, open_package
 
-from . import dataset, identity
+from . import checks, dataset, identity
 from .distributions import Distribution, distribution_of, is_held
 from .journal import Finished, Journal, read
 from .outputs import Output, output_of
@@ -41,13 +42,15 @@ class Study:
     inputs: what inputs, or tunable parameters, do in all runs: a value, a function of time [s] or
         of time and the row's values, a `Table`, or a pair (times, values). Inputs are parabolas
         over a step where the unit interpolates them, all else is held at its value in the middle.
+        Where functions jump, steps are cut (the mean is held if the unit cannot).
     outputs: names of variables (their value at the stop), `over_time`, `maximum`, `minimum` of
         them, or `of_run` for a function of a run.
     stop, step: of every run, in s; those that the unit proposes if left out.
     sampler: `Grid` (default), `Paired`, `LatinHypercube` or `Sobol`.
     fmi: the version that a scene is built for.
 
-    Raises `UnitError` or `ValueError` for what does not fit the unit, before anything runs.
+    Raises `UnitError` or `ValueError` for what does not fit the unit or the scene, before anything
+    runs; what both ends of a range or of levels are refused for counts as that.
     """
 
     def __init__(
@@ -72,8 +75,10 @@ class Study:
         self.kinds = {name: self._kind(name) for name in self.parameters}
         self._check_outputs()
         self.design: Design = self.sampler.design(self.parameters)
-        self._texts: dict[str, str] = {}  # scenes by hash
+        self.texts: dict[str, str] = {}  # scenes by hash
         self.rows = [self._row(index, values) for index, values in enumerate(self.design.rows)]
+        checks.check_values(self)
+        checks.warn_of_inputs(self)
         self.unit_hash = identity.hash_of_unit(self.package.folder)
         shared = identity.hash_of_experiment(self.unit_hash, self.experiment)
         self.keys = [identity.key_of_row(shared, row) for row in self.rows]
@@ -211,7 +216,7 @@ class Study:
 
     def _prepare(self, row: Row) -> Variant:
         assert self.scene
-        return self.scene.variant(self._texts[row.scene])
+        return self.scene.variant(self.texts[row.scene])
 
     # What names and values mean
 
@@ -289,7 +294,7 @@ class Study:
             assert self.scene
             text = self.scene.changed(by_kind["scene"])
             scene = hashlib.sha256(text.encode()).hexdigest()
-            self._texts[scene] = text
+            self.texts[scene] = text
         asks = any(callable(s) and takes_parameters(s) for s in self.experiment.inputs.values())
         sampled = dict(values) if asks else {}
         return Row(index, by_kind["parameter"], by_kind["input"], sampled, scene)
@@ -317,8 +322,14 @@ class Study:
 
     @property
     def command(self) -> str:
-        """How the process was called."""
-        return " ".join(sys.argv)
+        """How the process was called, with the path of its script."""
+        words = list(sys.orig_argv) or [sys.executable, *sys.argv]
+        words[0] = sys.executable or words[0]
+        script = Path(sys.argv[0]) if sys.argv and sys.argv[0] else None
+        if script is not None and script.is_file():
+            same = {sys.argv[0], os.path.relpath(script)}
+            words = [str(script.resolve()) if word in same else word for word in words]
+        return shlex.join(words)
 
 
 def _groups(rows: list[Row]) -> list[list[Row]]:

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 from pathlib import Path
 
 from impinge.errors import UnitError
@@ -15,7 +16,7 @@ PROGRAM = "build-fmu" + (".exe" if sys.platform == "win32" else "")
 
 def find_program(name: str = PROGRAM) -> Path:
     """Where the program is: in the folder that IMPINGE_BIN names, on PATH, or in target/release of
-    the checkout that holds this package."""
+    a checkout: the one that holds this package, or the one that holds the current folder."""
     said = os.environ.get("IMPINGE_BIN")
     if said:
         path = Path(said)
@@ -26,13 +27,34 @@ def find_program(name: str = PROGRAM) -> Path:
     found = shutil.which(name)
     if found:
         return Path(found)
-    path = Path(__file__).resolve().parents[3] / "target/release" / name
-    if path.is_file():
-        return path
+    checkouts = _checkouts()
+    for folder in checkouts:
+        path = folder / "target/release" / name
+        if path.is_file():
+            return path
+    places = [str(folder / "target/release") for folder in checkouts] or [
+        "the target/release of a checkout, as neither this package nor the current folder is in one"
+    ]
     raise UnitError(
-        f"`{name}` is neither on PATH nor in {path.parent}: build it with"
-        " `cargo build --release --workspace`, and set IMPINGE_BIN to the folder that holds it"
+        f"`{name}` is neither on PATH nor in {' nor in '.join(places)}: build it with"
+        " `cargo build --release --workspace` in the checkout of impinge, and there say"
+        " `export IMPINGE_BIN=$PWD/target/release`"
     )
+
+
+def _checkouts() -> list[Path]:
+    """Roots of checkouts of impinge above this package and the current folder, nearest first."""
+    here, package = Path.cwd().resolve(), Path(__file__).resolve()
+    folders = dict.fromkeys([*package.parents, here, *here.parents])
+    return [folder for folder in folders if _is_checkout(folder)]
+
+
+def _is_checkout(folder: Path) -> bool:
+    try:
+        told = tomllib.loads((folder / "Cargo.toml").read_text())
+    except (OSError, ValueError):
+        return False
+    return told.get("package", {}).get("name") == "impinge"
 
 
 def cache_folder() -> Path:

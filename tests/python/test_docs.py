@@ -1,0 +1,93 @@
+"""What the documentation tells to type does what it says."""
+
+import re
+import shlex
+import subprocess
+from pathlib import Path
+
+import meshio
+import numpy as np
+import pytest
+from impinge import Surface, Unit, linear_map
+from impinge.adapt import read_inputs
+from impinge.adapt.cli import main
+from impinge.linear import plan
+from impinge.unit.build import find_program
+
+DOCS = Path(__file__).parents[2] / "docs"
+
+
+def test_examples_of_the_adapter_run_and_keep_their_heat(tmp_path, monkeypatch, capsys):
+    """All blocks of docs/adapt.md, in their order; integrals by the closed forms of their files."""
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    blocks = re.findall(r"^```(\w+)\n(.*?)^```$", (DOCS / "adapt.md").read_text(), re.M | re.S)
+    assert [kind for kind, _ in blocks].count("sh") == 5
+    for kind, text in blocks:
+        if kind == "toml":
+            Path("block.toml").write_text(text)
+        elif kind == "python":
+            exec(text, names)
+        for line in text.splitlines() if kind == "sh" else ():
+            program, *words = shlex.split(line)
+            if program == "impinge-adapt":
+                assert main(words) == 0, capsys.readouterr().err
+            else:
+                subprocess.run([find_program(program), *words], check=True, capture_output=True)
+    target = Surface.of("block.toml", "laser")
+
+    def power(path):
+        times, columns = read_inputs(path)
+        assert all(name.startswith("laser.heat_flux[") for name in columns)
+        return times, target.integral(np.array(list(columns.values())).T.reshape(-1, 4, 5))
+
+    assert power("laser.csv")[1] == pytest.approx([0.0, 2.0, 0.0], abs=1e-12)
+    times, watts = power("spray.csv")
+    assert np.trapezoid(watts, times) == pytest.approx(50 * 1e-12 * 2.6e6, rel=1e-12)
+    assert power("cfd.csv")[1] == pytest.approx(1e7 * 2e-4 * 1e-4, rel=1e-12)
+    _, releases = read_inputs("releases.csv")
+    assert releases["drop.release"][-1] == 50
+    assert len(list(Path().glob("part_*.vtu"))) == 5
+
+
+def test_the_command_speaks_of_its_own_options(tmp_path, capsys):
+    scene = re.search(r"```toml\n(.*?)```", (DOCS / "adapt.md").read_text(), re.S)[1]
+    (tmp_path / "block.toml").write_text(scene)
+    table = tmp_path / "points.csv"
+    table.write_text("x,y,q\n-3e-5,-2e-5,1\n3e-5,-2e-5,2\n3e-5,2e-5,3\n-3e-5,2e-5,4\n")
+    command = ["cfd", str(table), "--data", "q", "--onto", f"{tmp_path}/block.toml:laser"]
+    command += ["-o", str(tmp_path / "t.csv")]
+    assert main(command) == 2
+    told = capsys.readouterr().err
+    assert "--kind consistent" in told and '="' not in told
+    small = 3e-5 * np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    mesh = meshio.Mesh(small, [("quad", [[0, 1, 2, 3]])], point_data={"q": [1.0, 2.0, 3.0, 4.0]})
+    mesh.write(tmp_path / "small.vtu")
+    command[1] = str(tmp_path / "small.vtu")
+    assert main([*command, "--kind", "consistent"]) == 2
+    told = capsys.readouterr().err
+    assert "--outside nearest" in told and '="' not in told
+    assert main([*command, "--kind", "consistent", "--outside", "drop"]) == 2
+    assert "would get no value" in capsys.readouterr().err
+    assert main([*command, "--kind", "consistent", "--outside", "nearest"]) == 0
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    told = capsys.readouterr().out
+    assert "``" not in told and "Files of other tools" in told
+
+
+def test_the_plan_of_two_outputs_that_studies_tell_keeps_its_limits(monkeypatch, capsys):
+    """The rim stays below 340 K, and what is printed is short."""
+    monkeypatch.chdir(DOCS.parent)
+    text = (DOCS / "studies.md").read_text()
+    (example,) = [b for b in re.findall(r"```python\n(.*?)```", text, re.S) if "highest" in b]
+    names = {"np": np, "Unit": Unit, "linear_map": linear_map, "plan": plan}
+    exec(example, names)
+    assert len(capsys.readouterr().out.splitlines()) == 2
+    found, course = names["found"], names["course"]
+    made = plan(
+        found, course, weights=[1.0, 0.0], highest=[np.inf, 340.0], upper=1e4, lower=0.0,
+        changes=1e-7,
+    )  # fmt: skip
+    assert made.outputs[1:, 1].max() <= 340.0 + 1e-6
+    assert abs(made.outputs[-1, 0] - 333.15) < 1.0

@@ -1,0 +1,151 @@
+"""Functions of time that jump: what they bring in is area times ∫ q dt, wherever they jump."""
+
+import warnings
+
+import numpy as np
+import pytest
+from impinge import Master, Study
+from impinge.jumps import Watched
+from impinge.master import MasterWarning
+from impinge.study import over_time
+from linear_unit import make
+from slab import AREA, SCENE
+
+# A name, a function of time, and its integral from 0 to 1 s.
+COURSES = [
+    ("before", lambda t: 7e3 if t < 0.5 else 0.0, 3500.0),
+    ("until", lambda t: 7e3 if t <= 0.5 else 0.0, 3500.0),
+    ("within", lambda t: 7e3 if t < 0.53 else 0.0, 3710.0),
+    ("up", lambda t: 0.0 if t < 0.1 * 3 else 2e3, 1400.0),
+    ("twice", lambda t: 5e3 if 0.512 < t < 0.57 else 1e3, 942.0 + 290.0),
+    ("saw", lambda t: 1e3 * ((t / 0.25) % 1.0), 500.0),
+    ("bent", lambda t: 3e3 * t**2 if t < 0.64 else 500.0, 1e3 * 0.64**3 + 180.0),
+]
+
+
+CUTS = {"bent": [0.64], "saw": [0.25, 0.75]}
+
+
+def as_held(name, function, order):
+    """The integral of what is held at ends of steps (order 0), goes straight over them (1), or is
+    held in their middles ("middle"), with steps that are cut at jumps."""
+    times = np.union1d(np.linspace(0.0, 1.0, 11).round(9), CUTS[name])
+    total = 0.0
+    for begin, end in zip(times[:-1], times[1:], strict=True):
+        first, middle, last = (function(t) for t in (begin + 1e-9, (begin + end) / 2, end - 1e-9))
+        total += (end - begin) * {0: last, 1: (first + last) / 2, "middle": middle}[order]
+    return total
+
+
+@pytest.fixture(scope="module")
+def slab(tmp_path_factory):
+    path = tmp_path_factory.mktemp("jumps") / "slab.toml"
+    path.write_text(SCENE)
+    return path
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+@pytest.mark.parametrize(("name", "function", "integral"), COURSES, ids=[c[0] for c in COURSES])
+def test_studies_bring_in_what_jumping_functions_say(slab, fmi, name, function, integral):
+    """Units of FMI 3.0 hold inputs at the middle of a step: exact for what is straight."""
+    heat = over_time("plate.heat_in")
+    study = Study(
+        slab, {}, inputs={"plate.top.flux": function}, outputs=["plate.heat_in", heat], fmi=fmi
+    )
+    table = study.run(1)
+    if fmi == 3 and name == "bent":
+        integral = as_held(name, function, "middle")
+    assert table["plate.heat_in"].item() == pytest.approx(integral * AREA, rel=1e-7)
+    if name == "within":
+        expected = 7e3 * np.minimum(table.time.values, 0.53) * AREA
+        assert table["plate.heat_in(t)"].values[0] == pytest.approx(expected, rel=1e-7, abs=1e-15)
+
+
+def test_functions_of_a_row_may_jump_where_the_row_says(slab):
+    """The step is cut at another time in every row."""
+    times = [0.31, 0.5, 0.777]
+    table = Study(
+        slab,
+        {"until": times},
+        inputs={"plate.top.flux": lambda t, row: 1e3 if t < row["until"] else 0.0},
+        outputs=["plate.heat_in"],
+    ).run(1)
+    assert table["plate.heat_in"].values == pytest.approx(1e3 * AREA * np.array(times), rel=1e-7)
+
+
+@pytest.mark.parametrize("order", [0, 1, 2])
+@pytest.mark.parametrize(("name", "function", "integral"), COURSES, ids=[c[0] for c in COURSES])
+def test_masters_bring_in_what_jumping_functions_say(slab, order, name, function, integral):
+    """Of the degree in time that is asked for: straight pieces from the first degree on."""
+    inputs = {"p.plate.top.flux": function}
+    with Master({"p": slab}, inputs=inputs, order=order, outputs=["p.plate.heat_in"]) as master:
+        heat = master.run(1.0)["p.plate.heat_in"].values[-1]
+    if (name == "saw" and order == 0) or (name == "bent" and order < 2):
+        integral = as_held(name, function, order)
+    assert heat == pytest.approx(integral * AREA, rel=1e-7)
+
+
+def test_runs_that_stop_at_a_jump_go_on_behind_it(slab):
+    inputs = {"p.plate.top.flux": lambda t: 7e3 if t < 0.5 else 1e3}
+    with Master({"p": slab}, inputs=inputs, outputs=["p.plate.heat_in"]) as master:
+        master.run(0.5)
+        result = master.run(1.0)
+    expected = AREA * (7e3 * np.minimum(result.time, 0.5) + 1e3 * np.maximum(result.time - 0.5, 0))
+    assert result["p.plate.heat_in"].values == pytest.approx(expected.values, rel=1e-7, abs=1e-15)
+    assert result.attrs["steps"] == 10  # a jump at a communication point costs none
+
+
+def test_units_with_steps_of_one_length_get_the_mean_and_it_is_said_once(tmp_path):
+    """x' = u counts what comes in; u jumps at 0.53 and 0.77 s, within steps of 0.1 s."""
+    unit = make(tmp_path, "count", [0.0], [1.0], [1.0], x=[0.0], variable=False)
+    function = lambda t: 2.0 if 0.53 < t < 0.77 else 1.0  # noqa: E731
+    with pytest.warns(UserWarning, match="u jumps at 0.53 s, within a step") as told:
+        study = Study(unit, {}, inputs={"u": function}, outputs=["y"], stop=1.0, step=0.1)
+    assert len(told) == 1
+    assert study.run(1)["y"].item() == pytest.approx(1.24, rel=1e-7)
+    with Master({"a": unit}, inputs={"a.u": function}, outputs=["a.y"], step=0.1) as master:
+        with pytest.warns(MasterWarning, match="a.u jumps at 0.53 s, within a step") as told:
+            result = master.run(1.0)
+    assert len(told) == 1
+    assert result["a.y"].values[-1] == pytest.approx(1.24, rel=1e-7)
+    assert "jumps at 0.53" in result.attrs["notes"]
+
+
+def test_smooth_functions_do_not_jump_and_steep_ones_are_told(slab):
+    """Neither curved ones, nor kinks, nor square roots; a ramp of a hundredth of a step is told."""
+    smooth = [
+        np.sin,
+        np.exp,
+        lambda t: abs(t - 0.5123),
+        lambda t: np.interp(t, [0.0, 0.111, 0.222, 1.0], [1.0, 5.0, -2.0, 0.0]),
+        lambda t: 300.0 + 1e-3 * np.sin(9 * t),
+        lambda t: np.full((2, 3), t**3),
+    ]
+    for function in smooth:
+        watched = Watched("u", function)
+        watched.look(0.0, 1.0)
+        for k in range(10):
+            begin, end = k / 10, (k + 1) / 10
+            watched.look(begin, end)
+            assert watched.jumps(begin, end) == []
+            assert np.array_equal(watched.before(end, 0.1), watched(end))
+            assert np.array_equal(watched.after(begin, 0.1), watched(begin))
+    ramp = lambda t: float(np.clip((t - 0.53) / 1e-3, 0.0, 1.0))  # noqa: E731
+    with pytest.warns(UserWarning, match="changes within the step from 0.5 to 0.6 s"):
+        Study(slab, {}, inputs={"plate.top.flux": ramp}, outputs=["plate.heat_in"])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Study(slab, {}, inputs={"plate.top.flux": np.sin}, outputs=["plate.heat_in"])
+    with pytest.raises(ValueError, match="input u is not finite at 0.25 s"):
+        Watched("u", lambda t: np.nan if t == 0.25 else 1.0).look(0.0, 1.0)
+
+
+def test_all_elements_are_watched_and_found_where_they_jump():
+    def function(t):
+        return [t, 1.0 if t < 0.3141 else 2.0, 5.0 if t < 0.7182 else 4.0]
+
+    watched = Watched("u", function)
+    watched.look(0.0, 1.0)
+    assert watched.jumps(0.0, 1.0) == pytest.approx([0.3141, 0.7182], abs=1e-11)
+    mean = [0.5, 0.3141 + 2 * 0.6859, 5 * 0.7182 + 4 * 0.2818]
+    assert watched.mean(0.0, 1.0) == pytest.approx(mean, rel=1e-8)
