@@ -22,7 +22,8 @@ class Connection:
         after the conversion of units, before the gain.
     mean: whether the source is a mean over the last step, so that it belongs to the whole step
         rather than to its end. What is left out is read from the description of impinge's units.
-    scale: of which residuals and errors are a share; the largest magnitude seen if left out.
+    scale: of which residuals and errors are a share; if left out, the largest magnitude at the
+        start, at the ends of accepted steps and of what is judged, but not of earlier guesses.
     """
 
     source: str
@@ -63,7 +64,7 @@ class Link:
         self.is_mean = told if connection.mean is None else connection.mean
         self.nominal = abs(target.nominal)
         self.place = slice(0, 0)
-        self.largest = 0.0  # magnitude seen
+        self.largest = 0.0  # magnitude at the start and at the ends of accepted steps
 
     def _check(self, source: Variable, target: Variable) -> None:
         what = f"{self.connection.source} -> {self.connection.target}"
@@ -92,9 +93,13 @@ class Link:
                 )
         return self._gain * values + self._offset
 
-    def scale(self) -> float:
-        """What residuals are a share of."""
-        return self.connection.scale or self.largest or self.nominal
+    def scale(self, present: np.ndarray | None = None) -> float:
+        """What residuals are a share of: as given, else the largest magnitude among values that
+        have been accepted and those that are `present`, of all inputs, else the nominal value."""
+        if self.connection.scale:
+            return self.connection.scale
+        now = 0.0 if present is None else float(np.abs(present[self.place]).max())
+        return max(self.largest, now) or self.nominal
 
 
 def links(connections: Iterable[Any], units: Mapping[str, Unit]) -> list[Link]:

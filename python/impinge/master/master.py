@@ -264,7 +264,7 @@ class Master:
         for _ in range(2):
             self._exchange(engine.inputs, self._iteration_tolerance)
         engine.see(engine.inputs)
-        weight = engine.weights()
+        weight = engine.weights(engine.inputs)
         for participant in self.participants.values():
             place = participant.place
             participant.probe(engine.inputs[place], weight[place])
