@@ -80,12 +80,12 @@ class Access:
         raise NotImplementedError
 
     def close(self) -> None:
-        """Bars further calls: the instance is gone."""
-        self._call = _closed
+        """Bars further calls: the instance is gone, or must not be called any more."""
+        self._call = self._closed
 
-
-def _closed() -> int:
-    raise UnitError("the unit is closed")
+    def _closed(self) -> int:
+        self.slave.must_live()
+        raise UnitError("the unit is closed")
 
 
 class Reader(Access):

@@ -9,12 +9,11 @@ import struct
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
-from weakref import WeakSet
 
 import numpy as np
 
 from impinge.errors import StepDiscarded, UnitError
-from impinge.unit.access import Access, PathWriter, Reader, Writer
+from impinge.unit.access import PathWriter, Reader, Writer
 from impinge.unit.fmi2 import Fmi2
 from impinge.unit.fmi3 import Fmi3
 from impinge.unit.log import Listener, Log
@@ -58,7 +57,6 @@ class Unit:
         self._own_parameters = dict(parameters or {})
         self._readers: dict[tuple[str, ...], Reader] = {}
         self._writers: dict[tuple[str, ...], Writer] = {}
-        self._accesses: WeakSet[Access] = WeakSet()
         self.log = Log(f"{self.package.name}-{next(_COUNT)}", logger)
         self.slave: Fmi2 | Fmi3 = (Fmi3 if self.package.fmi == 3 else Fmi2)(self.package, self.log)
         self.is_open = True
@@ -112,7 +110,7 @@ class Unit:
         self.slave.free()
 
     def _forget_accesses(self) -> None:
-        for access in list(self._accesses):
+        for access in list(self.slave.accesses):
             access.close()
         self._readers.clear()
         self._writers.clear()
@@ -131,11 +129,14 @@ class Unit:
 
     def __repr__(self) -> str:
         life = f"at {self.time!r} s" if self.is_open else "closed"
+        if self.slave.fatal is not None:
+            life = "failed fatally"
         return f"<impinge.Unit {self.log.name} (FMI {self.package.fmi}) {life}>"
 
     def _must_be_open(self) -> None:
         if not self.is_open:
             raise UnitError("the unit is closed")
+        self.slave.must_live()
 
     # What there is
 
@@ -237,7 +238,7 @@ class Unit:
         self._must_be_open()
         variables = [self.package.variable(name) for name in names]
         access = kind(self.slave, variables, lambda name: self.package.variable(stem_of(name)))
-        self._accesses.add(access)
+        self.slave.accesses.add(access)
         return access
 
     def _reader(self, names: tuple[str, ...]) -> Reader:
