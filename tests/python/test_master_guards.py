@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
-from impinge import Connection, Master
+from impinge import Connection, Master, Unit
+from impinge.master import Graded, MasterError
+from linear_unit import make
 from python_unit import BODY, LINK, python_unit
 
 
@@ -45,3 +47,69 @@ def test_guesses_that_are_thrown_away_leave_no_scale_behind(folder, conductance,
     heat = 10 * result["a.T"] + 20 * result["b.T"]
     assert np.abs(heat - 10000.0).max() < 0.05
     assert result.attrs["unconverged"] == 0
+
+
+NAN, INF = float("nan"), float("inf")
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told"),
+    [
+        *[({"step": step}, "step is ") for step in (-0.1, 0.0, 0, NAN, INF, "1", True)],
+        *[({"tolerance": each}, "tolerance is ") for each in (-1e-3, 0.0, NAN, INF)],
+        *[
+            ({"largest_step": each, "adaptive": True}, "largest_step is ")
+            for each in (0.0, -1, NAN)
+        ],
+        ({"least_step": 0.0, "adaptive": True}, "least_step is 0.0 s; it must be a number above 0"),
+        ({"least_step": 1.0, "largest_step": 0.5}, "least_step (1.0 s) is above largest_step"),
+        ({"relaxation": 0.0}, "relaxation is 0.0; it must be a number above 0"),
+        ({"jumps": [0.1, NAN]}, "jumps: nan is no time in s"),
+        ({"jumps": [INF]}, "jumps: inf is no time in s"),
+        ({"jumps": [-1.0]}, "jumps: -1.0 s is before the start at 0.0 s"),
+        (
+            {"inputs": {"b.k": 1.0}},
+            "b.k is no input, but parameter; parameters={unit: {name: value}}",
+        ),
+        ({"inputs": {"b.f1": 1.0}}, "inputs: b.f1 is no input, but output"),
+        ({"parameters": {"c": {"k": 1.0}}}, "parameters: `c` names none of the units a, b"),
+    ],
+)
+def test_lengths_times_and_names_that_make_no_sense_are_refused(folder, wrong, told):
+    """Some of them once made runs that never came to an end."""
+    link = python_unit(folder, "Link", LINK)
+    store = make(folder, "store", [-1.0], [1.0], [1.0])
+    with pytest.raises(MasterError) as refused:
+        with Master({"a": store, "b": link}, **{"step": 0.1, **wrong}) as master:
+            master.run(0.2)
+    assert told in str(refused.value)
+
+
+def test_runs_stop_at_times_to_come(folder):
+    store = make(folder, "store", [-1.0], [1.0], [1.0])
+    with Master({"a": store}, step=0.1, outputs=["a.y"]) as master:
+        for stop in (NAN, INF, "1", None):
+            with pytest.raises(MasterError, match="is no time in s to stop at"):
+                master.run(stop)
+        master.run(0.3)
+        with pytest.raises(MasterError, match="0.2 s is before 0.3 s, where the run stands"):
+            master.run(0.2)
+        assert len(master.run(0.3).time) == 4
+    with pytest.raises(MasterError, match="must be above 0"):
+        Master({"a": store}, step=0.1, graded=Graded(NAN)).run(1.0)
+    with Unit(store, start_time=1e6) as unit:
+        for adaptive in (False, True):
+            with pytest.raises(MasterError, match="is lost in rounding at 1e"):
+                Master({"a": unit}, step=1e-12, adaptive=adaptive).run(2e6)
+
+
+def test_one_unit_has_one_name_and_parameters_are_of_units_to_be_made(folder):
+    link = python_unit(folder, "Link", LINK)
+    with Unit(link) as unit:
+        with pytest.raises(MasterError, match="a and b are one and the same unit"):
+            Master({"a": unit, "b": unit}, step=0.1)
+        with pytest.raises(MasterError, match="a is a Unit that has been initialised already"):
+            Master({"a": unit}, step=0.1, parameters={"a": {"k": 2.0}})
+        assert unit.is_open
+    with Master({"a": link}, step=0.1, parameters={"a": {"k": 2.0}}) as master:
+        assert master.units["a"]["k"] == 2.0

@@ -13,6 +13,15 @@ from tqdm import tqdm
 
 from impinge.errors import UnitError
 from impinge.master.acceleration import acceleration as make_acceleration
+from impinge.master.checks import (
+    check_choices,
+    check_input,
+    check_jumps,
+    check_lengths,
+    check_memoryless,
+    check_stop,
+    check_units,
+)
 from impinge.master.connection import Connection, Link, links, split
 from impinge.master.energy import Balance, bond
 from impinge.master.engine import Component, Engine, NoConvergence
@@ -23,8 +32,6 @@ from impinge.master.participant import Participant
 from impinge.master.record import Record
 from impinge.master.stepping import Graded, Schedule
 from impinge.unit import Unit
-
-SCHEMES = ("jacobi", "gauss-seidel", "iterate")
 
 
 class Master:
@@ -84,7 +91,9 @@ class Master:
         parameters: Mapping[str, Mapping[str, Any]] | None = None,
         strict: bool = True,
     ):
-        _check_choices(scheme, order, extrapolation, max_iterations)
+        check_choices(scheme, order, extrapolation, max_iterations, relaxation)
+        check_lengths(step, tolerance, least_step, largest_step)
+        check_units(units, parameters or {})
         self.notes: list[str] = []
         self._own: list[Unit] = []
         self.units: dict[str, Unit] = {}
@@ -93,7 +102,8 @@ class Master:
             self.scheme, self.acceleration, self.order = scheme, acceleration, order
             self.extrapolation = 0 if extrapolation is None else extrapolation
             self.adaptive, self.strict = adaptive, strict
-            self.tolerance = tolerance or (1e-3 if adaptive else 1e-6)
+            self.tolerance = (1e-3 if adaptive else 1e-6) if tolerance is None else tolerance
+            check_jumps(jumps, self.time)
             self.links = links(connections, self.units)
             self._make_participants(inputs or {}, memoryless)
             self._make_components(relaxation, reuse)
@@ -111,10 +121,10 @@ class Master:
             self._balances = [Balance(bond(each), self.links, self.units) for each in energy]
             sources = [link.connection.source for link in self.links]
             self._record = Record(self.units, [*sources, *outputs])
+            step = self._proposed_step() if step is None else step
         except BaseException:
             self.close()
             raise
-        step = step or self._proposed_step()
         graded = Graded(graded) if isinstance(graded, int | float) else graded
         least = step * 1e-9 if least_step is None else least_step
         self._schedule = Schedule(step, graded, jumps, self.adaptive, least, largest_step)
@@ -126,8 +136,6 @@ class Master:
 
     def _open(self, units: Mapping[str, Any], parameters: Mapping[str, Mapping[str, Any]]) -> None:
         for name, unit in units.items():
-            if "." in name:
-                raise MasterError(f"`{name}`: names of units have no dots")
             if isinstance(unit, Unit):
                 self.units[name] = unit
             else:
@@ -140,9 +148,7 @@ class Master:
 
     def _make_participants(self, inputs: Mapping[str, Any], memoryless: Collection[str]) -> None:
         self.participants = {name: Participant(name, unit) for name, unit in self.units.items()}
-        unknown = set(memoryless) - set(self.units)
-        if unknown:
-            raise MasterError(f"memoryless: no unit is called {', '.join(sorted(unknown))}")
+        check_memoryless(memoryless, self.units)
         for link in self.links:
             self.participants[link.source_unit].links_out.append(link)
             self.participants[link.target_unit].links_in.append(link)
@@ -152,6 +158,7 @@ class Master:
             unit, variable = split(name, self.units)
             if name in targets:
                 raise MasterError(f"{name} is set by a connection already")
+            check_input(self.units[unit], name, variable)
             driven.setdefault(unit, []).append((variable, value))
         self._drives: list[tuple[slice, Callable[[float], np.ndarray]]] = []
         count = 0
@@ -223,6 +230,7 @@ class Master:
         proposed = [unit.default_step for unit in self.units.values() if unit.default_step]
         if not proposed:
             raise MasterError("no unit proposes a step: Master(…, step=…)")
+        check_lengths(min(proposed), None, None, np.inf)
         return min(proposed)
 
     @property
@@ -237,6 +245,7 @@ class Master:
 
         progress: whether a bar is shown; only in runs of more than two seconds if left out.
         """
+        check_stop(stop, self.time)
         if not self._has_begun:
             self._begin()
         bar = tqdm(
@@ -401,16 +410,6 @@ class Master:
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-
-def _check_choices(scheme: str, order: int, extrapolation: int | None, max_iterations: int) -> None:
-    if scheme not in SCHEMES:
-        raise MasterError(f"scheme is `{scheme}`; it may be {', '.join(SCHEMES)}")
-    for name, value in (("order", order), ("extrapolation", extrapolation)):
-        if value not in (None, 0, 1, 2):
-            raise MasterError(f"{name} is {value}; it may be 0, 1 or 2")
-    if max_iterations < 1:
-        raise MasterError(f"max_iterations is {max_iterations}; it must be at least 1")
 
 
 def _function(value: Any, shape: tuple[int, ...]) -> Callable[[float], np.ndarray]:
