@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from impinge import Connection, Master, Unit
-from impinge.master import Graded, MasterError
+from impinge.master import Graded, MasterError, MasterWarning
 from linear_unit import make
-from python_unit import BODY, LINK, python_unit
+from python_unit import BODY, LATE, LINK, python_unit
 
 
 @pytest.fixture(scope="session")
@@ -113,3 +113,56 @@ def test_one_unit_has_one_name_and_parameters_are_of_units_to_be_made(folder):
         assert unit.is_open
     with Master({"a": link}, step=0.1, parameters={"a": {"k": 2.0}}) as master:
         assert master.units["a"]["k"] == 2.0
+
+
+def bodies(folder, body, **options):
+    link = python_unit(folder, "Link", LINK)
+    parameters = {
+        "a": {"T0": 400.0, "cap": 10.0},
+        "b": {"T0": 300.0, "cap": 20.0},
+        "s": {"k": 4.0},
+    }
+    units = {"a": body, "b": body, "s": link}
+    with Master(units, STIFF, parameters=parameters, **options) as master:
+        result = master.run(4.0)
+    exact = 10000 / 30 + 200 / 3 * np.exp(-0.6 * result.time.values)
+    heat = 10 * result["a.T"] + 20 * result["b.T"]
+    assert np.abs(heat - 10000.0).max() < 0.02
+    return float(np.abs(result["a.T"].values - exact).max()), result
+
+
+def test_states_whose_dependencies_are_not_declared_are_of_second_order(folder):
+    """As those that are declared: what responds to a short step in proportion is a state."""
+    open_one = python_unit(folder, "Body", BODY)
+    declared = python_unit(folder / "declared", "Body", BODY, declared=True)
+    errors = []
+    for step in (0.4, 0.2, 0.1):
+        error, result = bodies(folder, open_one, step=step)
+        errors.append(error)
+        assert error == pytest.approx(bodies(folder, declared, step=step)[0], rel=1e-4)
+        assert result.attrs["notes"] == ""
+    assert np.log2(errors[1] / errors[2]) == pytest.approx(2.0, abs=0.1), errors
+    for tolerance in (1e-3, 1e-4, 1e-5):
+        error, _ = bodies(folder, open_one, step=0.2, adaptive=True, tolerance=tolerance)
+        assert error < 10 * tolerance * 400.0
+
+
+def test_what_cannot_be_told_from_a_state_is_noted(folder):
+    stuck = python_unit(folder / "stuck", "Body", BODY, states=False)
+    with pytest.warns(MasterWarning, match="no iterations"):
+        error, result = bodies(folder, stuck, step=0.1)
+    assert (
+        "a cannot go back, so that its outputs are taken as computed in its steps"
+        in (result.attrs["notes"])
+    )
+
+
+def test_what_is_computed_in_steps_is_still_known_for_that(folder):
+    """y = u/2 + 1 of the input at the end of a step, in a ring with u = y: 2 from the first step
+    on."""
+    late = python_unit(folder, "Late", LATE)
+    same = make(folder, "same", d=1.0)
+    with Master({"l": late, "g": same}, [("l.y", "g.u"), ("g.y", "l.u")], step=0.1) as master:
+        result = master.run(1.0)
+        assert master.participants["l"].held == "end" and master.notes == []
+    assert result["l.y"].values[1:] == pytest.approx(np.full(10, 2.0), rel=1e-4)

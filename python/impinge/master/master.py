@@ -276,7 +276,14 @@ class Master:
         weight = engine.weights(engine.inputs)
         for participant in self.participants.values():
             place = participant.place
-            participant.probe(engine.inputs[place], weight[place])
+            values, shares = engine.inputs[place], weight[place]
+            unknown = participant.probe(values, shares, self._schedule.step)
+            if unknown and self.order:
+                self.notes.append(
+                    f"{participant.name} {unknown}, so that its outputs are taken as computed in"
+                    " its steps from inputs at their ends: of first order if they are states that"
+                    " it does not declare to follow no input at once"
+                )
         engine.begin(self.time)
         self._schedule.restart(self.time)
         for balance in self._balances:
