@@ -52,6 +52,18 @@ class Link(Base):
         return True
 """
 
+CUBE = """
+class Cube(Base):
+    def __init__(self, **kwargs):
+        super().__init__(**kwargs)
+        self.numbers(x=("input", 0.0), k=("parameter", 4.0))
+        f = {"causality": Fmi2Causality.output, "getter": lambda: 3.0 - self.k * self.x**3}
+        self.register_variable(Real("f", **f))
+
+    def do_step(self, time, step):
+        return True
+"""
+
 LATE = """
 class Late(Base):
     def __init__(self, **kwargs):

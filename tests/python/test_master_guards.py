@@ -5,7 +5,7 @@ import pytest
 from impinge import Connection, Master, Unit
 from impinge.master import Graded, MasterError, MasterWarning
 from linear_unit import make
-from python_unit import BODY, LATE, LINK, python_unit
+from python_unit import BODY, CUBE, LATE, LINK, python_unit
 
 
 @pytest.fixture(scope="session")
@@ -144,7 +144,7 @@ def test_states_whose_dependencies_are_not_declared_are_of_second_order(folder):
     assert np.log2(errors[1] / errors[2]) == pytest.approx(2.0, abs=0.1), errors
     for tolerance in (1e-3, 1e-4, 1e-5):
         error, _ = bodies(folder, open_one, step=0.2, adaptive=True, tolerance=tolerance)
-        assert error < 10 * tolerance * 400.0
+        assert error < tolerance * 400.0
 
 
 def test_what_cannot_be_told_from_a_state_is_noted(folder):
@@ -166,3 +166,34 @@ def test_what_is_computed_in_steps_is_still_known_for_that(folder):
         result = master.run(1.0)
         assert master.participants["l"].held == "end" and master.notes == []
     assert result["l.y"].values[1:] == pytest.approx(np.full(10, 2.0), rel=1e-4)
+
+
+@pytest.mark.parametrize("scheme", ["jacobi", "gauss-seidel"])
+@pytest.mark.parametrize("k", [20.0, 50.0, 200.0])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+def test_algebraic_loops_end_at_what_was_checked(folder, scheme, k, tolerance):
+    """x = 3 − k x³: what units are left with misses it by what the tolerance allows; one more turn
+    would multiply that by the slope of −14 to −36."""
+    cube = python_unit(folder, "Cube", CUBE)
+    same = make(folder, "same", d=1.0)
+    ring = [("c.f", "g.u"), ("g.y", "c.x")]
+    options = {"tolerance": tolerance, "parameters": {"c": {"k": k}}, "outputs": ["c.x"]}
+    with Master({"c": cube, "g": same}, ring, step=0.1, scheme=scheme, **options) as master:
+        x = master.run(0.3)["c.x"].values
+    (root,) = (each.real for each in np.roots([k, 0, 1, -3]) if abs(each.imag) < 1e-9)
+    assert np.abs(3 - k * x**3 - x).max() <= 1.02 * tolerance * np.abs(x).max()
+    assert x == pytest.approx(np.full(len(x), root), rel=tolerance)
+
+
+def test_an_array_of_one_is_as_good_as_a_number(pack, folder):
+    edits = {"count = [2, 3]": "count = [1, 1]"}
+    law = make(folder, "law", d=-4e3, e=4e3 * 350.0)
+    whole = [("plate.centre.temperature", "law.u"), ("law.y", "plate.patch.heat_flux")]
+    units = {"plate": pack("tiles", edits), "law": law}
+    with Master(units, whole, step=1e-5, outputs=["plate.block.heat_in"]) as master:
+        result = master.run(1e-4)
+    element = [whole[0], ("law.y", "plate.patch.heat_flux[1,1]")]
+    with Master(units, element, step=1e-5, outputs=["plate.block.heat_in"]) as master:
+        same = master.run(1e-4)
+    assert result["plate.block.heat_in"].values[-1] > 1e-8
+    assert np.array_equal(result["plate.block.heat_in"], same["plate.block.heat_in"])

@@ -16,7 +16,8 @@ from impinge.unit import Unit, Variable
 class Connection:
     """`target = offset + gain · (source, converted to the target's unit of measurement)`.
 
-    source, target: `unit.variable`, single variables or whole families (arrays) of equal shape.
+    source, target: `unit.variable`, single variables or whole families (arrays) of equal shape; an
+        array of one is as good as a single variable.
     gain, offset: numbers or arrays of the target's shape; the offset is in the target's unit.
     map: what makes the target's values (flat) of the source's (flat), where the shapes differ;
         after the conversion of units, before the gain.
@@ -74,7 +75,8 @@ class Link:
             raise MasterError(f"{what}: the source is no output, but {source.causality}")
         if not (source.is_number and target.is_number):
             raise MasterError(f"{what}: only numbers are passed on")
-        if self.connection.map is None and source.shape != target.shape:
+        same = source.shape == target.shape or source.size == target.size == 1
+        if self.connection.map is None and not same:
             raise MasterError(
                 f"{what}: shapes {source.shape} and {target.shape} differ; a `map` may lead from"
                 " one to the other"
