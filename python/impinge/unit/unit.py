@@ -6,7 +6,9 @@ import itertools
 import logging
 import os
 import struct
+import zlib
 from collections.abc import Iterable, Mapping, Sequence
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +24,9 @@ from impinge.unit.state import State
 from impinge.unit.variable import Capabilities, Variable, stem_of
 
 _COUNT = itertools.count(1)
-_MAGIC = b"impinge\x01"
+_MAGIC = b"impinge\x02"
+_HEAD = struct.Struct("<I")  # CRC-32 of what follows: the time, then the state
+_TIME = struct.Struct("<d")
 
 
 class Unit:
@@ -324,6 +328,10 @@ class Unit:
     def step(self, size: float) -> None:
         """Advances by `size` [s]. Raises `StepDiscarded` if the unit stops short of it."""
         self._must_be_open()
+        if not 0.0 <= size < inf:
+            raise UnitError(
+                f"{self.log.name}: step size {float(size)!r} s is not positive and finite"
+            )
         try:
             self.slave.do_step(self.time, size)
         except StepDiscarded as error:
@@ -361,16 +369,24 @@ class Unit:
         self._must_be_able("serialise")
         with self.state() as state:
             content = self.slave.to_bytes(state.handle)
-        return _MAGIC + struct.pack("<d", self.time) + content
+        told = _TIME.pack(self.time) + content
+        return _MAGIC + _HEAD.pack(zlib.crc32(told)) + told
 
     def load(self, content: bytes) -> None:
         """Goes on from what `save` of the same unit, in any process, has returned."""
         self._must_be_able("serialise")
+        content = bytes(content)
+        begin = len(_MAGIC) + _HEAD.size
         if not content.startswith(_MAGIC):
             raise UnitError("these bytes are not what Unit.save returns")
-        (time,) = struct.unpack_from("<d", content, len(_MAGIC))
+        if len(content) < begin + _TIME.size:
+            raise UnitError(f"these {len(content)} bytes are the beginning of a saved state alone")
+        told = content[begin:]
+        if _HEAD.unpack_from(content, len(_MAGIC)) != (zlib.crc32(told),):
+            raise UnitError("the saved state is damaged or cut off: its checksum differs")
+        (time,) = _TIME.unpack_from(told)
         with State(self, time) as state:
-            self.slave.from_bytes(content[len(_MAGIC) + 8 :], state.handle)
+            self.slave.from_bytes(told[_TIME.size :], state.handle)
             self.restore(state)
 
     def _must_be_able(self, what: str) -> None:
