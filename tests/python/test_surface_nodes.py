@@ -85,3 +85,30 @@ def test_what_lies_off_is_told_and_counted():
     wider = even(7, 1.0 + 1e-8)
     kept = wider.map_to(source)(np.ones(wider.size))
     assert source.integral(kept) == pytest.approx(wider.integral(np.ones(wider.size)), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("make", "told"),
+    [
+        (lambda: Surface.rings(2.7, 1.0), "rings: a count of 2.7; whole numbers are needed"),
+        (lambda: Surface.rings(np.nan, 1.0), "rings: a count of nan"),
+        (lambda: Surface.rings("3", 1.0), "rings: a count of '3'"),
+        (lambda: Surface.tiles((2.5, 2), (1.0, 1.0)), "tiles: a count of 2.5"),
+        (lambda: Surface.grid((2, 2.5), (1.0, 1.0)), "tiles: a count of 2.5"),
+        (lambda: Surface.tiles((2,), (1.0, 1.0)), r"tiles: counts \(nx, ny\) are needed"),
+        (lambda: triangle([0, 1, -1]), "cell 0 names node -1 of 3, which count from 0 to 2"),
+        (lambda: triangle([0, 1, 3]), "cell 0 names node 3 of 3, which count from 0 to 2"),
+    ],
+)
+def test_counts_and_numbers_of_nodes_that_are_none_are_refused(make, told):
+    with pytest.raises(SurfaceError, match=told):
+        make()
+
+
+def triangle(corners):
+    return Surface.triangles(np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]), np.array([corners]))
+
+
+def test_whole_numbers_of_any_type_are_counts():
+    assert Surface.rings(np.float64(3.0), 1.0).shape == (3,)
+    assert Surface.tiles(np.array([2, 3]), (1.0, 1.0)).shape == (2, 3)
