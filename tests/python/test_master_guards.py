@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from impinge import Connection, Master, Unit
-from impinge.master import Graded, MasterError, MasterWarning
+from impinge.master import Bond, Graded, MasterError, MasterWarning
 from linear_unit import make
 from python_unit import BODY, CUBE, LATE, LINK, python_unit
 
@@ -197,3 +197,37 @@ def test_an_array_of_one_is_as_good_as_a_number(pack, folder):
         same = master.run(1e-4)
     assert result["plate.block.heat_in"].values[-1] > 1e-8
     assert np.array_equal(result["plate.block.heat_in"], same["plate.block.heat_in"])
+
+
+def test_what_is_no_power_has_no_energy_to_balance(pack, folder):
+    units = {
+        "plate": pack("tiles", {"count = [2, 3]": "count = [1, 1]"}),
+        "law": make(folder, "law", d=-4e3, e=4e3 * 350.0, y_unit="W/m2", u_unit="K"),
+        "mass": make(folder, "mass", [[0.0]], [1.0], [1.0], u_unit="N", y_unit="m/s"),
+        "spring": make(folder, "spring", [[0.0]], [-1.0], [3.0], u_unit="m/s", y_unit="N"),
+    }
+    links = [
+        ("plate.centre.temperature", "law.u"),
+        ("law.y", "plate.patch.heat_flux"),
+        ("mass.y", "spring.u"),
+        ("spring.y", "mass.u"),
+    ]
+    for energy, told in [
+        ("plate.centre.temperature", "plate.centre.temperature is in K, and no power"),
+        ("spring.y", "spring.y is in kg m s-2, and no power"),
+        (("spring.y", "spring.y"), "spring.y times spring.y is in kg2 m2 s-4, and no power"),
+        (("law.y", "mass.y"), "law.y times mass.y is in kg m s-4, and no power"),
+        (Bond("law.y", total="plate.centre.temperature"), "is in K, not in J"),
+    ]:
+        with pytest.raises(MasterError) as refused:
+            Master(units, links, step=1e-5, energy=[energy])
+        assert told in str(refused.value)
+    good = [
+        "law.y",
+        ("law.y", "plate.centre.temperature"),
+        ("spring.y", "mass.y"),
+        Bond("law.y", total="plate.block.heat_in"),
+    ]
+    with Master(units, links, step=1e-5, energy=good) as master:
+        result = master.run(3e-5)
+    assert result.attrs["energy_residual.law.y"] < 1e-6

@@ -143,6 +143,13 @@ def conversion(
     return first[1] / second[1], (first[2] - second[2]) / second[1]
 
 
+def exponents(unit: Unit, variable: Variable) -> tuple[int, ...] | None:
+    """Exponents of kg, m, s, A, K, mol, cd and rad of a variable's unit of measurement, as far as
+    the unit defines it."""
+    known = None if variable.unit is None else _base(unit, variable.unit)
+    return None if known is None else known[0]
+
+
 def _base(unit: Unit, name: str) -> tuple[tuple[int, ...], float, float] | None:
     """Exponents of SI units, factor and offset of a unit of measurement."""
     for definition in unit.package.description.unitDefinitions:
