@@ -18,7 +18,7 @@ const CHECKSUM: usize = 16;
 /// Numbers of a droplet's state before those of its four wall cells, and before its particles.
 const LEDGER: usize = 19;
 const BEFORE_PARTICLES: usize = LEDGER + 4 * 4;
-const NUMBERS_OF_A_PARTICLE: usize = 29;
+const NUMBERS_OF_A_PARTICLE: usize = 30;
 
 /// A saved state, part by part.
 #[derive(Clone)]

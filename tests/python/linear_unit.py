@@ -59,6 +59,9 @@ def description(
 <UnitDefinitions>
 <Unit name="K"><BaseUnit K="1"/></Unit>
 <Unit name="degC"><BaseUnit K="1" offset="273.15"/></Unit>
+<Unit name="N"><BaseUnit kg="1" m="1" s="-2"/></Unit>
+<Unit name="m/s"><BaseUnit m="1" s="-1"/></Unit>
+<Unit name="J"><BaseUnit kg="1" m="2" s="-2"/></Unit>
 <Unit name="W/m2"><BaseUnit kg="1" s="-3"/></Unit>
 <Unit name="kW/m2"><BaseUnit kg="1" s="-3" factor="1000"/></Unit>
 </UnitDefinitions>

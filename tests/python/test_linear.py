@@ -441,3 +441,16 @@ def test_the_package_starts_without_its_extras():
     )
     loaded = set(ran.stdout.split())
     assert not loaded & {"SALib", "dask", "casadi", "control", "quadprog", "osqp", "scipy"}
+
+
+def test_outputs_that_are_no_numbers_have_no_map(tmp_path):
+    """A unit that grows beyond all numbers: superposition of NaN says nothing."""
+    store = make(tmp_path, "store", [[0.0]], [1.0], [1.0], x=[float("nan")])
+    with Unit(store) as unit:
+        with pytest.raises(UnitError, match=r"`y` is nan at 0 s of a roll-out \(allowed: finite\)"):
+            linear_map(unit, ["u"], ["y"], 0.1, 4)
+        with pytest.raises(UnitError, match="`y` is nan"):
+            step_sensitivity(unit, ["u"], ["y"], 0.1)
+    grows = make(tmp_path, "grows", [[500.0]], [1.0], [1.0], x=[1.0])
+    with Unit(grows) as unit, pytest.raises(UnitError, match=r"`y` is inf at .* s of a roll-out"):
+        linear_map(unit, ["u"], ["y"], 0.5, 4)

@@ -86,7 +86,7 @@ class Rollout:
         for number, begin in enumerate(begins):
             self.advance(begin, None if ends is None else ends[number])
             rows[number + 1] = self.read()
-        return rows
+        return self._finite(rows)
 
     def free(self) -> np.ndarray:
         """Outputs under the present inputs, held: shape (steps + 1, outputs)."""
@@ -112,7 +112,19 @@ class Rollout:
             else:
                 self.set(self.base)
             rows[number] = self.read()
+        self._finite(np.vstack([begin, rows]))
         return begin, rows
+
+    def _finite(self, rows: np.ndarray) -> np.ndarray:
+        """The rows, shape (steps + 1, outputs), unless some are no numbers."""
+        wrong = np.argwhere(~np.isfinite(rows))
+        if len(wrong):
+            row, column = wrong[0]
+            raise UnitError(
+                f"{self.unit.name}: `{self.output_names[column]}` is {rows[row, column]} at"
+                f" {self.start.time + row * self.step:.6g} s of a roll-out (allowed: finite)"
+            )
+        return rows
 
 
 def flat_names(variables: Sequence[Variable]) -> list[str]:

@@ -16,13 +16,15 @@ from impinge.unit import Unit, Variable
 class Connection:
     """`target = offset + gain · (source, converted to the target's unit of measurement)`.
 
-    source, target: `unit.variable`, single variables or whole families (arrays) of equal shape.
+    source, target: `unit.variable`, single variables or whole families (arrays) of equal shape; an
+        array of one is as good as a single variable.
     gain, offset: numbers or arrays of the target's shape; the offset is in the target's unit.
     map: what makes the target's values (flat) of the source's (flat), where the shapes differ;
         after the conversion of units, before the gain.
     mean: whether the source is a mean over the last step, so that it belongs to the whole step
         rather than to its end. What is left out is read from the description of impinge's units.
-    scale: of which residuals and errors are a share; the largest magnitude seen if left out.
+    scale: of which residuals and errors are a share; if left out, the largest magnitude at the
+        start, at the ends of accepted steps and of what is judged, but not of earlier guesses.
     """
 
     source: str
@@ -63,7 +65,7 @@ class Link:
         self.is_mean = told if connection.mean is None else connection.mean
         self.nominal = abs(target.nominal)
         self.place = slice(0, 0)
-        self.largest = 0.0  # magnitude seen
+        self.largest = 0.0  # magnitude at the start and at the ends of accepted steps
 
     def _check(self, source: Variable, target: Variable) -> None:
         what = f"{self.connection.source} -> {self.connection.target}"
@@ -73,7 +75,8 @@ class Link:
             raise MasterError(f"{what}: the source is no output, but {source.causality}")
         if not (source.is_number and target.is_number):
             raise MasterError(f"{what}: only numbers are passed on")
-        if self.connection.map is None and source.shape != target.shape:
+        same = source.shape == target.shape or source.size == target.size == 1
+        if self.connection.map is None and not same:
             raise MasterError(
                 f"{what}: shapes {source.shape} and {target.shape} differ; a `map` may lead from"
                 " one to the other"
@@ -92,9 +95,13 @@ class Link:
                 )
         return self._gain * values + self._offset
 
-    def scale(self) -> float:
-        """What residuals are a share of."""
-        return self.connection.scale or self.largest or self.nominal
+    def scale(self, present: np.ndarray | None = None) -> float:
+        """What residuals are a share of: as given, else the largest magnitude among values that
+        have been accepted and those that are `present`, of all inputs, else the nominal value."""
+        if self.connection.scale:
+            return self.connection.scale
+        now = 0.0 if present is None else float(np.abs(present[self.place]).max())
+        return max(self.largest, now) or self.nominal
 
 
 def links(connections: Iterable[Any], units: Mapping[str, Unit]) -> list[Link]:
@@ -134,6 +141,13 @@ def conversion(
             f"{one}.{source.name} is in {source.unit}, {other}.{target.name} in {target.unit}"
         )
     return first[1] / second[1], (first[2] - second[2]) / second[1]
+
+
+def exponents(unit: Unit, variable: Variable) -> tuple[int, ...] | None:
+    """Exponents of kg, m, s, A, K, mol, cd and rad of a variable's unit of measurement, as far as
+    the unit defines it."""
+    known = None if variable.unit is None else _base(unit, variable.unit)
+    return None if known is None else known[0]
 
 
 def _base(unit: Unit, name: str) -> tuple[tuple[int, ...], float, float] | None:

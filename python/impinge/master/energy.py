@@ -9,9 +9,14 @@ from typing import Any
 import numpy as np
 
 from impinge.errors import UnitError
-from impinge.master.connection import Link, split
+from impinge.master.connection import Link, exponents, split
 from impinge.master.errors import MasterError
 from impinge.unit import Unit
+
+_BASE = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
+_NOT_M = [0, 2, 3, 4, 5, 6]  # metres are counted by themselves, and radians are pure numbers
+_POWER = np.array([1, -3, 0, 0, 0, 0])
+_ENERGY = np.array([1, -2, 0, 0, 0, 0])
 
 
 @dataclass(frozen=True)
@@ -59,6 +64,7 @@ class Balance:
             unit, variable = split(given.effort, units)
             if units[unit].variable(variable).unit != "K":  # a heat flux is a power by itself
                 self.effort = _link(given.effort, links)
+        _check(given, self.link, self.effort, units)
         self.area = _area(given, self.link, units)
         self._count = None
         if given.total is not None:
@@ -98,6 +104,36 @@ def _link(name: str, links: list[Link]) -> Link:
         if name in (link.connection.source, link.connection.target):
             return link
     raise MasterError(f"energy: {name} is the end of no connection")
+
+
+def _check(given: Bond, link: Link, effort: Link | None, units: Mapping[str, Unit]) -> None:
+    """Refuses what is no power, or none per area, length or volume, as far as units of measurement
+    are known; and a total that is no energy."""
+    found = _exponents(given.flux, units)
+    if given.effort is not None and effort is not None:
+        other = _exponents(given.effort, units)
+        found = None if found is None or other is None else found + other
+    if found is not None and (any(found[_NOT_M] != _POWER) or not -1 <= found[1] <= 2):
+        what = given.flux if effort is None else f"{given.flux} times {given.effort}"
+        raise MasterError(
+            f"energy: {what} is in {_written(found)}, and no power: W, or W per m, m2 or m3, is"
+            " needed; forces, say, go as pairs with velocities"
+        )
+    total = None if given.total is None else _exponents(given.total, units)
+    if total is not None and (any(total[_NOT_M] != _ENERGY) or total[1] != 2):
+        raise MasterError(f"energy: the total {given.total} is in {_written(total)}, not in J")
+
+
+def _exponents(name: str, units: Mapping[str, Unit]) -> np.ndarray | None:
+    unit, variable = split(name, units)
+    found = exponents(units[unit], units[unit].variable(variable))
+    return None if found is None else np.array(found)
+
+
+def _written(found: np.ndarray) -> str:
+    return " ".join(f"{u}{n}" if n != 1 else u for u, n in zip(_BASE, found, strict=True) if n) or (
+        "no unit"
+    )
 
 
 def _area(given: Bond, link: Link, units: Mapping[str, Unit]) -> np.ndarray:

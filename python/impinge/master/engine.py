@@ -98,15 +98,16 @@ class Engine:
         for place, function in self.drives:
             inputs[place] = function.before(time, size)
 
-    def weights(self) -> np.ndarray:
-        """One over the scale of each input."""
+    def weights(self, present: np.ndarray) -> np.ndarray:
+        """One over the scale of each input, where these are the `present` ones."""
         weight = np.ones(len(self.inputs))
         for link in self.links:
-            weight[link.place] = 1 / link.scale()
+            weight[link.place] = 1 / link.scale(present)
         return weight
 
     def see(self, inputs: np.ndarray) -> None:
-        """Remembers magnitudes."""
+        """Remembers magnitudes of what is accepted. Guesses may be larger by any factor: a scale
+        that kept them would call wrong values converged."""
         for link in self.links:
             link.largest = max(link.largest, float(np.abs(inputs[link.place]).max()))
 
@@ -211,8 +212,7 @@ class Engine:
             g = self.true[places]
             if not np.isfinite(g).all():
                 raise NoConvergence("values are not finite")
-            self.see(self.true)
-            weight = self.weights()[places]
+            weight = self.weights(self.true)[places]
             residual = np.abs(g - x) * weight
             if (residual[real] <= tolerance).all():
                 component.acceleration.end()
@@ -265,7 +265,7 @@ class Engine:
             else:
                 own = [(at, values[link.place]) for at, values in nodes]
                 error = waveform.interpolation_error(own, self.order, time, size)
-            worst = max(worst, float(error.max()) / link.scale())
+            worst = max(worst, float(error.max()) / link.scale(self.true))
         return worst
 
     def given(self, end: float, size: float) -> np.ndarray:

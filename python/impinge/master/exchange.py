@@ -90,7 +90,9 @@ class Exchange:
                 [np.full(k.size, k.connection.scale or _size(g, x) or k.nominal) for k in group]
             )
             if (np.abs(g - x) <= tolerance * scales).all():
-                self._write(group, inputs)
+                # Units have x. What follows from it was not checked as an input itself, and in
+                # loops of large gain is worse.
+                inputs[places] = x
                 return
             inputs[places] = mixing.next(x, g, 1 / scales)
         names = ", ".join(f"{k.connection.source} -> {k.connection.target}" for k in group)

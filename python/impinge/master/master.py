@@ -14,6 +14,15 @@ from tqdm import tqdm
 from impinge.errors import UnitError
 from impinge.jumps import Watched
 from impinge.master.acceleration import acceleration as make_acceleration
+from impinge.master.checks import (
+    check_choices,
+    check_input,
+    check_jumps,
+    check_lengths,
+    check_memoryless,
+    check_stop,
+    check_units,
+)
 from impinge.master.connection import Connection, Link, links, split
 from impinge.master.energy import Balance, bond
 from impinge.master.engine import Component, Engine, NoConvergence
@@ -24,8 +33,6 @@ from impinge.master.participant import Participant
 from impinge.master.record import Record
 from impinge.master.stepping import Graded, Schedule
 from impinge.unit import Unit
-
-SCHEMES = ("jacobi", "gauss-seidel", "iterate")
 
 
 class Master:
@@ -86,7 +93,9 @@ class Master:
         parameters: Mapping[str, Mapping[str, Any]] | None = None,
         strict: bool = True,
     ):
-        _check_choices(scheme, order, extrapolation, max_iterations)
+        check_choices(scheme, order, extrapolation, max_iterations, relaxation)
+        check_lengths(step, tolerance, least_step, largest_step)
+        check_units(units, parameters or {})
         self.notes: list[str] = []
         self._warned: set[str] = set()
         self._own: list[Unit] = []
@@ -96,7 +105,8 @@ class Master:
             self.scheme, self.acceleration, self.order = scheme, acceleration, order
             self.extrapolation = 0 if extrapolation is None else extrapolation
             self.adaptive, self.strict = adaptive, strict
-            self.tolerance = tolerance or (1e-3 if adaptive else 1e-6)
+            self.tolerance = (1e-3 if adaptive else 1e-6) if tolerance is None else tolerance
+            check_jumps(jumps, self.time)
             self.links = links(connections, self.units)
             self._make_participants(inputs or {}, memoryless)
             self._make_components(relaxation, reuse)
@@ -114,10 +124,10 @@ class Master:
             self._balances = [Balance(bond(each), self.links, self.units) for each in energy]
             sources = [link.connection.source for link in self.links]
             self._record = Record(self.units, [*sources, *outputs])
+            step = self._proposed_step() if step is None else step
         except BaseException:
             self.close()
             raise
-        step = step or self._proposed_step()
         graded = Graded(graded) if isinstance(graded, int | float) else graded
         least = step * 1e-9 if least_step is None else least_step
         self._schedule = Schedule(step, graded, jumps, self.adaptive, least, largest_step)
@@ -129,8 +139,6 @@ class Master:
 
     def _open(self, units: Mapping[str, Any], parameters: Mapping[str, Mapping[str, Any]]) -> None:
         for name, unit in units.items():
-            if "." in name:
-                raise MasterError(f"`{name}`: names of units have no dots")
             if isinstance(unit, Unit):
                 self.units[name] = unit
             else:
@@ -143,9 +151,7 @@ class Master:
 
     def _make_participants(self, inputs: Mapping[str, Any], memoryless: Collection[str]) -> None:
         self.participants = {name: Participant(name, unit) for name, unit in self.units.items()}
-        unknown = set(memoryless) - set(self.units)
-        if unknown:
-            raise MasterError(f"memoryless: no unit is called {', '.join(sorted(unknown))}")
+        check_memoryless(memoryless, self.units)
         for link in self.links:
             self.participants[link.source_unit].links_out.append(link)
             self.participants[link.target_unit].links_in.append(link)
@@ -155,6 +161,7 @@ class Master:
             unit, variable = split(name, self.units)
             if name in targets:
                 raise MasterError(f"{name} is set by a connection already")
+            check_input(self.units[unit], name, variable)
             driven.setdefault(unit, []).append((variable, value))
         self._drives: list[tuple[slice, Watched]] = []
         count = 0
@@ -226,6 +233,7 @@ class Master:
         proposed = [unit.default_step for unit in self.units.values() if unit.default_step]
         if not proposed:
             raise MasterError("no unit proposes a step: Master(…, step=…)")
+        check_lengths(min(proposed), None, None, np.inf)
         return min(proposed)
 
     @property
@@ -240,6 +248,7 @@ class Master:
 
         progress: whether a bar is shown; only in runs of more than two seconds if left out.
         """
+        check_stop(stop, self.time)
         if not self._has_begun:
             self._begin(stop)
         bar = tqdm(
@@ -271,10 +280,17 @@ class Master:
         for _ in range(2):
             self._exchange(engine.inputs, self._iteration_tolerance)
         engine.see(engine.inputs)
-        weight = engine.weights()
+        weight = engine.weights(engine.inputs)
         for participant in self.participants.values():
             place = participant.place
-            participant.probe(engine.inputs[place], weight[place])
+            values, shares = engine.inputs[place], weight[place]
+            unknown = participant.probe(values, shares, self._schedule.step)
+            if unknown and self.order:
+                self.notes.append(
+                    f"{participant.name} {unknown}, so that its outputs are taken as computed in"
+                    " its steps from inputs at their ends: of first order if they are states that"
+                    " it does not declare to follow no input at once"
+                )
         engine.begin(self.time)
         for balance in self._balances:
             balance.begin()
@@ -457,16 +473,6 @@ class Master:
 
     def __exit__(self, *_: object) -> None:
         self.close()
-
-
-def _check_choices(scheme: str, order: int, extrapolation: int | None, max_iterations: int) -> None:
-    if scheme not in SCHEMES:
-        raise MasterError(f"scheme is `{scheme}`; it may be {', '.join(SCHEMES)}")
-    for name, value in (("order", order), ("extrapolation", extrapolation)):
-        if value not in (None, 0, 1, 2):
-            raise MasterError(f"{name} is {value}; it may be 0, 1 or 2")
-    if max_iterations < 1:
-        raise MasterError(f"max_iterations is {max_iterations}; it must be at least 1")
 
 
 def _function(name: str, value: Any, shape: tuple[int, ...]) -> Watched:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from impinge.errors import UnitError
 from impinge.master import waveform
 from impinge.master.connection import Link
 from impinge.master.graph import follows_at_once
@@ -135,20 +136,63 @@ class Participant:
         self.steps += 1
         self.unit.step_to(time)
 
-    def probe(self, values: np.ndarray, weight: np.ndarray) -> None:
-        """Finds out whether outputs follow inputs at once, as the unit declares.
+    def probe(self, values: np.ndarray, weight: np.ndarray, step: float) -> str | None:
+        """Finds out whether outputs follow inputs at once, as the unit declares or leaves open.
 
-        Where they do not, as in units that compute outputs in steps alone, what is held over a step
-        is its end, so that outputs at the end of a step belong to inputs then.
+        Where they do not, they are states, which inputs reach as time goes, or values that the unit
+        computes in its steps alone. For those, what is held over a step is its end, so that outputs
+        at the end of a step belong to inputs then; states follow its mean to second order. Steps
+        far below `step` [s] tell one from the other, if the unit can go back; returns what remains
+        unknown.
         """
         if not self.is_direct or self.path_writer is not None or self.writer is None:
-            return
+            return None
+        nudge = np.where(self._paths, 1e-3 * np.abs(values) + 1e-6 / weight, 0.0)
+        self.answers_late = not self._responds(values, nudge)
+        unknown = None
+        if self.answers_late and not self.memoryless:
+            nudge = np.where(self._paths, 1e-3 * (np.abs(values) + 1 / weight), 0.0)
+            try:
+                self.answers_late = self._computes_in_steps(values, nudge, step)
+            except _Unknown as reason:
+                unknown = str(reason)
+        if self.answers_late:
+            self.held = "end"
+        return unknown
+
+    def _responds(self, values: np.ndarray, nudge: np.ndarray) -> bool:
         self.write(values)
         before = self.read().copy()
-        nudge = np.where(self._paths, 1e-3 * np.abs(values) + 1e-6 / weight, 0.0)
         self.write(values + nudge)
         after = self.read().copy()
         self.write(values)
-        self.answers_late = bool(np.array_equal(before, after))
-        if self.answers_late:
-            self.held = "end"
+        return not np.array_equal(before, after)
+
+    def _computes_in_steps(self, values: np.ndarray, nudge: np.ndarray, step: float) -> bool:
+        """Whether outputs respond as much to a step of 1/1000 as to one of 1/100 of `step`. States
+        respond at most a tenth as much."""
+        if not (self.unit.can.states and self.unit.can.variable_steps):
+            raise _Unknown("cannot go back" if not self.unit.can.states else "takes equal steps")
+        responses, size = [], np.zeros(0)
+        with self.unit.state() as state:
+            try:
+                for length in (1e-2 * step, 1e-3 * step):
+                    ends = []
+                    for given in (values, values + nudge):
+                        self.write(given)
+                        self.unit.step(length)
+                        ends.append(self.read().copy())
+                        self.unit.restore(state)
+                    size = np.abs(ends[0])
+                    responses.append(np.abs(ends[1] - ends[0]))
+            except UnitError:
+                raise _Unknown("refuses short steps") from None
+            finally:
+                self.unit.restore(state)
+                self.write(values)
+        longer, shorter = responses
+        return bool(((longer > 1e-10 * size) & (shorter > 0.5 * longer)).any())
+
+
+class _Unknown(Exception):
+    """Why a unit does not tell what its outputs are."""

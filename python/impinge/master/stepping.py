@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import inf, ulp
 
 from impinge.master.errors import MasterError
 
@@ -23,7 +24,7 @@ class Graded:
 
     def times(self, step: float) -> list[float]:
         """Ends of the graded steps, from the jump."""
-        if self.over <= 0 or self.exponent < 1:
+        if not (0 < self.over < inf and 1 <= self.exponent < inf):
             raise MasterError(f"{self}: `over` must be above 0 and `exponent` at least 1")
         count = max(1, round(self.exponent * self.over / step))
         return [self.over * (k / count) ** self.exponent for k in range(1, count + 1)]
@@ -68,6 +69,9 @@ class Schedule:
 
     def end_of_step(self, time: float, stop: float) -> float:
         """When the step from `time` on ends."""
+        length = min(self._size, self.largest) if self.adaptive else self.step
+        if length < 64 * ulp(time):  # times can tell such steps apart no more
+            raise MasterError(f"a step of {length:.3g} s is lost in rounding at {time:.6g} s")
         limit = self.limit(time, stop)
         if self.adaptive:
             rest = limit - time

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -145,13 +146,27 @@ class Scattered:
         return np.stack([self.places[:, :2].min(axis=0), self.places[:, :2].max(axis=0)])
 
 
+def whole_number(value: Any, what: str) -> int:
+    """A count, of any numeric type, that is a whole number."""
+    try:
+        number = int(value)
+        is_whole = number == value
+    except (TypeError, ValueError, OverflowError):
+        is_whole = False
+    if not is_whole:
+        raise SurfaceError(f"{what}: a count of {value!r}; whole numbers are needed")
+    return number
+
+
 def make_rings(edges: Sequence[float] | np.ndarray, at: Sequence[float]) -> Rings:
     return Rings(np.asarray(edges, float), _two(at, "at"))
 
 
 def make_tiles(count: Sequence[int], size: Sequence[float], at: Sequence[float]) -> Tiles:
     """`count` = (nx, ny) rectangles that fill `size` = (lx, ly) [m] about the centre `at` [m]."""
-    nx, ny = (int(n) for n in count)
+    if np.shape(count) != (2,):
+        raise SurfaceError(f"tiles: counts (nx, ny) are needed, not {count!r}")
+    nx, ny = (whole_number(n, "tiles") for n in count)
     size, at = _two(size, "size"), _two(at, "at")
     if nx < 1 or ny < 1 or not (size > 0).all():
         raise SurfaceError(f"tiles: {nx} × {ny} of {size[0]} × {size[1]} m: all are to be above 0")
@@ -174,8 +189,12 @@ def check_cells(cells: np.ndarray, nodes: int) -> None:
     if not np.issubdtype(cells.dtype, np.integer):
         raise SurfaceError(f"cells: numbers of nodes are needed, not {cells.dtype}")
     if cells.min() < 0 or cells.max() >= nodes:
-        cell = int(np.flatnonzero(((cells < 0) | (cells >= nodes)).any(axis=1))[0])
-        raise SurfaceError(f"cells: cell {cell} names node {cells[cell].max()} of {nodes}")
+        wrong = (cells < 0) | (cells >= nodes)
+        cell = int(np.flatnonzero(wrong.any(axis=1))[0])
+        node = cells[cell][wrong[cell]][0]
+        raise SurfaceError(
+            f"cells: cell {cell} names node {node} of {nodes}, which count from 0 to {nodes - 1}"
+        )
 
 
 def make_polygons(nodes: np.ndarray, cells: np.ndarray) -> Polygons:

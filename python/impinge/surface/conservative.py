@@ -3,7 +3,8 @@
 Cells to cells: ``q_i = Σ_j A_ij q_j / A_i`` with A_ij the area that cell i of the target and cell j
 of the source share; amounts ``Q_i = Σ_j (A_ij / A_j) Q_j``. Values at nodes stand for ``Σ_n φ_n
 q_n`` with φ the linear functions of the triangles, and are integrated over the pieces: ``B_in =
-∫_{cell i} φ_n dA``. Source: P. E. Farrell et al. (2009), doi 10.1016/j.cma.2009.03.004.
+∫_{cell i} φ_n dA``; at nodes of both, ``q_i = Σ_n ∫ψ_i φ_n dA q_n / ∫ψ_i dA``, so that constants
+stay constants. Source: P. E. Farrell et al. (2009), doi 10.1016/j.cma.2009.03.004.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from .errors import SurfaceError
 from .locate import in_cells
 from .maps import Map
 from .overlap import Pieces, cut, cut_polygons
+from .products import nodes_by_nodes
 
 if TYPE_CHECKING:
     from .surface import Surface
@@ -40,13 +42,13 @@ def conservative(
         shared = _points_in_cells(source, target, tolerance)
         return _amounts(source, target, shared, outside)
     if source_has_nodes and target_has_nodes:
+        if quantity == "intensive":
+            shared = nodes_by_nodes(target.cells, source.cells, tolerance)
+            return _densities(source, target, shared, outside)
         # Amounts of nodes go to those of the triangle around: the transpose of interpolation.
         back, off = interpolate(target, source, tolerance, nearest=False)
         shared = csr_matrix(back.T) @ diags_array((~off).astype(float))
-        if quantity == "extensive":
-            return _amounts(source, target, shared, outside)
-        shared = shared @ diags_array(nodal_areas(source.cells))
-        return _densities(source, target, shared, outside)
+        return _amounts(source, target, shared, outside)
     if source_has_nodes:
         shared = nodes_by_cells(source.cells, target.cells, tolerance, "triangles").T
     elif target_has_nodes:

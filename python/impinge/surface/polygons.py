@@ -54,10 +54,7 @@ def in_rectangles(
 
 
 def in_convex(frames: np.ndarray, polygons: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Area and moments of polygons within convex `frames` that go round to the left.
-
-    Source: I. E. Sutherland and G. W. Hodgman (1974), doi 10.1145/360767.360802.
-    """
+    """Area and moments of polygons within convex `frames` that go round to the left."""
     area, moment = np.zeros(len(polygons)), np.zeros((len(polygons), 2))
     is_out, is_whole = np.zeros(len(polygons), bool), np.ones(len(polygons), bool)
     for k in range(frames.shape[1]):
@@ -67,13 +64,22 @@ def in_convex(frames: np.ndarray, polygons: np.ndarray) -> tuple[np.ndarray, np.
     is_whole &= ~is_out
     area[is_whole], moment[is_whole] = moments(polygons[is_whole])
     alive = np.flatnonzero(~is_out & ~is_whole)
-    clipped = polygons[alive]
-    for k in range(frames.shape[1]):
-        clipped, some = _above(clipped, _heights(frames[alive], k, clipped))
-        clipped, alive = clipped[some], alive[some]
-    if len(alive):
-        area[alive], moment[alive] = moments(clipped)
+    clipped, some = clipped_to_convex(frames[alive], polygons[alive])
+    if len(some):
+        area[alive[some]], moment[alive[some]] = moments(clipped)
     return area, moment
+
+
+def clipped_to_convex(frames: np.ndarray, polygons: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """What convex `frames` leave of convex polygons, and of which of them something is left.
+
+    Source: I. E. Sutherland and G. W. Hodgman (1974), doi 10.1145/360767.360802.
+    """
+    alive = np.arange(len(polygons))
+    for k in range(frames.shape[1]):
+        polygons, some = _above(polygons, _heights(frames[alive], k, polygons))
+        polygons, alive = polygons[some], alive[some]
+    return polygons, alive
 
 
 def _heights(frames: np.ndarray, k: int, polygons: np.ndarray) -> np.ndarray:

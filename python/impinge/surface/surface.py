@@ -19,6 +19,7 @@ from .cells import (
     make_rings,
     make_scattered,
     make_tiles,
+    whole_number,
 )
 from .conservative import conservative, nodal_areas
 from .consistent import consistent
@@ -67,7 +68,8 @@ class Surface:
         """`count` concentric rings of equal width out to `radius` [m] about `at` [m]. Arcs are
         true arcs.
         """
-        if int(count) < 1 or not (np.isfinite(radius) and radius > 0):
+        count = whole_number(count, "rings")
+        if count < 1 or not (np.isfinite(radius) and radius > 0):
             raise SurfaceError(f"rings: {count} of radius {radius} m: both are to be above 0")
         return cls(make_rings(radius * np.arange(count + 1) / count, at), "cells", z)
 

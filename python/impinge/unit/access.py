@@ -5,12 +5,15 @@ both once for a list of names, so that a call converts nothing and makes no list
 """
 
 from collections.abc import Callable, Sequence
+from numbers import Real
 from typing import Any
 
 import numpy as np
 
 from impinge.errors import UnitError
 from impinge.unit.variable import Variable
+
+_PLAIN = frozenset({float, int, bool, np.float64, np.int64, np.bool_})  # single real numbers
 
 
 class _Part:
@@ -40,6 +43,23 @@ class _Part:
         bound = (self.kind, self.reference_array, self.values)
         self.call = self.slave.access(self.verb, *bound)
         self.look = self.slave.access("Get", *bound) if self.partial else None
+
+    def refusal(self, new: np.ndarray) -> str:
+        """What values of this kind must be, if these are not."""
+        dtype = self.values.dtype
+        if self.kind == "Boolean":
+            return "" if np.isin(new, (0.0, 1.0)).all() else "true or false"
+        if dtype.kind == "f":
+            if dtype == np.float64:
+                return ""
+            too_large = np.isfinite(new) & (np.abs(new) > np.finfo(dtype).max)
+            return f"within the range of {self.kind}" if too_large.any() else ""
+        if not np.array_equal(new, np.rint(new)):
+            return "whole numbers"
+        low, high = np.iinfo(dtype).min, np.iinfo(dtype).max
+        if (new < low).any() or (new >= float(high) + 1).any():
+            return f"whole numbers from {low} to {high}"
+        return ""
 
 
 class Access:
@@ -80,12 +100,12 @@ class Access:
         raise NotImplementedError
 
     def close(self) -> None:
-        """Bars further calls: the instance is gone."""
-        self._call = _closed
+        """Bars further calls: the instance is gone, or must not be called any more."""
+        self._call = self._closed
 
-
-def _closed() -> int:
-    raise UnitError("the unit is closed")
+    def _closed(self) -> int:
+        self.slave.must_live()
+        raise UnitError("the unit is closed")
 
 
 class Reader(Access):
@@ -125,9 +145,10 @@ class Writer(Access):
                 if status > 1:
                     return status
             new = self.values[part.target]
-            if part.values.dtype.kind != "f" and not np.array_equal(new, np.rint(new)):
+            allowed = part.refusal(new)
+            if allowed:
                 names = ", ".join(v.name for v in self.variables if v.kind == part.kind)
-                raise UnitError(f"{names}: {new.tolist()} must be whole numbers")
+                raise UnitError(f"{names}: {new.tolist()} must be {allowed}")
             part.values[part.source] = new
             status = part.call()
             if status > 1:
@@ -136,15 +157,15 @@ class Writer(Access):
 
     def fill(self, values: Sequence[Any]) -> None:
         """Puts a value for each name into `values`; single numbers fill arrays."""
-        if len(self.values) == len(values):
+        if len(self.values) == len(values) and all(type(value) in _PLAIN for value in values):
             try:
                 self.values[:] = values
                 return
-            except ValueError:
-                pass  # arrays among them
+            except OverflowError:
+                pass  # an integer that no float64 holds
         for variable, place, value in zip(self.variables, self.slices, values, strict=True):
             try:
-                array = np.asarray(value, dtype=float)
+                array = _real(value)
                 whole = array.size == variable.size and array.shape in (
                     variable.shape,
                     (array.size,),
@@ -152,9 +173,19 @@ class Writer(Access):
                 self.values[place] = (
                     array.ravel() if whole else np.broadcast_to(array, variable.shape).ravel()
                 )
-            except (TypeError, ValueError) as error:
+            except (TypeError, ValueError, OverflowError) as error:
                 shape = f"{variable.shape}" if variable.shape else "one number"
                 raise UnitError(f"`{variable.name}` takes {shape}, not {_tell(value)}") from error
+
+
+def _real(value: Any) -> np.ndarray:
+    """Real numbers alone: NumPy would make numbers of texts, and NaN of None."""
+    array = np.asarray(value)
+    if array.dtype.kind == "O" and all(isinstance(each, Real) for each in array.flat):
+        array = array.astype(float)
+    if array.dtype.kind not in "fiub":
+        raise TypeError(f"no real numbers: {array.dtype}")
+    return array.astype(float)
 
 
 def _tell(value: Any) -> str:

@@ -16,7 +16,7 @@ from impinge.unit.variable import NUMBERS
 
 _CO_SIMULATION = 1
 _LAST_SUCCESSFUL_TIME, _TERMINATED = 2, 3
-_DISCARD = 2
+_DISCARD, _FATAL = 2, 4
 
 
 class Fmi2(Slave):
@@ -58,17 +58,6 @@ class Fmi2(Slave):
         self.call("EnterInitializationMode")
         self.call("ExitInitializationMode")
 
-    def terminate(self) -> None:
-        self.function("Terminate")()
-
-    def reset(self) -> None:
-        self.call("Reset")
-
-    def free(self) -> None:
-        if self.component:
-            self.function("FreeInstance", result=None)()
-            self.component = None
-
     def access(
         self, verb: str, kind: str, references: np.ndarray, values: np.ndarray
     ) -> Callable[[], int]:
@@ -91,6 +80,7 @@ class Fmi2(Slave):
         self.call("SetString", *arguments, types=types)
 
     def do_step(self, time: float, size: float) -> None:
+        self.must_live()
         status = self._do_step(time, size, self._keep_past)
         if status <= 1:
             return
@@ -101,12 +91,17 @@ class Fmi2(Slave):
     def _last_time(self, time: float) -> float:
         value = c_double(time)
         ask = self.function("GetRealStatus", c_int, c_void_p)
-        return value.value if ask(_LAST_SUCCESSFUL_TIME, byref(value)) <= 1 else time
+        return value.value if self._answers(ask(_LAST_SUCCESSFUL_TIME, byref(value))) else time
 
     def _has_terminated(self) -> bool:
         value = c_int(0)
         ask = self.function("GetBooleanStatus", c_int, c_void_p)
-        return ask(_TERMINATED, byref(value)) <= 1 and bool(value.value)
+        return self._answers(ask(_TERMINATED, byref(value))) and bool(value.value)
+
+    def _answers(self, status: int) -> bool:
+        if status == _FATAL:
+            self.check(status, "GetStatus")
+        return status <= 1
 
     # Derivatives
 

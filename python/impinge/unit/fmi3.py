@@ -71,17 +71,6 @@ class Fmi3(Slave):
         change()
         self.call("ExitConfigurationMode")
 
-    def terminate(self) -> None:
-        self.function("Terminate")()
-
-    def reset(self) -> None:
-        self.call("Reset")
-
-    def free(self) -> None:
-        if self.component:
-            self.function("FreeInstance", result=None)()
-            self.component = None
-
     def access(
         self, verb: str, kind: str, references: np.ndarray, values: np.ndarray
     ) -> Callable[[], int]:
@@ -121,6 +110,7 @@ class Fmi3(Slave):
         self.call("SetString", *where, ctypes.addressof(values), len(texts), types=types)
 
     def do_step(self, time: float, size: float) -> None:
+        self.must_live()
         event, terminate, early = self._flags
         # Not `end - time`, which differs by rounding: the unit goes as it would under FMI 2.
         end, rest = time + size, size

@@ -7,6 +7,7 @@ from ctypes import byref, c_char_p, c_size_t, c_void_p
 from functools import partial
 from pathlib import Path
 from typing import Any
+from weakref import WeakSet
 
 import fmpy
 import numpy as np
@@ -15,6 +16,7 @@ from impinge.errors import StepDiscarded, UnitError
 from impinge.unit.log import STATUS, Log
 from impinge.unit.package import Package
 
+_FATAL = 4
 _LIBRARIES: dict[Path, ctypes.CDLL] = {}
 
 
@@ -60,9 +62,19 @@ class Slave:
         self._library = load(package)
         self.component: int | None = None
         self._functions_found: dict[str, Callable[..., Any]] = {}
+        self.fatal: str | None = None  # what the unit said when it failed fatally
+        self.accesses: WeakSet[Any] = WeakSet()  # readers and writers, which hold calls of it
+
+    def must_live(self) -> None:
+        """Bars further calls after a fatal failure, which FMI allows none of: they may crash."""
+        if self.fatal is not None:
+            raise UnitError(
+                f"{self.fatal}; a unit that failed fatally cannot be used any more: make another"
+            )
 
     def function(self, name: str, *types: Any, result: Any = ctypes.c_int) -> Callable[..., Any]:
         """The function of this name, whose first argument is the component."""
+        self.must_live()
         known = self._functions_found.get(name)
         if known is not None:
             return known
@@ -84,7 +96,16 @@ class Slave:
     def check(self, status: int, what: str) -> None:
         """Raises what the unit says if it refuses a call."""
         if status > 1:
-            raise UnitError(self.refusal(status, what), self.log.take())
+            refusal = self.refusal(status, what)
+            if status == _FATAL:
+                self._die(refusal)
+            raise UnitError(refusal, self.log.take())
+
+    def _die(self, refusal: str) -> None:
+        self.fatal = refusal
+        self._functions_found.clear()
+        for access in list(self.accesses):
+            access.close()
 
     def refusal(self, status: int, what: str) -> str:
         word = STATUS[status] if 0 <= status < len(STATUS) else f"status {status}"
@@ -106,9 +127,30 @@ class Slave:
         if wanted:
             names = (c_char_p * len(wanted))(*(word.encode() for word in wanted))
             types = (self.boolean, ctypes.c_size_t, ctypes.c_void_p)
-            self.function("SetDebugLogging", *types)(True, len(wanted), ctypes.addressof(names))
+            arguments = (True, len(wanted), ctypes.addressof(names))
+            status = self.function("SetDebugLogging", *types)(*arguments)
+            if status == _FATAL:
+                self.check(status, "SetDebugLogging")
 
     boolean: Any = ctypes.c_int
+
+    # Life
+
+    def terminate(self) -> None:
+        """Ends the run. Whether the unit has anything against it does not matter any more."""
+        if self.fatal is None:
+            status = self.function("Terminate")()
+            if status == _FATAL:
+                self._die(self.refusal(status, "Terminate"))
+
+    def reset(self) -> None:
+        self.call("Reset")
+
+    def free(self) -> None:
+        """Frees the instance; one that failed fatally is left as it is."""
+        if self.component and self.fatal is None:
+            self.function("FreeInstance", result=None)()
+        self.component = None
 
     # States
 

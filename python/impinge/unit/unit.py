@@ -6,15 +6,16 @@ import itertools
 import logging
 import os
 import struct
+import zlib
 from collections.abc import Iterable, Mapping, Sequence
+from math import inf
 from pathlib import Path
 from typing import Any
-from weakref import WeakSet
 
 import numpy as np
 
 from impinge.errors import StepDiscarded, UnitError
-from impinge.unit.access import Access, PathWriter, Reader, Writer
+from impinge.unit.access import PathWriter, Reader, Writer
 from impinge.unit.fmi2 import Fmi2
 from impinge.unit.fmi3 import Fmi3
 from impinge.unit.log import Listener, Log
@@ -23,7 +24,9 @@ from impinge.unit.state import State
 from impinge.unit.variable import Capabilities, Variable, stem_of
 
 _COUNT = itertools.count(1)
-_MAGIC = b"impinge\x01"
+_MAGIC = b"impinge\x02"
+_HEAD = struct.Struct("<I")  # CRC-32 of what follows: the time, then the state
+_TIME = struct.Struct("<d")
 
 
 class Unit:
@@ -58,7 +61,6 @@ class Unit:
         self._own_parameters = dict(parameters or {})
         self._readers: dict[tuple[str, ...], Reader] = {}
         self._writers: dict[tuple[str, ...], Writer] = {}
-        self._accesses: WeakSet[Access] = WeakSet()
         self.log = Log(f"{self.package.name}-{next(_COUNT)}", logger)
         self.slave: Fmi2 | Fmi3 = (Fmi3 if self.package.fmi == 3 else Fmi2)(self.package, self.log)
         self.is_open = True
@@ -112,7 +114,7 @@ class Unit:
         self.slave.free()
 
     def _forget_accesses(self) -> None:
-        for access in list(self._accesses):
+        for access in list(self.slave.accesses):
             access.close()
         self._readers.clear()
         self._writers.clear()
@@ -131,11 +133,14 @@ class Unit:
 
     def __repr__(self) -> str:
         life = f"at {self.time!r} s" if self.is_open else "closed"
+        if self.slave.fatal is not None:
+            life = "failed fatally"
         return f"<impinge.Unit {self.log.name} (FMI {self.package.fmi}) {life}>"
 
     def _must_be_open(self) -> None:
         if not self.is_open:
             raise UnitError("the unit is closed")
+        self.slave.must_live()
 
     # What there is
 
@@ -237,7 +242,7 @@ class Unit:
         self._must_be_open()
         variables = [self.package.variable(name) for name in names]
         access = kind(self.slave, variables, lambda name: self.package.variable(stem_of(name)))
-        self._accesses.add(access)
+        self.slave.accesses.add(access)
         return access
 
     def _reader(self, names: tuple[str, ...]) -> Reader:
@@ -323,6 +328,10 @@ class Unit:
     def step(self, size: float) -> None:
         """Advances by `size` [s]. Raises `StepDiscarded` if the unit stops short of it."""
         self._must_be_open()
+        if not 0.0 <= size < inf:
+            raise UnitError(
+                f"{self.log.name}: step size {float(size)!r} s is not positive and finite"
+            )
         try:
             self.slave.do_step(self.time, size)
         except StepDiscarded as error:
@@ -360,16 +369,24 @@ class Unit:
         self._must_be_able("serialise")
         with self.state() as state:
             content = self.slave.to_bytes(state.handle)
-        return _MAGIC + struct.pack("<d", self.time) + content
+        told = _TIME.pack(self.time) + content
+        return _MAGIC + _HEAD.pack(zlib.crc32(told)) + told
 
     def load(self, content: bytes) -> None:
         """Goes on from what `save` of the same unit, in any process, has returned."""
         self._must_be_able("serialise")
+        content = bytes(content)
+        begin = len(_MAGIC) + _HEAD.size
         if not content.startswith(_MAGIC):
             raise UnitError("these bytes are not what Unit.save returns")
-        (time,) = struct.unpack_from("<d", content, len(_MAGIC))
+        if len(content) < begin + _TIME.size:
+            raise UnitError(f"these {len(content)} bytes are the beginning of a saved state alone")
+        told = content[begin:]
+        if _HEAD.unpack_from(content, len(_MAGIC)) != (zlib.crc32(told),):
+            raise UnitError("the saved state is damaged or cut off: its checksum differs")
+        (time,) = _TIME.unpack_from(told)
         with State(self, time) as state:
-            self.slave.from_bytes(content[len(_MAGIC) + 8 :], state.handle)
+            self.slave.from_bytes(told[_TIME.size :], state.handle)
             self.restore(state)
 
     def _must_be_able(self, what: str) -> None:

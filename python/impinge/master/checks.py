@@ -1,0 +1,112 @@
+"""What a master is asked for, before anything is made of it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection, Mapping, Sequence
+from math import isfinite, isnan
+from numbers import Real
+from typing import Any
+
+from impinge.master.errors import MasterError
+from impinge.unit import Unit
+
+SCHEMES = ("jacobi", "gauss-seidel", "iterate")
+
+
+def check_choices(
+    scheme: str, order: int, extrapolation: int | None, max_iterations: int, relaxation: Any
+) -> None:
+    """Words and counts."""
+    if scheme not in SCHEMES:
+        raise MasterError(f"scheme is `{scheme}`; it may be {', '.join(SCHEMES)}")
+    for name, value in (("order", order), ("extrapolation", extrapolation)):
+        if value not in (None, 0, 1, 2):
+            raise MasterError(f"{name} is {value}; it may be 0, 1 or 2")
+    if max_iterations < 1:
+        raise MasterError(f"max_iterations is {max_iterations}; it must be at least 1")
+    _check_positive("relaxation", relaxation)
+
+
+def check_lengths(step: Any, tolerance: Any, least: Any, largest: Any) -> None:
+    """Numbers that must be above zero: steps of zero or less never come to an end."""
+    _check_positive("step", step, "s")
+    _check_positive("tolerance", tolerance)
+    _check_positive("least_step", least, "s")
+    if not _is_number(largest) or isnan(largest) or largest <= 0:
+        raise MasterError(f"largest_step is {largest!r} s; it must be above 0")
+    if least is not None and least > largest:
+        raise MasterError(f"least_step ({least!r} s) is above largest_step ({largest!r} s)")
+
+
+def check_jumps(jumps: Sequence[Any], start: float) -> None:
+    """Times that a run can come to."""
+    for jump in jumps:
+        if not _is_number(jump) or not isfinite(jump):
+            raise MasterError(f"jumps: {jump!r} is no time in s")
+        if jump < start:
+            raise MasterError(f"jumps: {jump!r} s is before the start at {start!r} s")
+
+
+def check_stop(stop: Any, time: float) -> None:
+    """Where a run is to end."""
+    if not _is_number(stop) or not isfinite(stop):
+        raise MasterError(f"run: {stop!r} is no time in s to stop at")
+    if stop < time:
+        raise MasterError(f"run: {stop!r} s is before {time!r} s, where the run stands")
+
+
+def check_units(
+    units: Mapping[str, Unit | str | os.PathLike[str]], parameters: Mapping[str, Any]
+) -> None:
+    """Names, and that each unit stands under one of them; parameters are of units that are made."""
+    given: dict[int, str] = {}
+    for name, unit in units.items():
+        if "." in name:
+            raise MasterError(f"`{name}`: names of units have no dots")
+        if not isinstance(unit, Unit):
+            continue
+        if id(unit) in given:
+            raise MasterError(
+                f"{given[id(unit)]} and {name} are one and the same unit: make two of its source"
+            )
+        given[id(unit)] = name
+    for name in parameters:
+        if name not in units:
+            raise MasterError(f"parameters: `{name}` names none of the units {', '.join(units)}")
+        if name in given.values():
+            raise MasterError(
+                f"parameters: {name} is a Unit that has been initialised already;"
+                " Unit(…, parameters={…}) sets them"
+            )
+
+
+def check_input(unit: Unit, name: str, variable: str) -> None:
+    """Whether a value over time may be set: of inputs alone, and of numbers."""
+    target = unit.variable(variable)
+    if target.causality != "input":
+        hint = ""
+        if target.causality in ("parameter", "structuralParameter"):
+            hint = "; parameters={unit: {name: value}} sets it before the start"
+        raise MasterError(f"inputs: {name} is no input, but {target.causality}{hint}")
+    if not target.is_number:
+        raise MasterError(f"inputs: {name} is a {target.kind}; only numbers are set")
+
+
+def check_memoryless(names: Collection[str], units: Mapping[str, Unit]) -> None:
+    """Whether these are names of units."""
+    unknown = set(names) - set(units)
+    if unknown:
+        raise MasterError(f"memoryless: no unit is called {', '.join(sorted(unknown))}")
+
+
+def _check_positive(name: str, value: Any, unit: str = "") -> None:
+    if value is None:
+        return
+    if not _is_number(value) or not isfinite(value) or value <= 0:
+        told = f"{value!r} {unit}".strip()
+        raise MasterError(f"{name} is {told}; it must be a number above 0")
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
