@@ -23,18 +23,24 @@ struct CellMean {
 }
 
 impl FaceMeans {
-    /// Of a footprint about a place [m] on the top if `high`, on meshes of heat and of displacements.
+    /// Of a footprint about a place [m] on the top if `high`, on the mesh of heat and, where means of what follows from
+    /// displacements are asked for, on that of these.
     pub fn of(
-        [heat, force]: [&Mesh; 2],
+        (heat, force): (&Mesh, Option<&Mesh>),
         high: bool,
         footprint: &Footprint,
         [x, y]: [f64; 2],
     ) -> Self {
         let place = Placement { x, y, radius: footprint.radius().unwrap_or_default() };
         let of_heat = seen_on(heat, footprint, &place).map(|cell| heat_weights(heat, high, &cell));
-        let of_force = seen_on(force, footprint, &place).map(|cell| points(force, high, &cell));
-        let cells = of_heat.zip(of_force).map(|(heat, points)| CellMean { heat, points });
-        Self { cells: cells.collect() }
+        let mut cells: Vec<CellMean> =
+            of_heat.map(|heat| CellMean { heat, points: Vec::new() }).collect();
+        if let Some(mesh) = force {
+            for (cell, seen) in cells.iter_mut().zip(seen_on(mesh, footprint, &place)) {
+                cell.points = points(mesh, high, &seen);
+            }
+        }
+        Self { cells }
     }
 
     /// Mean temperature above the initial one on a cell [K].

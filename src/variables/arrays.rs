@@ -180,7 +180,7 @@ fn constants(scene: &Scene, list: &mut Vec<ArrayVariable>) {
             coordinates(&field.name, &grid, list);
         }
     }
-    let families = CellFamily::all(scene);
+    let families = CellFamily::places(scene);
     families
         .iter()
         .filter(|family| family.footprint != "grid")

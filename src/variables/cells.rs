@@ -45,6 +45,14 @@ pub struct CellFamily {
 impl CellFamily {
     /// All of a checked scene: of loads, walls and fields, in this order.
     pub fn all(scene: &Scene) -> Vec<Self> {
+        let mut families = Self::places(scene);
+        let registry = Registry::structured(scene);
+        families.iter_mut().for_each(|family| family.name_quantities(&registry));
+        families
+    }
+
+    /// The same without the names of variables.
+    pub fn places(scene: &Scene) -> Vec<Self> {
         let loads = scene.load.iter().map(|load| {
             let at = [load.start.x, load.start.y].map(Option::unwrap_or_default);
             let radius = load.start.radius;
@@ -73,10 +81,7 @@ impl CellFamily {
                 }
             })
         });
-        let mut families: Vec<Self> = loads.chain(walls).chain(fields).collect();
-        let registry = Registry::structured(scene);
-        families.iter_mut().for_each(|family| family.name_quantities(&registry));
-        families
+        loads.chain(walls).chain(fields).collect()
     }
 
     fn new(

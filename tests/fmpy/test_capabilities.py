@@ -186,3 +186,30 @@ def test_output_derivatives_balance_heat_and_lead_ahead(pack):
         before, ahead = unit["centre.temperature"], 1e-9
         unit.step(ahead)
         assert (unit["centre.temperature"] - before) / ahead == pytest.approx(heating, rel=1e-3)
+
+
+def test_hosts_that_ground_what_is_not_connected_step_where_ambients_are_parameters(pack):
+    """Block diagrams set inputs that nothing is connected to to zero, which is no temperature."""
+    scene = next(path for path in EXAMPLES if path.parent.name == "heated_bed")
+    faces = {
+        "coefficient = 30.0, ambient = 293.15 } }": "coefficient = 30.0, ambient = 293.15 }, "
+        'role = "parameter" }',
+        "coefficient = 15.0, ambient = 293.15 } }": "coefficient = 15.0, ambient = 293.15 }, "
+        'role = "parameter" }',
+        "radius = 30e-3 } }": 'radius = 30e-3 } }\nrole = "parameter"',
+        "radius = 10e-3 } }": 'radius = 10e-3 } }\nrole = "parameter"',
+    }
+    for edits, steps in (({}, False), (faces, True)):
+        with Unit(pack(scene, edits)) as unit:
+            inputs = [v.name for v in unit.variables.values() if v.causality == "input"]
+            for name in inputs:
+                if steps or not name.endswith("radius"):
+                    unit[name] = 0.0
+            if not steps:
+                with pytest.raises(UnitError, match="above absolute zero"):
+                    unit.step(0.5)
+                continue
+            assert inputs == ["heater.heat_flux", "fan.heat_flux"]
+            unit["heater.heat_flux"] = 7e3
+            unit.step(0.5)
+            assert unit["bed.heat_in"] > 9.0

@@ -89,7 +89,10 @@ impl DropInputs {
         let after_places = first + if self.in_space { 3 } else { 2 };
         let refuse = |index: usize, message: String| Err(BodyError::Input { index, message });
         if count.fract() != 0.0 || count < 0.0 {
-            return refuse(first, format!("{count} is no number of drops (allowed: 0, 1, 2, …)"));
+            return refuse(
+                first,
+                format!("{} is no number of drops (allowed: 0, 1, 2, …)", plain(count)),
+            );
         }
         if count > self.most as f64 {
             let most = self.most;
@@ -100,12 +103,14 @@ impl DropInputs {
         }
         if angle.abs() >= FRAC_PI_2 {
             let message = format!(
-                "at {angle} rad a drop does not come down (allowed: between -1.5708 and 1.5708 rad)"
+                "at {} rad a drop does not come down (allowed: between -1.5708 and 1.5708 rad)",
+                plain(angle)
             );
             return refuse(after_places + 2, message);
         }
         if self.reach == [0.0; 2] && angle != 0.0 {
-            let message = format!("a drop that comes at {angle} rad: {} (allowed: 0)", self.why);
+            let message =
+                format!("a drop that comes at {} rad: {} (allowed: 0)", plain(angle), self.why);
             return refuse(after_places + 2, message);
         }
         let landing = self.droplet.landing(centre, values.velocity());
@@ -115,15 +120,17 @@ impl DropInputs {
                     0.0 => "0".to_owned(),
                     reach => format!("{} to {} m", -short(reach), short(reach)),
                 };
+                let (at, why) = (plain(x), &self.why);
                 let message =
-                    format!("a drop that comes down at {x} m: {} (allowed: {allowed})", self.why);
+                    format!("a drop that comes down at {at} m: {why} (allowed: {allowed})");
                 return refuse(first + 1 + axis, message);
             }
         }
         if speed < 0.0 || speed > self.fastest {
             let message = format!(
-                "a drop at {speed} m/s, where the speed of sound is that of slower ones (allowed: 0 to {} m/s; more with \
+                "a drop at {} m/s, where the speed of sound is that of slower ones (allowed: 0 to {} m/s; more with \
                  a higher `impact_velocity` or `fluid.sound_speed` of the scene)",
+                plain(speed),
                 short(self.fastest)
             );
             return refuse(after_places, message);
@@ -168,6 +175,14 @@ impl DropInputs {
 
 /// Relative rounding of a place.
 const ROUNDING: f64 = 1e-9;
+
+/// A number as it is, with an exponent where it would have many zeros.
+fn plain(value: f64) -> String {
+    match value.abs() {
+        size if size == 0.0 || (1e-6..1e9).contains(&size) => value.to_string(),
+        _ => format!("{value:e}"),
+    }
+}
 
 /// A number with the digits that people read.
 fn short(value: f64) -> f64 {

@@ -6,19 +6,21 @@ use super::reader::SolidReader;
 use crate::body::BodyError;
 use crate::coupling::FaceMeans;
 use crate::method::fem::Mesh;
-use crate::scene::{FaceName, FieldCells, Sampling, Scene, Solid};
+use crate::scene::{FaceName, FieldCells, Gives, Sampling, Scene, Solid};
 
 /// The means of a body's fields, each with the place of its field among the scene's.
 pub fn means_of(
     scene: &Scene,
     (name, solid): (&str, &Solid),
-    meshes: [&Mesh; 2],
+    [heat, force]: [&Mesh; 2],
 ) -> Vec<(usize, FaceMeans)> {
     let own = scene.field.iter().enumerate().filter(|(_, field)| field.body_and_place().0 == name);
     let means = own.filter_map(|(place, field)| match field.sampling(solid) {
         Sampling::Points(_) => None,
         Sampling::Cells(FieldCells { face, footprint, at }) => {
-            Some((place, FaceMeans::of(meshes, face == FaceName::Top, &footprint, at)))
+            let force = field.gives.iter().any(Gives::is_mechanical).then_some(force);
+            let is_top = face == FaceName::Top;
+            Some((place, FaceMeans::of((heat, force), is_top, &footprint, at)))
         }
     });
     means.collect()

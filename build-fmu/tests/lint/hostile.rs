@@ -1,0 +1,137 @@
+//! Units that are made to do harm: bombs, endless lists, names that lie.
+
+use std::fs;
+use std::io::{Cursor, Write};
+use std::path::PathBuf;
+use std::process::Command;
+
+use tempfile::TempDir;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipArchive, ZipWriter};
+
+use super::{Entries, PROGRAM, XML, change_xml, good, lint, lint_file, pack, root, write_zip};
+
+/// The text stands once in the findings, of which there is an error.
+#[track_caller]
+fn refused_for(entries: &Entries, words: &str) {
+    let (code, text) = lint(entries);
+    assert_eq!((code, text.matches(words).count()), (1, 1), "{text}");
+}
+
+#[test]
+fn a_description_that_would_fill_the_memory_is_not_unpacked() {
+    let folder = TempDir::new().unwrap();
+    let unit = folder.path().join("bomb.fmu");
+    let mut zip = ZipWriter::new(fs::File::create(&unit).unwrap());
+    let packed = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
+    zip.start_file(XML, packed.compression_level(Some(1))).unwrap();
+    let blanks = vec![b' '; 1 << 24];
+    (0..33).for_each(|_| zip.write_all(&blanks).unwrap());
+    zip.finish().unwrap();
+    assert!(fs::metadata(&unit).unwrap().len() < 1 << 23);
+    let (code, text) = lint_file(&unit, &[]);
+    assert_eq!(code, 1);
+    assert!(text.contains("more than 536870912 bytes when unpacked"), "{text}");
+}
+
+#[test]
+fn elements_too_wide_and_too_deep_are_refused_with_their_line() {
+    let mut wide = good();
+    let attributes: String = (0..300_000).map(|i| format!(" q{i}=\"1\"")).collect();
+    change_xml(&mut wide, |xml| {
+        xml.replacen("<fmiModelDescription", &format!("<fmiModelDescription{attributes}"), 1)
+    });
+    refused_for(&wide, "modelDescription.xml:2: an element has more than 1000 attributes");
+    let mut deep = good();
+    let nest = format!("{}{}", "<a>".repeat(1_000_000), "</a>".repeat(1_000_000));
+    change_xml(&mut deep, |xml| {
+        xml.replacen("<ModelVariables>", &format!("{nest}<ModelVariables>"), 1)
+    });
+    refused_for(&deep, "more than 1000 elements lie in each other");
+}
+
+#[test]
+fn dependencies_without_end_are_one_finding() {
+    let mut entries = good();
+    let list = "1 ".repeat(2_000_000);
+    let unknown = format!("<Outputs><Unknown index=\"1\" dependencies=\"{list}\"/>");
+    change_xml(&mut entries, |xml| xml.replacen("<Outputs>", &unknown, 1));
+    refused_for(&entries, "2000000 dependencies of ");
+}
+
+#[test]
+fn of_many_faults_of_one_kind_a_thousand_are_listed() {
+    let mut entries = good();
+    let variables: String = (0..20_000)
+        .map(|i| {
+            format!(
+                "<ScalarVariable name=\"a b{i}\" valueReference=\"{}\"><Real/></ScalarVariable>\n",
+                100_000 + i
+            )
+        })
+        .collect();
+    change_xml(&mut entries, |xml| {
+        xml.replacen("</ModelVariables>", &format!("{variables}</ModelVariables>"), 1)
+    });
+    let (code, text) = lint(&entries);
+    assert_eq!(code, 1);
+    assert_eq!(text.matches("is no structured name").count(), 1000);
+    assert_eq!(text.matches("and more like this, which are not listed").count(), 1, "{text}");
+}
+
+#[test]
+fn many_entries_are_looked_at_and_too_many_refused() {
+    let mut entries = good();
+    entries.extend((0..60_000).map(|i| (format!("resources/f{i}"), Vec::new())));
+    let (code, text) = lint(&entries);
+    assert_eq!(code, 0, "{text}");
+    entries.extend((60_000..200_000).map(|i| (format!("extra/f{i}"), Vec::new())));
+    refused_for(&entries, "entries; at most 200000 are looked at");
+}
+
+#[test]
+fn no_folder_is_left_behind_not_even_by_a_call_that_was_killed() {
+    let (folder, place) = (TempDir::new().unwrap(), TempDir::new().unwrap());
+    let unit = folder.path().join("unit.fmu");
+    write_zip(&good(), &unit);
+    // Numbers of processes are smaller than this.
+    let left = place.path().join("impinge-lint-999999999-x");
+    let (running, foreign) = (
+        place.path().join(format!("impinge-lint-{}-x", std::process::id())),
+        place.path().join("impinge-lint-x"),
+    );
+    for folder in [&left, &running, &foreign] {
+        fs::create_dir_all(folder.join("resources")).unwrap();
+    }
+    let said = Command::new(PROGRAM).arg("--lint").arg(&unit).env("TMPDIR", place.path()).output();
+    assert!(said.unwrap().status.success());
+    let mut names: Vec<PathBuf> =
+        fs::read_dir(place.path()).unwrap().map(|entry| entry.unwrap().path()).collect();
+    names.sort();
+    assert_eq!(names, [running, foreign]);
+}
+
+/// One bit of an entry is another, in the middle of its data.
+#[test]
+fn entries_that_nothing_else_reads_are_read_too() {
+    let folder = TempDir::new().unwrap();
+    let unit = pack(&root().join("tests/fmi/scene.toml"), &folder);
+    let bytes = fs::read(&unit).unwrap();
+    let mut archive = ZipArchive::new(Cursor::new(bytes.clone())).unwrap();
+    for at in 0..archive.len() {
+        let file = archive.by_index(at).unwrap();
+        let (name, start) = (file.name().unwrap().into_owned(), file.data_start().unwrap());
+        let middle = (start + file.compressed_size() / 2) as usize;
+        drop(file);
+        let mut bytes = bytes.clone();
+        bytes[middle] ^= 0x10;
+        fs::write(&unit, bytes).unwrap();
+        for extra in [&[][..], &["--no-run"]] {
+            let called =
+                Command::new(PROGRAM).arg("--lint").arg(&unit).args(extra).output().unwrap();
+            let said = String::from_utf8_lossy(&called.stdout);
+            assert_eq!(called.status.code(), Some(1), "{name}: {said}");
+            assert!(said.contains(&name) && said.contains("unreadable"), "{name}: {said}");
+        }
+    }
+}
