@@ -1,0 +1,5 @@
+"""The charts, by name."""
+
+from cases.spot import spot
+
+CHARTS = {"spot": spot}

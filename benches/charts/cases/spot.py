@@ -1,0 +1,140 @@
+"""A hot spot on alumina: how warm is its centre, how stressed is what lies below it?
+
+The same question to every level of model: closed form, reduced unit, column, meridian section,
+quarter, whole box, elements and particles at equal distances.
+"""
+
+from math import erfc, exp, pi, sqrt
+
+from chart import Chart, Formula, Method, Point, Quantity, UnitRun
+
+FLUX, RADIUS, STOP, STEPS = 5e8, 50e-6, 10e-6, 10  # W/m², m, s
+HALF, THICKNESS, DEPTH = 0.25e-3, 0.25e-3, 5e-6  # m
+CONDUCTIVITY, DENSITY, CAPACITY = 10.0, 3950.0, 900.0
+MATERIAL = {
+    "model": "thermoelastic",
+    "density": DENSITY,
+    "specific_heat": CAPACITY,
+    "conductivity": CONDUCTIVITY,
+    "young": 300e9,
+    "poisson": 0.21,
+    "expansion": 8.1e-6,
+}
+START = 293.15  # K
+TEMPERATURE, STRESS = "temperature of the centre", "von Mises stress 5 µm below"
+# Quadratic elements, 2 µm and 0.1 µm below the surface, growing by 1.1; 3 and 0.3 µm give 1e-5 more
+# in the box, 1.2e-4 more in the disc.
+STRESS_OF_BOX, STRESS_OF_DISC = 251.80e6, 252.08e6  # Pa
+OUTPUTS = {TEMPERATURE: "centre.temperature", STRESS: "below.von_mises"}
+TOLERANCES = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3)
+
+
+def ierfc(x: float) -> float:
+    return exp(-x * x) / sqrt(pi) - x * erfc(x)
+
+
+def closed_form() -> dict[str, float]:
+    """The axis of a disc of flux on a half space (Carslaw & Jaeger 1959, § 10.5)."""
+    reach = 2.0 * sqrt(CONDUCTIVITY / (DENSITY * CAPACITY) * STOP)
+    rise = FLUX * reach / CONDUCTIVITY * (ierfc(0.0) - ierfc(RADIUS / reach))
+    return {TEMPERATURE: START + rise}
+
+
+def scene(shape: dict, mesh: dict | None = None, **more) -> dict:
+    """A plate under the spot; its sides do not move."""
+    plate = {
+        "kind": "solid",
+        "shape": shape,
+        "material": MATERIAL,
+        "initial_temperature": START,
+        "faces": {"sides": {"clamped": True}},
+    }
+    plate |= {"mesh": mesh} if mesh else {}
+    plate |= more.pop("body", {})
+    load = {
+        "name": "spot",
+        "on": "plate.top",
+        "footprint": {"disc": {"radius": RADIUS}},
+        "carries": ["heat_flux"],
+        "start": {"heat_flux": FLUX},
+    }
+    probes = [
+        {"name": "centre", "in": "plate", "at": [0.0, 0.0, 0.0], "gives": ["temperature"]},
+        {"name": "below", "in": "plate", "at": [0.0, 0.0, -DEPTH], "gives": ["von_mises"]},
+    ]
+    general = {"name": "Spot", "stop_time": STOP, "step": STOP / STEPS}
+    return general | {"body": {"plate": plate}, "load": [load], "probe": probes} | more
+
+
+BOX = {"box": [2 * HALF, 2 * HALF, THICKNESS]}
+DISC = {"disc": {"radius": HALF, "thickness": THICKNESS}}
+
+
+def asked(shape: dict, level: str = "full", **body) -> list[Point]:
+    """A point for each tolerance that a scene may ask for."""
+    return [
+        Point(
+            f"{tolerance:g}",
+            UnitRun(
+                scene(shape, body=body, fidelity={"level": level, "tolerance": tolerance}),
+                OUTPUTS,
+                steps=STEPS,
+            ),
+            tolerance,
+        )
+        for tolerance in TOLERANCES
+    ]
+
+
+def spaced(shape: dict, spacings: list[float], mesh: dict, heat: str = "fem") -> list[Point]:
+    """A point for each distance of nodes, equal all over."""
+    return [
+        Point(
+            f"{1e6 * spacing:g} µm",
+            UnitRun(
+                scene(shape, {"spacing": spacing, "growth": 1.0} | mesh, body={"heat": heat}),
+                OUTPUTS,
+                steps=STEPS,
+            ),
+        )
+        for spacing in spacings
+    ]
+
+
+def column() -> list[Point]:
+    """The spot's flux all over the top of a plate whose sides move along themselves alone."""
+    points = []
+    for tolerance in TOLERANCES:
+        told = scene(
+            {"box": [THICKNESS, THICKNESS, THICKNESS]},
+            body={
+                "faces": {"top": {"flux": FLUX}}
+                | dict.fromkeys(("bottom", "sides"), {"roller": True})
+            },
+            fidelity={"tolerance": tolerance},
+        )
+        del told["load"]
+        points.append(Point(f"{tolerance:g}", UnitRun(told, OUTPUTS, steps=STEPS)))
+    return points
+
+
+def spot() -> Chart:
+    rise = closed_form()[TEMPERATURE] - START
+    quantities = [
+        Quantity(
+            TEMPERATURE, "K", START + rise, rise, "closed form, Carslaw & Jaeger 1959, § 10.5"
+        ),
+        Quantity(STRESS, "Pa", STRESS_OF_BOX, STRESS_OF_BOX, "quadratic elements of 2 µm"),
+    ]
+    coarse = [25e-6, 12.5e-6, 10e-6]
+    methods = [
+        Method("closed form", [Point("", Formula(closed_form))]),
+        Method("reduced unit", asked(BOX, "reduced")),
+        Method("column", column()),
+        Method("meridian section", asked(DISC), {STRESS: STRESS_OF_DISC}),
+        Method("quarter", asked(BOX)),
+        Method("whole box", asked(BOX, symmetry="none")),
+        Method("uniform finite elements", spaced(BOX, [*coarse, 6.25e-6, 5e-6], {"order": 1})),
+        Method("uniform particles, corrected", spaced(BOX, coarse, {"order": 1}, "sph")),
+    ]
+    return Chart("spot", "A hot spot on alumina for 10 µs", quantities, methods)

@@ -1,0 +1,84 @@
+"""What a chart of work over accuracy is made of: quantities and methods with their settings."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+Values = dict[str, float]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What is asked for: `reference` is at least ten times as accurate as the best point shown."""
+
+    name: str
+    unit: str
+    reference: float
+    scale: float
+    """What an error is divided by, in the same unit."""
+    source: str
+    """Where the reference comes from."""
+
+
+@dataclass(frozen=True)
+class UnitRun:
+    """A unit that is packed, started, stepped and read as a host does it."""
+
+    scene: dict
+    outputs: dict[str, str]
+    """Variables of the unit by quantity; read at the end of every step."""
+    inputs: Values = field(default_factory=dict)
+    steps: int = 1
+
+
+@dataclass(frozen=True)
+class Formula:
+    """Something that is evaluated: a function of nothing that gives values by quantity."""
+
+    evaluate: Callable[[], Values]
+
+
+@dataclass(frozen=True)
+class Point:
+    setting: str
+    work: UnitRun | Formula
+    asked: float | None = None
+    """The relative error that was asked for, where one can ask."""
+
+
+@dataclass(frozen=True)
+class Method:
+    name: str
+    points: list[Point]
+    references: Values = field(default_factory=dict)
+    """By quantity, of a method that models another body, whose own answer differs."""
+
+
+@dataclass(frozen=True)
+class Chart:
+    name: str
+    title: str
+    quantities: list[Quantity]
+    methods: list[Method]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a point came to: medians over its repetitions; a failure instead where there was one."""
+
+    values: Values
+    pack: float
+    """Packing of the unit [s]."""
+    start: float
+    """Instantiation and initialisation [s]."""
+    steps: float
+    """All steps and readings [s]."""
+    memory: float
+    """Peak of the process above that before the unit was loaded [B]."""
+    size: int
+    """Of the unit's file [B]."""
+    failure: str = ""
+
+    @property
+    def seconds(self) -> float:
+        """What a host waits for."""
+        return self.start + self.steps

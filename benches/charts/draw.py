@@ -1,0 +1,134 @@
+"""Draws error over time, both logarithmic, with the front of what nothing else beats."""
+
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+from chart import Chart, Outcome
+from table import error, key
+
+COLOURS = ["#20306b", "#b0303c", "#e08214", "#2a8a7f", "#7b7b7b", "#8e5ea2", "#3b8bc4", "#a0752d"]
+MARKERS = "osD^vPX*"
+SMALLEST = 1e-9
+"""Errors are not drawn below: rounding, and the references' own."""
+
+
+def front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Of (time, error), those that no other point beats in both."""
+    best, kept = float("inf"), []
+    for seconds, err in sorted(points):
+        if err < best:
+            best = err
+            kept.append((seconds, err))
+    return kept
+
+
+def curve(chart: Chart, quantity, method, known: dict[tuple[str, str], Outcome]):
+    """Time, error, setting and the error asked for, of the points that came to something."""
+    found = []
+    for point in method.points:
+        outcome = known.get((method.name, key(point)))
+        if outcome and not outcome.failure and quantity.name in outcome.values:
+            err = max(error(quantity, method, outcome), SMALLEST)
+            found.append((outcome.seconds, err, point.setting, point.asked))
+    return found
+
+
+def panel(axes, chart: Chart, quantity, known):
+    every = []
+    for place, method in enumerate(chart.methods):
+        found = curve(chart, quantity, method, known)
+        if not found:
+            continue
+        every += [(seconds, err) for seconds, err, *_ in found]
+        colour, marker = COLOURS[place % len(COLOURS)], MARKERS[place % len(MARKERS)]
+        axes.loglog(
+            [f[0] for f in found],
+            [f[1] for f in found],
+            color=colour,
+            marker=marker,
+            markersize=5,
+            linewidth=1.3,
+            label=method.name,
+        )
+        for seconds, err, setting, _ in (found[0], found[-1])[: len(found)]:
+            axes.annotate(
+                setting,
+                (seconds, err),
+                (4, 4),
+                textcoords="offset points",
+                fontsize=7,
+                color=colour,
+            )
+    if every:
+        axes.step(
+            *zip(*front(every), strict=True), where="post", color="0.8", linewidth=6, zorder=0
+        )
+    axes.set_title(quantity.name)
+    axes.set_xlabel("time that a host waits: start, steps and readings [s]")
+    axes.set_ylabel("relative error [1]")
+    axes.grid(True, which="major", color="0.92")
+
+
+def asked_over_found(axes, chart: Chart, known):
+    """Where a method can be asked for an error: what it kept of that."""
+    drawn = False
+    for place, method in enumerate(chart.methods):
+        for quantity, fill in zip(
+            chart.quantities, ("full", "none", "left", "right"), strict=False
+        ):
+            found = [f for f in curve(chart, quantity, method, known) if f[3] is not None]
+            if found:
+                drawn = True
+                axes.loglog(
+                    [f[3] for f in found],
+                    [f[1] for f in found],
+                    color=COLOURS[place % len(COLOURS)],
+                    marker=MARKERS[place % len(MARKERS)],
+                    fillstyle=fill,
+                    markersize=5,
+                    linewidth=1.0,
+                    label=f"{method.name}: {quantity.name}",
+                )
+    if drawn:
+        ends = axes.get_xlim()
+        axes.loglog(ends, ends, color="black", linestyle=(0, (4, 3)), linewidth=1.0)
+        axes.set_xlim(ends)
+    axes.set_title("asked and found")
+    axes.set_xlabel("error asked for [1]")
+    axes.set_ylabel("error found [1]")
+    axes.grid(True, which="major", color="0.92")
+    axes.legend(fontsize=7)
+    return drawn
+
+
+def draw(chart: Chart, known: dict[tuple[str, str], Outcome], folder: Path):
+    plt.rcParams.update(
+        {
+            "font.size": 10,
+            "axes.titlelocation": "left",
+            "axes.titleweight": "bold",
+            "axes.spines.top": False,
+            "axes.spines.right": False,
+            "legend.frameon": False,
+            "svg.hashsalt": chart.name,
+        }
+    )
+    can_ask = any(p.asked is not None for m in chart.methods for p in m.points)
+    count = len(chart.quantities) + can_ask
+    figure, axes = plt.subplots(1, count, figsize=(5.4 * count, 5.6), layout="constrained")
+    axes = [axes] if count == 1 else list(axes)
+    for place, quantity in enumerate(chart.quantities):
+        panel(axes[place], chart, quantity, known)
+    if can_ask:
+        asked_over_found(axes[-1], chart, known)
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.suptitle(chart.title, x=0.01, ha="left", fontsize=13)
+    figure.legend(
+        handles, labels, loc="outside lower center", ncols=min(5, len(labels)), fontsize=9
+    )
+    figure.savefig(folder / f"{chart.name}.png", dpi=130)
+    figure.savefig(folder / f"{chart.name}.svg", metadata={"Date": None})
+    plt.close(figure)
