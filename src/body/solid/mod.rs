@@ -14,9 +14,13 @@ mod reader;
 mod totals;
 mod yielding;
 
+pub(super) use advance::PARTS_OF_A_FOOTPRINT;
 pub use forecast::{BodyForecast, PRODUCT_RATE, ParticleForecast, forecast_solid};
+pub(super) use loads::BodyLoads;
+pub(super) use means::means_of;
 pub use peaks::kept_peaks;
 pub use plan::plan;
+pub(super) use point::Measure;
 pub use point::{PointQuantity, point_quantities};
 pub use totals::offered_totals;
 
@@ -32,8 +36,6 @@ use crate::math::allowance::Allowance;
 use crate::method::fem::{ElasticProblem, HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
 use crate::scene::{FaceName, PeakOf, Scene, Shape, Solid};
 use crate::state::Layout;
-use loads::BodyLoads;
-use means::means_of;
 use memo::SolidMemo;
 use port::Port;
 use reader::SolidReader;

@@ -13,11 +13,11 @@ pub struct PointQuantity {
     pub descriptor: Descriptor,
     /// What a scene asks for that includes it.
     pub given_by: &'static [Gives],
-    measure: Measure,
+    pub(in crate::body) measure: Measure,
 }
 
 /// How it follows from the fields.
-enum Measure {
+pub enum Measure {
     Temperature,
     Displacement(usize),
     Stress(usize),

@@ -25,9 +25,9 @@ mod solver_choice;
 
 pub use crate::method::heat_totals::HeatTotals;
 pub use crate::method::mesh::{Axis, Geometry, Layering, Mesh, MeshFace, Parity, Weight};
-pub use conduction::{HeatFailure, particle_cost};
+pub use conduction::{HeatFailure, HeatValue, particle_cost};
 pub use elastic::{ElasticProblem, forget_unused_stiffness};
-pub use heat::{HeatLoads, HeatProblem, ThermalFace};
+pub use heat::{HeatLoads, HeatProblem, ModalRow, ThermalFace};
 pub use nonlinear::{NonlinearFailure, heat_mesh};
 pub use plan::{Mechanics, Plan, PlanRequest, Refinement};
 pub use solid::{Deformation, Extreme, NodalFields, SolidFem, SolidLoads, Temperatures};

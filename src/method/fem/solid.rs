@@ -1,6 +1,7 @@
 //! A solid: heat and elasticity on one mesh, and what can be read from their solution.
 
 mod extremes;
+mod modal;
 mod recovered;
 mod tangent;
 
