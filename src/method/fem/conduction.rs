@@ -196,6 +196,25 @@ impl Conduction {
         }
     }
 
+    /// Of each class the part of a state that is modal; `None` where heat has no modes.
+    pub fn contents<'s>(&'s self, state: &'s [f64]) -> Option<Vec<&'s [f64]>> {
+        match self {
+            Self::Modes(problem) => Some(problem.class_contents(state)),
+            Self::Layers(problem) => Some(problem.class_contents(state)),
+            Self::Particles(_) | Self::Nonlinear(_) => None,
+        }
+    }
+
+    /// From derivatives of a reading by nodal temperatures of a class those by its modal part of a state and by face
+    /// values; `None` where heat has no modes.
+    pub fn row(&self, class: usize, nodal: &[f64]) -> Option<[Vec<f64>; 2]> {
+        match self {
+            Self::Modes(problem) => Some(problem.row(class, nodal)),
+            Self::Layers(problem) => Some(problem.row(class, nodal)),
+            Self::Particles(_) | Self::Nonlinear(_) => None,
+        }
+    }
+
     /// Number of particles without a corrected operator of their own; `None` for finite elements.
     pub fn fallback(&self) -> Option<usize> {
         match self {

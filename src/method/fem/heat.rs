@@ -15,6 +15,7 @@ mod depth;
 mod homogeneous;
 mod layered;
 mod rates;
+mod row;
 mod temperatures;
 
 pub use homogeneous::Homogeneous;
