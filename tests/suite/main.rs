@@ -35,6 +35,7 @@ mod plausibility;
 mod recovered_stress;
 mod reduced;
 mod reservoirs;
+mod rows;
 mod scene_reference;
 mod scene_refusals;
 mod solid;

@@ -7,7 +7,7 @@ use crate::body::BodyError;
 use crate::body::solid::{BodyLoads, means_of, plan};
 use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
-use crate::method::fem::{HeatValue, Mesh, Plan, SolidFem, SolidLoads, heat_mesh};
+use crate::method::fem::{Component, HeatValue, Mesh, ModalRow, SolidFem, SolidLoads, heat_mesh};
 use crate::method::reduced::{Clumped, Ranges, ReducedSystem, Request};
 use crate::scene::{Scene, Solid};
 
@@ -36,7 +36,7 @@ impl<'a> Full<'a> {
         drives: &Drives,
         threads: usize,
     ) -> Result<Self, BodyError> {
-        let plan = Plan { prepared: false, ..plan(scene, name, solid) };
+        let plan = plan(scene, name, solid);
         let fem = SolidFem::new(&plan, threads)?;
         let meshes = [heat_mesh(&plan), fem.mesh().clone()];
         let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan);
@@ -95,7 +95,7 @@ impl<'a> Full<'a> {
     }
 
     fn row(&self, value: &Value) -> Result<Row, BodyError> {
-        let thermal = |row: crate::method::fem::ModalRow, offset: f64| {
+        let thermal = |row: ModalRow, offset: f64| {
             let direct = self.columns.iter().map(|loads| row.direct(&loads.faces)).collect();
             Row { modes: row.modes, direct, offset }
         };
@@ -111,10 +111,35 @@ impl<'a> Full<'a> {
                 thermal(row, self.initial_temperature)
             }
             Value::Stored => thermal(self.fem.heat_row(&self.take, &HeatValue::Stored), 0.0),
-            Value::Stress(..) | Value::Displacement(..) => {
-                unreachable!("refused")
+            Value::Stress(point, slot) => self.mechanical(Component::Stress(slot), point)?,
+            Value::Displacement(point, axis) => {
+                self.mechanical(Component::Displacement(axis), point)?
             }
         })
+    }
+
+    /// A component of stress or displacement at a point: its influence on modes, face values and forces. Classes that
+    /// nothing drives are not solved.
+    fn mechanical(&self, component: Component, point: [f64; 3]) -> Result<Row, BodyError> {
+        let functional = self.fem.functional(component, &[(point, 1.0)]);
+        let mut out =
+            Row { modes: Vec::new(), direct: vec![0.0; self.columns.len()], offset: 0.0 };
+        for (class, &take) in self.take.iter().enumerate() {
+            let at_once = |loads: &SolidLoads| SolidFem::drives_at_once(loads, class);
+            if !take && !self.columns.iter().any(at_once) {
+                continue;
+            }
+            let row = self.fem.row(&functional, class);
+            let row = row.expect("a checked scene has mechanics where it gives stress")?;
+            for (direct, loads) in out.direct.iter_mut().zip(&self.columns) {
+                *direct += row.of(&[], &loads.faces[class], &loads.force[class]);
+            }
+            out.offset += row.constant;
+            if take {
+                out.modes.extend(row.heat.iter());
+            }
+        }
+        Ok(out)
     }
 }
 

@@ -1,7 +1,8 @@
 //! The heat of a solid by the method that its scene names.
 
-use super::heat::DepthModes;
-use super::heat::{HeatLoads, HeatProblem, Homogeneous, Layered, ModalRow, ThermalFace};
+use super::heat::{
+    DepthModes, HeatLoads, HeatProblem, Homogeneous, Layered, ModalRow, ThermalFace,
+};
 use super::nonlinear::{NonlinearFailure, NonlinearHeat};
 use super::plan::Plan;
 use crate::math::allowance::{Allowance, Halt};
@@ -210,6 +211,25 @@ impl Conduction {
         }
     }
 
+    /// Of each class the part of a state that is modal; `None` where heat has no modes.
+    pub fn contents<'s>(&'s self, state: &'s [f64]) -> Option<Vec<&'s [f64]>> {
+        match self {
+            Self::Modes(problem) => Some(problem.class_contents(state)),
+            Self::Layers(problem) => Some(problem.class_contents(state)),
+            Self::Particles(_) | Self::Nonlinear(_) => None,
+        }
+    }
+
+    /// From derivatives of a reading by nodal temperatures of a class those by its modal part of a state and by face
+    /// values; `None` where heat has no modes.
+    pub fn row(&self, class: usize, nodal: &[f64]) -> Option<[Vec<f64>; 2]> {
+        match self {
+            Self::Modes(problem) => Some(problem.row(class, nodal)),
+            Self::Layers(problem) => Some(problem.row(class, nodal)),
+            Self::Particles(_) | Self::Nonlinear(_) => None,
+        }
+    }
+
     /// Which classes loads drive, where modes give the heat.
     pub fn driven(&self, loads: &HeatLoads) -> Option<Vec<bool>> {
         match self {
@@ -250,7 +270,7 @@ impl Conduction {
     }
 
     /// A value as a sum over modes and face values.
-    pub fn row(&self, mesh: &Mesh, take: &[bool], of: &HeatValue) -> ModalRow {
+    pub fn heat_row(&self, mesh: &Mesh, take: &[bool], of: &HeatValue) -> ModalRow {
         fn row<D: DepthModes>(
             problem: &HeatProblem<D>,
             mesh: &Mesh,

@@ -16,6 +16,7 @@ mod homogeneous;
 mod layered;
 mod modal;
 mod rates;
+mod row;
 mod temperatures;
 
 pub use homogeneous::Homogeneous;

@@ -77,7 +77,7 @@ impl<D: DepthModes> HeatProblem<D> {
         let [x, y, _] = &mesh.axes;
         let shapes = [x.shape_at(point[0]), y.shape_at(point[1]), mesh.sided_shape_at(point[2])];
         let row_z = shapes[2].interpolate_columns(self.depth.basis());
-        self.row(take, |class| {
+        self.row_of(take, |class| {
             let sign = class.parity.sign(image);
             let [row_x, row_y] =
                 [0, 1].map(|a| shapes[a].interpolate_columns(&class.lateral[a].shapes));
@@ -94,7 +94,7 @@ impl<D: DepthModes> HeatProblem<D> {
     /// Sum over nodes of the bottom or, if `high`, the top, with weights for each class; empty for none.
     pub fn face_row(&self, take: &[bool], weights: &[Vec<f64>], high: bool) -> ModalRow {
         let mut place = 0;
-        self.row(take, |class| {
+        self.row_of(take, |class| {
             let own = &weights[place];
             place += 1;
             let mut mixed = self.zeros(class);
@@ -111,7 +111,7 @@ impl<D: DepthModes> HeatProblem<D> {
 
     /// Heat stored [J].
     pub fn stored_row(&self, take: &[bool]) -> ModalRow {
-        self.row(take, |class| {
+        self.row_of(take, |class| {
             let mut mixed = self.zeros(class);
             if !class.parity.is_even() {
                 return (mixed, vec![0.0; self.faces.len()]);
@@ -132,7 +132,7 @@ impl<D: DepthModes> HeatProblem<D> {
     }
 
     /// From a mixed array and what prescribed nodes add, class by class: modes hold what these store, too.
-    fn row(
+    fn row_of(
         &self,
         take: &[bool],
         mut of_class: impl FnMut(&Class<D::Columns>) -> (Vec<f64>, Vec<f64>),

@@ -42,11 +42,11 @@ impl SolidFem {
     /// The temperature above the initial one at a point as a sum over modes and face values.
     pub fn temperature_row(&self, take: &[bool], point: [f64; 3]) -> ModalRow {
         let (place, image) = self.mesh.locate(point);
-        self.heat.row(&self.mesh, take, &HeatValue::Point { place, image })
+        self.heat.heat_row(&self.mesh, take, &HeatValue::Point { place, image })
     }
 
     /// The same of another value.
     pub fn heat_row(&self, take: &[bool], value: &HeatValue) -> ModalRow {
-        self.heat.row(&self.mesh, take, value)
+        self.heat.heat_row(&self.mesh, take, value)
     }
 }
