@@ -122,8 +122,7 @@ impl<'a> Full<'a> {
     /// nothing drives are not solved.
     fn mechanical(&self, component: Component, point: [f64; 3]) -> Result<Row, BodyError> {
         let functional = self.fem.functional(component, &[(point, 1.0)]);
-        let mut out =
-            Row { modes: Vec::new(), direct: vec![0.0; self.columns.len()], offset: 0.0 };
+        let mut out = Row { modes: Vec::new(), direct: vec![0.0; self.columns.len()], offset: 0.0 };
         for (class, &take) in self.take.iter().enumerate() {
             let at_once = |loads: &SolidLoads| SolidFem::drives_at_once(loads, class);
             if !take && !self.columns.iter().any(at_once) {

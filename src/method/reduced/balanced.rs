@@ -11,14 +11,18 @@
 
 use faer::Mat;
 
+use crate::math::singular_values::{SingularValues, singular_values};
+
 /// Part of a Gramian that its low-rank factor leaves out.
-const LEFT_OUT: f64 = 1e-22;
+const LEFT_OUT: f64 = 1e-20;
 
 /// Why there is no reduced system.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReductionError {
     #[error("its singular values could not be found")]
     Decomposition,
+    #[error("no order has poles that are real")]
+    Poles,
 }
 
 /// A system balanced: what systems of any order follow from.
@@ -76,9 +80,8 @@ impl Balanced {
                 }
             }
         }
-        let svd = hankel.thin_svd().map_err(|_| ReductionError::Decomposition)?;
-        let singular = svd.S().column_vector().iter().copied().collect();
-        let (left, right) = (svd.U().to_owned(), svd.V().to_owned());
+        let SingularValues { left, values: singular, right } =
+            singular_values(&hankel).ok_or(ReductionError::Decomposition)?;
         Ok(Self { inputs, outputs, rank, singular, left, right, shifted, entering, leaving })
     }
 

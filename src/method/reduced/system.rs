@@ -95,7 +95,7 @@ impl ReducedSystem {
                 break;
             }
         }
-        let truncated = best.ok_or(ReductionError::Decomposition)?;
+        let truncated = best.ok_or(ReductionError::Poles)?;
         let found = integrals(&clumped.points, &rows, &truncated, Wanted::Bound);
         Ok(request.system(&truncated, &scale, &found, &ranges))
     }
