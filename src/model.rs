@@ -84,8 +84,9 @@ impl Model {
 
     fn build_here(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
         let layout = InputLayout::of(scene);
+        let start = initial_inputs(scene);
         let Assembly { bodies, links, joints } =
-            crate::body::build(scene, &layout, [threads, threads_that_fit(scene)])?;
+            crate::body::build(scene, (&layout, &start), [threads, threads_that_fit(scene)])?;
         let pairs: Vec<_> =
             joints.iter().map(|joint| joint.sides.each_ref().map(|side| side.body)).collect();
         let schedule = Group::all(bodies.len(), &links, &pairs);

@@ -5,6 +5,8 @@ use std::f64::consts::PI;
 pub enum Quantity {
     Time,
     Temperature,
+    /// Between two temperatures.
+    TemperatureDifference,
     HeatFlux,
     Stress,
     Length,
@@ -52,9 +54,10 @@ const fn scaled(name: &'static str, factor: f64) -> Option<DisplayUnit> {
 }
 
 impl Quantity {
-    pub const ALL: [Quantity; 31] = [
+    pub const ALL: [Quantity; 32] = [
         Quantity::Time,
         Quantity::Temperature,
+        Quantity::TemperatureDifference,
         Quantity::HeatFlux,
         Quantity::Stress,
         Quantity::Length,
@@ -108,6 +111,7 @@ impl Quantity {
         match self {
             Quantity::Time => "Time",
             Quantity::Temperature => "Temperature",
+            Quantity::TemperatureDifference => "TemperatureDifference",
             Quantity::HeatFlux => "HeatFlux",
             Quantity::Stress => "Stress",
             Quantity::Length => "Length",
@@ -144,7 +148,7 @@ impl Quantity {
     pub fn unit(self) -> &'static str {
         match self {
             Quantity::Time => "s",
-            Quantity::Temperature => "K",
+            Quantity::Temperature | Quantity::TemperatureDifference => "K",
             Quantity::HeatFlux => "W/m2",
             Quantity::Stress | Quantity::Modulus => "Pa",
             Quantity::Length | Quantity::Displacement => "m",
@@ -178,7 +182,7 @@ impl Quantity {
     pub fn base_exponents(self) -> [i32; 4] {
         match self {
             Quantity::Time => [0, 0, 1, 0],
-            Quantity::Temperature => [0, 0, 0, 1],
+            Quantity::Temperature | Quantity::TemperatureDifference => [0, 0, 0, 1],
             Quantity::HeatFlux => [1, 0, -3, 0],
             Quantity::Stress | Quantity::Modulus => [1, -1, -2, 0],
             Quantity::Length | Quantity::Displacement => [0, 1, 0, 0],
@@ -235,6 +239,7 @@ impl Quantity {
         match self {
             Quantity::Time => 1e-6,
             Quantity::Temperature => 300.0,
+            Quantity::TemperatureDifference => 1.0,
             Quantity::HeatFlux => 1e6,
             Quantity::Stress => 1e6,
             Quantity::Modulus => 1e11,

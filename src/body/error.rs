@@ -45,6 +45,9 @@ pub enum BodyError {
     /// A step of a droplet has no physical meaning.
     #[error("{name}: {failure}")]
     Droplet { name: String, failure: Failure },
+    /// A reduced model could not be made.
+    #[error("the body cannot be reduced: {message} (allowed: fidelity full)")]
+    Reduction { message: String },
     /// The heat between two bodies that touch could not be found.
     #[error(
         "the heat between {} and {} could not be found (allowed: shorter communication steps, or a shorter `interval` \

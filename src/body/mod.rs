@@ -7,6 +7,7 @@ mod error;
 mod forecast;
 mod link;
 mod read;
+mod reduced;
 mod reservoir;
 mod solid;
 
@@ -28,6 +29,7 @@ use crate::method::sph::{ParticleFields, Surface, SurfaceResponse, WallCells};
 use crate::scene::{self, FaceName, Scene};
 use crate::state::Layout;
 use droplet::DropletBody;
+use reduced::ReducedBody;
 use reservoir::ReservoirBody;
 use solid::SolidBody;
 
@@ -274,11 +276,11 @@ pub struct Assembly {
     pub joints: Vec<Joint>,
 }
 
-/// Builds the bodies of a scene and what joins them. Of the threads that are wanted, 0 for as many as are worth it, no
+/// Builds the bodies of a scene, whose inputs begin as `start` says, and what joins them. Of the threads that are wanted, 0 for as many as are worth it, no
 /// more are taken than a second number.
 pub fn build(
     scene: &Scene,
-    layout: &InputLayout,
+    (layout, start): (&InputLayout, &[f64]),
     [wanted, most]: [usize; 2],
 ) -> Result<Assembly, BodyError> {
     let threads = |is_large| threads_for(wanted, is_large).min(most);
@@ -286,6 +288,11 @@ pub fn build(
     let mut built: Vec<Option<Box<dyn Body>>> = scene.body.keys().map(|_| None).collect();
     for (index, (name, body)) in scene.body.iter().enumerate() {
         if let scene::Body::Solid(solid) = body {
+            if scene.is_reduced(name) {
+                let body = ReducedBody::new(scene, layout, (name, solid), start, threads(false))?;
+                built[index] = Some(Box::new(body));
+                continue;
+            }
             let linked = link::linked_faces(scene, name);
             let body = SolidBody::new(scene, layout, (name, solid), &linked, threads)?;
             built[index] = Some(Box::new(body));

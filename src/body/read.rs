@@ -1,6 +1,6 @@
 //! What bodies can be asked for: each quantity stands once, in a table beside the body that has it.
 
-use super::{droplet, reservoir, solid};
+use super::{droplet, reduced, reservoir, solid};
 use crate::quantity::Quantity;
 use crate::scene::{Body, Scene};
 
@@ -59,6 +59,7 @@ pub fn peaks(scene: &Scene, name: &str) -> Vec<Descriptor> {
 /// The totals that a scene's body offers, each with its place in the table of its kind.
 pub fn totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     match &scene.body[name] {
+        Body::Solid(_) if scene.is_reduced(name) => reduced::offered_totals(scene, name),
         Body::Solid(solid) => solid::offered_totals(scene, (name, solid)),
         Body::Droplet(_) => droplet::offered_totals(scene, name),
         Body::Reservoir(_) => reservoir::offered_totals(),

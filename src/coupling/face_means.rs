@@ -51,6 +51,21 @@ impl FaceMeans {
         self.cells[cell].heat.iter().map(value).sum()
     }
 
+    /// The weights of nodal temperatures of each symmetry class, in the plane of the face; whether that is the top.
+    pub fn on_face(&self, cell: usize, mesh: &Mesh) -> (Vec<Vec<f64>>, bool) {
+        let [nx, ny, nz] = mesh.sided_counts();
+        let plane = nx * ny;
+        let mut weights = vec![Vec::new(); mesh.parities().len()];
+        let mut high = false;
+        for &(class, node, weight) in &self.cells[cell].heat {
+            high |= node >= plane * (nz - 1);
+            let own: &mut Vec<f64> = &mut weights[class];
+            own.resize(plane, 0.0);
+            own[node % plane] += weight;
+        }
+        (weights, high)
+    }
+
     /// Places [m] and weights whose sum is the mean on a cell of what is interpolated between nodes.
     pub fn points(&self, cell: usize) -> &[([f64; 3], f64)] {
         &self.cells[cell].points

@@ -467,6 +467,7 @@ pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
             | BodyError::BelowAbsoluteZero { .. }
             | BodyError::Droplet { .. }
             | BodyError::Contact { .. }
+            | BodyError::Reduction { .. }
             | BodyError::Heat { .. }
             | BodyError::Equilibrium { .. }
             | BodyError::Uneven { .. }

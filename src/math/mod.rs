@@ -19,6 +19,7 @@ pub mod parallel;
 pub mod product;
 pub mod separable;
 pub mod shared_values;
+pub mod singular_values;
 pub mod small_inverse;
 pub mod sparse_rows;
 pub mod stencil_matrix;

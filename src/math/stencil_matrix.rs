@@ -105,6 +105,21 @@ impl StencilMatrix {
         }
     }
 
+    /// `out += Aᵀ x`; `x` holds `block[0]` values per node, `out` holds `block[1]`.
+    pub fn add_transposed_product(&self, x: &[f64], out: &mut [f64]) {
+        let [rows, columns] = self.block;
+        for (node, x) in x.chunks_exact(rows).enumerate() {
+            self.for_each_block(node, |column, block| {
+                let out = &mut out[column * columns..][..columns];
+                for (v, row) in x.iter().zip(block.chunks_exact(columns)) {
+                    for (o, b) in out.iter_mut().zip(row) {
+                        *o += b * v;
+                    }
+                }
+            });
+        }
+    }
+
     /// Number of stored values.
     pub fn len(&self) -> usize {
         self.values.len()

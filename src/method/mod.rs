@@ -5,6 +5,8 @@ pub mod heat_totals;
 
 pub mod mesh;
 
+pub mod reduced;
+
 pub mod particle_heat;
 
 pub mod enthalpy;

@@ -74,6 +74,15 @@ impl Footprint {
         }
     }
 
+    /// Number of values that it has.
+    pub fn cell_count(&self) -> usize {
+        match self.cells() {
+            None => 1,
+            Some(CellShape::Rings(count)) => count,
+            Some(CellShape::Tiles([nx, ny])) => nx * ny,
+        }
+    }
+
     /// Whether shear on it is radial rather than along x and y.
     pub fn shears_outward(&self) -> bool {
         matches!(self, Footprint::Rings { .. })

@@ -15,6 +15,7 @@ mod locate;
 mod lookup;
 mod materials;
 mod plausibility;
+mod reduction;
 mod reservoir;
 mod sampling;
 mod schema;

@@ -511,6 +511,8 @@ fn default_tolerance() -> f64 {
 pub enum FidelityLevel {
     #[default]
     Full,
+    /// Solids are reduced to some tens of unknowns, with a bound of the error.
+    Reduced,
     /// The cheapest level within the tolerance.
     Auto,
 }

@@ -8,7 +8,7 @@ use crate::math::allowance::Allowance;
 use crate::method::fem::SolidLoads;
 
 /// Parts of a footprint's size that it may move or grow by in one part of a step.
-const PARTS_OF_A_FOOTPRINT: f64 = 8.0;
+pub const PARTS_OF_A_FOOTPRINT: f64 = 8.0;
 
 impl SolidBody {
     /// Advances a state; `memo` is that of the inputs at the beginning, unless these change.

@@ -1,11 +1,12 @@
 //! What a solid will cost.
 
+use super::rows::Choice;
 use super::{is_large, plan};
 use crate::body::threads_for;
 use crate::math::chebyshev::products;
 use crate::method::enthalpy::EnthalpyHeat;
 use crate::method::fem::{
-    Geometry, expected_entries, factor_memory, particle_cost, solver_memory,
+    Geometry, expected_entries, factor_memory, memory_of_row, particle_cost, solver_memory,
     suits_conjugate_gradients,
 };
 use crate::scene::{CellShape, CellValues, Coupling, Load, Scene, Solid};
@@ -116,6 +117,7 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         nonlinear_time += YIELDING * nodes / threads;
     }
     let columns = classes * plan.entries_of_columns();
+    let rows_of_reading = Choice::of(scene, (name, solid), &plan).rows as f64;
     let rows = if particles.is_some() { unknowns[0] as f64 } else { 0.0 };
     BodyForecast {
         name: name.into(),
@@ -125,7 +127,7 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         order: plan.mesh.order(),
         particles,
         memory: nonlinear_memory
-            + classes * solver
+            + classes * (solver + rows_of_reading * memory_of_row(&plan.mesh))
             + 8.0 * (20.0 * unknowns[0] as f64 + modes + columns)
             + 12.0 * links,
         build_time: later * operations / (FACTOR_RATE * threads)

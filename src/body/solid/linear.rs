@@ -57,7 +57,7 @@ impl Linear for SolidBody {
                 point_quantities()[quantity].rate(&mut both, at, alone)
             }
             Reading::Mean { quantity, field, cell } => {
-                point_quantities()[quantity].mean_rate(&mut both, (self.means(field), cell))
+                point_quantities()[quantity].mean_rate(&mut both, (field, cell))
             }
             Reading::Total(place) => totals::rate(&mut both, place),
             // Where and when it is stays, as long as nothing is noted.

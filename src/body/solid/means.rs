@@ -31,10 +31,15 @@ impl PointQuantity {
     pub(super) fn mean(
         &self,
         reader: &mut SolidReader,
-        (means, cell): (&FaceMeans, usize),
+        (field, cell): (usize, usize),
     ) -> Result<f64, BodyError> {
+        let means = reader.body.means(field);
         if !self.is_mechanical() {
             return Ok(reader.initial_temperature() + reader.mean_rise(means, cell));
+        }
+        let by_rows = self.component().and_then(|own| reader.mean_by_rows((field, cell), own));
+        if let Some(mean) = by_rows {
+            return mean;
         }
         weighted(means.points(cell), |point| self.read(reader, point, false))
     }
@@ -42,10 +47,15 @@ impl PointQuantity {
     pub(super) fn mean_rate(
         &self,
         change: &mut SolidChange,
-        (means, cell): (&FaceMeans, usize),
+        (field, cell): (usize, usize),
     ) -> Result<f64, BodyError> {
+        let means = change.now.body.means(field);
         if !self.is_mechanical() {
             return Ok(change.change.mean_rise(means, cell));
+        }
+        let own = self.component();
+        if let Some(mean) = own.and_then(|own| change.change.mean_by_rows((field, cell), own)) {
+            return mean;
         }
         weighted(means.points(cell), |point| self.rate(change, point, false))
     }

@@ -1,8 +1,9 @@
 use std::any::Any;
 
 use super::SolidBody;
+use super::rows::ByClass;
 use crate::body::{BodyError, Extreme, Memo};
-use crate::method::fem::{Deformation, NodalFields, SolidLoads, Temperatures};
+use crate::method::fem::{Deformation, NodalFields, SolidFem, SolidLoads, Temperatures};
 
 /// What acts on a solid, and what follows from that and from a state, computed when first asked for.
 #[derive(Debug, Default)]
@@ -20,7 +21,14 @@ pub struct SolidMemo {
     most_stressed: Option<[Extreme; 2]>,
     /// The last point asked for: its components are read one after another.
     stress: Option<([f64; 3], [f64; 6])>,
+    /// Whether heat, and whether what acts at once drives each symmetry class.
+    driven: Option<Vec<[bool; 2]>>,
+    /// What rows gave, by their numbers.
+    by_rows: Vec<Option<ByClass>>,
 }
+
+/// Of a class that no force acts on.
+static NO_FORCES: [Vec<Vec<f64>>; 2] = [Vec::new(), Vec::new()];
 
 const OWN: &str = "a memo is that of the body that made it";
 
@@ -125,6 +133,56 @@ impl SolidMemo {
         let (temperatures, thermal) = (temperatures.as_ref(), thermal.as_ref());
         let deformation = self.deformation.as_ref().expect(known);
         Ok(body.solid.fields(temperatures.expect(known), thermal.expect(known), deformation))
+    }
+
+    /// Whether all is a change.
+    pub fn is_change(&self) -> bool {
+        self.is_change
+    }
+
+    /// Whether heat, and whether what acts at once drives each symmetry class.
+    pub fn driven(&mut self, body: &SolidBody, heat: &[f64]) -> Vec<[bool; 2]> {
+        if self.driven.is_none() {
+            let any = |values: &[f64]| values.iter().any(|&value| value != 0.0);
+            let by_heat: Vec<bool> = match body.solid.contents(heat) {
+                Some(contents) => contents.into_iter().map(any).collect(),
+                None => self.heat(body, heat).iter().map(|part| any(part)).collect(),
+            };
+            let loads = self.loads();
+            let both = by_heat.into_iter().enumerate();
+            let both = both.map(|(class, heat)| [heat, SolidFem::drives_at_once(loads, class)]);
+            self.driven = Some(both.collect());
+        }
+        self.driven.clone().expect("just computed")
+    }
+
+    /// What rows of a class act on: its part of a state, or nodal temperatures where heat has no modes.
+    pub fn content<'s>(&'s self, body: &'s SolidBody, heat: &'s [f64], class: usize) -> &'s [f64] {
+        match body.solid.contents_of(heat, class) {
+            Some(content) => content,
+            None => &self.temperatures.as_ref().expect("asked for by `driven`")[class],
+        }
+    }
+
+    /// Values of the thermal faces of a class.
+    pub fn faces(&self, class: usize) -> &[f64] {
+        self.loads().faces.get(class).map_or(&[], Vec::as_slice)
+    }
+
+    /// Forces on the bottom and the top of a class.
+    pub fn forces(&self, class: usize) -> &[Vec<Vec<f64>>; 2] {
+        self.loads().force.get(class).unwrap_or(&NO_FORCES)
+    }
+
+    /// What a row gave by classes.
+    pub fn by_row(&self, number: usize) -> Option<ByClass> {
+        self.by_rows.get(number).copied().flatten()
+    }
+
+    pub fn keep_by_row(&mut self, number: usize, values: ByClass) {
+        let count = self.by_rows.len().max(number + 1);
+        self.by_rows.resize(count, None);
+        self.by_rows[number] = Some(values);
     }
 
     /// Whether stresses need but be looked up.

@@ -11,12 +11,17 @@ mod plan;
 mod point;
 mod port;
 mod reader;
+mod rows;
 mod totals;
 mod yielding;
 
+pub(super) use advance::PARTS_OF_A_FOOTPRINT;
 pub use forecast::{BodyForecast, PRODUCT_RATE, ParticleForecast, forecast_solid};
+pub(super) use loads::BodyLoads;
+pub(super) use means::means_of;
 pub use peaks::kept_peaks;
 pub use plan::plan;
+pub(super) use point::Measure;
 pub use point::{PointQuantity, point_quantities};
 pub use totals::offered_totals;
 
@@ -32,11 +37,10 @@ use crate::math::allowance::Allowance;
 use crate::method::fem::{ElasticProblem, HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
 use crate::scene::{FaceName, PeakOf, Scene, Shape, Solid};
 use crate::state::Layout;
-use loads::BodyLoads;
-use means::means_of;
 use memo::SolidMemo;
 use port::Port;
 use reader::SolidReader;
+use rows::{Choice, Rows};
 use yielding::Yielding;
 
 /// A solid and what of the scene concerns it.
@@ -54,6 +58,8 @@ pub struct SolidBody {
     ports: Vec<Port>,
     /// Of fields, by their places among the scene's.
     means: Vec<(usize, FaceMeans)>,
+    /// What is read by rows.
+    rows: Rows,
     shape: Shape,
     /// Of what running maxima are kept.
     peaks: Vec<PeakOf>,
@@ -83,9 +89,12 @@ impl SolidBody {
         let ports = linked.iter().map(|&face| Port::new(face, &plan, &fem)).collect();
         let yielding = Yielding::of(&plan, scene.fidelity.tolerance, threads)?;
         let heat_mesh = heat_mesh(&plan);
+        let means = means_of(scene, (name, solid), [&heat_mesh, fem.mesh()]);
+        let rows = Rows::new(Choice::of(scene, (name, solid), &plan), &fem, &means);
         Ok(Self {
             name: name.into(),
-            means: means_of(scene, (name, solid), [&heat_mesh, fem.mesh()]),
+            means,
+            rows,
             heat_mesh,
             heat_len: fem.state_len(),
             plan,
@@ -215,7 +224,7 @@ impl Body for SolidBody {
                 point_quantities()[quantity].read(&mut reader, at, alone)
             }
             Reading::Mean { quantity, field, cell } => {
-                point_quantities()[quantity].mean(&mut reader, (self.means(field), cell))
+                point_quantities()[quantity].mean(&mut reader, (field, cell))
             }
             Reading::Total(place) => totals::read(&mut reader, place),
             Reading::Peak { .. } => panic!("running maxima are no part of a body's state"),
@@ -253,8 +262,14 @@ impl Body for SolidBody {
         let memo = memo.map(SolidMemo::of);
         let solved = memo.is_some_and(SolidMemo::is_solved);
         match *reading {
-            Reading::Point { quantity, .. } | Reading::Mean { quantity, .. } => {
-                !solved && point_quantities()[quantity].is_mechanical()
+            // Rows are solved for aside.
+            Reading::Point { quantity, at, .. } => {
+                let quantity = &point_quantities()[quantity];
+                !solved && quantity.is_mechanical() && !self.rows.give(quantity, at)
+            }
+            Reading::Mean { quantity, field, cell } => {
+                let quantity = &point_quantities()[quantity];
+                !solved && quantity.is_mechanical() && !self.rows.give_mean(quantity, (field, cell))
             }
             Reading::Total(place) => {
                 totals::is_mechanical(place) && !memo.is_some_and(SolidMemo::has_max_stress)

@@ -1,5 +1,6 @@
 //! From a solid of a scene to its plan: where its mesh is fine, and what of mechanics is asked for.
 
+use super::rows::Choice;
 use crate::body::droplet;
 use crate::method::fem::{Mechanics, Plan, PlanRequest, Refinement};
 use crate::scene::{
@@ -25,6 +26,7 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
     let request = PlanRequest { mechanics, refinements: &refinements, shortest, newton };
     let mut plan = Plan::new(solid, request);
     plan.notes.extend(solid.has_stress_peaks().then(|| NOTE_ON_PEAKS.to_owned()));
+    plan.notes.extend(Choice::of(scene, (name, solid), &plan).note());
     plan
 }
 

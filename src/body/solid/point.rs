@@ -2,6 +2,7 @@
 
 use super::linear::SolidChange;
 use super::reader::SolidReader;
+use super::rows;
 use crate::body::{BodyError, Descriptor, Direct};
 use crate::material::stress::{max_principal, von_mises};
 use crate::material::stress_rate::{max_principal_rate, von_mises_rate};
@@ -13,11 +14,11 @@ pub struct PointQuantity {
     pub descriptor: Descriptor,
     /// What a scene asks for that includes it.
     pub given_by: &'static [Gives],
-    measure: Measure,
+    pub(in crate::body) measure: Measure,
 }
 
 /// How it follows from the fields.
-enum Measure {
+pub enum Measure {
     Temperature,
     Displacement(usize),
     Stress(usize),
@@ -105,6 +106,20 @@ impl PointQuantity {
         !matches!(self.measure, Measure::Temperature)
     }
 
+    /// Whether it is what the body went through.
+    pub(super) fn is_of_history(&self) -> bool {
+        matches!(self.measure, Measure::PlasticStrain)
+    }
+
+    /// Place of the component that it is among those that rows give, if it is one.
+    pub(super) fn component(&self) -> Option<usize> {
+        match self.measure {
+            Measure::Displacement(axis) => Some(rows::displacement(axis)),
+            Measure::Stress(slot) => Some(rows::stress(slot)),
+            _ => None,
+        }
+    }
+
     pub(super) fn read(
         &self,
         reader: &mut SolidReader,
@@ -113,8 +128,8 @@ impl PointQuantity {
     ) -> Result<f64, BodyError> {
         Ok(match self.measure {
             Measure::Temperature => reader.initial_temperature() + reader.rise_at(point, alone),
-            Measure::Displacement(axis) => reader.displacement_at(point)?[axis],
-            Measure::Stress(place) => reader.stress_at(point)?[place],
+            Measure::Displacement(axis) => reader.displacement_along(axis, point)?,
+            Measure::Stress(place) => reader.stress_component(place, point)?,
             Measure::OfStress(measure, _) => measure(reader.stress_at(point)?),
             Measure::PlasticStrain => reader.plastic_strain_at(point)?,
         })
@@ -128,8 +143,8 @@ impl PointQuantity {
     ) -> Result<f64, BodyError> {
         Ok(match self.measure {
             Measure::Temperature => change.rise_at(point, alone),
-            Measure::Displacement(axis) => change.displacement_at(point)?[axis],
-            Measure::Stress(place) => change.stress_at(point)?[place],
+            Measure::Displacement(axis) => change.displacement_along(axis, point)?,
+            Measure::Stress(place) => change.stress_component(place, point)?,
             Measure::OfStress(_, rate) => rate(now.stress_at(point)?, change.stress_at(point)?),
             Measure::PlasticStrain => return Err(BodyError::NoRate),
         })

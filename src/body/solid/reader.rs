@@ -1,5 +1,6 @@
 use super::SolidBody;
 use super::memo::SolidMemo;
+use super::rows::{self, Acting};
 use crate::body::{BodyError, Extreme};
 use crate::coupling::FaceMeans;
 use crate::method::fem::HeatTotals;
@@ -32,14 +33,55 @@ impl SolidReader<'_> {
         self.body.solid.initial_temperature()
     }
 
+    /// What goes by rows.
+    fn by_rows(&mut self) -> Acting<'_> {
+        Acting { body: self.body, state: self.state, memo: self.memo }
+    }
+
+    /// Along an axis [m]
+    pub fn displacement_along(&mut self, axis: usize, point: [f64; 3]) -> Result<f64, BodyError> {
+        if let Some(found) = self.by_rows().at_point(point, rows::displacement(axis)) {
+            return found;
+        }
+        Ok(self.displacement_at(point)?[axis])
+    }
+
+    /// One of xx, yy, zz, xy, yz, xz [Pa].
+    pub fn stress_component(&mut self, slot: usize, point: [f64; 3]) -> Result<f64, BodyError> {
+        if let Some(found) = self.by_rows().at_point(point, rows::stress(slot)) {
+            return found;
+        }
+        Ok(self.stress_at(point)?[slot])
+    }
+
+    /// Mean of a component over a cell of the field at a place among the scene's; nothing where it takes a solution.
+    pub fn mean_by_rows(
+        &mut self,
+        cell: (usize, usize),
+        component: usize,
+    ) -> Option<Result<f64, BodyError>> {
+        self.by_rows().over_cell(cell, component)
+    }
+
     /// [m]
-    pub fn displacement_at(&mut self, point: [f64; 3]) -> Result<[f64; 3], BodyError> {
+    fn displacement_at(&mut self, point: [f64; 3]) -> Result<[f64; 3], BodyError> {
         let (_, deformation) = self.memo.solve(self.body, self.state)?;
         Ok(self.body.solid.displacement_at(deformation, point))
     }
 
     /// xx, yy, zz, xy, yz, xz [Pa]
     pub fn stress_at(&mut self, point: [f64; 3]) -> Result<[f64; 6], BodyError> {
+        let mut found = [0.0; 6];
+        for (slot, value) in found.iter_mut().enumerate() {
+            match self.by_rows().at_point(point, rows::stress(slot)) {
+                Some(component) => *value = component?,
+                None => return self.solved_stress_at(point),
+            }
+        }
+        Ok(found)
+    }
+
+    fn solved_stress_at(&mut self, point: [f64; 3]) -> Result<[f64; 6], BodyError> {
         self.memo.stress_at(self.body, self.state, point)
     }
 

@@ -1,6 +1,8 @@
 //! The heat of a solid by the method that its scene names.
 
-use super::heat::{HeatLoads, HeatProblem, Homogeneous, Layered, ThermalFace};
+use super::heat::{
+    DepthModes, HeatLoads, HeatProblem, Homogeneous, Layered, ModalRow, ThermalFace,
+};
 use super::nonlinear::{NonlinearFailure, NonlinearHeat};
 use super::plan::Plan;
 use crate::math::allowance::{Allowance, Halt};
@@ -24,6 +26,19 @@ pub enum Conduction {
     /// Enthalpies of nodes, by Newton's method.
     Nonlinear(Box<NonlinearHeat>),
 }
+
+/// What is linear in the temperatures.
+#[derive(Debug, Clone, PartialEq)]
+pub enum HeatValue {
+    /// Temperature above the initial one at a point of the mesh and its image [K].
+    Point { place: [f64; 3], image: [bool; 2] },
+    /// Sum over nodes of the bottom or, if `high`, the top, with weights for each class; empty for none.
+    Face { weights: Vec<Vec<f64>>, high: bool },
+    /// Heat stored [J].
+    Stored,
+}
+
+const NO_MODES: &str = "only bodies whose heat modes give are asked for these";
 
 /// Why heat did not advance.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -193,6 +208,87 @@ impl Conduction {
             Self::Layers(problem) => problem.nodal(state, faces),
             Self::Particles(problem) => problem.temperatures(state, faces),
             Self::Nonlinear(problem) => problem.nodal(state),
+        }
+    }
+
+    /// Of each class the part of a state that is modal; `None` where heat has no modes.
+    pub fn contents<'s>(&'s self, state: &'s [f64]) -> Option<Vec<&'s [f64]>> {
+        match self {
+            Self::Modes(problem) => Some(problem.class_contents(state)),
+            Self::Layers(problem) => Some(problem.class_contents(state)),
+            Self::Particles(_) | Self::Nonlinear(_) => None,
+        }
+    }
+
+    /// From derivatives of a reading by nodal temperatures of a class those by its modal part of a state and by face
+    /// values; `None` where heat has no modes.
+    pub fn row(&self, class: usize, nodal: &[f64]) -> Option<[Vec<f64>; 2]> {
+        match self {
+            Self::Modes(problem) => Some(problem.row(class, nodal)),
+            Self::Layers(problem) => Some(problem.row(class, nodal)),
+            Self::Particles(_) | Self::Nonlinear(_) => None,
+        }
+    }
+
+    /// Which classes loads drive, where modes give the heat.
+    pub fn driven(&self, loads: &HeatLoads) -> Option<Vec<bool>> {
+        match self {
+            Self::Modes(problem) => Some(problem.driven(loads)),
+            Self::Layers(problem) => Some(problem.driven(loads)),
+            Self::Particles(_) | Self::Nonlinear(_) => None,
+        }
+    }
+
+    /// Rates of decay of the modes of the classes that take part [1/s].
+    ///
+    /// # Panics
+    /// This and the others that speak of modes, if these do not give the heat.
+    pub fn modal_rates(&self, take: &[bool]) -> Vec<f64> {
+        match self {
+            Self::Modes(problem) => problem.modal_rates(take),
+            Self::Layers(problem) => problem.modal_rates(take),
+            Self::Particles(_) | Self::Nonlinear(_) => panic!("{NO_MODES}"),
+        }
+    }
+
+    /// Rate of change of the content of these modes under loads.
+    pub fn modal_sources(&self, take: &[bool], loads: &HeatLoads) -> Vec<f64> {
+        match self {
+            Self::Modes(problem) => problem.modal_sources(take, loads),
+            Self::Layers(problem) => problem.modal_sources(take, loads),
+            Self::Particles(_) | Self::Nonlinear(_) => panic!("{NO_MODES}"),
+        }
+    }
+
+    /// Heat that loads bring in [W].
+    pub fn brought_in_by(&self, loads: &HeatLoads) -> f64 {
+        match self {
+            Self::Modes(problem) => problem.brought_in_by(loads),
+            Self::Layers(problem) => problem.brought_in_by(loads),
+            Self::Particles(_) | Self::Nonlinear(_) => panic!("{NO_MODES}"),
+        }
+    }
+
+    /// A value as a sum over modes and face values.
+    pub fn heat_row(&self, mesh: &Mesh, take: &[bool], of: &HeatValue) -> ModalRow {
+        fn row<D: DepthModes>(
+            problem: &HeatProblem<D>,
+            mesh: &Mesh,
+            take: &[bool],
+            of: &HeatValue,
+        ) -> ModalRow {
+            match of {
+                HeatValue::Point { place, image } => {
+                    problem.point_row(mesh, take, (*place, *image))
+                }
+                HeatValue::Face { weights, high } => problem.face_row(take, weights, *high),
+                HeatValue::Stored => problem.stored_row(take),
+            }
+        }
+        match self {
+            Self::Modes(problem) => row(problem, mesh, take, of),
+            Self::Layers(problem) => row(problem, mesh, take, of),
+            Self::Particles(_) | Self::Nonlinear(_) => panic!("{NO_MODES}"),
         }
     }
 

@@ -1,12 +1,16 @@
 //! Quasi-static thermo-elasticity on a structured mesh: what solves it serves all time.
 
+mod influence;
+mod strain_row;
+mod thermal_row;
+
 use std::convert::Infallible;
 use std::ops::Range;
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use super::assembly::{Part, assemble, lower_triangle};
 use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
-use super::brick_solver::BrickSolver;
+use super::brick_solver::{self, BrickSolver};
 use super::dilatation::{DilatationProjection, POLYNOMIALS, evaluate};
 use super::recovery::sampling_places;
 use super::solver_choice::{solver_memory, suits_conjugate_gradients};
@@ -20,6 +24,11 @@ use crate::math::stencil_matrix::StencilMatrix;
 use crate::math::thread::{STACK, aside};
 use crate::method::mesh::ShapeAt;
 use crate::method::mesh::{Geometry, Mesh, MeshFace, Parity};
+use influence::KeptRows;
+pub use influence::{
+    Component, FaceRows, Functional, Gradient, NodalRow, Term, memory_of_row, most_memory_of_rows,
+};
+pub use strain_row::StrainWeights;
 
 /// Mechanical condition on an end of an axis; free where nothing is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,6 +69,7 @@ pub struct ElasticProblem {
     /// Nodal force per nodal degree of each layer, made when first needed.
     thermal: OnceLock<Vec<StencilMatrix>>,
     classes: Vec<(Parity, OnceLock<Result<Solver, SolverError>>)>,
+    rows: Mutex<KeptRows>,
 }
 
 /// How displacements of one symmetry class are found.
@@ -105,7 +115,7 @@ impl ElasticProblem {
     pub fn new(ElasticSetup { mesh, laws, supports, threads }: ElasticSetup) -> Self {
         let thermal = OnceLock::new();
         let classes = mesh.parities().into_iter().map(|p| (p, OnceLock::new())).collect();
-        Self { mesh, laws, threads, supports, thermal, classes }
+        Self { mesh, laws, threads, supports, thermal, classes, rows: Mutex::default() }
     }
 
     /// That of a layer, counted from the lowest.
@@ -189,7 +199,7 @@ impl ElasticProblem {
                 factor.solve_in_place(&mut load);
             }
             Solver::Bricks(solver) => {
-                solver.solve_in_place(&mut load, temperature)?;
+                solver.solve_in_place(&mut load, temperature, brick_solver::TOLERANCE)?;
             }
         }
         Ok(load)

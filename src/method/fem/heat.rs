@@ -14,11 +14,14 @@ mod class;
 mod depth;
 mod homogeneous;
 mod layered;
+mod modal;
 mod rates;
+mod row;
 mod temperatures;
 
 pub use homogeneous::Homogeneous;
 pub use layered::{Layered, depth_ends};
+pub use modal::ModalRow;
 
 use super::modes::EndCondition;
 use crate::math::exponential;
@@ -27,7 +30,7 @@ use crate::method::heat_totals::HeatTotals;
 use crate::method::mesh::{Mesh, MeshFace};
 use crate::state::{Field, Layout, Per};
 use class::Class;
-use depth::DepthModes;
+pub use depth::DepthModes;
 
 /// Thermal condition on an end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -25,12 +25,15 @@ mod solver_choice;
 
 pub use crate::method::heat_totals::HeatTotals;
 pub use crate::method::mesh::{Axis, Geometry, Layering, Mesh, MeshFace, Parity, Weight};
-pub use conduction::{HeatFailure, particle_cost};
-pub use elastic::{ElasticProblem, forget_unused_stiffness};
-pub use heat::{HeatLoads, HeatProblem, ThermalFace};
+pub use conduction::{HeatFailure, HeatValue, particle_cost};
+pub use elastic::{
+    Component, ElasticProblem, FaceRows, Functional, Term, forget_unused_stiffness, memory_of_row,
+    most_memory_of_rows,
+};
+pub use heat::{HeatLoads, HeatProblem, ModalRow, ThermalFace};
 pub use nonlinear::{NonlinearFailure, heat_mesh};
 pub use plan::{Mechanics, Plan, PlanRequest, Refinement};
-pub use solid::{Deformation, Extreme, NodalFields, SolidFem, SolidLoads, Temperatures};
+pub use solid::{ClassRow, Deformation, Extreme, NodalFields, SolidFem, SolidLoads, Temperatures};
 pub use solver_choice::{
     expected_entries, factor_memory, solver_memory, suits_conjugate_gradients,
 };

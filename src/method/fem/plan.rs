@@ -37,8 +37,6 @@ pub struct Plan {
     /// Temperature without thermal stress above the initial one [K].
     pub stress_free_rise: f64,
     pub supports: Vec<(MeshFace, Support)>,
-    /// Whether deformations are read in any case, so that building prepares for them.
-    pub prepared: bool,
     /// What was chosen or left out, and why: a sentence each.
     pub notes: Vec<String>,
 }
@@ -149,7 +147,6 @@ impl Plan {
             inelastic,
             stress_free_rise,
             supports,
-            prepared: mechanics == Mechanics::Wanted,
             notes,
         }
     }

@@ -1,6 +1,8 @@
 //! A solid: heat and elasticity on one mesh, and what can be read from their solution.
 
 mod extremes;
+mod influence;
+mod modal;
 mod recovered;
 mod tangent;
 
@@ -19,6 +21,7 @@ use crate::method::mesh::Axis;
 use crate::method::mesh::{Geometry, Mesh, Parity};
 use crate::state::Layout;
 pub use extremes::Extreme;
+pub use influence::ClassRow;
 use recovered::{FaceStresses, Recoveries};
 
 /// Everything known of a solid before time starts.
@@ -152,9 +155,6 @@ impl SolidFem {
             threads,
         };
         let elastic = plan.law.as_ref().map(|laws| ElasticProblem::shared(&setup(laws)));
-        if let Some(elastic) = elastic.as_ref().filter(|_| plan.prepared) {
-            elastic.prepare()?;
-        }
         let recoveries = Recoveries::of(plan);
         let parities = mesh.parities();
         let initial_temperature = plan.initial_temperature;
@@ -292,6 +292,7 @@ impl SolidFem {
     ) -> Result<Deformation, SolverError> {
         let mut result = Deformation::default();
         let Some(elastic) = &self.elastic else { return Ok(result) };
+        elastic.prepare()?;
         for (class, temperature) in temperatures.iter().enumerate() {
             let displacement = elastic.displacement(class, temperature, &loads.force[class])?;
             let strains = match displacement.is_empty() {

@@ -4,6 +4,7 @@ mod body;
 mod coupling;
 mod droplet;
 mod field;
+mod fidelity;
 mod field_cells;
 mod header;
 mod layers;
@@ -51,6 +52,7 @@ pub fn check(scene: &Scene, source: &Source, schema: &Schema) -> Result<(), Scen
     values::check(&mut checker);
     coupling::check(&mut checker);
     support::check(&mut checker);
+    fidelity::check(&mut checker);
     SceneError::unless_empty(checker.problems)
 }
 

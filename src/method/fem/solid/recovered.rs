@@ -30,9 +30,9 @@ pub struct Recoveries {
 }
 
 /// A recovered quantity.
-struct Quantity {
+pub struct Quantity {
     /// Its place among the strains xx, yy, zz, xy, yz, xz.
-    slot: usize,
+    pub slot: usize,
     /// Place of its recovery along z.
     depth: usize,
     /// Whether it vanishes on the axis.
@@ -54,7 +54,7 @@ const OF_BOX: [Quantity; 6] = [
 const OF_SECTION: [Quantity; 4] =
     [quantity(0, 0, false), quantity(1, 0, true), quantity(2, 1, false), quantity(5, 2, false)];
 
-fn quantities(geometry: Geometry) -> &'static [Quantity] {
+pub fn quantities(geometry: Geometry) -> &'static [Quantity] {
     match geometry {
         Geometry::Box => &OF_BOX,
         Geometry::Axisymmetric => &OF_SECTION,
@@ -62,7 +62,7 @@ fn quantities(geometry: Geometry) -> &'static [Quantity] {
 }
 
 /// Displacement component whose traction is the stress of a slot on top and bottom.
-fn traction_of(geometry: Geometry, slot: usize) -> Option<usize> {
+pub fn traction_of(geometry: Geometry, slot: usize) -> Option<usize> {
     match (geometry, slot) {
         (Geometry::Box, 2) => Some(2),
         (Geometry::Box, 4) => Some(1),
@@ -105,7 +105,7 @@ impl Recoveries {
     }
 
     /// Those of a quantity in a class, along x, y and z.
-    fn choose(&self, parity: Parity, quantity: &Quantity) -> [&Recovery; 3] {
+    pub fn choose(&self, parity: Parity, quantity: &Quantity) -> [&Recovery; 3] {
         let odd = |image| parity.tensor_sign(image, quantity.slot) < 0.0;
         let lateral = [[true, false], [false, true]].map(|image| match odd(image) {
             _ if quantity.vanishes && image[0] => 2,
@@ -113,6 +113,17 @@ impl Recoveries {
         });
         let [x, y] = [0, 1].map(|axis| &self.lateral[axis][lateral[axis]]);
         [x, y, &self.depth[quantity.depth]]
+    }
+
+    /// The layer of each level of sampling points.
+    pub fn layers_of_samples(&self, mesh: &Mesh) -> Vec<usize> {
+        let levels = sampling_places(&mesh.axes[2]).into_iter();
+        levels.map(|(element, _)| mesh.layering.layer_of(element)).collect()
+    }
+
+    /// Sampling points of a level.
+    pub fn samples_per_level(&self) -> usize {
+        self.lateral.iter().map(|[even, ..]| even.samples.ncols()).product()
     }
 }
 
@@ -223,7 +234,7 @@ impl SolidFem {
     }
 
     /// Stress of recovered quantities at `rise` kelvin above the stress-free temperature.
-    fn stress_of(
+    pub(super) fn stress_of(
         &self,
         law: &Thermoelastic,
         [a, b, zz, xy, yz, xz]: [f64; 6],
@@ -241,7 +252,7 @@ impl SolidFem {
     }
 
     /// The law at a node along z, of which those on interfaces are there twice.
-    fn law_at(&self, sided: usize) -> &Thermoelastic {
+    pub(super) fn law_at(&self, sided: usize) -> &Thermoelastic {
         let elastic = self.elastic.as_ref();
         let node = self.nodes_of_sided[sided];
         let layers_below = sided - node;
@@ -321,7 +332,7 @@ impl SolidFem {
     }
 
     /// Along which of x and y a stress of a symmetry class changes its sign at the mirror plane.
-    fn odd_along(&self, parity: Parity, slot: usize) -> [bool; 2] {
+    pub(super) fn odd_along(&self, parity: Parity, slot: usize) -> [bool; 2] {
         let odd = [[true, false], [false, true]].map(|image| parity.tensor_sign(image, slot) < 0.0);
         [0, 1].map(|axis| self.mesh.mirrored[axis] && odd[axis])
     }
@@ -349,16 +360,52 @@ impl SolidFem {
     }
 }
 
+/// The transpose of [`SolidFem::per_area`]: from derivatives by the density to those by nodal values.
+pub fn per_area_row(solid: &SolidFem, density: &mut [f64], sign: f64, odd: [bool; 2]) -> Vec<f64> {
+    let Recoveries { areas, masses: [x, y], .. } = &solid.recoveries;
+    let over_areas = |values: &[f64]| -> Vec<f64> {
+        // The node on the axis of a disc has no area, and no part in what is found without it.
+        let share = |(area, value): (&f64, &f64)| match *value {
+            0.0 => 0.0,
+            value => sign * value / area,
+        };
+        areas.iter().zip(values).map(share).collect()
+    };
+    solid.axis_row(density);
+    solid.vanish_on_planes(density, odd);
+    let mut row = over_areas(density);
+    let one = Mat::from_fn(1, 1, |_, _| 1.0);
+    let met = transform(&row, [x, y, &one], Side::Transposed);
+    let mut first: Vec<f64> = density.iter().zip(met).map(|(d, met)| d - sign * met).collect();
+    solid.vanish_on_planes(&mut first, odd);
+    solid.axis_row(&mut first);
+    row.iter_mut().zip(over_areas(&first)).for_each(|(row, own)| *row += own);
+    row
+}
+
+impl SolidFem {
+    /// The transpose of [`SolidFem::with_axis`].
+    fn axis_row(&self, density: &mut [f64]) {
+        let x = &self.mesh.axes[0];
+        if self.mesh.geometry == Geometry::Axisymmetric && x.start() == 0.0 && x.order > 1 {
+            let [near, far] = [x.nodes[1].powi(2), x.nodes[2].powi(2)];
+            let centre = std::mem::take(&mut density[0]);
+            density[1] += centre * far / (far - near);
+            density[2] -= centre * near / (far - near);
+        }
+    }
+}
+
 impl Weights {
     /// Weighted sum of values, of which there may be none.
-    fn of(&self, values: &[f64]) -> f64 {
+    pub(super) fn of(&self, values: &[f64]) -> f64 {
         let part = values.iter().skip(self.first);
         self.values.iter().zip(part).map(|(w, value)| w * value).sum()
     }
 }
 
 /// Weights of sampling points: recovery to the nodes around a place, then their shape functions.
-fn through(nodes: &Weights, recovery: &Recovery) -> Weights {
+pub fn through(nodes: &Weights, recovery: &Recovery) -> Weights {
     let matrix = &recovery.samples;
     let mut all = vec![0.0; matrix.ncols()];
     for (i, value) in nodes.values.iter().enumerate() {

@@ -1,0 +1,167 @@
+//! From a solid to its reduced model.
+
+use super::Reduction;
+use super::drives::{Drive, Drives};
+use super::values::{Kind, Value, Values};
+use crate::body::BodyError;
+use crate::body::solid::{BodyLoads, means_of, plan};
+use crate::coupling::FaceMeans;
+use crate::inputs::InputLayout;
+use crate::method::fem::{Component, HeatValue, Mesh, ModalRow, SolidFem, SolidLoads, heat_mesh};
+use crate::method::reduced::{Clumped, Ranges, ReducedSystem, Request};
+use crate::scene::{Scene, Solid};
+
+/// Of the largest range of all outputs of a kind, the least that an output's own range counts as.
+const LEAST_RANGE: f64 = 0.01;
+
+/// A solid in full, and what is asked of it.
+pub struct Full<'a> {
+    scene: &'a Scene,
+    initial_temperature: f64,
+    fem: SolidFem,
+    meshes: [Mesh; 2],
+    /// What a unit of each drive does.
+    columns: Vec<SolidLoads>,
+    /// Which symmetry classes any of these drives.
+    take: Vec<bool>,
+    means: Vec<(usize, FaceMeans)>,
+}
+
+impl<'a> Full<'a> {
+    pub fn new(
+        scene: &'a Scene,
+        layout: &InputLayout,
+        (name, solid): (&str, &Solid),
+        start: &[f64],
+        drives: &Drives,
+        threads: usize,
+    ) -> Result<Self, BodyError> {
+        let plan = plan(scene, name, solid);
+        let fem = SolidFem::new(&plan, threads)?;
+        let meshes = [heat_mesh(&plan), fem.mesh().clone()];
+        let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan);
+        let column = |drive: &Drive| {
+            let mut inputs = start.to_vec();
+            if let Some((family, member)) = drive.member {
+                let family = &drives.families[family];
+                for (index, place) in family.places.iter().zip(family.place(member)) {
+                    if let (Some(index), Some(place)) = (index, place) {
+                        inputs[*index] = place;
+                    }
+                }
+            }
+            let mut unit = vec![0.0; start.len()];
+            unit[drive.index] = 1.0;
+            loads.change(&inputs, &unit, meshes.each_ref())
+        };
+        let columns: Vec<SolidLoads> = drives.list.iter().map(column).collect();
+        let take = fem.driven_classes(&columns);
+        let means = means_of(scene, (name, solid), meshes.each_ref());
+        let initial_temperature = solid.initial_temperature;
+        Ok(Self { scene, initial_temperature, fem, meshes, columns, take, means })
+    }
+
+    /// The reduced model; `sizes` are those that drives start with.
+    pub fn reduce(&self, values: &Values, sizes: &[f64]) -> Result<Reduction, BodyError> {
+        let sources = |loads: &SolidLoads| self.fem.modal_sources(&self.take, loads);
+        let clumped = Clumped::new(
+            self.fem.modal_rates(&self.take),
+            self.columns.iter().map(sources).collect(),
+        );
+        let (mut residues, mut slow, mut direct, mut offsets) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        for value in &values.list {
+            let row = self.row(value)?;
+            residues.push(clumped.residues(&row.modes));
+            slow.push(clumped.slow_output(&row.modes));
+            direct.push(row.direct);
+            offsets.push(row.offset);
+        }
+        let kinds: Vec<Kind> = values.kinds().collect();
+        let tolerance = self.scene.fidelity.tolerance;
+        let request = Request {
+            clumped: &clumped,
+            residues: &residues,
+            slow: &slow,
+            direct: &direct,
+            start: sizes,
+            horizon: self.scene.stop_time,
+            allowed: &|ranges| allowed(tolerance, &kinds, sizes, ranges),
+        };
+        let system = ReducedSystem::new(&request)
+            .map_err(|error| BodyError::Reduction { message: error.to_string() })?;
+        let brought = self.columns.iter().map(|loads| self.fem.brought_in_by(loads)).collect();
+        Ok(Reduction { system, offsets, brought, modes: clumped.modes() })
+    }
+
+    fn row(&self, value: &Value) -> Result<Row, BodyError> {
+        let thermal = |row: ModalRow, offset: f64| {
+            let direct = self.columns.iter().map(|loads| row.direct(&loads.faces)).collect();
+            Row { modes: row.modes, direct, offset }
+        };
+        Ok(match *value {
+            Value::Temperature(point) => {
+                thermal(self.fem.temperature_row(&self.take, point), self.initial_temperature)
+            }
+            Value::Mean { field, cell } => {
+                let found = self.means.iter().find(|(place, _)| *place == field);
+                let means = &found.expect("means are made for fields of cells").1;
+                let (weights, high) = means.on_face(cell, &self.meshes[0]);
+                let row = self.fem.heat_row(&self.take, &HeatValue::Face { weights, high });
+                thermal(row, self.initial_temperature)
+            }
+            Value::Stored => thermal(self.fem.heat_row(&self.take, &HeatValue::Stored), 0.0),
+            Value::Stress(point, slot) => self.mechanical(Component::Stress(slot), point)?,
+            Value::Displacement(point, axis) => {
+                self.mechanical(Component::Displacement(axis), point)?
+            }
+        })
+    }
+
+    /// A component of stress or displacement at a point: its influence on modes, face values and forces. Classes that
+    /// nothing drives are not solved.
+    fn mechanical(&self, component: Component, point: [f64; 3]) -> Result<Row, BodyError> {
+        let functional = self.fem.functional(component, &[(point, 1.0)]);
+        let mut out = Row { modes: Vec::new(), direct: vec![0.0; self.columns.len()], offset: 0.0 };
+        for (class, &take) in self.take.iter().enumerate() {
+            let at_once = |loads: &SolidLoads| SolidFem::drives_at_once(loads, class);
+            if !take && !self.columns.iter().any(at_once) {
+                continue;
+            }
+            let row = self.fem.row(&functional, class);
+            let row = row.expect("a checked scene has mechanics where it gives stress")?;
+            for (direct, loads) in out.direct.iter_mut().zip(&self.columns) {
+                *direct += row.of(&[], &loads.faces[class], &loads.force[class]);
+            }
+            out.offset += row.constant;
+            if take {
+                out.modes.extend(row.heat.iter());
+            }
+        }
+        Ok(out)
+    }
+}
+
+/// A value as a sum over modes and drives.
+struct Row {
+    modes: Vec<f64>,
+    direct: Vec<f64>,
+    offset: f64,
+}
+
+/// For each output and drive the error that is allowed: together a part of the output's range over the default
+/// experiment; where a drive starts from nothing, of the range under a unit of it.
+fn allowed(tolerance: f64, kinds: &[Kind], sizes: &[f64], ranges: &Ranges) -> Vec<Vec<f64>> {
+    let at_least = |values: &dyn Fn(usize) -> f64, k: usize| {
+        let of_kind = (0..kinds.len()).filter(|&other| kinds[other] == kinds[k]);
+        let largest = of_kind.map(values).fold(0.0, f64::max);
+        let range = values(k).max(LEAST_RANGE * largest);
+        if range > 0.0 { range } else { f64::INFINITY }
+    };
+    let active = sizes.iter().filter(|&&size| size != 0.0).count() as f64;
+    let of_pair = |k: usize, j: usize| match sizes[j] != 0.0 {
+        true => tolerance * at_least(&|k| ranges.together[k], k) / (active * sizes[j].abs()),
+        false => tolerance * at_least(&|k| ranges.single[k][j], k),
+    };
+    (0..kinds.len()).map(|k| (0..sizes.len()).map(|j| of_pair(k, j)).collect()).collect()
+}

@@ -1,0 +1,52 @@
+//! How what is read of a reduced solid changes: a system of scalar equations tells it exactly.
+
+use super::totals::{Total, total};
+use super::{Measured, ReducedBody, ReducedMemo, STORED, drives_of};
+use crate::body::{BodyError, Linear, Memo, Reading};
+
+impl Linear for ReducedBody {
+    fn change(&self, inputs: &[f64], rates: &[f64]) -> Memo {
+        Box::new(ReducedMemo(self.drives.changes(inputs, rates)))
+    }
+
+    fn rates(&self, state: &[f64], memo: &Memo, change: &Memo) -> Vec<f64> {
+        let (drives, changes) = (drives_of(memo), drives_of(change));
+        let mut rates = self.system().rates_of(self.unknowns(state), drives);
+        rates.push(self.system().at_once(changes, STORED));
+        rates.push(self.reduction.brought.iter().zip(drives).map(|(b, u)| b * u).sum());
+        // The largest sizes so far stay, as long as no step is made.
+        rates.resize(self.len(), 0.0);
+        rates
+    }
+
+    fn read_rate(
+        &self,
+        (state, memo): (&[f64], &mut Memo),
+        (rates, change): (&[f64], &mut Memo),
+        reading: &Reading,
+    ) -> Result<f64, BodyError> {
+        let (drives, changes) = (drives_of(memo), drives_of(change));
+        let system = self.system();
+        let rate = |place: usize| system.output(self.unknowns(rates), changes, place);
+        Ok(match *reading {
+            Reading::Point { quantity, at, .. } => {
+                let now = |place: usize| self.output(state, drives, place);
+                match self.measure((quantity, at), rate) {
+                    Measured::Plain(rate) => rate,
+                    Measured::Stress(_, of, rates) => match self.measure((quantity, at), now) {
+                        Measured::Stress(_, _, stress) => of(stress, rates),
+                        Measured::Plain(_) => unreachable!("a quantity has one measure"),
+                    },
+                }
+            }
+            Reading::Mean { field, cell, .. } => rate(self.values.mean(field, cell)),
+            Reading::Total(place) => match total(place) {
+                Total::Bound(_) => 0.0,
+                _ => self.total(rates, place),
+            },
+            Reading::Peak { .. } | Reading::Cell { .. } => {
+                panic!("a reduced model has neither running maxima nor a wall")
+            }
+        })
+    }
+}

@@ -1,0 +1,416 @@
+//! Solids reduced to some tens of unknowns, with a bound of the error.
+//!
+//! The full solid is built once, to be reduced (`build`); what is left are scalar equations, which advance exactly. The
+//! state holds their unknowns, the heat brought in, and how large each drive has been: the bound that is told belongs to
+//! the inputs that there were.
+
+mod build;
+mod drives;
+mod linear;
+mod totals;
+mod values;
+
+pub use totals::offered_totals;
+
+use std::any::Any;
+use std::sync::Arc;
+
+use super::solid::{BodyLoads, Measure, PARTS_OF_A_FOOTPRINT, plan};
+use super::{
+    Acts, Body, BodyError, Direct, Fields, Given, Linear, Memo, Reading, Received, point_quantities,
+};
+use crate::inputs::{InputLayout, InputPath};
+use crate::math::allowance::Allowance;
+use crate::method::fem::NodalFields;
+use crate::method::reduced::ReducedSystem;
+use crate::scene::{Scene, Solid};
+use crate::state::{Field, Layout, Per};
+use build::Full;
+use drives::Drives;
+use totals::{Total, total};
+use values::{Kind, Values};
+
+/// What a full solid comes to.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Reduction {
+    pub system: ReducedSystem,
+    /// Of each output, what it is where nothing drives and nothing was stored.
+    pub offsets: Vec<f64>,
+    /// Heat that a unit of each drive brings in [W].
+    pub brought: Vec<f64>,
+    /// Modes of the full solid.
+    pub modes: usize,
+}
+
+/// A reduced solid and what of the scene concerns it.
+pub struct ReducedBody {
+    name: String,
+    loads: BodyLoads,
+    drives: Drives,
+    values: Values,
+    kinds: Vec<Kind>,
+    reduction: Arc<Reduction>,
+    /// Of drives as they start.
+    start: Vec<f64>,
+}
+
+/// The row of heat stored.
+const STORED: usize = 0;
+/// What unknowns may exceed their bound by, for rounding.
+const SLACK: f64 = 1e-6;
+/// Part of a length by which a place may miss another.
+const ROUNDING: f64 = 1e-9;
+
+/// What drives a model, or how that changes.
+struct ReducedMemo(Vec<f64>);
+
+impl ReducedBody {
+    pub fn new(
+        scene: &Scene,
+        layout: &InputLayout,
+        (name, solid): (&str, &Solid),
+        start: &[f64],
+        threads: usize,
+    ) -> Result<Self, BodyError> {
+        let drives = Drives::of(scene, layout, name, |_| [1; 3]);
+        let values = Values::of(scene, name);
+        let sizes = drives.values(start);
+        let full = Full::new(scene, layout, (name, solid), start, &drives, threads)?;
+        let reduction = Arc::new(full.reduce(&values, &sizes)?);
+        let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan(scene, name, solid));
+        Ok(Self {
+            name: name.into(),
+            loads,
+            drives,
+            kinds: values.kinds().collect(),
+            values,
+            reduction,
+            start: sizes,
+        })
+    }
+
+    fn system(&self) -> &ReducedSystem {
+        &self.reduction.system
+    }
+
+    /// Places in a state of what the drives gave heat stored at once, of heat brought in, and of the first size.
+    fn places(&self) -> [usize; 3] {
+        let order = self.system().order();
+        [order, order + 1, order + 2]
+    }
+
+    fn len(&self) -> usize {
+        self.system().order() + 2 + self.system().inputs
+    }
+
+    fn unknowns<'s>(&self, state: &'s [f64]) -> &'s [f64] {
+        &state[..self.system().order()]
+    }
+
+    /// An output that follows what drives at once.
+    fn output(&self, state: &[f64], drives: &[f64], place: usize) -> f64 {
+        let value = self.system().output(self.unknowns(state), drives, place);
+        self.reduction.offsets[place] + value
+    }
+
+    /// Heat stored, as of the end of the last step.
+    fn stored(&self, state: &[f64]) -> f64 {
+        let order = self.system().order();
+        self.system().from_unknowns(&state[..order], STORED) + state[order]
+    }
+
+    /// The largest bound of the values of a kind.
+    fn bound(&self, sizes: &[f64], kind: Kind) -> f64 {
+        let places = self.kinds.iter().enumerate().filter(|(_, own)| **own == kind);
+        places.map(|(place, _)| self.system().bound(sizes, place)).fold(0.0, f64::max)
+    }
+
+    fn total(&self, state: &[f64], place: usize) -> f64 {
+        let [_, brought, sizes] = self.places();
+        match total(place) {
+            Total::HeatIn => state[brought],
+            Total::HeatStored => self.stored(state),
+            Total::HeatLost => state[brought] - self.stored(state),
+            Total::Bound(kind) => self.bound(&state[sizes..], kind),
+        }
+    }
+
+    /// The value of a measure, where `value` gives that of each row.
+    fn measure(&self, (quantity, at): (usize, [f64; 3]), value: impl Fn(usize) -> f64) -> Measured {
+        let rows = self.values.rows_at(at);
+        let known = "rows are made for all that is registered";
+        let stress = || {
+            let first = rows.stress.expect(known);
+            std::array::from_fn(|slot| value(first + slot))
+        };
+        match point_quantities()[quantity].measure {
+            Measure::Temperature => Measured::Plain(value(rows.temperature.expect(known))),
+            Measure::Displacement(axis) => {
+                Measured::Plain(value(rows.displacement.expect(known) + axis))
+            }
+            Measure::Stress(slot) => Measured::Plain(value(rows.stress.expect(known) + slot)),
+            Measure::OfStress(measure, rate) => Measured::Stress(measure, rate, stress()),
+            Measure::PlasticStrain => panic!("nothing yields in a reduced model"),
+        }
+    }
+
+    /// Advances under drives that are polynomials in time: values at the beginning, then derivatives.
+    fn advance_part(&self, state: &mut [f64], drives: &[&[f64]], dt: f64) {
+        let [held, brought, sizes] = self.places();
+        self.system().advance(&mut state[..held], drives, dt);
+        let (mut end, mut weight) = (vec![0.0; self.system().inputs], 1.0);
+        for (k, list) in drives.iter().enumerate() {
+            end.iter_mut().zip(*list).for_each(|(end, value)| *end += weight * value);
+            weight *= dt / (k + 1) as f64;
+            let flow: f64 = self.reduction.brought.iter().zip(*list).map(|(b, u)| b * u).sum();
+            state[brought] += weight * flow;
+        }
+        state[held] = self.system().at_once(&end, STORED);
+        for list in [drives[0], &end] {
+            note_sizes(&mut state[sizes..], list);
+        }
+    }
+
+    fn advance_along(
+        &self,
+        state: &mut [f64],
+        (path, duration): (&InputPath, f64),
+        allowance: &Allowance,
+    ) -> Result<(), BodyError> {
+        let travel = self.loads.travel(path.derivatives(), duration);
+        let parts = (PARTS_OF_A_FOOTPRINT * travel).ceil().max(1.0);
+        let halted = |halt| BodyError::Halted { body: self.name.clone(), halt };
+        allowance.foresee(parts, "samples of moving footprints", state.len()).map_err(halted)?;
+        let [.., sizes] = self.places();
+        for s in path.turns(duration) {
+            note_sizes(&mut state[sizes..], &self.drives.values(&path.at(0, s)));
+        }
+        let h = duration / parts;
+        let at = |s: f64| {
+            let inputs = path.at(0, s);
+            self.check_inputs(&inputs).map_err(|error| error.underway(s))?;
+            Ok::<_, BodyError>(self.drives.values(&inputs))
+        };
+        let mut first = at(0.0)?;
+        for part in 0..parts as usize {
+            let middle = at((part as f64 + 0.5) * h)?;
+            let last = at((part as f64 + 1.0) * h)?;
+            let sum = |weights: [f64; 3]| -> Vec<f64> {
+                let samples = first.iter().zip(&middle).zip(&last);
+                samples
+                    .map(|((a, b), c)| weights[0] * a + weights[1] * b + weights[2] * c)
+                    .collect()
+            };
+            let slope = sum([-3.0 / h, 4.0 / h, -1.0 / h]);
+            let bend = sum([4.0, -8.0, 4.0].map(|weight| weight / (h * h)));
+            self.advance_part(state, &[&first, &slope, &bend], h);
+            first = last;
+        }
+        Ok(())
+    }
+
+    /// Refuses unknowns that are no numbers, and temperatures that are not above absolute zero where heat is drawn.
+    fn check_end(&self, state: &[f64], start: &[f64], end: &[f64]) -> Result<(), BodyError> {
+        if !state.iter().all(|value| value.is_finite()) {
+            return Err(BodyError::Overflow { body: self.name.clone() });
+        }
+        if !self.loads.draws_heat(start) && !self.loads.draws_heat(end) {
+            return Ok(());
+        }
+        let drives = self.drives.values(end);
+        let places = (0..self.kinds.len()).filter(|&place| self.kinds[place] == Kind::Temperature);
+        let least =
+            places.map(|place| self.output(state, &drives, place)).fold(f64::INFINITY, f64::min);
+        match least <= 0.0 {
+            true => {
+                Err(BodyError::BelowAbsoluteZero { body: self.name.clone(), temperature: least })
+            }
+            false => Ok(()),
+        }
+    }
+}
+
+/// A value of a point: as it is, or a measure of stress with its rate.
+enum Measured {
+    Plain(f64),
+    Stress(fn([f64; 6]) -> f64, fn([f64; 6], [f64; 6]) -> f64, [f64; 6]),
+}
+
+/// Keeps the larger of sizes so far and those of now.
+fn note_sizes(sizes: &mut [f64], drives: &[f64]) {
+    sizes.iter_mut().zip(drives).for_each(|(size, drive)| *size = size.max(drive.abs()));
+}
+
+fn drives_of(memo: &Memo) -> &[f64] {
+    let memo: &(dyn Any + Send + Sync) = memo.as_ref();
+    let ReducedMemo(drives) = memo.downcast_ref().expect("a memo is that of the body that made it");
+    drives
+}
+
+impl Body for ReducedBody {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn initial_state(&self) -> Vec<f64> {
+        vec![0.0; self.len()]
+    }
+
+    fn layout(&self, state: &[f64]) -> Option<Layout> {
+        let field = |name, words, per| Field { name, words, per, width: 1 };
+        let layout = Layout::default()
+            .with(
+                field("amplitude", "unknown of a reduced model", Per::Mode),
+                self.system().order(),
+            )
+            .with(field("held", "heat that face values hold at once [J]", Per::Body), 1)
+            .with(field("brought_in", "heat brought in since time zero [J]", Per::Body), 1)
+            .with(
+                field("size", "largest size of a load or face value so far", Per::Face),
+                self.system().inputs,
+            );
+        Some(layout).filter(|layout| layout.len() == state.len())
+    }
+
+    fn check_state(&self, state: &[f64]) -> Result<(), String> {
+        let (name, wanted) = (&self.name, self.len());
+        if state.len() != wanted {
+            return Err(format!("{} unknowns of {name}; this body has {wanted}", state.len()));
+        }
+        let [_, _, first] = self.places();
+        let sizes = &state[first..];
+        if let Some(size) = sizes.iter().find(|size| **size < 0.0) {
+            return Err(format!("{size} as the largest size of a load of {name}"));
+        }
+        let bounds = self.system().reach(sizes);
+        for (place, (unknown, bound)) in state.iter().zip(bounds).enumerate() {
+            if unknown.abs() > bound * (1.0 + SLACK) {
+                return Err(format!(
+                    "{unknown} as unknown {place} of {name}, which the loads that it had cannot \
+                     bring beyond {bound:e}"
+                ));
+            }
+        }
+        Ok(())
+    }
+
+    fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        self.loads.check(inputs)?;
+        for (index, start, load) in &self.drives.fixed {
+            let value = inputs[*index];
+            if (value - start).abs() > ROUNDING * start.abs().max(f64::MIN_POSITIVE) {
+                let message = format!(
+                    "{value} m moves {load}, whose footprint a reduced model holds at {start} m (allowed: that, a \
+                     `range` of the load in the scene, or fidelity full)"
+                );
+                return Err(BodyError::Input { index: *index, message });
+            }
+        }
+        Ok(())
+    }
+
+    fn memo(&self, inputs: &[f64], _: &[Received]) -> Memo {
+        Box::new(ReducedMemo(self.drives.values(inputs)))
+    }
+
+    fn advance(
+        &self,
+        state: &mut Vec<f64>,
+        memo: &Memo,
+        acts: &Acts,
+        allowance: &Allowance,
+    ) -> Result<Option<Given>, BodyError> {
+        if acts.path.is_held() {
+            self.advance_part(state, &[drives_of(memo)], acts.duration);
+            self.check_end(state, acts.path.start(), acts.path.start())?;
+            return Ok(None);
+        }
+        self.advance_along(state, (acts.path, acts.duration), allowance)?;
+        self.check_end(state, acts.path.start(), &acts.path.at(0, acts.duration))?;
+        Ok(None)
+    }
+
+    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
+        let drives = drives_of(memo);
+        let value = |place: usize| self.output(state, drives, place);
+        Ok(match *reading {
+            Reading::Point { quantity, at, .. } => match self.measure((quantity, at), value) {
+                Measured::Plain(value) => value,
+                Measured::Stress(measure, _, stress) => measure(stress),
+            },
+            Reading::Mean { field, cell, .. } => value(self.values.mean(field, cell)),
+            Reading::Total(place) => self.total(state, place),
+            Reading::Peak { .. } | Reading::Cell { .. } => {
+                panic!("a reduced model has neither running maxima nor a wall")
+            }
+        })
+    }
+
+    fn follows_at_once(&self, reading: &Reading) -> bool {
+        match *reading {
+            Reading::Point { quantity, .. } | Reading::Mean { quantity, .. } => {
+                point_quantities()[quantity].descriptor.direct != Direct::Nothing
+            }
+            _ => false,
+        }
+    }
+
+    fn fields(&self, _: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
+        Ok(Fields::Nodes(NodalFields::default()))
+    }
+
+    fn linear(&self) -> Option<&dyn Linear> {
+        Some(self)
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let system = self.system();
+        let start: Vec<f64> = self.start.iter().map(|value| value.abs()).collect();
+        let mut notes = vec![format!(
+            "{}: reduced from {} modes to {} unknowns; it has its probes and fields alone, and no extremes of the body",
+            self.name,
+            self.reduction.modes,
+            system.order()
+        )];
+        let kinds = [
+            (Kind::Temperature, "temperatures", "K"),
+            (Kind::Stress, "stress components", "Pa"),
+            (Kind::Displacement, "displacements", "m"),
+            (Kind::Heat, "heat stored", "J"),
+        ];
+        for (kind, words, unit) in kinds.into_iter().filter(|kind| self.kinds.contains(&kind.0)) {
+            let bound = self.bound(&start, kind);
+            notes.push(if start.iter().all(|&size| size == 0.0) {
+                let part = self.relative_bound(kind);
+                format!(
+                    "{}: {words} err by at most {part:.1e} of their range under each input alone, by the reduction",
+                    self.name
+                )
+            } else {
+                format!(
+                    "{}: {words} err by at most {bound:.2e} {unit} under inputs no larger than at the start, by the \
+                     reduction",
+                    self.name
+                )
+            });
+        }
+        notes
+    }
+}
+
+impl ReducedBody {
+    /// The largest bound of values of a kind over the largest of their answers to the same drive up to the end of the
+    /// experiment.
+    fn relative_bound(&self, kind: Kind) -> f64 {
+        let system = self.system();
+        let own = || (0..self.kinds.len()).filter(|&place| self.kinds[place] == kind);
+        let of_drive = |j: usize| {
+            let largest = |values: &[f64]| {
+                own().map(|place| values[place * system.inputs + j]).fold(0.0, f64::max)
+            };
+            let range = largest(&system.ranges);
+            if range > 0.0 { largest(&system.bounds) / range } else { 0.0 }
+        };
+        (0..system.inputs).map(of_drive).fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,317 @@
+//! Which readings of a solid go by rows rather than by a solution for each state, and these rows.
+//!
+//! A row takes as long to solve for as one state. So the readings of a probe or a field go by rows where the scene's
+//! default experiment has more communication points than rows, of all that stand before it in the scene too, and where
+//! memory suffices. That follows from the scene alone: whoever reads what in which order gets the same bits. Rows are
+//! solved for when their reading is first asked for, of classes that are even at once, of others when something first
+//! drives them.
+
+use std::collections::{HashMap, HashSet};
+use std::sync::OnceLock;
+
+use super::SolidBody;
+use super::memo::SolidMemo;
+use super::point::PointQuantity;
+use crate::body::BodyError;
+use crate::coupling::FaceMeans;
+use crate::math::cholesky::SolverError;
+use crate::method::fem::{
+    ClassRow, Component, Functional, Geometry, Plan, SolidFem, Term, memory_of_row,
+    most_memory_of_rows,
+};
+use crate::scene::{CellShape, Gives, Sampling, Scene, Solid};
+
+/// What goes by rows.
+#[derive(Default)]
+pub struct Choice {
+    points: Vec<([f64; 3], Kinds)>,
+    /// Places of fields of cells among the scene's, and numbers of cells.
+    cells: Vec<(usize, usize, Kinds)>,
+    /// Rows of each symmetry class.
+    pub rows: usize,
+}
+
+/// Whether stresses, and whether displacements are asked for.
+type Kinds = [bool; 2];
+
+/// Symmetry classes are at most as many.
+const CLASSES: usize = 4;
+/// Parts of a reading by classes.
+pub type ByClass = [f64; CLASSES];
+
+/// A component along x, y, z as a sum of rows, each with its weights by classes.
+type Parts = Vec<(usize, ByClass)>;
+/// Of the stresses xx, yy, zz, xy, yz, xz and the displacements along x, y, z; nothing of what takes a solution.
+type PartsOfAll = [Option<Parts>; 9];
+
+/// The rows of a body.
+pub struct Rows {
+    rows: Vec<LazyRow>,
+    of_points: HashMap<[u64; 3], PartsOfAll>,
+    /// By places of fields among the scene's and numbers of cells.
+    of_cells: HashMap<(usize, usize), PartsOfAll>,
+}
+
+/// The rows of one reading, one for each symmetry class.
+struct LazyRow {
+    functional: Functional,
+    classes: [OnceLock<Result<ClassRow, SolverError>>; CLASSES],
+}
+
+/// All components along x, y, z in the order of [`PartsOfAll`].
+fn components() -> [Component; 9] {
+    std::array::from_fn(|n| match n {
+        0..6 => Component::Stress(n),
+        _ => Component::Displacement(n - 6),
+    })
+}
+
+fn is_of(component: Component, [stress, displacement]: Kinds) -> bool {
+    match component {
+        Component::Stress(_) => stress,
+        Component::Displacement(_) => displacement,
+    }
+}
+
+fn bits(point: [f64; 3]) -> [u64; 3] {
+    point.map(f64::to_bits)
+}
+
+/// What a list of outputs takes at points; over cells the mean of a measure is none of the components' means.
+fn kinds(gives: &[Gives], of_cells: bool) -> Kinds {
+    let of_stress = |gives: &Gives| match gives {
+        Gives::Stress => true,
+        Gives::VonMises | Gives::MaxPrincipal => !of_cells,
+        _ => false,
+    };
+    [gives.iter().any(of_stress), gives.contains(&Gives::Displacement)]
+}
+
+impl Choice {
+    /// What of a scene's solid goes by rows.
+    pub fn of(scene: &Scene, (name, solid): (&str, &Solid), plan: &Plan) -> Self {
+        let mut choice = Self::default();
+        // For running maxima of stress every communication point is solved anyway.
+        let Some(laws) = plan.law.as_ref().filter(|_| !solid.has_stress_peaks()) else {
+            return choice;
+        };
+        let classes = plan.mesh.parities().len() as f64;
+        let by_memory =
+            most_memory_of_rows(&plan.mesh, laws) / (memory_of_row(&plan.mesh) * classes);
+        let readings = (scene.stop_time / scene.step).ceil();
+        let most = readings.min(by_memory);
+        // Of what stress and displacement are composed in the axes of the mesh.
+        let counts = match plan.mesh.geometry {
+            Geometry::Box => [6, 3],
+            Geometry::Axisymmetric => [4, 2],
+        };
+        let mut known: HashSet<([u64; 3], bool)> = HashSet::new();
+        let mut take_points = |choice: &mut Self, points: &[[f64; 3]], kinds: Kinds| {
+            let places = points.iter().map(|&point| bits(plan.mesh.locate(point).0));
+            let both = places.flat_map(|place| [(place, false), (place, true)]);
+            let wanted = both.filter(|&(_, moves)| kinds[usize::from(moves)]);
+            let new: HashSet<_> = wanted.filter(|one| !known.contains(one)).collect();
+            let rows = new.iter().map(|&(_, moves)| counts[usize::from(moves)]).sum::<usize>();
+            if ((choice.rows + rows) as f64) < most {
+                choice.rows += rows;
+                choice.points.extend(points.iter().map(|&point| (point, kinds)));
+                known.extend(new);
+            }
+        };
+        for probe in scene.probe.iter().filter(|probe| probe.body == name) {
+            let kinds = kinds(&probe.gives, false);
+            take_points(&mut choice, &[scene.point_of(probe)], kinds);
+        }
+        for (place, field) in scene.field.iter().enumerate() {
+            if field.body_and_place().0 != name || !field.gives.iter().any(Gives::is_mechanical) {
+                continue;
+            }
+            match field.sampling(solid) {
+                Sampling::Points(grid) => {
+                    let points: Vec<_> = grid.points().collect();
+                    take_points(&mut choice, &points, kinds(&field.gives, false));
+                }
+                Sampling::Cells(cells) => {
+                    let kinds = kinds(&field.gives, true);
+                    let count = match cells.footprint.cells() {
+                        None => 1,
+                        Some(CellShape::Rings(count)) => count,
+                        Some(CellShape::Tiles(counts)) => counts.iter().product(),
+                    };
+                    let of_cell: usize =
+                        components().map(|c| usize::from(is_of(c, kinds))).iter().sum();
+                    if ((choice.rows + count * of_cell) as f64) < most {
+                        choice.rows += count * of_cell;
+                        choice.cells.extend((0..count).map(|cell| (place, cell, kinds)));
+                    }
+                }
+            }
+        }
+        choice.points.retain(|(_, kinds)| kinds.contains(&true));
+        choice
+    }
+
+    /// What is told of it.
+    pub fn note(&self) -> Option<String> {
+        (self.rows > 0).then(|| {
+            format!(
+                "{} components of stress and displacement at points and cells are read by influence rows: each is solved \
+                 for once, when it is first read, and costs a dot product from then on",
+                self.rows
+            )
+        })
+    }
+}
+
+impl Rows {
+    pub fn new(choice: Choice, solid: &SolidFem, means: &[(usize, FaceMeans)]) -> Self {
+        let mut made =
+            Self { rows: Vec::new(), of_points: HashMap::new(), of_cells: HashMap::new() };
+        let mut numbers: HashMap<([u64; 3], Component), usize> = HashMap::new();
+        for (point, kinds) in choice.points {
+            let mut own: PartsOfAll = made.of_points.remove(&bits(point)).unwrap_or_default();
+            for (component, parts) in components().into_iter().zip(&mut own) {
+                if parts.is_none() && is_of(component, kinds) {
+                    let part = |term: Term| {
+                        let number = *numbers
+                            .entry((bits(term.place), term.component))
+                            .or_insert_with(|| {
+                                // Of the place itself: images differ in signs alone.
+                                let own = Term { image: [false; 2], weight: 1.0, ..term };
+                                made.rows.push(LazyRow::of(Functional { terms: vec![own] }));
+                                made.rows.len() - 1
+                            });
+                        let sign = |class| match class < solid.classes() {
+                            true => term.weight * solid.sign(class, term.component, term.image),
+                            false => 0.0,
+                        };
+                        (number, std::array::from_fn(sign))
+                    };
+                    *parts = Some(solid.terms(component, point).into_iter().map(part).collect());
+                }
+            }
+            made.of_points.insert(bits(point), own);
+        }
+        for (field, cell, kinds) in choice.cells {
+            let Some((_, means)) = means.iter().find(|(place, _)| *place == field) else {
+                continue;
+            };
+            let own = components().map(|component| {
+                is_of(component, kinds).then(|| {
+                    let functional = solid.functional(component, means.points(cell));
+                    made.rows.push(LazyRow::of(functional));
+                    vec![(made.rows.len() - 1, [1.0; CLASSES])]
+                })
+            });
+            made.of_cells.insert((field, cell), own);
+        }
+        made
+    }
+
+    /// Whether a quantity at a point takes no solution.
+    pub fn give(&self, quantity: &PointQuantity, point: [f64; 3]) -> bool {
+        // Measures of stress take all of its components.
+        let component = quantity.component().unwrap_or(stress(0));
+        !quantity.is_of_history() && self.of_point(point, component).is_some()
+    }
+
+    /// Whether the mean of a quantity over a cell takes no solution.
+    pub fn give_mean(&self, quantity: &PointQuantity, cell: (usize, usize)) -> bool {
+        quantity.component().is_some_and(|component| self.of_cell(cell, component).is_some())
+    }
+
+    fn of_point(&self, point: [f64; 3], component: usize) -> Option<&Parts> {
+        self.of_points.get(&bits(point))?[component].as_ref()
+    }
+
+    fn of_cell(&self, cell: (usize, usize), component: usize) -> Option<&Parts> {
+        self.of_cells.get(&cell)?[component].as_ref()
+    }
+}
+
+impl LazyRow {
+    fn of(functional: Functional) -> Self {
+        Self { functional, classes: Default::default() }
+    }
+
+    fn class(&self, solid: &SolidFem, class: usize) -> Result<&ClassRow, SolverError> {
+        let make = || {
+            let row = solid.row(&self.functional, class);
+            row.expect("rows are chosen where mechanics is linear")
+        };
+        self.classes[class].get_or_init(make).as_ref().map_err(Clone::clone)
+    }
+}
+
+/// A state and what acts, or a change of both.
+pub struct Acting<'a> {
+    pub body: &'a SolidBody,
+    pub state: &'a [f64],
+    pub memo: &'a mut SolidMemo,
+}
+
+/// Place of a component among those of a point.
+pub const fn stress(slot: usize) -> usize {
+    slot
+}
+
+pub const fn displacement(axis: usize) -> usize {
+    6 + axis
+}
+
+impl Acting<'_> {
+    /// A component at a point; nothing where that takes a solution.
+    pub fn at_point(
+        &mut self,
+        point: [f64; 3],
+        component: usize,
+    ) -> Option<Result<f64, BodyError>> {
+        let body = self.body;
+        body.rows.of_point(point, component).map(|parts| self.sum(parts))
+    }
+
+    /// The mean of a component over a cell of a field; nothing where that takes a solution.
+    pub fn over_cell(
+        &mut self,
+        cell: (usize, usize),
+        component: usize,
+    ) -> Option<Result<f64, BodyError>> {
+        let body = self.body;
+        body.rows.of_cell(cell, component).map(|parts| self.sum(parts))
+    }
+
+    fn sum(&mut self, parts: &Parts) -> Result<f64, BodyError> {
+        let mut sum = 0.0;
+        for (row, weights) in parts {
+            let values = self.values(*row)?;
+            sum += weights.iter().zip(values).map(|(weight, value)| weight * value).sum::<f64>();
+        }
+        Ok(sum)
+    }
+
+    fn values(&mut self, number: usize) -> Result<ByClass, BodyError> {
+        if let Some(known) = self.memo.by_row(number) {
+            return Ok(known);
+        }
+        let (body, solid) = (self.body, &self.body.solid);
+        let heat = body.heat_of(self.state);
+        let driven = self.memo.driven(body, heat);
+        let row = &body.rows.rows[number];
+        let mut values = [0.0; CLASSES];
+        // That of the even class is made at rest, too: hosts read initial values before the first step.
+        for class in (0..solid.classes()).filter(|&class| class == 0 || driven[class] != [false; 2])
+        {
+            let row = row.class(solid, class)?;
+            let content = match driven[class][0] {
+                true => self.memo.content(body, heat, class),
+                false => &[],
+            };
+            values[class] = row.of(content, self.memo.faces(class), self.memo.forces(class));
+            if !self.memo.is_change() {
+                values[class] += row.constant;
+            }
+        }
+        self.memo.keep_by_row(number, values);
+        Ok(values)
+    }
+}

@@ -1,0 +1,259 @@
+//! A reduced system: a few scalar equations `ẋ_r = −ν_r x_r + Σ_j b_rj u_j`, outputs `y_k = Σ_r c_kr x_r + Σ_j d_kj u_j`.
+
+use super::balanced::{Balanced, ReductionError, Truncated};
+use super::certificate::{Wanted, integrals};
+use super::clumped::{Clumped, Residues};
+use crate::math::exponential;
+
+/// Rates, matrices by rows, and bounds.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct ReducedSystem {
+    pub inputs: usize,
+    pub outputs: usize,
+    /// ν [1/s]; the first is that of the slowest mode, which is exact.
+    pub rates: Vec<f64>,
+    /// `b`, for each rate a number for each input.
+    pub entering: Vec<f64>,
+    /// `c`, for each output a number for each rate.
+    pub leaving: Vec<f64>,
+    /// `d`, for each output a number for each input.
+    pub direct: Vec<f64>,
+    /// For each output and input what the output may err by for each unit of the input's largest size.
+    pub bounds: Vec<f64>,
+    /// For each output and input the largest answer to a unit step up to the horizon.
+    pub ranges: Vec<f64>,
+}
+
+/// What is to be reduced: residues of all outputs, what acts at once, and what errors are allowed.
+pub struct Request<'a> {
+    pub clumped: &'a Clumped,
+    /// Of each output.
+    pub residues: &'a [Residues],
+    /// Of each output: its part of the slowest mode.
+    pub slow: &'a [f64],
+    /// For each output a number for each input.
+    pub direct: &'a [Vec<f64>],
+    /// Up to where answers to steps are looked at [s].
+    pub horizon: f64,
+    /// Inputs of the default experiment.
+    pub start: &'a [f64],
+    /// For each output and input, from the answers to steps: the error that is allowed.
+    pub allowed: &'a dyn Fn(&Ranges) -> Vec<Vec<f64>>,
+}
+
+/// Largest answers to steps up to the horizon.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ranges {
+    /// Of each output to a unit of each input.
+    pub single: Vec<Vec<f64>>,
+    /// Of each output to the inputs of the default experiment.
+    pub together: Vec<f64>,
+}
+
+/// Times at which answers to steps are looked at, over a horizon.
+const LOOKS: usize = 120;
+/// Parts of the horizon at which they begin.
+const FIRST_LOOK: f64 = 1e-9;
+
+impl ReducedSystem {
+    /// The smallest system whose bounds are within what is allowed; of the highest order if none is.
+    pub fn new(request: &Request) -> Result<Self, ReductionError> {
+        let Request { clumped, residues, .. } = request;
+        let ranges = request.ranges();
+        let allowed = (request.allowed)(&ranges);
+        // Singular values count inputs and outputs in parts of what is allowed.
+        let scale = scales(&allowed, clumped.slow_inputs().len());
+        let scaled = request.scaled(&scale);
+        let rows: Vec<Vec<&[f64]>> =
+            scaled.iter().map(|row| row.iter().map(Vec::as_slice).collect()).collect();
+        let balanced = Balanced::new(&clumped.points, &rows)?;
+        let most = balanced.most();
+        let fits = |truncated: &Truncated, wanted: Wanted| {
+            let found = integrals(&clumped.points, &rows, truncated, wanted);
+            let parts = found.iter().zip(residues.iter().zip(&allowed).zip(&scale.0));
+            let excess = parts.map(|(found, ((residues, allowed), output))| {
+                let own = found.iter().zip(&residues.error).zip(allowed.iter().zip(&scale.1));
+                own.map(|((found, error), (allowed, input))| {
+                    (found / (output * input) + error) / allowed
+                })
+                .fold(0.0, f64::max)
+            });
+            excess.fold(0.0, f64::max) <= 1.0
+        };
+        let singular = |order: usize| balanced.singular.get(order).copied().unwrap_or(0.0);
+        let hopeless = 2.0 * ((rows.len() * scale.1.len()) as f64).sqrt();
+        let mut best = None;
+        for order in 0..=most {
+            // Errors of all pairs together are no less than this.
+            if singular(order) > hopeless && order < most {
+                continue;
+            }
+            let Some(truncated) = balanced.truncated(order) else { continue };
+            let done = fits(&truncated, Wanted::Estimate) && fits(&truncated, Wanted::Bound);
+            best = Some(truncated);
+            if done {
+                break;
+            }
+        }
+        let truncated = best.ok_or(ReductionError::Poles)?;
+        let found = integrals(&clumped.points, &rows, &truncated, Wanted::Bound);
+        Ok(request.system(&truncated, &scale, &found, &ranges))
+    }
+
+    pub fn order(&self) -> usize {
+        self.rates.len()
+    }
+
+    /// Advances `x` by `dt` [s] under inputs that are polynomials in time: their values at the beginning, then their
+    /// derivatives.
+    pub fn advance(&self, x: &mut [f64], inputs: &[&[f64]], dt: f64) {
+        for (i, (value, rate)) in x.iter_mut().zip(&self.rates).enumerate() {
+            let weights = exponential::weights(rate * dt);
+            let row = &self.entering[i * self.inputs..][..self.inputs];
+            let mut end = weights[0] * *value;
+            let mut power = dt;
+            for (k, input) in inputs.iter().enumerate() {
+                end += weights[k + 1] * power * dot(row, input);
+                power *= dt;
+            }
+            *value = end;
+        }
+    }
+
+    /// `ẋ` under inputs.
+    pub fn rates_of(&self, x: &[f64], inputs: &[f64]) -> Vec<f64> {
+        let row = |i: usize| dot(&self.entering[i * self.inputs..][..self.inputs], inputs);
+        x.iter().zip(&self.rates).enumerate().map(|(i, (x, rate))| row(i) - rate * x).collect()
+    }
+
+    /// An output.
+    pub fn output(&self, x: &[f64], inputs: &[f64], place: usize) -> f64 {
+        self.from_unknowns(x, place) + self.at_once(inputs, place)
+    }
+
+    /// The part of an output that follows the unknowns, and that which follows the inputs at once.
+    pub fn from_unknowns(&self, x: &[f64], place: usize) -> f64 {
+        let order = self.order();
+        dot(&self.leaving[place * order..][..order], x)
+    }
+
+    pub fn at_once(&self, inputs: &[f64], place: usize) -> f64 {
+        dot(&self.direct[place * self.inputs..][..self.inputs], inputs)
+    }
+
+    /// How large inputs that never exceeded these sizes can make each unknown.
+    pub fn reach(&self, sizes: &[f64]) -> Vec<f64> {
+        let of = |(i, rate): (usize, &f64)| {
+            let row = &self.entering[i * self.inputs..][..self.inputs];
+            let driven: f64 = row.iter().zip(sizes).map(|(b, size)| (b * size).abs()).sum();
+            match driven {
+                0.0 => 0.0,
+                _ if *rate > 0.0 => driven / rate,
+                _ => f64::INFINITY,
+            }
+        };
+        self.rates.iter().enumerate().map(of).collect()
+    }
+
+    /// What an output may err by if inputs never exceeded these sizes.
+    pub fn bound(&self, sizes: &[f64], place: usize) -> f64 {
+        dot(&self.bounds[place * self.inputs..][..self.inputs], sizes)
+    }
+}
+
+/// In the order of their places, so that it is the same to the bit wherever it is made.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+impl Request<'_> {
+    fn ranges(&self) -> Ranges {
+        let times: Vec<f64> = (0..LOOKS)
+            .map(|i| self.horizon * FIRST_LOOK.powf(1.0 - (i + 1) as f64 / LOOKS as f64))
+            .collect();
+        let grown = |rate: f64, t: f64| t * exponential::weights(rate * t)[1];
+        let points: Vec<Vec<f64>> = times
+            .iter()
+            .map(|&t| self.clumped.points.iter().map(|&rate| grown(rate, t)).collect())
+            .collect();
+        let slow: Vec<f64> = times.iter().map(|&t| grown(self.clumped.slow_rate(), t)).collect();
+        let answers = |(residues, direct): (&Residues, &Vec<f64>), j: usize| {
+            let at = |(points, slow): (&Vec<f64>, &f64)| {
+                dot(points, &residues.values[j]) + slow * residues.slow[j] + direct[j]
+            };
+            std::iter::once(direct[j]).chain(points.iter().zip(&slow).map(at)).collect::<Vec<f64>>()
+        };
+        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
+        let mut ranges = Ranges::default();
+        for output in self.residues.iter().zip(self.direct) {
+            let mut sum = vec![0.0; LOOKS + 1];
+            let mut single = Vec::new();
+            for (j, start) in self.start.iter().enumerate() {
+                let answers = answers(output, j);
+                sum.iter_mut().zip(&answers).for_each(|(sum, value)| *sum += start * value);
+                single.push(largest(&answers));
+            }
+            ranges.single.push(single);
+            ranges.together.push(largest(&sum));
+        }
+        ranges
+    }
+
+    fn scaled(&self, (outputs, inputs): &(Vec<f64>, Vec<f64>)) -> Vec<Vec<Vec<f64>>> {
+        let of_output = |(residues, output): (&Residues, &f64)| {
+            let of_input = |(values, input): (&Vec<f64>, &f64)| {
+                values.iter().map(|value| value * output * input).collect()
+            };
+            residues.values.iter().zip(inputs).map(of_input).collect()
+        };
+        self.residues.iter().zip(outputs).map(of_output).collect()
+    }
+
+    fn system(
+        &self,
+        truncated: &Truncated,
+        (outputs, inputs): &(Vec<f64>, Vec<f64>),
+        found: &[Vec<f64>],
+        ranges: &Ranges,
+    ) -> ReducedSystem {
+        let slow = self.clumped.slow_inputs();
+        let rates = std::iter::once(self.clumped.slow_rate()).chain(truncated.rates.clone());
+        let mut system = ReducedSystem {
+            inputs: inputs.len(),
+            outputs: outputs.len(),
+            rates: rates.collect(),
+            ..ReducedSystem::default()
+        };
+        system.entering.extend(&slow);
+        for r in 0..truncated.rates.len() {
+            system.entering.extend(truncated.inputs.iter().zip(inputs).map(|(b, s)| b[r] / s));
+        }
+        for (k, output) in outputs.iter().enumerate() {
+            system.leaving.push(self.slow[k]);
+            system.leaving.extend(truncated.outputs[k].iter().map(|c| c / output));
+            system.direct.extend(&self.direct[k]);
+            system.ranges.extend(&ranges.single[k]);
+            let pairs = found[k].iter().zip(&self.residues[k].error).zip(inputs);
+            system.bounds.extend(pairs.map(|((found, error), s)| found / (output * s) + error));
+        }
+        system
+    }
+}
+
+/// Factors of outputs and inputs that bring what is allowed to about one: `s_k t_j a_kj ≤ 1`, close to it where that can
+/// be.
+fn scales(allowed: &[Vec<f64>], inputs: usize) -> (Vec<f64>, Vec<f64>) {
+    // Of each input the least that is allowed; then of each output.
+    let is_some = |value: &f64| *value > 0.0 && value.is_finite();
+    let least = |values: &mut dyn Iterator<Item = f64>| {
+        let least = values.filter(is_some).fold(f64::INFINITY, f64::min);
+        if least.is_finite() { least } else { 1.0 }
+    };
+    let rows: Vec<f64> = allowed.iter().map(|row| least(&mut row.iter().copied())).collect();
+    let column = |j: usize| {
+        let mut parts = allowed.iter().zip(&rows).map(|(row, least)| row[j] / least);
+        least(&mut parts)
+    };
+    let columns: Vec<f64> = (0..inputs).map(|j| 1.0 / column(j)).collect();
+    (rows.into_iter().map(|least| 1.0 / least).collect(), columns)
+}

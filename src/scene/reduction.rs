@@ -1,0 +1,150 @@
+//! Which solids a scene lets be reduced models, and what stands against that.
+
+use super::Sampling;
+use super::check::takes_newton;
+use super::lookup::split_place;
+use super::types::{FidelityLevel, Gives, HeatMethod, Load, Scene, Solid};
+
+/// What keeps a solid from being reduced.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Obstacle {
+    /// Where the scene says it.
+    pub at: Place,
+    pub message: String,
+    pub allowed: &'static str,
+}
+
+/// A part of a scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Place {
+    /// A key of the body.
+    Body(&'static str),
+    /// An element of these tables, with its number.
+    Element(&'static str, usize),
+    /// What all of the scene says together.
+    Level,
+}
+
+/// Inputs times outputs times the fewer of both, at most: work of the reduction.
+const MOST_WORK: usize = 120_000;
+/// Points whose stresses and displacements are given, at most: each of their components takes a solution.
+const MOST_MECHANICAL: usize = 100;
+
+impl Scene {
+    /// Whether a solid is a reduced model.
+    pub fn is_reduced(&self, name: &str) -> bool {
+        match self.fidelity.level {
+            FidelityLevel::Full => false,
+            FidelityLevel::Reduced => self.solid(name).is_some(),
+            FidelityLevel::Auto => {
+                self.solid(name).is_some_and(|solid| self.obstacle(name, solid).is_none())
+            }
+        }
+    }
+
+    /// What keeps a solid from being a reduced model; the first found.
+    pub fn obstacle(&self, name: &str, solid: &Solid) -> Option<Obstacle> {
+        self.obstacle_of_kind(name, solid)
+            .or_else(|| self.obstacle_of_neighbours(name))
+            .or_else(|| self.obstacle_of_fields(name, solid))
+            .or_else(|| self.obstacle_of_size(name))
+    }
+
+    fn obstacle_of_kind(&self, name: &str, solid: &Solid) -> Option<Obstacle> {
+        let obstacle = |at, message: &str, allowed| {
+            Some(Obstacle { at, message: message.to_owned(), allowed })
+        };
+        if solid.heat == HeatMethod::Sph {
+            let message = "a reduced model follows from modes, not from particles";
+            return obstacle(Place::Body("heat"), message, "fem");
+        }
+        if takes_newton(self, solid) {
+            let message = "a reduced model needs heat that modes give: constants that are numbers, nothing that melts \
+                           and no face that radiates";
+            return obstacle(Place::Level, message, "full, auto");
+        }
+        if self.asks_mechanics(name) && !solid.deforms_linearly() {
+            let message = "a reduced model is elastic: nothing yields or creeps";
+            return obstacle(Place::Level, message, "full, auto");
+        }
+        if !solid.peaks.is_empty() {
+            let message =
+                "a reduced model knows its probes and fields alone, and no extremes of the body";
+            return obstacle(Place::Body("peaks"), message, "no `peaks`, or fidelity full, auto");
+        }
+        None
+    }
+
+    fn obstacle_of_neighbours(&self, name: &str) -> Option<Obstacle> {
+        let touches =
+            |place: &str| place == name || split_place(place).is_some_and(|(body, _)| body == name);
+        let own = |coupling: &super::Coupling| touches(&coupling.from) || touches(&coupling.to);
+        let place = self.coupling.iter().position(own)?;
+        let message = format!("`{name}` is a reduced model, whose faces other bodies cannot touch");
+        Some(Obstacle {
+            at: Place::Element("coupling", place),
+            message,
+            allowed: "loads and conditions on its faces, or fidelity full, auto",
+        })
+    }
+
+    fn obstacle_of_fields(&self, name: &str, solid: &Solid) -> Option<Obstacle> {
+        let is_of_cells = |field: &super::Field| {
+            field.body() == Some(name)
+                && field.gives.iter().any(Gives::is_mechanical)
+                && matches!(field.sampling(solid), Sampling::Cells(_))
+        };
+        let place = self.field.iter().position(is_of_cells)?;
+        Some(Obstacle {
+            at: Place::Element("field", place),
+            message: "a reduced model has no means of stress or displacement over cells".to_owned(),
+            allowed: "temperature, or points of a `grid`, or fidelity full, auto",
+        })
+    }
+
+    fn obstacle_of_size(&self, name: &str) -> Option<Obstacle> {
+        let [mechanical, thermal] = self.points_read(name);
+        if mechanical > MOST_MECHANICAL {
+            let message = format!(
+                "stress and displacement of {mechanical} points of `{name}`; each takes some solutions of mechanics in \
+                 a reduced model, which gives them at {MOST_MECHANICAL} at most"
+            );
+            return Some(Obstacle { at: Place::Level, message, allowed: "full, auto" });
+        }
+        let outputs = 1 + thermal + 9 * mechanical;
+        let inputs = self.driving_inputs(name);
+        if inputs * outputs * inputs.min(outputs) > MOST_WORK {
+            let message = format!(
+                "{inputs} inputs and some {outputs} outputs of `{name}` are too many for a reduced model (inputs times \
+                 outputs times the fewer of both: {MOST_WORK} at most)"
+            );
+            return Some(Obstacle { at: Place::Level, message, allowed: "full, auto" });
+        }
+        None
+    }
+
+    /// Points whose stress or displacement is given, and places whose temperature is.
+    fn points_read(&self, name: &str) -> [usize; 2] {
+        let mut counts = [0; 2];
+        let mut add = |gives: &[Gives], count: usize| {
+            counts[0] += if gives.iter().any(Gives::is_mechanical) { count } else { 0 };
+            counts[1] += if gives.contains(&Gives::Temperature) { count } else { 0 };
+        };
+        self.probe.iter().filter(|probe| probe.body == name).for_each(|probe| add(&probe.gives, 1));
+        for field in self.field.iter().filter(|field| field.body() == Some(name)) {
+            let count = match (&field.footprint, field.grid) {
+                (Some(footprint), _) => footprint.cell_count(),
+                (None, grid) => grid.map_or(1, |[rows, columns]| rows * columns),
+            };
+            add(&field.gives, count);
+        }
+        counts
+    }
+
+    /// Values of loads and faces that drive a body.
+    fn driving_inputs(&self, name: &str) -> usize {
+        let of_load = |load: &Load| load.carries.len() * load.footprint.cell_count();
+        let faces = self.solid(name).map_or(0, |solid| solid.faces.len());
+        self.loads_on(name).map(of_load).sum::<usize>() + faces
+    }
+}
