@@ -18,7 +18,7 @@ use std::process::{self, ExitCode};
 
 use archive::Entries;
 use clap::Parser;
-use impinge::model::notes_on_walls;
+use impinge::model::{notes_on_walls, records};
 use impinge::scene::{self, Scene};
 use version::Version;
 
@@ -193,6 +193,10 @@ fn unit(
     entries.append(&mut terminals::entries(scene, fmi, &icon)?);
     entries.insert(fmi.icon().into(), icon);
     entries.insert(library::entry(&scene.name, fmi), library);
+    let records = records(scene, scene.solver.threads);
+    for (body, bytes) in records.map_err(|error| format!("no record of its drops: {error}"))? {
+        entries.insert(format!("resources/records/{body}.record"), bytes);
+    }
     archive::zip(&entries)
 }
 

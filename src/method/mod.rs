@@ -14,3 +14,5 @@ pub mod fem;
 pub mod inelastic;
 
 pub mod sph;
+
+pub mod record;

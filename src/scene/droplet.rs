@@ -15,7 +15,7 @@ use crate::quantity::Quantity;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Droplet {
-    /// Weakly compressible smoothed particle hydrodynamics.
+    /// How drops are computed.
     #[serde(default)]
     pub method: DropletMethod,
     /// Diameter [m].
@@ -46,8 +46,10 @@ pub struct Droplet {
         .otherwise("half a `spacing`"))]
     pub height: Option<f64>,
     /// Distance of particles Δx [m].
+    #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(transform = within(1e-10, 1e1, "m", "the distance of particles")
-        .condition("up to a sixth of the diameter, at most 2e7 particles"))]
+        .condition("needed but by `method = \"film\"`, which has none; up to a sixth of the diameter, at most 2e7 particles")
+        .otherwise("none"))]
     pub spacing: f64,
     /// What the drops are made of.
     pub fluid: Fluid,
@@ -112,6 +114,27 @@ pub struct Droplet {
         )
     )]
     pub arrivals: Option<Vec<Arrival>>,
+    /// How the impact is recorded that `method = "record"` repeats.
+    #[schemars(extend("otherwise" = "at `impact_velocity`", "condition" = "with `method = \"record\"` or `\"film\"`"))]
+    pub record: Option<Recording>,
+}
+
+/// How an impact is recorded.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Recording {
+    /// Time after the first contact that is recorded [s]; then the splat cools as a film.
+    #[schemars(transform = within(1e-12, 1e6, "s", "the time that is recorded")
+        .otherwise("five times D/U, or as many of the time in which tension pulls the drop round"))]
+    pub duration: Option<f64>,
+    /// Speeds at the release that are recorded [m/s]: drops of speeds between them are interpolated.
+    #[schemars(
+        length(min = 1),
+        transform = within(1e-9, 1e5, "m/s", "a speed that is recorded")
+            .condition("ascending, `impact_velocity` within them")
+            .otherwise("`impact_velocity` alone")
+    )]
+    pub speeds: Option<Vec<f64>>,
 }
 
 /// What lets drops go.
@@ -131,6 +154,10 @@ pub enum DropletMethod {
     /// Weakly compressible smoothed particle hydrodynamics.
     #[default]
     Sph,
+    /// One impact of particles, computed ahead, is repeated for every drop.
+    Record,
+    /// Closed forms of a film that spreads and cools are repeated for every drop.
+    Film,
 }
 
 /// How much of the drops is modelled.
@@ -289,16 +316,20 @@ pub struct Coupling {
     pub radius: Option<f64>,
 }
 
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
 fn three() -> usize {
     3
 }
 
 fn default_support() -> f64 {
-    3.0
+    Droplet::DEFAULT_SUPPORT
 }
 
 fn default_density_diffusion() -> f64 {
-    0.1
+    Droplet::DEFAULT_DENSITY_DIFFUSION
 }
 
 fn right_angle() -> f64 {
@@ -330,6 +361,9 @@ pub enum Governing {
     Viscosity,
 }
 
+/// Time that is recorded, over D/U.
+const RECORDED: f64 = 5.0;
+
 /// Weber number from which inertia rules.
 const INERTIAL: f64 = 1000.0;
 
@@ -349,6 +383,9 @@ pub fn velocity(speed: f64, angle: f64, direction: f64) -> [f64; 3] {
 }
 
 impl Droplet {
+    pub const DEFAULT_SUPPORT: f64 = 3.0;
+    pub const DEFAULT_DENSITY_DIFFUSION: f64 = 0.1;
+
     /// Gap between a drop's lowest point and the wall at its release [m].
     pub fn gap(&self) -> f64 {
         self.height.unwrap_or(0.5 * self.spacing)
@@ -393,6 +430,46 @@ impl Droplet {
     /// Speed of sound of the model [m/s].
     pub fn sound_speed(&self) -> f64 {
         self.fluid.sound_speed.unwrap_or_else(|| SOUND_OVER_FLOW * self.governing_speed().1)
+    }
+
+    /// Whether drops repeat what is known of one.
+    pub fn is_replayed(&self) -> bool {
+        self.method != DropletMethod::Sph
+    }
+
+    /// Whether drops are made of particles, in the scene itself or ahead.
+    pub fn has_particles(&self) -> bool {
+        self.method != DropletMethod::Film
+    }
+
+    /// Speeds at the release that are known of drops that are replayed [m/s].
+    pub fn recorded_speeds(&self) -> Vec<f64> {
+        let speeds = self.record.as_ref().and_then(|record| record.speeds.clone());
+        speeds.unwrap_or_else(|| vec![self.impact_velocity])
+    }
+
+    /// Of a round drop [kg].
+    pub fn mass(&self) -> f64 {
+        PI / 6.0 * self.diameter.powi(3) * self.fluid.density
+    }
+
+    /// Way of a drop from its release to where it is about to touch the wall [m]: half a distance of particles above it.
+    fn way_down(&self) -> f64 {
+        (self.gap() - 0.5 * self.spacing).max(0.0)
+    }
+
+    /// How fast a drop is about to touch the wall that comes straight down [m/s], and how long after its release [s].
+    pub fn contact(&self, speed: f64) -> (f64, f64) {
+        let way = self.way_down();
+        let fast = (speed * speed + 2.0 * self.gravity * way).sqrt();
+        (fast, if way > 0.0 { 2.0 * way / (speed + fast) } else { 0.0 })
+    }
+
+    /// Time after the contact that is known of drops that are replayed [s].
+    pub fn recorded_time(&self, speed: f64) -> f64 {
+        let capillary = self.fluid.surface_tension / (self.fluid.density * 0.5 * self.diameter);
+        let default = RECORDED * self.diameter / speed.max(capillary.sqrt());
+        self.record.as_ref().and_then(|record| record.duration).unwrap_or(default)
     }
 
     /// Whether inputs release the drops.

@@ -29,7 +29,7 @@ pub use cells::Cells;
 pub use check::takes_newton;
 pub use droplet::{
     Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Fluid, Governing, Placement,
-    Precision, ReleaseBy, Wall, WallStart, velocity,
+    Precision, Recording, ReleaseBy, Wall, WallStart, velocity,
 };
 pub use error::{Problem, SceneError};
 pub use footprint::Profile;

@@ -33,6 +33,7 @@ mod particles;
 mod peaks;
 mod plausibility;
 mod recovered_stress;
+mod replay;
 mod reservoirs;
 mod scene_reference;
 mod scene_refusals;
