@@ -1,12 +1,12 @@
 //! A profile from closed forms: a footprint that grows to the width of published correlations, a force that gives all
-//! momentum, and the flux of two half spaces from the time at which each place is wetted, as far as the heat of the film
-//! above it goes.
+//! momentum, and from the time at which each place is wetted the flux of two half spaces, of which the one spreads over
+//! the other, as far as the heat of the film above it goes.
 
 use std::f64::consts::PI;
 
 use super::profile::{Amounts, Profile};
-use crate::closed_form::DropImpact;
 use crate::closed_form::cooling_film::given_part;
+use crate::closed_form::{DropImpact, flux_over_rest};
 
 /// What a film follows from.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,20 +29,29 @@ pub struct Film {
 const CIRCLES: usize = 8;
 
 impl Film {
-    /// Largest radius of the footprint [m]: of the three correlations the one that stops the drop first, and no less
-    /// than that of the drop.
+    /// Largest radius of the footprint [m]: Roisman's where inertia rules, that of the energies where it falls below
+    /// (slow drops), Scheller and Bousfield's where viscosity stops the drop first, and no less than that of the drop.
     pub fn largest_radius(impact: &DropImpact) -> f64 {
-        let spread = impact.spread_by_energy().min(impact.spread_by_viscosity());
+        let inertial = impact.spread_by_inertia().max(impact.spread_by_energy());
+        let spread = inertial.min(impact.spread_by_viscosity());
         0.5 * impact.diameter * spread.max(1.0)
     }
 
     /// Part of its heat that the film at a place has given so long after this was wetted [s].
-    fn cooled(&self, thickness: f64, time: f64) -> f64 {
+    fn cooled(&self, thickness: f64, contact: f64, time: f64) -> f64 {
         let DropImpact { density, .. } = self.impact;
-        let own = (self.conductivity * density * self.specific_heat).sqrt();
-        let share = self.effusivity.map_or(1.0, |wall| wall / (wall + own));
         let diffusivity = self.conductivity / (density * self.specific_heat);
-        given_part(share * share * diffusivity * time / thickness.powi(2))
+        given_part(contact.powi(2) * diffusivity * time / thickness.powi(2))
+    }
+
+    /// Flux at first contact over that of the same fluid at rest above a wall that is held: the flow towards the wall
+    /// keeps the thermal layer thin, and the wall warms up.
+    fn contact(&self) -> f64 {
+        let DropImpact { density, viscosity, .. } = self.impact;
+        let prandtl = viscosity * self.specific_heat / self.conductivity;
+        let flow = flux_over_rest(prandtl);
+        let own = flow * (self.conductivity * density * self.specific_heat).sqrt();
+        flow * self.effusivity.map_or(1.0, |wall| wall / (wall + own))
     }
 
     /// What the wall has got within a radius [N s].
@@ -64,6 +73,7 @@ pub fn film_profile(film: &Film) -> Profile {
     let all = (0..film.rings).flat_map(|ring| circles(width, ring));
     let wetted: f64 = all.filter(|(at, _)| *at < largest).map(|(_, area)| area).sum();
     let thickness = impact.volume() / wetted;
+    let contact = if film.conductivity > 0.0 { film.contact() } else { 0.0 };
     let step = film.duration / film.samples as f64;
     let momentum = impact.momentum();
     let mut sums = vec![Amounts::default(); film.rings];
@@ -80,7 +90,7 @@ pub fn film_profile(film: &Film) -> Profile {
             sum.heat = 0.0;
             for (at, area) in circles(width, ring) {
                 let wetted = impact.time_of_wetting(largest, at);
-                sum.heat += heat_of(film, thickness, (area, time - wetted));
+                sum.heat += heat_of(film, [thickness, contact], (area, time - wetted));
                 if wetted < middle {
                     sum.outward += step * area * flows * impact.shear(at, middle);
                 }
@@ -102,12 +112,12 @@ fn circles(width: f64, ring: usize) -> impl Iterator<Item = (f64, f64)> {
 }
 
 /// Heat that the film has given to an area [m²] so long after this was wetted, for each kelvin [J/K].
-fn heat_of(film: &Film, thickness: f64, (area, time): (f64, f64)) -> f64 {
+fn heat_of(film: &Film, [thickness, contact]: [f64; 2], (area, time): (f64, f64)) -> f64 {
     if film.conductivity == 0.0 || time <= 0.0 {
         return 0.0;
     }
     let content = film.impact.density * film.specific_heat * thickness * area;
-    content * film.cooled(thickness, time)
+    content * film.cooled(thickness, contact, time)
 }
 
 #[cfg(test)]
@@ -155,8 +165,10 @@ mod tests {
     fn the_middle_begins_as_two_half_spaces() {
         let film = Film { duration: 2e-6, ..film() };
         let profile = film_profile(&film);
+        let flow = flux_over_rest(1e-3 * 4180.0 / 0.6);
         let contact = Contact {
-            first: Conductor { conductivity: 0.6, heat_capacity: 4.18e6 },
+            // Which spreads: as if of a higher effusivity.
+            first: Conductor { conductivity: 0.6 * flow * flow, heat_capacity: 4.18e6 },
             first_temperature: 1.0,
             second: Conductor { conductivity: 10.0, heat_capacity: 3950.0 * 900.0 },
             second_temperature: 0.0,
