@@ -1,14 +1,15 @@
-"""Drops that are repeated, beside the same drops of particles: error of heat, surface temperature and spread on a single
-drop, on a warmer plate, on neighbours, on a train, and for six fluids; then many drops along a path on a heated bed.
+"""Drops that are repeated, beside the same drops of particles: error of heat, surface temperature
+and spread on a single drop, on a warmer plate, on neighbours, on a train, and for six fluids; then
+many drops along a path on a heated bed.
 
-`python benches/recorded_drops.py [--impinge PATH] [--across N] [--drops N] [single] [neighbours] [train] [fluids] [bed]`
-prints one table each; N particles lie across a drop."""
+`python benches/recorded_drops.py [--impinge PATH] [--across N] [--drops N] [WHAT …]` prints one
+table each; N particles lie across a drop, and times are those of the processor."""
 
 import argparse
 import csv
+import resource
 import subprocess
 import tempfile
-import time
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +29,9 @@ GRID = 40
 
 
 def fluid(density, viscosity, specific_heat, conductivity, surface_tension):
-    return dict(zip(INK, (density, viscosity, specific_heat, conductivity, surface_tension), strict=True))
+    return dict(
+        zip(INK, (density, viscosity, specific_heat, conductivity, surface_tension), strict=True)
+    )
 
 
 # At the drop's temperature; speeds keep Re and We within what drops of particles resolve.
@@ -94,9 +97,9 @@ gives = ["temperature"]
         self.count += 1
         scene, out = (self.folder / f"{self.count}{end}" for end in (".toml", ""))
         scene.write_text(text)
-        begin = time.perf_counter()
+        begin = processor_time()
         subprocess.run([self.program, "run", scene, "--out", out], check=True, capture_output=True)
-        spent = time.perf_counter() - begin
+        spent = processor_time() - begin
         with (out / "outputs.csv").open() as table:
             rows = csv.reader(table)
             names = [name.split(" ")[0] for name in next(rows)]
@@ -110,21 +113,27 @@ gives = ["temperature"]
         return compare(one, other), spent, full
 
 
+def processor_time():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def surface(columns):
     """Temperatures of the field, a row for each time."""
     return np.array([values for name, values in columns.items() if name.startswith("surface.")]).T
 
 
 def compare(found, wanted):
-    """Largest differences over time: heat over the last heat, temperature over the largest rise (largest, and its root
-    mean square over places), spread over the largest."""
+    """Largest differences over time: heat over the last heat, temperature over the largest rise
+    (its root mean square over places, and largest), spread over the largest."""
     heat = np.abs(found["drop.heat"] - wanted["drop.heat"]).max() / np.abs(wanted["drop.heat"][-1])
     one, other = surface(found), surface(wanted)
     rise = np.abs(other - other[0]).max()
     at_places = np.abs(one - other).max() / rise
-    mean = np.sqrt(((one - other) ** 2).mean(axis=1)).max() / np.sqrt(
-        ((other - other[0]) ** 2).mean(axis=1)
-    ).max()
+    mean = (
+        np.sqrt(((one - other) ** 2).mean(axis=1)).max()
+        / np.sqrt(((other - other[0]) ** 2).mean(axis=1)).max()
+    )
     spread = found["drop.spread_diameter"].max() / wanted["drop.spread_diameter"].max() - 1
     return heat, mean, at_places, spread
 
@@ -153,22 +162,24 @@ HEADS = ("heat", "temperature, r.m.s.", "temperature, largest", "spread", "repea
 
 def single(runs):
     table("single drop", "method", *HEADS)
-    # Particles themselves, once they have taken other steps: what a film that tears does is known no better.
+    # Particles in other steps: what a film that tears does is known no better.
     for times in (4, 12):
         whole, full = runs.run(runs.scene("sph", times * TIME))
         other, spent = runs.run(runs.scene("sph", times * TIME, interval=0.02 * TIME))
         row(f"to {times} D/U", "particles anew", *figures((compare(other, whole), spent, full)))
     for method in ("record", "film"):
-        for name, plate, times in (("", COLD, 4), ("to 12 D/U", COLD, 12), ("plate 100 K warmer", COLD + 100, 4)):
+        for name, plate, times in (
+            ("", COLD, 4),
+            ("to 12 D/U", COLD, 12),
+            ("plate 100 K warmer", COLD + 100, 4),
+        ):
             row(name or "to 4 D/U", method, *figures(runs.both(method, times * TIME, plate=plate)))
 
 
 def neighbours(runs):
     table("second drop after", "distance over D", *HEADS)
     for delay in (0.0, 5.0):
-        for distance in (0.0, 1.0, 2.0, 3.0):
-            if delay == 0.0 and distance < 1.0:
-                continue
+        for distance in (0.0, 1.5, 3.0) if delay else (1.5, 3.0):
             x = 0.5 * distance * DIAMETER
             keys = (
                 'symmetry = "none"\nheight = 2e-6\n'
@@ -180,7 +191,7 @@ def neighbours(runs):
 
 def train(runs):
     table("drops", "distance over D", "delay over D/U", *HEADS)
-    for distance in (1.5, 3.0):
+    for distance in (1.5, 3.5):
         count, delay = 10, 4.0
         places = (np.arange(count) - 0.5 * (count - 1)) * distance * DIAMETER
         arrivals = ", ".join(
@@ -189,7 +200,12 @@ def train(runs):
         keys = f'symmetry = "none"\nheight = 2e-6\narrivals = [{arrivals}]'
         stop = (count * delay + 2) * TIME
         options = {"keys": keys, "length": 6e-4 + count * distance * DIAMETER, "step": 0.25 * TIME}
-        row(str(count), f"{distance:g}", f"{delay:g}", *figures(runs.both("record", stop, **options)))
+        row(
+            str(count),
+            f"{distance:g}",
+            f"{delay:g}",
+            *figures(runs.both("record", stop, **options)),
+        )
 
 
 def fluids(runs):
@@ -251,17 +267,18 @@ carries = ["heat_flux"]
     inputs.write_text("\n".join(rows))
     scene, out = runs.folder / "bed.toml", runs.folder / "bed"
     scene.write_text(text)
-    begin = time.perf_counter()
-    command = [runs.program, "run", scene, "--out", out, "--inputs", inputs, "--between", "held", "--rows-every", "1000"]
+    begin = processor_time()
+    command = [runs.program, "run", scene, "--out", out, "--inputs", inputs]
+    command += ["--between", "held", "--rows-every", "1000"]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     if done.returncode:
         raise SystemExit(done.stderr)
-    spent = time.perf_counter() - begin
+    spent = processor_time() - begin
     with (out / "outputs.csv").open() as file:
         rows = list(csv.reader(file))
     last = dict(zip((name.split(" ")[0] for name in rows[0]), map(float, rows[-1]), strict=True))
     balance = last["plate.heat_in"] - last["plate.heat_stored"] - last["plate.heat_lost"]
-    table("drops", "wall time", "drops per second", "overlapping", "heat balance")
+    table("drops", "processor time", "drops per second", "overlapping", "heat balance")
     row(
         f"{last['drop.released']:.0f}",
         f"{spent:.1f} s",
@@ -273,7 +290,9 @@ carries = ["heat_flux"]
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", nargs="*", default=["single", "neighbours", "train", "fluids", "bed"])
+    parser.add_argument(
+        "what", nargs="*", default=["single", "neighbours", "train", "fluids", "bed"]
+    )
     parser.add_argument("--impinge", type=Path, default=ROOT / "target/release/impinge")
     parser.add_argument("--across", type=float, default=20.0)
     parser.add_argument("--drops", type=int, default=10_000)
@@ -284,7 +303,9 @@ def main():
             if what == "bed":
                 bed(runs, chosen.drops)
             else:
-                {"single": single, "neighbours": neighbours, "train": train, "fluids": fluids}[what](runs)
+                {"single": single, "neighbours": neighbours, "train": train, "fluids": fluids}[
+                    what
+                ](runs)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,8 @@ use std::any::Any;
 use std::sync::Arc;
 
 pub use droplet::{
-    Kept, WallQuantity, forget_unused_records, keep_record, notes_on_walls, records, wall_quantities,
+    Kept, WallQuantity, forget_unused_records, keep_record, notes_on_walls, records,
+    wall_quantities,
 };
 pub use error::BodyError;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};

@@ -20,7 +20,8 @@ use crate::math::address_space::{self, PRODUCTS, SPARE};
 use crate::math::allowance::{Halt, Interrupt};
 use crate::math::thread::{STACK, aside};
 use crate::model::{
-    BodyError, Cache, Kept, Model, ModelError, State, Stiffness, Tangent, initial_inputs, keep_record,
+    BodyError, Cache, Kept, Model, ModelError, State, Stiffness, Tangent, initial_inputs,
+    keep_record,
 };
 use crate::output::{FieldSeries, FolderLock, OutputError};
 use crate::scene::{self, Scene, Warning};

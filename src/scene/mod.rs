@@ -15,6 +15,7 @@ mod locate;
 mod lookup;
 mod materials;
 mod plausibility;
+mod recording;
 mod reservoir;
 mod sampling;
 mod schema;
@@ -29,7 +30,7 @@ pub use cells::Cells;
 pub use check::takes_newton;
 pub use droplet::{
     Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Fluid, Governing, Placement,
-    Precision, Recording, ReleaseBy, Wall, WallStart, velocity,
+    Precision, ReleaseBy, Wall, WallStart, velocity,
 };
 pub use error::{Problem, SceneError};
 pub use footprint::Profile;
@@ -37,6 +38,7 @@ pub use grid::{Grid, lateral_extents};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
 pub use plausibility::{Measure, Warning, implausible_input};
+pub use recording::Recording;
 pub use reservoir::Reservoir;
 pub use sampling::{FieldCells, Sampling};
 pub use schema::{SCHEMA, derived_schema};

@@ -18,7 +18,9 @@ pub use wall::{WallQuantity, wall_quantities};
 
 use std::ops::Range;
 
-use super::{Acts, Body, BodyError, Descriptor, Fields, Given, Link, Memo, Reading, Received, link};
+use super::{
+    Acts, Body, BodyError, Descriptor, Fields, Given, Link, Memo, Reading, Received, link,
+};
 use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::{Allowance, cost};
 use crate::method::sph::{

@@ -114,7 +114,9 @@ mod tests {
             duration: 0.5,
             rings: 2,
             radius: 0.25,
-            amounts: (0..6).map(|n| Amounts { heat: 0.1, push: f64::from(n), outward: -0.5 }).collect(),
+            amounts: (0..6)
+                .map(|n| Amounts { heat: 0.1, push: f64::from(n), outward: -0.5 })
+                .collect(),
             spread: vec![0.1, 0.2, 0.3],
         };
         Course::new(vec![profile.clone(), Profile { speed: 4.0, ..profile }]).unwrap()

@@ -128,7 +128,8 @@ mod tests {
             let share = (2 * n + 1) as f64 / 100.0;
             assert!(ring.outside.is_empty());
             for part in &ring.parts {
-                let [dx, dy] = [x[part.cell % x.len()] - centre[0], x[part.cell / x.len()] - centre[1]];
+                let [dx, dy] =
+                    [x[part.cell % x.len()] - centre[0], x[part.cell / x.len()] - centre[1]];
                 let amount = share * part.weight;
                 moments[0] += amount;
                 moments[1] += amount * dx;
@@ -149,8 +150,8 @@ mod tests {
     fn what_lies_beyond_an_edge_is_outside() {
         let footprint = Footprint::of(&grid(), [2.0, 0.0], 5, 1.0);
         for ring in &footprint.rings {
-            let [inside, outside] =
-                [&ring.parts, &ring.outside].map(|parts| parts.iter().map(|p| p.weight).sum::<f64>());
+            let [inside, outside] = [&ring.parts, &ring.outside]
+                .map(|parts| parts.iter().map(|p| p.weight).sum::<f64>());
             assert!((inside - 0.5).abs() < 1e-12 && (outside - 0.5).abs() < 1e-12);
             assert!((ring.mean(|_| 300.0) - 300.0).abs() < 1e-10);
         }

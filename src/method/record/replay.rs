@@ -195,7 +195,8 @@ impl Replay {
         let footprint = self.footprint(drop);
         for (n, ring) in footprint.rings.iter().enumerate() {
             let difference = drop.temperature - drop.wall[n];
-            let [a, b, c] = [before[n], between[n], after[n]].map(|amounts| difference * amounts.heat);
+            let [a, b, c] =
+                [before[n], between[n], after[n]].map(|amounts| difference * amounts.heat);
             let fall = 2.0 * (2.0 * b - a - c) / ledger.duration;
             let given = Given { heat: c - a, fall, push: minus(&after[n], &before[n]) };
             ring.parts.iter().for_each(|part| given.to_cell(part, to, falls));

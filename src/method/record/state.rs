@@ -71,7 +71,10 @@ impl Fields for Drop {
     fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
         let rings = self.wall.len();
         vec![
-            (of_drop("contact", "time at which it touches the wall [s]", 1), from_mut(&mut self.contact)),
+            (
+                of_drop("contact", "time at which it touches the wall [s]", 1),
+                from_mut(&mut self.contact),
+            ),
             (of_drop("place", "where it comes down [m]", 2), &mut self.place),
             (of_drop("speed", "speed towards the wall [m/s]", 1), from_mut(&mut self.speed)),
             (of_drop("temperature", "temperature [K]", 1), from_mut(&mut self.temperature)),
@@ -131,7 +134,8 @@ mod tests {
 
     #[test]
     fn a_state_is_read_as_it_was_written() {
-        let mut ledger = Ledger { time: 2.0, released: 2.0, impulse: [1.0, 2.0, 3.0], ..Ledger::default() };
+        let mut ledger =
+            Ledger { time: 2.0, released: 2.0, impulse: [1.0, 2.0, 3.0], ..Ledger::default() };
         let drop = |at: f64| Drop { contact: at, wall: vec![at, 2.0 * at, 300.0], ..Drop::none(3) };
         let mut drops = vec![drop(1.0), drop(4.0)];
         let state = flatten(&mut ledger, &mut drops);

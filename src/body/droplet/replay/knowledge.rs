@@ -126,8 +126,8 @@ pub fn records(scene: &Scene, threads: usize) -> Result<Vec<(String, Vec<u8>)>, 
     let recorded = scene.droplets().filter(|(_, drop)| drop.method == DropletMethod::Record);
     let bytes = |(name, droplet): (&str, &Droplet)| {
         let course = course(scene, (name, droplet), threads.max(1));
-        let course = course
-            .map_err(|failure| BodyError::Droplet { name: name.to_owned(), failure })?;
+        let course =
+            course.map_err(|failure| BodyError::Droplet { name: name.to_owned(), failure })?;
         Ok((name.to_owned(), course.to_bytes(&Key::of(scene, (name, droplet)).text())))
     };
     recorded.map(bytes).collect()

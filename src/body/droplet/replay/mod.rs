@@ -210,11 +210,9 @@ impl Body for ReplayBody {
         let memo: &mut ReplayMemo = memo.downcast_mut().expect("a memo of the body that made it");
         let exchange = || self.replay.exchange(state);
         Ok(match *reading {
-            Reading::Total(place) => {
-                totals::read(place, &self.totals(state), || {
-                    memo.exchange.get_or_insert_with(exchange)
-                })
-            }
+            Reading::Total(place) => totals::read(place, &self.totals(state), || {
+                memo.exchange.get_or_insert_with(exchange)
+            }),
             Reading::Cell { quantity, cell } => {
                 let Below::Wall(wall) = &self.below else {
                     panic!("cells are registered for what stands on a wall")
