@@ -58,7 +58,9 @@ fn get<const N: usize>(trial: &mut Trial, keys: [&str; N]) -> [f64; N] {
 fn a_single_drop_gives_what_its_particles_give() {
     let mut heats = Vec::new();
     for (method, momentum) in [("sph", 0.05), ("record", 0.05), ("film", 1e-3)] {
-        let mut trial = Trial::new(&(drop(method, "") + &plate(300.0, "")));
+        // Films of coarser drops are thinner than their particles.
+        let text = drop(method, "").replace("spacing = 1e-5", "spacing = 6.25e-6");
+        let mut trial = Trial::new(&(text + &plate(300.0, "")));
         steps(&mut trial, 40);
         let [given, stored, pushed] = get(&mut trial, ["heat", "heat_stored", "impulse_z"]);
         let taken = trial.get("plate.heat_in");
@@ -70,7 +72,7 @@ fn a_single_drop_gives_what_its_particles_give() {
         heats.push(given / content());
     }
     assert!(off(heats[1], heats[0]) < 0.05, "{heats:?}");
-    assert!(off(heats[2], heats[0]) < 0.3, "{heats:?}");
+    assert!(off(heats[2], heats[0]) < 0.2, "{heats:?}");
 }
 
 /// The flow does not depend on temperatures, and conduction is linear.
@@ -158,7 +160,7 @@ fn drops_are_superposed() {
 }
 
 #[test]
-fn drops_on_demand_are_those_of_arrivals_to_the_bit() {
+fn drops_on_demand_are_those_of_arrivals() {
     let arrivals = "symmetry = \"none\"\nheight = 3e-5\narrivals = [{ x = 4e-5 }, { time = 5e-6, x = -9e-5, y = 3e-5 }]\n";
     let asked = format!("height = 3e-5\n{ON_DEMAND}");
     for method in ["record", "film"] {
@@ -221,11 +223,12 @@ fn a_drop_that_falls_from_above_comes_later_and_faster() {
         (time, trial.get("drop.impulse_z") / (mass() * SPEED))
     };
     let (time, momentum) = from(1e-3, 0.0);
-    assert!((time - 1e-3 / SPEED).abs() <= STEP && (momentum + 1.0).abs() < 1e-6);
+    assert!((time - 1e-3 / SPEED).abs() < 2.0 * STEP, "{time}");
+    assert!((momentum + 1.0).abs() < 1e-6, "{momentum}");
     // v² = U² + 2gh
     let fast = (SPEED * SPEED + 2.0 * 1e5 * 1e-3_f64).sqrt();
     let (time, momentum) = from(1e-3, 1e5);
-    assert!((time - 2e-3 / (SPEED + fast)).abs() <= STEP);
+    assert!((time - 2e-3 / (SPEED + fast)).abs() < 2.0 * STEP, "{time}");
     assert!((momentum + fast / SPEED).abs() < 1e-6, "{momentum}");
 }
 

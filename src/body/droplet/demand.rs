@@ -160,7 +160,8 @@ impl DropInputs {
         if !course.knows(self.droplet.contact(values.speed).0) {
             let [slowest, fastest] = course.speeds().map(short);
             let message = format!(
-                "a drop at {} m/s, of which nothing is known (allowed: speeds at which it touches the wall at {slowest} to                  {fastest} m/s; others with `record.speeds` of the scene)",
+                "a drop at {} m/s, of which nothing is known (allowed: speeds at which it touches the wall at {slowest} to \
+                 {fastest} m/s; others with `record.speeds` of the scene)",
                 plain(values.speed)
             );
             return Err(BodyError::Input { index, message });

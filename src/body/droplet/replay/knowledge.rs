@@ -11,7 +11,7 @@ use crate::math::shared_values::SharedValues;
 use crate::math::thread::aside;
 use crate::method::record::{Course, Film, Recorder, film_profile, record_profile};
 use crate::method::sph::{DropletPlan, Failure, WallCells};
-use crate::scene::{Droplet, DropletMethod, ReleaseBy, Scene};
+use crate::scene::{Droplet, DropletMethod, DropletSymmetry, ReleaseBy, Scene};
 
 /// Times at which a course is known, and most rings.
 pub const SAMPLES: usize = 200;
@@ -183,6 +183,7 @@ fn computed(droplet: &Droplet, speed: f64) -> Droplet {
     Droplet {
         impact_velocity: speed,
         initial_temperature: WARM,
+        symmetry: DropletSymmetry::Auto,
         height: None,
         release: ReleaseBy::Arrivals,
         most: None,

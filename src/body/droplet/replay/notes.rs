@@ -8,8 +8,7 @@ use crate::scene::{Droplet, DropletMethod, Scene};
 pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {
     let what = match droplet.method {
         DropletMethod::Film => {
-            "closed forms of a film that spreads and cools stand for every drop: they err by a fifth of the heat and \
-             more (docs/fidelity.md)"
+            "closed forms of a film that spreads and cools stand for every drop (what they err by: docs/fidelity.md)"
                 .to_owned()
         }
         _ => format!(
