@@ -18,7 +18,7 @@ use std::process::{self, ExitCode};
 
 use archive::Entries;
 use clap::Parser;
-use impinge::model::{notes_on_walls, records};
+use impinge::model::{notes_on_walls, records, to_be_recorded};
 use impinge::scene::{self, Scene};
 use version::Version;
 
@@ -120,6 +120,9 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     refuse_inputs(&target, &[path, &library_path])?;
     refuse_other_files(&target, b"PK")?;
     let library = library::read(&library_path, arguments.fmi)?;
+    for note in to_be_recorded(&scene) {
+        complain(&format!("note: {note}"));
+    }
     let reference = if arguments.reference {
         reference::entries(&scene, arguments.fmi)?
     } else {

@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 pub use droplet::{
     Kept, WallQuantity, forget_unused_records, keep_record, notes_on_walls, records,
-    wall_quantities,
+    to_be_recorded, wall_quantities,
 };
 pub use error::BodyError;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};

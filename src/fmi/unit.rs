@@ -21,7 +21,7 @@ use crate::math::allowance::{Halt, Interrupt};
 use crate::math::thread::{STACK, aside};
 use crate::model::{
     BodyError, Cache, Kept, Model, ModelError, State, Stiffness, Tangent, initial_inputs,
-    keep_record,
+    keep_record, to_be_recorded,
 };
 use crate::output::{FieldSeries, FolderLock, OutputError};
 use crate::scene::{self, Scene, Warning};
@@ -347,6 +347,9 @@ impl Unit {
     }
 
     fn build(&mut self) -> Answer<Run> {
+        for note in self.to_be_recorded() {
+            self.log.send(Status::Ok, &note);
+        }
         let model = match self.model_of(&self.scene) {
             // What is kept may be the memory that is missing.
             Err(_) if !self.kept.is_empty() => {
@@ -362,6 +365,18 @@ impl Unit {
         }
         self.state.bodies = model.initial_state().bodies;
         Ok(Run::new(model))
+    }
+
+    /// What is computed before the first step, as neither this process nor the unit knows it.
+    fn to_be_recorded(&self) -> Vec<String> {
+        let scene = &self.scene;
+        if !scene.droplets().any(|(_, droplet)| droplet.is_replayed()) {
+            return Vec::new();
+        }
+        aside(|| match scene::check(scene) {
+            Ok(()) => to_be_recorded(scene),
+            Err(_) => Vec::new(),
+        })
     }
 
     /// Warns once of what is implausible in the scene with its parameters, now that they are fixed.

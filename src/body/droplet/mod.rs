@@ -13,7 +13,7 @@ mod wall;
 pub use forecast::DropletForecast;
 pub use notes::{notes, notes_on_walls};
 pub use plan::{plan_of, refinements};
-pub use replay::{Kept, ReplayBody, forget_unused_records, keep_record, records};
+pub use replay::{Kept, ReplayBody, forget_unused_records, keep_record, records, to_be_recorded};
 pub use wall::{WallQuantity, wall_quantities};
 
 use std::ops::Range;

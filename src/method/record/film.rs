@@ -25,6 +25,8 @@ pub struct Film {
     pub radius: f64,
 }
 
+/// Least and largest Prandtl number: the flux hardly depends on it beyond.
+const PRANDTL: [f64; 2] = [1e-6, 1e4];
 /// Circles of a ring on which the time of wetting is looked at.
 const CIRCLES: usize = 8;
 
@@ -49,7 +51,7 @@ impl Film {
     fn contact(&self) -> f64 {
         let DropImpact { density, viscosity, .. } = self.impact;
         let prandtl = viscosity * self.specific_heat / self.conductivity;
-        let flow = flux_over_rest(prandtl);
+        let flow = flux_over_rest(prandtl.clamp(PRANDTL[0], PRANDTL[1]));
         let own = flow * (self.conductivity * density * self.specific_heat).sqrt();
         flow * self.effusivity.map_or(1.0, |wall| wall / (wall + own))
     }

@@ -1,6 +1,6 @@
 //! What drops that are replayed will cost.
 
-use super::knowledge::{SAMPLES, plans};
+use super::knowledge::{SAMPLES, is_known, plans};
 use super::notes;
 use crate::body::droplet::forecast::{DropletForecast, PARTICLE_MEMORY, exchange_time};
 use crate::body::solid::plan;
@@ -11,21 +11,51 @@ use crate::scene::{Droplet, Scene};
 /// Time that a drop takes in an exchange while it gives something [s], as measured with 20 rings.
 const GIVE: f64 = 1.5e-4;
 
+/// What is computed before drops of a scene can be repeated, as far as this process does not know it: a sentence each.
+pub fn to_be_recorded(scene: &Scene) -> Vec<String> {
+    let recorded = scene.droplets().filter(|(_, droplet)| droplet.is_replayed());
+    let unknown = recorded
+        .filter(|&(name, droplet)| droplet.has_particles() && !is_known(scene, (name, droplet)));
+    let sentence = |(name, droplet)| {
+        let Recording { particles, seconds, .. } = Recording::of(scene, (name, droplet));
+        format!(
+            "{name}: one impact of {particles} particles is computed first, in about {seconds:.1} s"
+        )
+    };
+    unknown.map(sentence).collect()
+}
+
+/// What recording takes.
+#[derive(Default)]
+struct Recording {
+    particles: usize,
+    time_step: f64,
+    steps: f64,
+    seconds: f64,
+}
+
+impl Recording {
+    fn of(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Self {
+        let threads = threads_for(scene.solver.threads, true) as f64;
+        let spread = Some(droplet.spread_diameter() / droplet.diameter);
+        let mut all = Self::default();
+        for (plan, duration) in plans(scene, (name, droplet)) {
+            let (count, step) = DropletSph::forecast(&plan);
+            let between = duration / SAMPLES as f64;
+            let run = RunSettings { stop: duration, reading: between, exchange: between, spread };
+            let effort = Effort::of(&plan, run);
+            all.particles = all.particles.max(count);
+            all.time_step = step;
+            all.steps += effort.steps;
+            all.seconds += effort.seconds / threads;
+        }
+        all
+    }
+}
+
 /// Estimates without recording anything; that every drop gives something in twenty exchanges.
 pub fn forecast(scene: &Scene, name: &str, droplet: &Droplet) -> DropletForecast {
-    let plans = plans(scene, (name, droplet));
-    let threads = threads_for(scene.solver.threads, true) as f64;
-    let (mut particles, mut time_step, mut steps, mut recording) = (0, 0.0, 0.0, 0.0);
-    for (plan, duration) in &plans {
-        let (count, step) = DropletSph::forecast(plan);
-        let between = duration / SAMPLES as f64;
-        let spread = Some(droplet.spread_diameter() / droplet.diameter);
-        let run = RunSettings { stop: *duration, reading: between, exchange: between, spread };
-        let effort = Effort::of(plan, run);
-        (particles, time_step) = (particles.max(count), step);
-        steps += effort.steps;
-        recording += effort.seconds / threads;
-    }
+    let recording = Recording::of(scene, (name, droplet));
     let exchanges = |length: f64| (scene.stop_time / length).ceil();
     let of_solid = scene.coupling_from(name).and_then(|index| {
         let coupling = &scene.coupling[index];
@@ -38,8 +68,9 @@ pub fn forecast(scene: &Scene, name: &str, droplet: &Droplet) -> DropletForecast
     let giving = (droplet.recorded_time(droplet.impact_velocity) / scene.step).clamp(1.0, 20.0);
     let replaying = GIVE * giving * droplet.drops() as f64;
     let mut notes = notes(scene, (name, droplet));
-    notes.extend((!plans.is_empty()).then(|| {
-        format!("to record takes about {recording:.1} s, all that follows about {replaying:.1} s")
+    let Recording { particles, time_step, steps, seconds } = recording;
+    notes.extend((particles > 0).then(|| {
+        format!("to record takes about {seconds:.1} s, all that follows about {replaying:.1} s")
     }));
     DropletForecast {
         name: name.into(),
@@ -47,7 +78,7 @@ pub fn forecast(scene: &Scene, name: &str, droplet: &Droplet) -> DropletForecast
         time_step,
         steps,
         memory: PARTICLE_MEMORY * particles as f64,
-        run_time: recording + replaying + of_solid.unwrap_or(0.0),
+        run_time: seconds + replaying + of_solid.unwrap_or(0.0),
         notes,
     }
 }

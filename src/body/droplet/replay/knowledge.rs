@@ -141,6 +141,11 @@ pub fn keep_record(bytes: &[u8]) -> Result<Kept, String> {
     Ok(Kept { _course: course })
 }
 
+/// Whether this process holds what the drops of a scene need.
+pub fn is_known(scene: &Scene, named: (&str, &Droplet)) -> bool {
+    COURSES.has(&Key::of(scene, named).text())
+}
+
 /// Forgets what nobody holds any more.
 pub fn forget_unused_records() {
     COURSES.forget_unused();

@@ -5,7 +5,7 @@ mod knowledge;
 mod notes;
 mod totals;
 
-pub use forecast::forecast;
+pub use forecast::{forecast, to_be_recorded};
 pub use knowledge::{Kept, forget_unused_records, keep_record, records};
 pub use notes::notes;
 pub use totals::offered_totals;
