@@ -27,7 +27,8 @@ use std::sync::Arc;
 
 use crate::body::{Assembly, Body, Fields, Joint, Link};
 pub use crate::body::{
-    BodyError, BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast, notes_on_walls,
+    BodyError, BodyForecast, DropletForecast, Forecast, Kept, ParticleForecast, forecast,
+    keep_record, notes_on_walls, records, to_be_recorded,
 };
 pub use crate::inputs::HIGHEST_INPUT_DERIVATIVE;
 use crate::inputs::{InputLayout, InputPath};

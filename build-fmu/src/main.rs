@@ -18,7 +18,7 @@ use std::process::{self, ExitCode};
 
 use archive::Entries;
 use clap::Parser;
-use impinge::model::notes_on_walls;
+use impinge::model::{notes_on_walls, records, to_be_recorded};
 use impinge::scene::{self, Scene};
 use version::Version;
 
@@ -120,6 +120,9 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     refuse_inputs(&target, &[path, &library_path])?;
     refuse_other_files(&target, b"PK")?;
     let library = library::read(&library_path, arguments.fmi)?;
+    for note in to_be_recorded(&scene) {
+        complain(&format!("note: {note}"));
+    }
     let reference = if arguments.reference {
         reference::entries(&scene, arguments.fmi)?
     } else {
@@ -193,6 +196,10 @@ fn unit(
     entries.append(&mut terminals::entries(scene, fmi, &icon)?);
     entries.insert(fmi.icon().into(), icon);
     entries.insert(library::entry(&scene.name, fmi), library);
+    let records = records(scene, scene.solver.threads);
+    for (body, bytes) in records.map_err(|error| format!("no record of its drops: {error}"))? {
+        entries.insert(format!("resources/records/{body}.record"), bytes);
+    }
     archive::zip(&entries)
 }
 

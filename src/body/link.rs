@@ -210,7 +210,12 @@ pub fn parts(interval: f64, dt: f64) -> usize {
 ///   insulator it would else take places that are as warm as the fluid beyond its temperature;
 ///
 /// but no shorter than a time step of the droplet.
+///
+/// Drops that are replayed know heat and force of any time, and exchange once in a communication step.
 pub fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan) -> f64 {
+    if droplet.is_replayed() {
+        return coupling.interval.unwrap_or(f64::INFINITY);
+    }
     let (_, time_step) = DropletSph::forecast(&droplet::plan_of(droplet, None, None));
     let flow = droplet.spacing / droplet.fastest_flow();
     let fluid = &droplet.fluid;

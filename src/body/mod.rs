@@ -14,7 +14,10 @@ mod solid;
 use std::any::Any;
 use std::sync::Arc;
 
-pub use droplet::{WallQuantity, notes_on_walls, wall_quantities};
+pub use droplet::{
+    Kept, WallQuantity, forget_unused_records, keep_record, notes_on_walls, records,
+    to_be_recorded, wall_quantities,
+};
 pub use error::BodyError;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
 pub use link::{Joint, Link, Side};
@@ -28,7 +31,7 @@ use crate::method::fem::{ElasticProblem, NodalFields};
 use crate::method::sph::{ParticleFields, Surface, SurfaceResponse, WallCells};
 use crate::scene::{self, FaceName, Scene};
 use crate::state::Layout;
-use droplet::DropletBody;
+use droplet::{DropletBody, ReplayBody};
 use reduced::ReducedBody;
 use reservoir::ReservoirBody;
 use solid::SolidBody;
@@ -80,7 +83,7 @@ pub trait Body: Send + Sync {
     }
 
     /// Counts what is told as of the last step over that from the state `before`, too.
-    fn join_steps(&self, _before: &[f64], _state: &mut [f64]) {}
+    fn join_steps(&self, _before: &[f64], _state: &mut Vec<f64>) {}
 
     /// What was given through the port below during the last step.
     fn given(&self, _state: &[f64]) -> Option<Given> {
@@ -306,8 +309,15 @@ pub fn build(
                 let below = built[link.to].as_ref()?.conductor()?;
                 Some((below.cells(link.face)?, link))
             });
-            let body = DropletBody::new(scene, layout, (name, droplet), cells, threads);
-            built[index] = Some(Box::new(body));
+            built[index] = Some(match droplet.is_replayed() {
+                false => Box::new(DropletBody::new(scene, layout, (name, droplet), cells, threads)),
+                true => {
+                    let body =
+                        ReplayBody::new(scene, layout, (name, droplet), cells, threads(true));
+                    let named = |failure| BodyError::Droplet { name: name.clone(), failure };
+                    Box::new(body.map_err(named)?)
+                }
+            });
         }
     }
     for (name, reservoir) in scene.reservoirs() {

@@ -86,14 +86,16 @@ fn notes(scene: &Scene) -> String {
         }
     }
     for body in forecast.droplets {
-        let _ = writeln!(
-            text,
-            "  {}: {} particles, about {:.0} time steps of {} and shorter",
-            body.name,
-            body.particles,
-            body.steps,
-            engineering(body.time_step, "s")
-        );
+        let _ = match body.particles {
+            0 => writeln!(text, "  {}: closed forms", body.name),
+            particles => writeln!(
+                text,
+                "  {}: {particles} particles, about {:.0} time steps of {} and shorter",
+                body.name,
+                body.steps,
+                engineering(body.time_step, "s")
+            ),
+        };
         let _ = writeln!(
             text,
             "    about {:.0} MB, {} for all its steps and exchanges",
@@ -174,7 +176,7 @@ fn droplets(scene: &Scene) -> String {
                 speed(droplet),
                 kelvin(droplet.initial_temperature),
                 key(&droplet.method),
-                metres(droplet.spacing),
+                if droplet.has_particles() { metres(droplet.spacing) } else { "none".to_owned() },
                 key(&droplet.kernel),
             ]
         })

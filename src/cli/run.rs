@@ -3,7 +3,7 @@ use std::time::Instant;
 
 use clap::Args;
 use impinge::machine::available_memory;
-use impinge::model::{Cache, Model, ModelError, State, Timeline, check_memory};
+use impinge::model::{Cache, Model, ModelError, State, Timeline, check_memory, to_be_recorded};
 use impinge::output::{CsvTable, FieldSeries, FolderLock, OutputError};
 use impinge::scene::{self, Scene};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -70,6 +70,9 @@ impl Run {
         let started = Instant::now();
         let (scene, inputs) = self.asked_scene()?;
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
+        for note in to_be_recorded(&scene) {
+            super::print_message("note", &note);
+        }
         let model = Model::build(&scene, scene.solver.threads)
             .map_err(|error| CliError::from_model(error, &scene))?;
         let timeline = Timeline::new(scene.step, scene.stop_time);

@@ -8,6 +8,8 @@
 //! | [`gaussian_flux`] | half space under a Gaussian flux, at rest or moving |
 //! | [`contact`] | two half spaces brought together |
 //! | [`spreading_film`] | film of fluid that spreads over a wall |
+//! | [`cooling_film`] | film whose lower face is brought to another temperature |
+//! | [`drop_impact`] | drop that hits a wall: spread, wetted radius, force |
 //! | [`swinging_drop`] | viscous drop that swings under surface tension |
 //! | [`slab`] | slab under flux, its back insulated, held or convective |
 //! | [`composite_slab`] | slab of layers with contacts that resist, under flux or sudden temperature |
@@ -37,7 +39,9 @@ pub mod composite_slab;
 pub mod constrained_layer;
 pub mod contact;
 pub mod convective_slab;
+pub mod cooling_film;
 pub mod disc_pressure;
+pub mod drop_impact;
 pub mod free_plate;
 pub mod gaussian_flux;
 pub mod half_space_flux;
@@ -68,6 +72,7 @@ pub use composite_slab::{Back, CompositeSlab, SlabLayer};
 pub use contact::Contact;
 pub use convective_slab::ConvectiveSlab;
 pub use disc_pressure::DiscPressure;
+pub use drop_impact::DropImpact;
 pub use free_plate::FreePlate;
 pub use gaussian_flux::GaussianFlux;
 pub use half_space_flux::{DecayingFlux, DiscFlux, UniformFlux};

@@ -3,7 +3,8 @@
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::ffi::CString;
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -19,7 +20,8 @@ use crate::math::address_space::{self, PRODUCTS, SPARE};
 use crate::math::allowance::{Halt, Interrupt};
 use crate::math::thread::{STACK, aside};
 use crate::model::{
-    BodyError, Cache, Model, ModelError, State, Stiffness, Tangent, initial_inputs,
+    BodyError, Cache, Kept, Model, ModelError, State, Stiffness, Tangent, initial_inputs,
+    keep_record, to_be_recorded,
 };
 use crate::output::{FieldSeries, FolderLock, OutputError};
 use crate::scene::{self, Scene, Warning};
@@ -57,6 +59,8 @@ pub struct Unit {
     pub(super) run: Option<Run>,
     /// Stiffness of a model that has gone, for the next one, which may differ in what concerns heat alone.
     kept: Stiffness,
+    /// Recorded drops of the unit, which its models find as long as they are held here.
+    _records: Vec<Kept>,
     /// What is implausible in the scene as packed.
     warnings: Vec<Warning>,
     /// What the master has been warned of.
@@ -100,6 +104,7 @@ pub struct Packed {
     guid: String,
     /// At the start of time.
     state: State,
+    records: Vec<Kept>,
 }
 
 impl Packed {
@@ -107,7 +112,7 @@ impl Packed {
         let registry = Registry::of(&scene);
         let guid = guid::guid(text, &registry);
         let state = start_state(&scene);
-        Self { scene, warnings, registry, guid, state }
+        Self { scene, warnings, registry, guid, state, records: Vec::new() }
     }
 }
 
@@ -130,7 +135,7 @@ fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
     let text = scene::text_of(&path, &file)
         .map_err(|error| format!("cannot read the unit's scene: {error}"))?;
     let scene = scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
-    let packed = Packed::of(scene, &text);
+    let mut packed = Packed::of(scene, &text);
     if guid != packed.guid {
         let own = &packed.guid;
         return Err(format!(
@@ -138,12 +143,30 @@ fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
              modelDescription.xml, scene and library are not of one unit"
         ));
     }
+    packed.records = records_in(&resources.join(RECORDS))?;
     Ok(packed)
+}
+
+/// Folder of recorded drops among a unit's resources, which not every unit has.
+const RECORDS: &str = "records";
+
+/// Recorded drops of a unit.
+fn records_in(folder: &Path) -> Result<Vec<Kept>, String> {
+    let Ok(files) = fs::read_dir(folder) else { return Ok(Vec::new()) };
+    let mut paths: Vec<_> = files.filter_map(|file| Some(file.ok()?.path())).collect();
+    paths.sort();
+    let kept = |path: PathBuf| {
+        let bytes = fs::read(&path).map_err(|reason| reason.to_string());
+        bytes
+            .and_then(|bytes| keep_record(&bytes))
+            .map_err(|reason| format!("{}: {reason}", path.display()))
+    };
+    paths.into_iter().map(kept).collect()
 }
 
 impl Unit {
     pub fn new(packed: Packed, log: Log) -> Self {
-        let Packed { scene, warnings, registry, guid, state } = packed;
+        let Packed { scene, warnings, registry, guid, state, records } = packed;
         Self {
             log,
             phase: Phase::Instantiated,
@@ -155,6 +178,7 @@ impl Unit {
             state,
             has_set_derivatives: false,
             kept: Vec::new(),
+            _records: records,
             packed: scene.clone(),
             scene,
             directory: String::new(),
@@ -323,6 +347,9 @@ impl Unit {
     }
 
     fn build(&mut self) -> Answer<Run> {
+        for note in self.to_be_recorded() {
+            self.log.send(Status::Ok, &note);
+        }
         let model = match self.model_of(&self.scene) {
             // What is kept may be the memory that is missing.
             Err(_) if !self.kept.is_empty() => {
@@ -338,6 +365,18 @@ impl Unit {
         }
         self.state.bodies = model.initial_state().bodies;
         Ok(Run::new(model))
+    }
+
+    /// What is computed before the first step, as neither this process nor the unit knows it.
+    fn to_be_recorded(&self) -> Vec<String> {
+        let scene = &self.scene;
+        if !scene.droplets().any(|(_, droplet)| droplet.is_replayed()) {
+            return Vec::new();
+        }
+        aside(|| match scene::check(scene) {
+            Ok(()) => to_be_recorded(scene),
+            Err(_) => Vec::new(),
+        })
     }
 
     /// Warns once of what is implausible in the scene with its parameters, now that they are fixed.

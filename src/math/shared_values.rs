@@ -45,6 +45,12 @@ impl<K: Clone + PartialEq, V> SharedValues<K, V> {
         Ok(value)
     }
 
+    /// Whether somebody holds the value of a key.
+    pub fn has(&self, key: &K) -> bool {
+        let is_held = |slot: &Mutex<Weak<V>>| slot.try_lock().is_ok_and(|v| v.strong_count() > 0);
+        self.entries().iter().any(|(other, slot)| other == key && is_held(slot))
+    }
+
     /// Forgets keys whose values nobody holds any more.
     pub fn forget_unused(&self) {
         let mut entries = self.entries();
@@ -109,7 +115,9 @@ mod tests {
         let Ok(other) = values.get_or_make(&2, make(20));
         assert!(Arc::ptr_eq(&first, &second), "the second holder made nothing");
         assert_eq!((*first, *other), (10, 20));
+        assert!(values.has(&1) && !values.has(&3));
         drop((first, second));
+        assert!(!values.has(&1));
         values.forget_unused();
         assert_eq!(values.entries().len(), 1);
         let Ok(again) = values.get_or_make(&1, make(12));

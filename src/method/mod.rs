@@ -16,3 +16,5 @@ pub mod fem;
 pub mod inelastic;
 
 pub mod sph;
+
+pub mod record;

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::{Model, ModelError, check_memory};
+use crate::body::forget_unused_records;
 use crate::math::shared_values::SharedValues;
 use crate::math::thread::aside;
 use crate::method::fem::forget_unused_stiffness;
@@ -27,6 +28,7 @@ impl Model {
     pub fn forget_unused() {
         MODELS.forget_unused();
         forget_unused_stiffness();
+        forget_unused_records();
     }
 }
 

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::lookup::BodyInput;
+use super::recording::Recording;
 use super::types::{CellValues, Footprint, IDENTIFIER};
 use crate::kernel::Kernel;
 use crate::limits::{above_zero, length, own_temperature, plausible, whole, within};
@@ -15,7 +16,7 @@ use crate::quantity::Quantity;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Droplet {
-    /// Weakly compressible smoothed particle hydrodynamics.
+    /// How drops are computed.
     #[serde(default)]
     pub method: DropletMethod,
     /// Diameter [m].
@@ -46,8 +47,10 @@ pub struct Droplet {
         .otherwise("half a `spacing`"))]
     pub height: Option<f64>,
     /// Distance of particles Δx [m].
+    #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(transform = within(1e-10, 1e1, "m", "the distance of particles")
-        .condition("up to a sixth of the diameter, at most 2e7 particles"))]
+        .condition("needed but by `method = \"film\"`, which has none; up to a sixth of the diameter, at most 2e7 particles")
+        .otherwise("none"))]
     pub spacing: f64,
     /// What the drops are made of.
     pub fluid: Fluid,
@@ -112,6 +115,9 @@ pub struct Droplet {
         )
     )]
     pub arrivals: Option<Vec<Arrival>>,
+    /// How the impact is recorded that `method = "record"` repeats.
+    #[schemars(extend("otherwise" = "at `impact_velocity`", "condition" = "with `method = \"record\"` or `\"film\"`"))]
+    pub record: Option<Recording>,
 }
 
 /// What lets drops go.
@@ -131,6 +137,10 @@ pub enum DropletMethod {
     /// Weakly compressible smoothed particle hydrodynamics.
     #[default]
     Sph,
+    /// One impact of particles, computed ahead, is repeated for every drop.
+    Record,
+    /// Closed forms of a film that spreads and cools are repeated for every drop.
+    Film,
 }
 
 /// How much of the drops is modelled.
@@ -289,16 +299,20 @@ pub struct Coupling {
     pub radius: Option<f64>,
 }
 
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
 fn three() -> usize {
     3
 }
 
 fn default_support() -> f64 {
-    3.0
+    Droplet::DEFAULT_SUPPORT
 }
 
 fn default_density_diffusion() -> f64 {
-    0.1
+    Droplet::DEFAULT_DENSITY_DIFFUSION
 }
 
 fn right_angle() -> f64 {
@@ -349,6 +363,9 @@ pub fn velocity(speed: f64, angle: f64, direction: f64) -> [f64; 3] {
 }
 
 impl Droplet {
+    pub const DEFAULT_SUPPORT: f64 = 3.0;
+    pub const DEFAULT_DENSITY_DIFFUSION: f64 = 0.1;
+
     /// Gap between a drop's lowest point and the wall at its release [m].
     pub fn gap(&self) -> f64 {
         self.height.unwrap_or(0.5 * self.spacing)

@@ -93,7 +93,9 @@ fn of_droplet(body: &str, droplet: &Droplet, list: &mut Vec<Variable>) {
     let mut copy = droplet.clone();
     // Inputs tell speed and temperature of drops on demand.
     let is_told = |key: &str| droplet.is_on_demand() && key == "impact_velocity";
-    for constant in DropletConstant::ALL.iter().filter(|constant| !is_told(constant.key)) {
+    let is_of_particles = |key: &str| !droplet.has_particles() && key == "sound_speed";
+    let is_offered = |key: &str| !is_told(key) && !is_of_particles(key);
+    for constant in DropletConstant::ALL.iter().filter(|constant| is_offered(constant.key)) {
         list.push(Variable {
             name: format!("{body}.{}", constant.key),
             description: format!("{} of {body}", constant.description),

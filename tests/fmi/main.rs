@@ -15,6 +15,7 @@ mod long_steps;
 mod master;
 mod model_description;
 mod peaks;
+mod records;
 mod refusals;
 mod states;
 mod stepping;

@@ -34,6 +34,7 @@ mod peaks;
 mod plausibility;
 mod recovered_stress;
 mod reduced;
+mod replay;
 mod reservoirs;
 mod rows;
 mod scene_reference;

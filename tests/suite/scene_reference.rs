@@ -19,7 +19,7 @@ const IMPACT: &str = include_str!("../scenes/impact.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 27] = [
+const SECTIONS: [Section; 28] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -68,6 +68,7 @@ const SECTIONS: [Section; 27] = [
     ("`[body.NAME]` of a droplet", DROP, "diameter =", "zz = 1\ndiameter =", &["kind"]),
     ("`fluid` of a droplet", DROP, "fluid = {", "fluid = { zz = 1,", &[]),
     ("`arrivals` of a droplet", DROP, "arrivals = [{", "arrivals = [{ zz = 1,", &[]),
+    ("`record` of a droplet", DROP, "gravity = 9.81", "record = { zz = 1 }", &[]),
     (
         "`[body.NAME]` of a reservoir",
         PLATE,

@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use crate::body::BodyError;
 use crate::inputs::{InputLayout, InputPath};
+use crate::method::record::{Course, Falling};
 use crate::method::sph::Release;
 use crate::scene::{Droplet, Footprint, Scene, Shape, lateral_extents, velocity};
 
@@ -59,7 +60,10 @@ impl DropInputs {
             places: layout.of_body(name),
             in_space: droplet.dimension == 3,
             most: droplet.drops(),
-            fastest: droplet.fastest_release(),
+            fastest: match droplet.is_replayed() {
+                true => f64::INFINITY,
+                false => droplet.fastest_release(),
+            },
             reach,
             why,
             droplet: droplet.clone(),
@@ -139,6 +143,43 @@ impl DropInputs {
             return refuse(after_places + 1, format!("{temperature} K is not above absolute zero"));
         }
         Ok(())
+    }
+
+    /// Refuses a speed and a way at which no drop is known.
+    pub fn check_speed(&self, inputs: &[f64], course: &Course) -> Result<(), BodyError> {
+        let values = self.values(inputs);
+        // Behind the places.
+        let index = self.places.start + 3;
+        if values.angle != 0.0 {
+            let message = format!(
+                "at {} rad: what is known of a drop is that of one straight down (allowed: 0)",
+                plain(values.angle)
+            );
+            return Err(BodyError::Input { index: index + 2, message });
+        }
+        if !course.knows(self.droplet.contact(values.speed).0) {
+            let [slowest, fastest] = course.speeds().map(short);
+            let message = format!(
+                "a drop at {} m/s, of which nothing is known (allowed: speeds at which it touches the wall at {slowest} to \
+                 {fastest} m/s; others with `record.speeds` of the scene)",
+                plain(values.speed)
+            );
+            return Err(BodyError::Input { index, message });
+        }
+        Ok(())
+    }
+
+    /// A drop that is asked for at a time [s].
+    pub fn falling(&self, inputs: &[f64], time: f64) -> Falling {
+        let values = self.values(inputs);
+        let (speed, fall) = self.droplet.contact(values.speed);
+        let place = self.release(inputs).centre;
+        Falling {
+            contact: time + fall,
+            place: [place[0], place[1]],
+            speed,
+            temperature: values.temperature,
+        }
     }
 
     /// Drops that are asked for beyond those that were before, at the beginning of a path.

@@ -1,6 +1,6 @@
 //! What droplets will cost.
 
-use super::{is_large, notes, plan_of};
+use super::{is_large, notes, plan_of, replay};
 use crate::body::solid::{PRODUCT_RATE, plan};
 use crate::body::{link, threads_for};
 use crate::math::chebyshev::products;
@@ -26,7 +26,7 @@ pub struct DropletForecast {
 }
 
 /// Memory of a particle with its neighbours [B].
-const PARTICLE_MEMORY: f64 = 1.5e3;
+pub const PARTICLE_MEMORY: f64 = 1.5e3;
 /// Time per node that the solid takes in an exchange beyond its own step [s]: measured on boxes of 10 000 to 110 000
 /// nodes, as the difference to the same droplet above a wall.
 const EXCHANGE: f64 = 2.2e-7;
@@ -34,6 +34,9 @@ const EXCHANGE: f64 = 2.2e-7;
 impl DropletForecast {
     /// Estimates without building the droplet.
     pub fn of(scene: &Scene, name: &str, droplet: &Droplet) -> Self {
+        if droplet.is_replayed() {
+            return replay::forecast(scene, name, droplet);
+        }
         let sph = plan_of(droplet, None, None);
         let (particles, time_step) = DropletSph::forecast(&sph);
         let threads = threads_for(scene.solver.threads, is_large(particles)) as f64;
@@ -72,7 +75,7 @@ impl DropletForecast {
 }
 
 /// What a solid does for an exchange of some length [s].
-fn exchange_time(plan: &Plan, length: f64) -> f64 {
+pub fn exchange_time(plan: &Plan, length: f64) -> f64 {
     let nodes = plan.mesh.nodes() as f64;
     let of_particles = particle_cost(plan).map_or(0.0, |cost| {
         let (sub_steps, products) = products(cost.bound, length);

@@ -6,18 +6,21 @@ mod memo;
 mod notes;
 mod plan;
 mod reader;
+mod replay;
 mod totals;
 mod wall;
 
 pub use forecast::DropletForecast;
 pub use notes::{notes, notes_on_walls};
 pub use plan::{plan_of, refinements};
-pub use totals::offered_totals;
+pub use replay::{Kept, ReplayBody, forget_unused_records, keep_record, records, to_be_recorded};
 pub use wall::{WallQuantity, wall_quantities};
 
 use std::ops::Range;
 
-use super::{Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, link};
+use super::{
+    Acts, Body, BodyError, Descriptor, Fields, Given, Link, Memo, Reading, Received, link,
+};
 use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::{Allowance, cost};
 use crate::method::sph::{
@@ -68,6 +71,26 @@ struct Wall {
     inputs: Range<usize>,
     /// Of each cell [m²].
     areas: Vec<f64>,
+}
+
+impl Wall {
+    fn check(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        match self.inputs.clone().find(|&index| inputs[index] <= 0.0) {
+            Some(index) => {
+                let message = format!("{} K is not above absolute zero", inputs[index]);
+                Err(BodyError::Input { index, message })
+            }
+            None => Ok(()),
+        }
+    }
+}
+
+/// The totals that a scene's droplet offers, each with its place in the table of its kind.
+pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
+    match scene.droplet(name).is_some_and(Droplet::is_replayed) {
+        true => replay::offered_totals(scene, name),
+        false => totals::offered_totals(scene, name),
+    }
 }
 
 /// Droplets with fewer particles than these are quicker on one thread.
@@ -219,13 +242,7 @@ impl Body for DropletBody {
             demand.check(inputs)?;
         }
         let Below::Wall(wall) = &self.below else { return Ok(()) };
-        match wall.inputs.clone().find(|&index| inputs[index] <= 0.0) {
-            Some(index) => {
-                let message = format!("{} K is not above absolute zero", inputs[index]);
-                Err(BodyError::Input { index, message })
-            }
-            None => Ok(()),
-        }
+        wall.check(inputs)
     }
 
     fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
@@ -269,7 +286,7 @@ impl Body for DropletBody {
     }
 
     /// What another body got is told of the last exchange, however long the step.
-    fn join_steps(&self, before: &[f64], state: &mut [f64]) {
+    fn join_steps(&self, before: &[f64], state: &mut Vec<f64>) {
         if !matches!(self.below, Below::Body { .. }) {
             self.droplet.add_exchange(state, &self.droplet.exchange(before));
         }

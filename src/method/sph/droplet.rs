@@ -1,6 +1,7 @@
 //! The droplet as a body.
 
 mod demand;
+mod half_space;
 mod totals;
 
 use std::f64::consts::PI;

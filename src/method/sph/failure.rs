@@ -28,6 +28,8 @@ pub enum Failure {
         "a particle would cool to {temperature:.6} K at t = {time:.6e} s, not above absolute zero: what lies below takes more heat from it than it holds"
     )]
     BelowAbsoluteZero { temperature: f64, time: f64 },
+    #[error("what was recorded of a drop makes no sense: {reason}")]
+    Unrecorded { reason: String },
     #[error("{0}")]
     Halted(#[from] Halt),
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Checker, fits, number};
+use super::{Checker, fits, number, replayed};
 use crate::scene::droplet::{Arrival, Droplet, DropletSymmetry, LEAST_SOUND_OVER_FLOW};
 use crate::scene::locate::Path;
 
@@ -15,11 +15,16 @@ pub fn check(checker: &mut Checker) {
     for (name, droplet) in checker.scene.droplets() {
         let path = Path::default().key("body").key(name);
         if is_sound(checker, &path) {
+            replayed::check(checker, &path, (name, droplet));
+        }
+        if is_sound(checker, &path) && droplet.has_particles() {
             resolution(checker, &path.at("spacing"), droplet);
         }
         // What moves the surface depends on the distance of particles.
         if is_sound(checker, &path) {
-            sound(checker, &path.at("fluid.sound_speed"), droplet);
+            if droplet.has_particles() {
+                sound(checker, &path.at("fluid.sound_speed"), droplet);
+            }
             release(checker, &path, droplet);
             direction(checker, &path.at("impact_direction"), droplet);
             arrivals(checker, &path.at("arrivals"), name, droplet);
@@ -38,7 +43,8 @@ fn resolution(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let across = droplet.diameter / droplet.spacing;
     let coarsest = droplet.diameter / FEWEST_ACROSS;
     let volume = if droplet.dimension == 3 { PI / 6.0 } else { PI / 4.0 };
-    let drops = droplet.drops() as f64;
+    // Of drops that are replayed one is computed.
+    let drops = if droplet.is_replayed() { 1.0 } else { droplet.drops() as f64 };
     let copies: f64 = droplet.mirrors().map(|m| if m { 2.0 } else { 1.0 }).iter().product();
     let particles = volume * across.powi(droplet.dimension as i32) * drops / copies;
     if !fits(droplet.spacing, coarsest) {
@@ -118,6 +124,9 @@ fn arrivals(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
         let message = "arrivals stand in the order of their times";
         let allowed = format!(">= {}", number(earlier));
         if !checker.require(earlier <= arrival.time, &path.at("time"), message, allowed) {
+            continue;
+        }
+        if droplet.is_replayed() {
             continue;
         }
         let free =

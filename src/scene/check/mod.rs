@@ -13,6 +13,7 @@ mod material;
 mod nonlinear;
 mod load;
 mod probe;
+mod replayed;
 mod reservoir;
 mod start;
 mod support;

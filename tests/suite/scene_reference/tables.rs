@@ -4,7 +4,7 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 28] = [
+pub const SECTIONS: [(&str, &str); 29] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
@@ -23,6 +23,7 @@ pub const SECTIONS: [(&str, &str); 28] = [
     ("`[body.NAME]` of a droplet", "/$defs/Body/oneOf/1"),
     ("`fluid` of a droplet", "/$defs/Fluid"),
     ("`arrivals` of a droplet", "/$defs/Arrival"),
+    ("`record` of a droplet", "/$defs/Recording"),
     ("`[body.NAME]` of a reservoir", "/$defs/Body/oneOf/2"),
     ("`[[load]]`", "/$defs/Load"),
     ("`footprint` of a load or wall", "/$defs/Footprint"),

@@ -1,0 +1,312 @@
+"""Drops that are repeated, beside the same drops of particles: error of heat, surface temperature
+and spread on a single drop, on a warmer plate, on neighbours, on a train, and for six fluids; then
+many drops along a path on a heated bed.
+
+`python benches/recorded_drops.py [--impinge PATH] [--across N] [--drops N] [WHAT …]` prints one
+table each; N particles lie across a drop, and times are those of the processor."""
+
+import argparse
+import csv
+import resource
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[1]
+DIAMETER, SPEED, WARM, COLD = 1e-4, 20.0, 350.0, 300.0
+TIME = DIAMETER / SPEED
+INK = {
+    "density": 1000.0,
+    "viscosity": 4e-3,
+    "specific_heat": 4180.0,
+    "conductivity": 0.6,
+    "surface_tension": 0.05,
+}
+ALUMINA = "density = 3950.0, specific_heat = 900.0, conductivity = 10.0"
+GRID = 40
+
+
+def fluid(density, viscosity, specific_heat, conductivity, surface_tension):
+    return dict(
+        zip(INK, (density, viscosity, specific_heat, conductivity, surface_tension), strict=True)
+    )
+
+
+# At the drop's temperature; speeds keep Re and We within what drops of particles resolve.
+FLUIDS = {
+    "mercury": (fluid(13534.0, 1.53e-3, 139.0, 8.5, 0.485), 4.0),
+    "tin": (fluid(6970.0, 1.8e-3, 245.0, 31.0, 0.55), 5.0),
+    "water": (fluid(980.0, 4.0e-4, 4186.0, 0.66, 0.064), 10.0),
+    "ethanol": (fluid(760.0, 6.5e-4, 2700.0, 0.16, 0.019), 10.0),
+    "glycerol": (fluid(1240.0, 0.1, 2600.0, 0.29, 0.06), 20.0),
+    "wax": (fluid(800.0, 1.2e-2, 2200.0, 0.15, 0.025), 10.0),
+}
+
+
+class Runs:
+    """Runs scenes with the program, in a folder of its own."""
+
+    def __init__(self, program: Path, folder: Path, across: float):
+        self.program, self.folder, self.across = program, folder, across
+        self.count = 0
+
+    def scene(self, method, stop, **options):
+        ink, speed = options.get("ink", (INK, SPEED))
+        fluid_keys = ", ".join(f"{key} = {value!r}" for key, value in ink.items())
+        spacing = "" if method == "film" else f"spacing = {DIAMETER / self.across!r}"
+        length = options.get("length", 8e-4)
+        return f"""
+name = "Drops"
+stop_time = {stop!r}
+step = {options.get("step", 0.1 * DIAMETER / speed)!r}
+[solver]
+threads = 1
+[body.drop]
+kind = "droplet"
+method = "{method}"
+diameter = {DIAMETER!r}
+impact_velocity = {speed!r}
+initial_temperature = {WARM!r}
+{spacing}
+fluid = {{ {fluid_keys} }}
+{options.get("keys", "")}
+[body.plate]
+kind = "solid"
+shape = {{ box = [{length!r}, 5e-4, 1e-4] }}
+material = {{ model = "thermoelastic", {ALUMINA} }}
+initial_temperature = {options.get("plate", COLD)!r}
+mesh = {{ spacing = 1e-5, depth_spacing = 1e-6, growth = 1.4, order = 1 }}
+[[coupling]]
+from = "drop"
+to = "plate.top"
+traction = false
+radius = 1.6e-4
+{f"interval = {options['interval']!r}" if "interval" in options else ""}
+[[field]]
+name = "surface"
+on = "plate.top"
+grid = [{GRID}, {GRID}]
+size = [{0.9 * length!r}, 4.5e-4]
+gives = ["temperature"]
+"""
+
+    def run(self, text):
+        """Columns over time, and the processor time [s]."""
+        self.count += 1
+        scene, out = (self.folder / f"{self.count}{end}" for end in (".toml", ""))
+        scene.write_text(text)
+        begin = processor_time()
+        subprocess.run([self.program, "run", scene, "--out", out], check=True, capture_output=True)
+        spent = processor_time() - begin
+        with (out / "outputs.csv").open() as table:
+            rows = csv.reader(table)
+            names = [name.split(" ")[0] for name in next(rows)]
+            values = np.array([[float(value) for value in row] for row in rows])
+        return dict(zip(names, values.T, strict=True)), spent
+
+    def both(self, method, stop, **options):
+        (one, spent), (other, full) = (
+            self.run(self.scene(name, stop, **options)) for name in (method, "sph")
+        )
+        return compare(one, other), spent, full
+
+
+def processor_time():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def surface(columns):
+    """Temperatures of the field, a row for each time."""
+    return np.array([values for name, values in columns.items() if name.startswith("surface.")]).T
+
+
+def compare(found, wanted):
+    """Largest differences over time: heat over the last heat, temperature over the largest rise
+    (its root mean square over places, and largest), spread over the largest."""
+    heat = np.abs(found["drop.heat"] - wanted["drop.heat"]).max() / np.abs(wanted["drop.heat"][-1])
+    one, other = surface(found), surface(wanted)
+    rise = np.abs(other - other[0]).max()
+    at_places = np.abs(one - other).max() / rise
+    mean = (
+        np.sqrt(((one - other) ** 2).mean(axis=1)).max()
+        / np.sqrt(((other - other[0]) ** 2).mean(axis=1)).max()
+    )
+    spread = found["drop.spread_diameter"].max() / wanted["drop.spread_diameter"].max() - 1
+    return heat, mean, at_places, spread
+
+
+def row(*cells):
+    print("| " + " | ".join(cells) + " |", flush=True)
+
+
+def table(*heads):
+    print()
+    row(*heads)
+    row(*("---" for _ in heads))
+
+
+def percent(value):
+    return f"{100 * value:.1f} %"
+
+
+def figures(result):
+    (heat, mean, places, spread), spent, full = result
+    return [*map(percent, (heat, mean, places, spread)), f"{spent:.1f} s", f"{full:.1f} s"]
+
+
+HEADS = ("heat", "temperature, r.m.s.", "temperature, largest", "spread", "repeated", "particles")
+
+
+def single(runs):
+    table("single drop", "method", *HEADS)
+    # Particles in other steps: what a film that tears does is known no better.
+    for times in (4, 12):
+        whole, full = runs.run(runs.scene("sph", times * TIME))
+        other, spent = runs.run(runs.scene("sph", times * TIME, interval=0.02 * TIME))
+        row(f"to {times} D/U", "particles anew", *figures((compare(other, whole), spent, full)))
+    for method in ("record", "film"):
+        for name, plate, times in (
+            ("", COLD, 4),
+            ("to 12 D/U", COLD, 12),
+            ("plate 100 K warmer", COLD + 100, 4),
+        ):
+            row(name or "to 4 D/U", method, *figures(runs.both(method, times * TIME, plate=plate)))
+
+
+def neighbours(runs):
+    table("second drop after", "distance over D", *HEADS)
+    for delay in (0.0, 5.0):
+        for distance in (0.0, 1.5, 3.0) if delay else (1.5, 3.0):
+            x = 0.5 * distance * DIAMETER
+            keys = (
+                'symmetry = "none"\nheight = 2e-6\n'
+                f"arrivals = [{{ x = {-x!r} }}, {{ time = {delay * TIME!r}, x = {x!r} }}]"
+            )
+            result = runs.both("record", (delay + 4) * TIME, keys=keys)
+            row(f"{delay:g} D/U", f"{distance:g}", *figures(result))
+
+
+def train(runs):
+    table("drops", "distance over D", "delay over D/U", *HEADS)
+    for distance in (1.5, 3.5):
+        count, delay = 10, 4.0
+        places = (np.arange(count) - 0.5 * (count - 1)) * distance * DIAMETER
+        arrivals = ", ".join(
+            f"{{ time = {n * delay * TIME!r}, x = {x!r} }}" for n, x in enumerate(places.tolist())
+        )
+        keys = f'symmetry = "none"\nheight = 2e-6\narrivals = [{arrivals}]'
+        stop = (count * delay + 2) * TIME
+        options = {"keys": keys, "length": 6e-4 + count * distance * DIAMETER, "step": 0.25 * TIME}
+        row(
+            str(count),
+            f"{distance:g}",
+            f"{delay:g}",
+            *figures(runs.both("record", stop, **options)),
+        )
+
+
+def fluids(runs):
+    table("fluid", "method", *HEADS)
+    for name, (ink, speed) in FLUIDS.items():
+        for method in ("record", "film"):
+            result = runs.both(method, 4 * DIAMETER / speed, ink=(ink, speed))
+            row(name, method, *figures(result))
+
+
+def bed(runs, count):
+    """Lines of drops at 2 kHz on a bed that a heater holds warm, one communication step a drop."""
+    side, pitch, period = 4e-3, 1e-4, 5e-4
+    across = int(np.sqrt(count))
+    lines = -(-count // across)
+    place = (np.arange(across) - 0.5 * (across - 1)) * pitch * 30 / max(across, 30)
+    place = place.tolist()
+    rows = ["time,drop.release,drop.x,drop.y,heater.heat_flux"]
+    for n in range(count):
+        line, at = divmod(n, across)
+        x = place[at] if line % 2 == 0 else place[across - 1 - at]
+        y = (line - 0.5 * (lines - 1)) * pitch * 30 / max(lines, 30)
+        rows.append(f"{n * period!r},{n + 1},{x!r},{y!r},2e4")
+    text = f"""
+name = "Bed"
+stop_time = {count * period!r}
+step = {period!r}
+[solver]
+threads = 1
+[body.drop]
+kind = "droplet"
+method = "record"
+diameter = {DIAMETER!r}
+impact_velocity = {SPEED!r}
+initial_temperature = {WARM!r}
+spacing = {DIAMETER / runs.across!r}
+fluid = {{ {", ".join(f"{key} = {value!r}" for key, value in INK.items())} }}
+release = "input"
+most = {count}
+[body.plate]
+kind = "solid"
+shape = {{ box = [{side!r}, {side!r}, 5e-4] }}
+material = {{ model = "thermoelastic", {ALUMINA} }}
+initial_temperature = {COLD!r}
+mesh = {{ spacing = 1e-4, depth_spacing = 1e-5, growth = 1.6, order = 1 }}
+faces = {{ top = {{ convection = {{ coefficient = 10.0, ambient = {COLD!r} }} }} }}
+[[coupling]]
+from = "drop"
+to = "plate.top"
+traction = false
+radius = 5e-4
+[[load]]
+name = "heater"
+on = "plate.bottom"
+footprint = {{ tiles = {{ count = [1, 1], size = [{side!r}, {side!r}] }} }}
+carries = ["heat_flux"]
+"""
+    inputs = runs.folder / "inputs.csv"
+    inputs.write_text("\n".join(rows))
+    scene, out = runs.folder / "bed.toml", runs.folder / "bed"
+    scene.write_text(text)
+    begin = processor_time()
+    command = [runs.program, "run", scene, "--out", out, "--inputs", inputs]
+    command += ["--between", "held", "--rows-every", "1000"]
+    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    if done.returncode:
+        raise SystemExit(done.stderr)
+    spent = processor_time() - begin
+    with (out / "outputs.csv").open() as file:
+        rows = list(csv.reader(file))
+    last = dict(zip((name.split(" ")[0] for name in rows[0]), map(float, rows[-1]), strict=True))
+    balance = last["plate.heat_in"] - last["plate.heat_stored"] - last["plate.heat_lost"]
+    table("drops", "processor time", "drops per second", "overlapping", "heat balance")
+    row(
+        f"{last['drop.released']:.0f}",
+        f"{spent:.1f} s",
+        f"{count / spent:.0f}",
+        f"{last['drop.overlapping']:.0f}",
+        f"{abs(balance / last['plate.heat_in']):.0e}",
+    )
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument(
+        "what", nargs="*", default=["single", "neighbours", "train", "fluids", "bed"]
+    )
+    parser.add_argument("--impinge", type=Path, default=ROOT / "target/release/impinge")
+    parser.add_argument("--across", type=float, default=20.0)
+    parser.add_argument("--drops", type=int, default=10_000)
+    chosen = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        runs = Runs(chosen.impinge, Path(folder), chosen.across)
+        for what in chosen.what:
+            if what == "bed":
+                bed(runs, chosen.drops)
+            else:
+                {"single": single, "neighbours": neighbours, "train": train, "fluids": fluids}[
+                    what
+                ](runs)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,223 @@
+//! What is known of one drop: computed once, by whoever asks first, shared in one process, and stored by units.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use super::super::plan_of;
+use crate::body::BodyError;
+use crate::closed_form::DropImpact;
+use crate::math::shared_values::SharedValues;
+use crate::math::thread::aside;
+use crate::method::record::{Course, Film, Recorder, film_profile, record_profile};
+use crate::method::sph::{DropletPlan, Failure, WallCells};
+use crate::scene::{Droplet, DropletMethod, DropletSymmetry, ReleaseBy, Scene};
+
+/// Times at which a course is known, and most rings.
+pub const SAMPLES: usize = 200;
+const MOST_RINGS: usize = 64;
+/// Rings of a film.
+const RINGS_OF_FILM: usize = 32;
+/// Width of a ring over Δx: narrower ones would tell particles.
+const RING: f64 = 2.0;
+/// Radius out to which is recorded, over that to which the drop is expected to spread.
+const BEYOND: f64 = 1.25;
+/// How much slower and faster than the scene's drop those may be that inputs release as films, and speeds that are
+/// known over this range.
+const RANGE_OF_FILM: f64 = 4.0;
+const SPEEDS_OF_FILM: usize = 17;
+/// Temperature of the drop that is recorded [K]; none follows from it.
+const WARM: f64 = 400.0;
+/// Changes with what is recorded.
+const VERSION: u32 = 1;
+
+static COURSES: SharedValues<String, Course> = SharedValues::new();
+
+/// A course that units of this process find as long as it is held.
+pub struct Kept {
+    _course: Arc<Course>,
+}
+
+/// All that a course follows from.
+#[derive(Serialize)]
+struct Key {
+    version: u32,
+    /// As [`computed`]; one for each speed.
+    drops: Vec<Droplet>,
+    effusivity: Option<f64>,
+    durations: Vec<f64>,
+    rings: usize,
+    radius: f64,
+    samples: usize,
+}
+
+impl Key {
+    fn of(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Self {
+        let speeds = speeds(droplet);
+        let drops: Vec<Droplet> = speeds.iter().map(|&speed| computed(droplet, speed)).collect();
+        let (rings, radius) = match droplet.has_particles() {
+            true => rings(&drops),
+            false => (RINGS_OF_FILM, drops.iter().map(film_radius).fold(0.0, f64::max)),
+        };
+        Self {
+            version: VERSION,
+            durations: speeds.iter().map(|&speed| droplet.recorded_time(speed)).collect(),
+            drops,
+            effusivity: effusivity(scene, name),
+            rings,
+            radius,
+            samples: SAMPLES,
+        }
+    }
+
+    fn text(&self) -> String {
+        serde_json::to_string(self).unwrap_or_default()
+    }
+
+    /// The plans of what is recorded, with the times.
+    fn plans(&self) -> impl Iterator<Item = (DropletPlan, f64)> {
+        let cells = WallCells::Rings { count: self.rings, radius: self.radius };
+        let plan = move |drop: &Droplet| plan_of(drop, Some(cells.clone()), self.effusivity);
+        self.drops.iter().map(plan).zip(self.durations.iter().copied())
+    }
+
+    fn compute(&self, threads: usize) -> Result<Course, Failure> {
+        let mut profiles = Vec::new();
+        for ((plan, duration), drop) in self.plans().zip(&self.drops) {
+            let heat_capacity = drop.mass() * drop.fluid.specific_heat;
+            if !drop.has_particles() {
+                profiles.push(film_profile(&self.film(drop, duration)));
+                continue;
+            }
+            let samples = self.samples;
+            let speed = drop.impact_velocity;
+            let recorder = Recorder { speed, heat_capacity, duration, samples, threads };
+            profiles.push(record_profile(plan, recorder)?);
+        }
+        Course::new(profiles).map_err(|reason| Failure::Unrecorded { reason })
+    }
+
+    fn film(&self, drop: &Droplet, duration: f64) -> Film {
+        Film {
+            impact: impact(drop),
+            specific_heat: drop.fluid.specific_heat,
+            conductivity: drop.fluid.conductivity,
+            effusivity: self.effusivity,
+            duration,
+            samples: self.samples,
+            rings: self.rings,
+            radius: self.radius,
+        }
+    }
+}
+
+/// What is known of the drops of a scene.
+pub fn course(
+    scene: &Scene,
+    named: (&str, &Droplet),
+    threads: usize,
+) -> Result<Arc<Course>, Failure> {
+    let key = Key::of(scene, named);
+    COURSES.get_or_make(&key.text(), || aside(|| key.compute(threads)))
+}
+
+/// The records that the drops of a scene need, each with the name of its body, as bytes.
+pub fn records(scene: &Scene, threads: usize) -> Result<Vec<(String, Vec<u8>)>, BodyError> {
+    let recorded = scene.droplets().filter(|(_, drop)| drop.method == DropletMethod::Record);
+    let bytes = |(name, droplet): (&str, &Droplet)| {
+        let course = course(scene, (name, droplet), threads.max(1));
+        let course =
+            course.map_err(|failure| BodyError::Droplet { name: name.to_owned(), failure })?;
+        Ok((name.to_owned(), course.to_bytes(&Key::of(scene, (name, droplet)).text())))
+    };
+    recorded.map(bytes).collect()
+}
+
+/// Makes a record known to this process; refuses bytes that are damaged. Units whose drops it does not fit compute
+/// their own.
+pub fn keep_record(bytes: &[u8]) -> Result<Kept, String> {
+    let (key, course) = Course::from_bytes(bytes)?;
+    let course = COURSES.get_or_make(&key, || Ok::<_, String>(course))?;
+    Ok(Kept { _course: course })
+}
+
+/// Whether this process holds what the drops of a scene need.
+pub fn is_known(scene: &Scene, named: (&str, &Droplet)) -> bool {
+    COURSES.has(&Key::of(scene, named).text())
+}
+
+/// Forgets what nobody holds any more.
+pub fn forget_unused_records() {
+    COURSES.forget_unused();
+}
+
+/// What is computed ahead for a scene's droplet: plans with the times that are recorded; nothing of a film.
+pub fn plans(scene: &Scene, named: (&str, &Droplet)) -> Vec<(DropletPlan, f64)> {
+    if !named.1.has_particles() {
+        return Vec::new();
+    }
+    Key::of(scene, named).plans().collect()
+}
+
+/// √(kρc) of what lies below [W √s/(m² K)]: of a solid that of its top layer.
+pub fn effusivity(scene: &Scene, name: &str) -> Option<f64> {
+    let solid = scene.coupling_from(name).and_then(|coupling| scene.coupling[coupling].solid());
+    match solid.and_then(|solid| scene.solid(solid)) {
+        Some(solid) => solid.strata().first().map(|layer| layer.constants.effusivity()),
+        None => scene.wall[scene.wall_under(name)?].effusivity,
+    }
+}
+
+/// Speeds at which drops are known, as they touch the wall [m/s].
+fn speeds(droplet: &Droplet) -> Vec<f64> {
+    let touching = |speed: f64| droplet.contact(speed).0;
+    if droplet.has_particles() || droplet.record.as_ref().is_some_and(|r| r.speeds.is_some()) {
+        return droplet.recorded_speeds().into_iter().map(touching).collect();
+    }
+    let own = touching(droplet.impact_velocity);
+    if !droplet.is_on_demand() {
+        return vec![own];
+    }
+    let last = (SPEEDS_OF_FILM - 1) as f64;
+    let exponent = |n: usize| 2.0 * n as f64 / last - 1.0;
+    (0..SPEEDS_OF_FILM).map(|n| own * RANGE_OF_FILM.powf(exponent(n))).collect()
+}
+
+/// The drop that stands for all: alone, at the origin, just above the wall.
+fn computed(droplet: &Droplet, speed: f64) -> Droplet {
+    Droplet {
+        impact_velocity: speed,
+        initial_temperature: WARM,
+        symmetry: DropletSymmetry::Auto,
+        height: None,
+        release: ReleaseBy::Arrivals,
+        most: None,
+        arrivals: None,
+        record: None,
+        ..droplet.clone()
+    }
+}
+
+/// Number of rings, and their outermost radius [m].
+fn rings(drops: &[Droplet]) -> (usize, f64) {
+    let spread = drops.iter().map(Droplet::spread_diameter).fold(0.0, f64::max);
+    let spacing = drops.iter().map(|drop| drop.spacing).fold(0.0, f64::max);
+    let radius = BEYOND * 0.5 * spread + RING * spacing;
+    let count = (radius / (RING * spacing)).ceil() as usize;
+    (count.min(MOST_RINGS), radius)
+}
+
+fn impact(drop: &Droplet) -> DropImpact {
+    DropImpact {
+        diameter: drop.diameter,
+        speed: drop.impact_velocity,
+        density: drop.fluid.density,
+        viscosity: drop.fluid.viscosity,
+        surface_tension: drop.fluid.surface_tension,
+        contact_angle: drop.fluid.contact_angle,
+    }
+}
+
+fn film_radius(drop: &Droplet) -> f64 {
+    Film::largest_radius(&impact(drop))
+}

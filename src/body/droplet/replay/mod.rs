@@ -1,0 +1,242 @@
+//! Drops that repeat what is known of one: recorded from particles, or of the closed forms of a film.
+
+mod forecast;
+mod knowledge;
+mod notes;
+mod totals;
+
+pub use forecast::{forecast, to_be_recorded};
+pub use knowledge::{Kept, forget_unused_records, keep_record, records};
+pub use notes::notes;
+pub use totals::offered_totals;
+
+use super::demand::DropInputs;
+use super::{Below, Wall, plan};
+use crate::body::{
+    Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, wall_quantities,
+};
+use crate::inputs::{InputLayout, InputPath};
+use crate::math::allowance::Allowance;
+use crate::method::record::{Falling, Replay, ReplayPlan, ReplayTotals};
+use crate::method::sph::{Domain, Failure, ParticleFields, Surface, WallCells, WallExchange};
+use crate::scene::{Arrival, Droplet, Scene, lateral_extents};
+use crate::state::Layout;
+
+/// Drops and what lies below them.
+pub struct ReplayBody {
+    name: String,
+    replay: Replay,
+    below: Below,
+    /// Of drops on demand.
+    demand: Option<DropInputs>,
+    /// Of the scene, in the order of their release [s].
+    arrivals: Vec<(f64, Falling)>,
+    /// Planes x = 0 and y = 0 about which all drops are symmetric.
+    symmetric: [bool; 2],
+    notes: Vec<String>,
+}
+
+/// How far from the origin drops may come down where nothing ends [m].
+const FARTHEST: f64 = 1e3;
+
+impl ReplayBody {
+    /// `on` are the cells of a body below and how the drops are linked with it.
+    pub fn new(
+        scene: &Scene,
+        layout: &InputLayout,
+        (name, droplet): (&str, &Droplet),
+        on: Option<(WallCells, &Link)>,
+        threads: usize,
+    ) -> Result<Self, Failure> {
+        let course = knowledge::course(scene, (name, droplet), threads)?;
+        let wall = scene.wall_under(name).filter(|_| on.is_none());
+        let wall_cells = wall.and_then(|wall| plan::cells_of(&scene.wall[wall].footprint));
+        let below = match (&on, wall) {
+            (Some((_, link)), _) => Below::Body { traction: link.traction },
+            (None, Some(wall)) => Below::Wall(Wall {
+                inputs: layout.walls[wall].clone(),
+                areas: wall_cells
+                    .as_ref()
+                    .map_or(Vec::new(), |cells| cells.areas(Domain::whole(3))),
+            }),
+            (None, None) => Below::Nothing,
+        };
+        // Scenes without anything below are refused.
+        let nothing = WallCells::Rings { count: 1, radius: FARTHEST };
+        let cells = on.map(|(cells, _)| cells).or(wall_cells).unwrap_or(nothing);
+        let mass = droplet.mass();
+        let mut said = notes(scene, (name, droplet));
+        said.push(notes::on_course(&course, droplet));
+        let replay = Replay::new(ReplayPlan {
+            course,
+            cells,
+            mass,
+            heat_capacity: mass * droplet.fluid.specific_heat,
+            most: droplet.drops(),
+            reach: reach(scene, name),
+        });
+        Ok(Self {
+            name: name.to_owned(),
+            replay,
+            below,
+            demand: DropInputs::of(scene, layout, (name, droplet), FARTHEST),
+            arrivals: droplet.arrivals().iter().map(|a| (a.time, falling(droplet, a))).collect(),
+            symmetric: droplet.mirrors(),
+            notes: said,
+        })
+    }
+
+    /// Drops that are released in a step, and how many of them inputs have asked for.
+    fn released(
+        &self,
+        state: &[f64],
+        path: &InputPath,
+        duration: f64,
+    ) -> Result<(Vec<Falling>, usize), BodyError> {
+        let ([asked, released], start) = (self.replay.counts(state), self.replay.time(state));
+        let Some(demand) = &self.demand else {
+            let waiting = self.arrivals.iter().skip(released as usize);
+            let due = waiting.take_while(|(time, _)| *time <= start + duration);
+            return Ok((due.map(|(_, falling)| *falling).collect(), 0));
+        };
+        let further = demand.further(path, asked)?;
+        Ok((vec![demand.falling(&path.at(0, 0.0), start); further], further))
+    }
+
+    fn totals(&self, state: &[f64]) -> ReplayTotals {
+        self.replay.totals(state)
+    }
+
+    fn given_of(&self, exchange: WallExchange, falling: Vec<f64>) -> Option<Given> {
+        let Below::Body { traction } = self.below else { return None };
+        let WallExchange { duration, heat, impulse, .. } = exchange;
+        let impulse = if traction { impulse } else { Vec::new() };
+        Some(Given { duration, heat, falling, impulse, symmetric: self.symmetric })
+    }
+}
+
+/// A drop of the scene.
+fn falling(droplet: &Droplet, arrival: &Arrival) -> Falling {
+    let (speed, fall) = droplet.contact(droplet.impact_velocity);
+    Falling {
+        contact: arrival.time + fall,
+        place: [arrival.x, arrival.y],
+        speed,
+        temperature: droplet.initial_temperature,
+    }
+}
+
+/// How far from the origin drops may come down along x and y [m].
+fn reach(scene: &Scene, name: &str) -> [f64; 2] {
+    let below = scene.coupling_from(name).and_then(|coupling| scene.coupling[coupling].solid());
+    let extents = below.and_then(|solid| Some(lateral_extents(&scene.solid(solid)?.shape)));
+    extents.map_or([FARTHEST; 2], |extents| extents.map(|extent| 0.5 * extent))
+}
+
+/// What is read of a state, found when first asked for.
+#[derive(Default)]
+struct ReplayMemo {
+    exchange: Option<WallExchange>,
+}
+
+impl Body for ReplayBody {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn initial_state(&self) -> Vec<f64> {
+        self.replay.initial_state()
+    }
+
+    fn layout(&self, state: &[f64]) -> Option<Layout> {
+        self.replay.layout(state)
+    }
+
+    fn check_state(&self, state: &[f64]) -> Result<(), String> {
+        self.replay.check_state(state).map_err(|error| format!("{}: {error}", self.name))
+    }
+
+    fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError> {
+        if let Some(demand) = &self.demand {
+            demand.check(inputs)?;
+            demand.check_speed(inputs, self.replay.course())?;
+        }
+        let Below::Wall(wall) = &self.below else { return Ok(()) };
+        wall.check(inputs)
+    }
+
+    fn memo(&self, _: &[f64], _: &[Received]) -> Memo {
+        Box::new(ReplayMemo::default())
+    }
+
+    fn forget_state(&self, memo: &mut Memo) {
+        *memo = Box::new(ReplayMemo::default());
+    }
+
+    fn advance(
+        &self,
+        state: &mut Vec<f64>,
+        _: &Memo,
+        acts: &Acts,
+        _: &Allowance,
+    ) -> Result<Option<Given>, BodyError> {
+        let (released, asked) = self.released(state, acts.path, acts.duration)?;
+        let held = match &self.below {
+            Below::Wall(wall) => {
+                Surface::held(&acts.path.at(0, 0.5 * acts.duration)[wall.inputs.clone()])
+            }
+            Below::Nothing | Below::Body { .. } => Surface::default(),
+        };
+        let surface = acts.below.unwrap_or(&held);
+        let released = (&released[..], asked);
+        let (exchange, falls) = self.replay.advance(state, released, surface, acts.duration);
+        Ok(self.given_of(exchange, falls))
+    }
+
+    /// What another body got is told of the last exchange, however long the step.
+    fn join_steps(&self, before: &[f64], state: &mut Vec<f64>) {
+        if !matches!(self.below, Below::Body { .. }) {
+            self.replay.join_steps(before, state);
+        }
+    }
+
+    fn given(&self, state: &[f64]) -> Option<Given> {
+        matches!(self.below, Below::Body { .. })
+            .then(|| self.given_of(self.replay.exchange(state), Vec::new()))
+            .flatten()
+    }
+
+    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
+        let memo: &mut ReplayMemo = memo.downcast_mut().expect("a memo of the body that made it");
+        let exchange = || self.replay.exchange(state);
+        Ok(match *reading {
+            Reading::Total(place) => totals::read(place, &self.totals(state), || {
+                memo.exchange.get_or_insert_with(exchange)
+            }),
+            Reading::Cell { quantity, cell } => {
+                let Below::Wall(wall) = &self.below else {
+                    panic!("cells are registered for what stands on a wall")
+                };
+                let exchange = memo.exchange.get_or_insert_with(exchange);
+                wall_quantities()[quantity].read(exchange, cell, &wall.areas)
+            }
+            Reading::Point { .. } | Reading::Mean { .. } | Reading::Peak { .. } => {
+                panic!("points are registered for solids")
+            }
+        })
+    }
+
+    /// There are no particles to show.
+    fn fields(&self, _: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
+        Ok(Fields::Particles(ParticleFields::default()))
+    }
+
+    fn notes(&self) -> Vec<String> {
+        self.notes.iter().map(|note| format!("{}: {note}", self.name)).collect()
+    }
+
+    fn closing_warning(&self, state: &[f64]) -> Option<String> {
+        let ReplayTotals { overlapping, released, .. } = self.totals(state);
+        (overlapping > 0.0).then(|| notes::on_overlap(&self.name, overlapping, released))
+    }
+}

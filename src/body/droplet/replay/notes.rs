@@ -1,0 +1,85 @@
+//! What a user should know of drops that are replayed.
+
+use super::knowledge;
+use crate::method::record::Course;
+use crate::scene::{Droplet, DropletMethod, Scene};
+
+/// What was chosen or left out, and why: a sentence each.
+pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {
+    let what = match droplet.method {
+        DropletMethod::Film => {
+            "closed forms of a film that spreads and cools stand for every drop (what they err by: docs/fidelity.md)"
+                .to_owned()
+        }
+        _ => format!(
+            "one impact at {} is recorded ahead and repeated for every drop; a unit that was packed with its record has \
+             it, others compute it before they start",
+            speeds(droplet)
+        ),
+    };
+    let mut notes = vec![
+        what,
+        "each drop gives heat in proportion to its temperature above that of the wall where and when it comes down: \
+         exact on a plate that is warm evenly; drops do not meet, and `overlapping` counts those that should have"
+            .to_owned(),
+        "heat and force are known at any time, and act as means and slopes over communication steps, or over `interval` \
+         of the coupling: a drop feels those before it as of the beginning of its step"
+            .to_owned(),
+    ];
+    notes.extend(note_on_depth(scene, (name, droplet)));
+    if droplet.fluid.conductivity == 0.0 {
+        notes.push("heat is left out: the fluid does not conduct any".to_owned());
+    }
+    notes
+}
+
+fn speeds(droplet: &Droplet) -> String {
+    match &droplet.recorded_speeds()[..] {
+        [one] => format!("{one} m/s"),
+        several => format!("each of {} speeds", several.len()),
+    }
+}
+
+/// Part of a layer's thickness to which heat may go for it to be a half space.
+const SHALLOW: f64 = 0.5;
+
+/// Of a top layer that is thinner than heat goes while a drop spreads.
+fn note_on_depth(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Option<String> {
+    let coupling = &scene.coupling[scene.coupling_from(name)?];
+    let top = scene.solid(coupling.solid()?)?.strata().first().copied()?;
+    let time = droplet.recorded_time(droplet.impact_velocity);
+    let depth = (4.0 * top.constants.diffusivity() * time).sqrt();
+    let thickness = top.thickness();
+    (depth > SHALLOW * thickness && knowledge::effusivity(scene, name).is_some()).then(|| {
+        format!(
+            "heat goes {depth:.1e} m deep while a drop spreads, and the top layer is {thickness:.1e} m thick: what is known \
+             of a drop was found on a half space of its material"
+        )
+    })
+}
+
+/// Over which speeds and how long drops are known.
+pub fn on_course(course: &Course, droplet: &Droplet) -> String {
+    let [slowest, fastest] = course.speeds();
+    let speed = droplet.contact(droplet.impact_velocity).0;
+    let range = match slowest == fastest {
+        true => format!("at {slowest:.4} m/s"),
+        false => format!("from {slowest:.4} to {fastest:.4} m/s"),
+    };
+    let known = droplet.recorded_time(droplet.impact_velocity);
+    format!(
+        "drops are known {range} as they touch the wall, for {known:.3e} s on {} rings out to {:.3e} m; then they cool as a \
+         film, and have given what they give after {:.3e} s",
+        course.rings(),
+        course.radius(),
+        course.duration(speed)
+    )
+}
+
+/// Of drops that came down on others.
+pub fn on_overlap(name: &str, overlapping: f64, released: f64) -> String {
+    format!(
+        "{name}: {overlapping} of {released} drops came down on the film of another that was still giving heat or force \
+         (overlapping): each gives what it would alone, from the temperature that it met"
+    )
+}

@@ -1,0 +1,173 @@
+//! Drops of several speeds: between two that are known, amounts at equal times over D/U are interpolated.
+
+use super::profile::{Amounts, Profile};
+use super::tail::Tail;
+
+/// Relative difference of speeds that counts as none.
+const SAME: f64 = 1e-6;
+
+/// Profiles in the order of their speeds, over the same rings.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Course {
+    profiles: Vec<(Profile, Option<Tail>)>,
+}
+
+impl Course {
+    /// Refuses profiles that do not go together.
+    pub fn new(profiles: Vec<Profile>) -> Result<Self, String> {
+        let Some(first) = profiles.first() else { return Err("there is no profile".to_owned()) };
+        profiles.iter().try_for_each(Profile::check)?;
+        let alike = |other: &Profile| {
+            (other.rings, other.radius.to_bits()) == (first.rings, first.radius.to_bits())
+        };
+        if !profiles.iter().all(alike) {
+            return Err("its profiles have other rings".to_owned());
+        }
+        if profiles.windows(2).any(|pair| pair[0].speed >= pair[1].speed) {
+            return Err("its speeds do not ascend".to_owned());
+        }
+        let with_tail = |profile: Profile| {
+            let tail = profile.tail();
+            (profile, tail)
+        };
+        Ok(Self { profiles: profiles.into_iter().map(with_tail).collect() })
+    }
+
+    pub fn profiles(&self) -> impl Iterator<Item = &Profile> {
+        self.profiles.iter().map(|(profile, _)| profile)
+    }
+
+    pub fn rings(&self) -> usize {
+        self.profiles[0].0.rings
+    }
+
+    /// Of the outermost ring [m].
+    pub fn radius(&self) -> f64 {
+        self.profiles[0].0.radius
+    }
+
+    /// Slowest and fastest drop [m/s].
+    pub fn speeds(&self) -> [f64; 2] {
+        [self.profiles[0].0.speed, self.profiles[self.profiles.len() - 1].0.speed]
+    }
+
+    /// Whether drops of a speed are known.
+    pub fn knows(&self, speed: f64) -> bool {
+        let [slowest, fastest] = self.speeds();
+        speed >= slowest * (1.0 - SAME) && speed <= fastest * (1.0 + SAME)
+    }
+
+    /// How long a drop gives anything [s], and how long heat alone.
+    pub fn duration(&self, speed: f64) -> f64 {
+        let of = |(place, _): (usize, f64)| {
+            let (profile, tail) = &self.profiles[place];
+            let tail = tail.as_ref().map_or(0.0, Tail::duration);
+            profile.duration * profile.speed / speed + tail
+        };
+        self.weights(speed).into_iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// Largest diameter of the film [m].
+    pub fn largest_spread(&self, speed: f64) -> f64 {
+        let weights = self.weights(speed).into_iter();
+        weights.map(|(place, weight)| weight * self.profiles[place].0.largest_spread()).sum()
+    }
+
+    /// Diameter of the film a time after the contact [m].
+    pub fn spread(&self, speed: f64, age: f64) -> f64 {
+        let of = |(place, weight): (usize, f64)| {
+            let (profile, _) = &self.profiles[place];
+            weight * profile.spread_at(age * speed / profile.speed)
+        };
+        self.weights(speed).into_iter().map(of).sum()
+    }
+
+    /// What each ring has got a time after the contact [s].
+    pub fn amounts(&self, speed: f64, age: f64) -> Vec<Amounts> {
+        let mut sums = vec![Amounts::default(); self.rings()];
+        if age <= 0.0 {
+            return sums;
+        }
+        for (place, weight) in self.weights(speed) {
+            let (profile, tail) = &self.profiles[place];
+            let ratio = speed / profile.speed;
+            let heat = tail.as_ref().map_or(0.0, |tail| tail.heat(age - profile.duration / ratio));
+            let shares = tail.as_ref().map_or(&[][..], Tail::shares);
+            for (ring, (sum, amounts)) in sums.iter_mut().zip(profile.at(age * ratio)).enumerate() {
+                let rest = shares.get(ring).map_or(0.0, |share| share * heat);
+                sum.heat += weight * (amounts.heat + rest);
+                // Momentum is in proportion to the speed.
+                sum.push += weight * ratio * amounts.push;
+                sum.outward += weight * ratio * amounts.outward;
+            }
+        }
+        sums
+    }
+
+    /// Places of the profiles that make up a drop of some speed, and their weights.
+    fn weights(&self, speed: f64) -> Vec<(usize, f64)> {
+        let of = |place: usize| self.profiles[place].0.speed;
+        let above = (0..self.profiles.len()).find(|&place| of(place) * (1.0 + SAME) >= speed);
+        let above = above.unwrap_or(self.profiles.len() - 1);
+        if above == 0 || (of(above) / speed - 1.0).abs() <= SAME {
+            return vec![(above, 1.0)];
+        }
+        let share = (speed - of(above - 1)) / (of(above) - of(above - 1));
+        vec![(above - 1, 1.0 - share), (above, share)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn profile(speed: f64) -> Profile {
+        let (rings, samples) = (2, 8);
+        let amounts = (1..=samples).flat_map(|n| {
+            let part = n as f64 / samples as f64;
+            (0..rings).map(move |_| Amounts {
+                heat: 0.2 * part,
+                push: 0.5 * speed * part,
+                outward: 0.0,
+            })
+        });
+        Profile {
+            speed,
+            heat_capacity: 1.0,
+            duration: 4.0 / speed,
+            rings,
+            radius: 1.0,
+            amounts: amounts.collect(),
+            spread: vec![1.0; samples],
+        }
+    }
+
+    #[test]
+    fn speeds_between_are_interpolated_and_others_unknown() {
+        let course = Course::new(vec![profile(1.0), profile(2.0)]).unwrap();
+        assert!(course.knows(1.0) && course.knows(1.5) && course.knows(2.0));
+        assert!(!course.knows(0.9) && !course.knows(2.1));
+        // These profiles are alike over D/U, so that any speed between is known exactly.
+        for speed in [1.0, 1.25, 1.9, 2.0] {
+            let found = course.amounts(speed, 2.0 / speed)[1];
+            assert!((found.heat - 0.1).abs() < 1e-12);
+            assert!((found.push - 0.25 * speed).abs() < 1e-12);
+            let end = course.amounts(speed, 1e9);
+            let heat: f64 = end.iter().map(|amounts| amounts.heat).sum();
+            assert!((heat - 1.0).abs() < 1e-9, "{heat}");
+        }
+    }
+
+    #[test]
+    fn what_does_not_go_together_is_refused() {
+        assert!(Course::new(Vec::new()).is_err());
+        assert!(Course::new(vec![profile(2.0), profile(1.0)]).is_err());
+        assert!(Course::new(vec![profile(1.0), Profile { radius: 2.0, ..profile(2.0) }]).is_err());
+        let mut hot = profile(1.0);
+        hot.amounts[15].heat = 2.0;
+        assert!(Course::new(vec![hot]).is_err());
+        let mut broken = profile(1.0);
+        broken.amounts[3].push = f64::NAN;
+        assert!(Course::new(vec![broken]).is_err());
+    }
+}

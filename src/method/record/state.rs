@@ -1,0 +1,147 @@
+//! All that changes of drops that are replayed, and how it lies in a flat vector.
+
+use std::slice::from_mut;
+
+use crate::state::{Field, Fields, Layout, Per, load, store};
+
+/// Sums over time.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Ledger {
+    /// [s]
+    pub time: f64,
+    /// Length of the last step [s].
+    pub duration: f64,
+    /// Drops asked for, released, and come down where another was still giving heat or force: whole numbers.
+    pub asked: f64,
+    pub released: f64,
+    pub overlapping: f64,
+    /// Given to the wall since time zero [J], [N s].
+    pub heat: f64,
+    pub impulse: [f64; 3],
+}
+
+/// A drop that falls or gives something, or did so in the last step.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drop {
+    /// When it touches the wall [s], where along x and y [m], how fast [m/s] and how warm [K].
+    pub contact: f64,
+    pub place: [f64; 2],
+    pub speed: f64,
+    pub temperature: f64,
+    /// What each ring of the wall had as it was touched [K]; zeros before.
+    pub wall: Vec<f64>,
+}
+
+impl Drop {
+    /// Whether it has touched the wall.
+    pub fn is_down(&self) -> bool {
+        self.wall.first().is_some_and(|temperature| *temperature > 0.0)
+    }
+}
+
+fn body(name: &'static str, words: &'static str, width: usize) -> Field {
+    Field { name, words, per: Per::Body, width }
+}
+
+fn of_drop(name: &'static str, words: &'static str, width: usize) -> Field {
+    Field { name, words, per: Per::Drop, width }
+}
+
+impl Fields for Ledger {
+    fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
+        vec![
+            (body("time", "time since the start [s]", 1), from_mut(&mut self.time)),
+            (body("duration", "length of the last step [s]", 1), from_mut(&mut self.duration)),
+            (body("asked", "drops asked for so far", 1), from_mut(&mut self.asked)),
+            (body("released", "drops released so far", 1), from_mut(&mut self.released)),
+            (
+                body("overlapping", "drops that came down on others", 1),
+                from_mut(&mut self.overlapping),
+            ),
+            (body("heat", "heat given to the wall [J]", 1), from_mut(&mut self.heat)),
+            (body("impulse", "impulse given to the wall [N s]", 3), &mut self.impulse),
+        ]
+    }
+}
+
+/// Numbers of a drop beside the temperatures of its rings.
+const OF_DROP: usize = 5;
+
+impl Fields for Drop {
+    fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
+        let rings = self.wall.len();
+        vec![
+            (
+                of_drop("contact", "time at which it touches the wall [s]", 1),
+                from_mut(&mut self.contact),
+            ),
+            (of_drop("place", "where it comes down [m]", 2), &mut self.place),
+            (of_drop("speed", "speed towards the wall [m/s]", 1), from_mut(&mut self.speed)),
+            (of_drop("temperature", "temperature [K]", 1), from_mut(&mut self.temperature)),
+            (of_drop("wall", "what the rings had as they were touched [K]", rings), &mut self.wall),
+        ]
+    }
+}
+
+impl Drop {
+    pub fn none(rings: usize) -> Self {
+        let wall = vec![0.0; rings];
+        Self { contact: 0.0, place: [0.0; 2], speed: 0.0, temperature: 0.0, wall }
+    }
+}
+
+/// Number of drops in a state; nothing of a length that fits none.
+pub fn drops_in(state: &[f64], rings: usize) -> Option<usize> {
+    let head = Layout::of(&mut Ledger::default()).len();
+    let rest = state.len().checked_sub(head)?;
+    rest.is_multiple_of(OF_DROP + rings).then(|| rest / (OF_DROP + rings))
+}
+
+/// The fields of a state of so many drops, those of each drop together.
+pub fn layout(drops: usize, rings: usize) -> Layout {
+    let of_one = Layout::of(&mut Drop::none(rings));
+    (0..drops).fold(Layout::of(&mut Ledger::default()), |all, _| all.then(of_one.clone()))
+}
+
+/// A state as it was flattened.
+pub fn unflatten(state: &[f64], rings: usize) -> (Ledger, Vec<Drop>) {
+    let mut ledger = Ledger::default();
+    load(&mut ledger, state);
+    let head = state.len() - drops_in(state, rings).unwrap_or(0) * (OF_DROP + rings);
+    let drop = |numbers: &[f64]| {
+        let mut drop = Drop::none(rings);
+        load(&mut drop, numbers);
+        drop
+    };
+    (ledger, state[head..].chunks_exact(OF_DROP + rings).map(drop).collect())
+}
+
+/// One list of all numbers.
+pub fn flatten(ledger: &mut Ledger, drops: &mut [Drop]) -> Vec<f64> {
+    let head = Layout::of(ledger).len();
+    let rings = drops.first().map_or(0, |drop| drop.wall.len());
+    let mut state = vec![0.0; head + drops.len() * (OF_DROP + rings)];
+    store(ledger, &mut state);
+    for (drop, to) in drops.iter_mut().zip(state[head..].chunks_exact_mut(OF_DROP + rings)) {
+        store(drop, to);
+    }
+    state
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_state_is_read_as_it_was_written() {
+        let mut ledger =
+            Ledger { time: 2.0, released: 2.0, impulse: [1.0, 2.0, 3.0], ..Ledger::default() };
+        let drop = |at: f64| Drop { contact: at, wall: vec![at, 2.0 * at, 300.0], ..Drop::none(3) };
+        let mut drops = vec![drop(1.0), drop(4.0)];
+        let state = flatten(&mut ledger, &mut drops);
+        assert_eq!(layout(2, 3).len(), state.len());
+        assert_eq!(drops_in(&state, 3), Some(2));
+        assert_eq!(drops_in(&state[1..], 3), None);
+        assert_eq!(unflatten(&state, 3), (ledger, drops));
+    }
+}

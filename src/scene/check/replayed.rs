@@ -1,0 +1,77 @@
+//! What drops are computed by: particles, a record of these, or the closed forms of a film, each with keys of its own.
+
+use super::{Checker, number};
+use crate::kernel::Kernel;
+use crate::scene::droplet::{Droplet, DropletMethod, DropletSymmetry, Placement, Precision};
+use crate::scene::locate::Path;
+
+pub fn check(checker: &mut Checker, path: &Path, (name, droplet): (&str, &Droplet)) {
+    let method = droplet.method;
+    if droplet.has_particles() {
+        let message = "drops of particles need the distance of these";
+        let allowed = "spacing, up to a sixth of the diameter";
+        checker.require(droplet.spacing > 0.0, &path.at("spacing"), message, allowed);
+    }
+    if method == DropletMethod::Sph {
+        let message = "particles are computed for each drop, and nothing is recorded";
+        let allowed = "no such key, or method = \"record\"";
+        checker.require(droplet.record.is_none(), &path.at("record"), message, allowed);
+        return;
+    }
+    let scene = checker.scene;
+    let stands = scene.wall_under(name).is_some() || scene.coupling_from(name).is_some();
+    let message = "what a drop gives to a wall is repeated, and there is none below it";
+    checker.require(
+        stands,
+        &path.at("method"),
+        message,
+        "\"sph\", or a `[[coupling]]` or `[[wall]]` of the droplet",
+    );
+    if method == DropletMethod::Film {
+        without_particles(checker, path, droplet);
+    }
+    let message = "drops that are repeated are round";
+    checker.require(droplet.dimension == 3, &path.at("dimension"), message, "3");
+    let message = "drops that are repeated come straight down";
+    checker.require(droplet.is_straight(), &path.at("impact_angle"), message, "0");
+    let (speed, _) = droplet.contact(droplet.impact_velocity);
+    let message = "a drop that is repeated hits the wall";
+    checker.require(speed > 0.0, &path.at("impact_velocity"), message, "> 0");
+    speeds(checker, path, droplet);
+}
+
+fn speeds(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    let speeds = droplet.recorded_speeds();
+    let at = path.at("record.speeds");
+    for (n, pair) in speeds.windows(2).enumerate() {
+        let message = "speeds that are recorded ascend";
+        let allowed = format!("> {}", number(pair[0]));
+        checker.require(pair[0] < pair[1], &at.index(n + 1), message, allowed);
+    }
+    if let (Some(slowest), Some(fastest)) = (speeds.first(), speeds.last()) {
+        let own = droplet.impact_velocity;
+        let message = format!("the drops' own speed, {} m/s, is not among them", number(own));
+        let allowed = format!("speeds from {} or less to {} or more", number(own), number(own));
+        checker.require((*slowest..=*fastest).contains(&own), &at, message, allowed);
+    }
+}
+
+/// A film has no particles, so what concerns these is refused.
+fn without_particles(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    let given = [
+        ("spacing", droplet.spacing != 0.0),
+        ("symmetry", droplet.symmetry != DropletSymmetry::Auto),
+        ("placement", droplet.placement != Placement::Lattice),
+        ("kernel", droplet.kernel != Kernel::default()),
+        ("support", droplet.support != Droplet::DEFAULT_SUPPORT),
+        ("precision", droplet.precision != Precision::Single),
+        ("density_diffusion", droplet.density_diffusion != Droplet::DEFAULT_DENSITY_DIFFUSION),
+        ("corrected_diffusion", !droplet.corrected_diffusion),
+        ("shifting", droplet.shifting.is_some()),
+        ("fluid.sound_speed", droplet.fluid.sound_speed.is_some()),
+    ];
+    for (key, is_given) in given {
+        let message = "a film has no particles, which this key is about";
+        checker.require(!is_given, &path.at(key), message, "no such key, or another `method`");
+    }
+}

@@ -1,0 +1,389 @@
+//! Drops that are repeated: each gives what the one drop gives that is known, wherever and whenever it comes down.
+
+use std::f64::consts::PI;
+
+use crate::common::{Trial, off};
+use impinge::model::ModelError;
+use impinge::scene;
+
+const DIAMETER: f64 = 1e-4;
+const SPEED: f64 = 20.0;
+const DENSITY: f64 = 1000.0;
+const HEAT: f64 = 4180.0;
+const STEP: f64 = 5e-7;
+
+/// A coarse drop of ink at 350 K, with further keys.
+fn drop(method: &str, keys: &str) -> String {
+    let spacing = if method == "film" { "" } else { "spacing = 1e-5\n" };
+    format!(
+        "name = \"Drops\"\nstop_time = 2e-5\nstep = {STEP:?}\n[body.drop]\nkind = \"droplet\"\nmethod = \"{method}\"\ndiameter = \
+         {DIAMETER:?}\nimpact_velocity = {SPEED:?}\ninitial_temperature = 350.0\n{spacing}fluid = {{ density = {DENSITY:?}, \
+         viscosity = 4e-3, specific_heat = {HEAT:?}, conductivity = 0.6, surface_tension = 0.05 }}\n{keys}\n"
+    )
+}
+
+/// A plate below it, with further keys of the coupling.
+fn plate(temperature: f64, keys: &str) -> String {
+    format!(
+        "[body.plate]\nkind = \"solid\"\nshape = {{ box = [1e-3, 1e-3, 1e-4] }}\nmaterial = {{ model = \"thermoelastic\", \
+         density = 3950.0, specific_heat = 900.0, conductivity = 10.0 }}\ninitial_temperature = {temperature:?}\nmesh = {{ \
+         spacing = 2.5e-5, depth_spacing = 1e-6, growth = 1.5, order = 1 }}\n[[coupling]]\nfrom = \"drop\"\nto = \
+         \"plate.top\"\ntraction = false\nradius = 1.5e-4\n{keys}\n"
+    )
+}
+
+/// Tiles below it, which are held at 300 K.
+const TILES: &str = "[[wall]]\nname = \"wall\"\nunder = \"drop\"\nfootprint = { tiles = { count = [8, 8], size = [1e-3, \
+                     1e-3] } }\nstart = { temperature = 300.0 }\n";
+const ON_DEMAND: &str = "release = \"input\"\nmost = 5\n";
+
+fn mass() -> f64 {
+    PI / 6.0 * DIAMETER.powi(3) * DENSITY
+}
+
+/// Heat that a drop has to give to what is at 300 K.
+fn content() -> f64 {
+    mass() * HEAT * 50.0
+}
+
+fn steps(trial: &mut Trial, count: usize) {
+    (0..count).for_each(|_| trial.step(STEP));
+}
+
+fn get<const N: usize>(trial: &mut Trial, keys: [&str; N]) -> [f64; N] {
+    keys.map(|key| trial.get(&format!("drop.{key}")))
+}
+
+#[test]
+fn a_single_drop_gives_what_its_particles_give() {
+    let mut heats = Vec::new();
+    for (method, momentum) in [("sph", 0.05), ("record", 0.05), ("film", 1e-3)] {
+        // Films of coarser drops are thinner than their particles.
+        let text = drop(method, "").replace("spacing = 1e-5", "spacing = 6.25e-6");
+        let mut trial = Trial::new(&(text + &plate(300.0, "")));
+        steps(&mut trial, 40);
+        let [given, stored, pushed] = get(&mut trial, ["heat", "heat_stored", "impulse_z"]);
+        let taken = trial.get("plate.heat_in");
+        assert!(off(taken, given) < 1e-12, "{method}: {given} J become {taken} J");
+        assert!(off(-stored, given) < 1e-6, "{method}: {stored} {given}");
+        assert!(trial.heat_residual("plate") < 1e-9);
+        let part = pushed / (mass() * SPEED);
+        assert!((part + 1.0).abs() < momentum, "{method}: {part}");
+        heats.push(given / content());
+    }
+    assert!(off(heats[1], heats[0]) < 0.05, "{heats:?}");
+    assert!(off(heats[2], heats[0]) < 0.2, "{heats:?}");
+}
+
+/// The flow does not depend on temperatures, and conduction is linear.
+#[test]
+fn heat_is_in_proportion_to_the_difference_of_temperatures() {
+    for method in ["record", "film"] {
+        let given = |plate_at: f64| {
+            let mut trial = Trial::new(&(drop(method, "") + &plate(plate_at, "")));
+            steps(&mut trial, 30);
+            trial.get("drop.heat") / (350.0 - plate_at)
+        };
+        let one = given(300.0);
+        for other in [400.0, 349.0, 77.0] {
+            assert!(off(given(other), one) < 1e-9, "{method} on {other} K");
+        }
+    }
+}
+
+/// A drop that has come to rest has given all its heat to a wall that is held, in steps of any length.
+#[test]
+fn at_last_all_heat_has_been_given() {
+    for method in ["record", "film"] {
+        let mut heats = Vec::new();
+        for step in [1e-6, 3.3e-5, 1e-2] {
+            let mut trial = Trial::new(&(drop(method, "") + TILES));
+            let mut steps = 0;
+            while steps == 0 || trial.get("drop.active") > 0.0 {
+                trial.step(step);
+                steps += 1;
+                assert!(steps < 100_000);
+            }
+            heats.push(trial.get("drop.heat"));
+            trial.step(step);
+            let [flow, force, heat] = get(&mut trial, ["heat_flow", "force", "heat"]);
+            assert_eq!([flow, force], [0.0; 2]);
+            assert!(off(heat, content()) < 1e-9, "{method}: {}", heat / content());
+        }
+        assert!(heats.iter().all(|heat| off(*heat, heats[0]) < 1e-12), "{heats:?}");
+    }
+}
+
+#[test]
+fn what_cells_got_is_what_the_drop_gave() {
+    let mut trial = Trial::new(&(drop("record", "arrivals = [{ x = 4.2e-4, y = -1e-5 }]") + TILES));
+    let area = (1e-3 / 8.0_f64).powi(2);
+    let (mut heat, mut impulse) = (0.0, 0.0);
+    for _ in 0..30 {
+        trial.step(STEP);
+        let sum = |trial: &mut Trial, key: &str| {
+            let cells = (1..=8).flat_map(|i| (1..=8).map(move |j| [i, j]));
+            let names = cells.map(|[i, j]| format!("wall.{key}[{i},{j}]"));
+            names.map(|name| area * trial.get(&name)).sum::<f64>()
+        };
+        // Beyond the tiles the wall goes on.
+        let beyond = ["wall.heat_flow_outside", "wall.force_outside"].map(|name| trial.get(name));
+        heat += STEP * (sum(&mut trial, "heat_flux") + beyond[0]);
+        impulse += STEP * (sum(&mut trial, "pressure") + beyond[1]);
+        let [flow, force] = get(&mut trial, ["heat_flow", "force"]);
+        let scale = content() / 1e-5;
+        assert!((sum(&mut trial, "heat_flux") + beyond[0] - flow).abs() < 1e-12 * scale);
+        assert!((sum(&mut trial, "pressure") + beyond[1] - force).abs() < 1e-9);
+    }
+    let [given, pushed, aside] = get(&mut trial, ["heat", "impulse_z", "impulse_x"]);
+    assert!(off(heat, given) < 1e-12 && off(impulse, -pushed) < 1e-12);
+    assert!(aside.abs() < 1e-9 * pushed.abs());
+}
+
+/// Drops far apart give what each gives alone, wherever they are.
+#[test]
+fn drops_are_superposed() {
+    let heat = |arrivals: &str| {
+        let keys = format!("symmetry = \"none\"\narrivals = [{arrivals}]");
+        let mut trial = Trial::new(&(drop("record", &keys) + &plate(300.0, "")));
+        steps(&mut trial, 30);
+        (trial.get("drop.heat"), trial.get("drop.overlapping"))
+    };
+    let one = heat("{ x = 2.6e-4 }").0;
+    let (two, apart) = heat("{ x = -2.6e-4, y = 1e-5 }, { x = 2.6e-4 }");
+    assert!(off(two, 2.0 * one) < 1e-9, "{two} {one}");
+    assert_eq!(apart, 0.0);
+    // Where the second meets the first's warm place it gives less.
+    let (near, together) = heat("{ x = 2.6e-4 }, { time = 5e-6, x = 2.6e-4 }");
+    assert_eq!(together, 1.0);
+    assert!(near < 1.95 * one && near > one, "{near} {one}");
+}
+
+#[test]
+fn drops_on_demand_are_those_of_arrivals() {
+    let arrivals = "symmetry = \"none\"\nheight = 3e-5\narrivals = [{ x = 4e-5 }, { time = 5e-6, x = -9e-5, y = 3e-5 }]\n";
+    let asked = format!("height = 3e-5\n{ON_DEMAND}");
+    for method in ["record", "film"] {
+        let mut timed = Trial::new(&(drop(method, arrivals) + TILES));
+        let mut asked = Trial::new(&(drop(method, &asked) + TILES));
+        for (count, x, y) in [(1.0, 4e-5, 0.0), (2.0, -9e-5, 3e-5)] {
+            asked.set("drop.release", count);
+            asked.set("drop.x", x);
+            asked.set("drop.y", y);
+            (0..10).for_each(|_| {
+                timed.step(STEP);
+                asked.step(STEP);
+            });
+        }
+        for name in timed.outputs() {
+            // The time of the release is a sum of steps.
+            let [one, other] = [&mut timed, &mut asked].map(|trial| trial.get(&name));
+            assert!((one - other).abs() <= 1e-9 * one.abs(), "{method} {name}: {one} {other}");
+        }
+        assert_eq!(asked.get("drop.released"), 2.0);
+        assert_eq!(asked.get("drop.waiting"), 0.0);
+    }
+}
+
+#[test]
+fn a_saved_state_goes_on_to_the_bit_on_any_number_of_threads() {
+    let text = drop("record", ON_DEMAND) + &plate(300.0, "");
+    let mut trial = Trial::new(&text);
+    let ask = |trial: &mut Trial, count: f64| {
+        trial.set("drop.release", count);
+        trial.set("drop.x", 1e-4 * count);
+    };
+    ask(&mut trial, 2.0);
+    steps(&mut trial, 7);
+    let saved = trial.state.clone();
+    trial.model.check_state(&saved).unwrap();
+    ask(&mut trial, 4.0);
+    steps(&mut trial, 7);
+    let end = trial.state.clone();
+    let before = trial.get("drop.heat_flow");
+    let mut other = Trial::on_threads(&text, 2);
+    other.restart(&saved);
+    ask(&mut other, 4.0);
+    steps(&mut other, 7);
+    assert_eq!(other.state, end);
+    assert_eq!(other.get("drop.heat_flow").to_bits(), before.to_bits());
+}
+
+#[test]
+fn a_drop_that_falls_from_above_comes_later_and_faster() {
+    let from = |height: f64, gravity: f64| {
+        let keys = format!("height = {height:?}\ngravity = {gravity:?}\n");
+        let mut trial = Trial::new(&(drop("film", &keys) + TILES));
+        let first = (1..400).find(|_| {
+            trial.step(STEP);
+            trial.get("drop.heat") > 0.0
+        });
+        let time = first.unwrap() as f64 * STEP;
+        steps(&mut trial, 200);
+        (time, trial.get("drop.impulse_z") / (mass() * SPEED))
+    };
+    let (time, momentum) = from(1e-3, 0.0);
+    assert!((time - 1e-3 / SPEED).abs() < 2.0 * STEP, "{time}");
+    assert!((momentum + 1.0).abs() < 1e-6, "{momentum}");
+    // v² = U² + 2gh
+    let fast = (SPEED * SPEED + 2.0 * 1e5 * 1e-3_f64).sqrt();
+    let (time, momentum) = from(1e-3, 1e5);
+    assert!((time - 2e-3 / (SPEED + fast)).abs() < 2.0 * STEP, "{time}");
+    assert!((momentum + fast / SPEED).abs() < 1e-6, "{momentum}");
+}
+
+fn refusal(trial: &mut Trial) -> String {
+    let before = trial.state.clone();
+    let refused = trial.try_step(STEP).expect_err("no refusal");
+    assert!(matches!(refused, ModelError::Body(_)), "{refused}");
+    assert_eq!(trial.state.bodies, before.bodies);
+    refused.to_string()
+}
+
+#[test]
+fn what_is_not_known_is_refused() {
+    let refused = |text: &str, input: (&str, f64), words: &str| {
+        let mut trial = Trial::new(text);
+        trial.set("drop.release", 1.0);
+        trial.step(STEP);
+        trial.set(input.0, input.1);
+        let said = refusal(&mut trial);
+        assert!(said.contains(words), "{input:?}: {said}");
+    };
+    let one = drop("record", ON_DEMAND) + TILES;
+    refused(&one, ("drop.speed", 20.1), "touches the wall at 20 to 20 m/s");
+    refused(&one, ("drop.angle", 0.1), "(allowed: 0)");
+    refused(&one, ("drop.release", 0.0), "does not fall");
+    refused(&one, ("drop.temperature", 0.0), "absolute zero");
+    let film = drop("film", ON_DEMAND) + TILES;
+    refused(&film, ("drop.speed", 81.0), "touches the wall at 5 to 80 m/s");
+    let beside = drop("film", ON_DEMAND) + &plate(300.0, "");
+    refused(&beside, ("drop.x", 4.6e-4), "that is beside `plate`");
+}
+
+/// Between two speeds that are recorded a drop gives what its own particles give.
+#[test]
+fn speeds_between_those_recorded_are_interpolated() {
+    let given = |keys: &str, speed: f64| {
+        let mut trial = Trial::new(&(drop("record", &format!("{ON_DEMAND}{keys}")) + TILES));
+        trial.set("drop.release", 1.0);
+        trial.set("drop.speed", speed);
+        steps(&mut trial, 24);
+        let [heat, impulse] = get(&mut trial, ["heat", "impulse_z"]);
+        [heat / content(), impulse / (mass() * speed)]
+    };
+    let table = "record = { speeds = [16.0, 20.0] }\n";
+    let between = given(table, 18.0);
+    let own = drop("record", ON_DEMAND).replace("impact_velocity = 20.0", "impact_velocity = 18.0");
+    let mut trial = Trial::new(&(own + TILES));
+    trial.set("drop.release", 1.0);
+    steps(&mut trial, 24);
+    let exact = trial.get("drop.heat") / content();
+    assert!(off(between[0], exact) < 0.05, "{between:?} {exact}");
+    assert!((between[1] + 1.0).abs() < 0.05, "{between:?}");
+    // At the ends it is what is recorded there.
+    let end = given(table, 20.0);
+    assert!(off(end[0], given("", 20.0)[0]) < 0.02, "{end:?}");
+}
+
+/// The same for liquids from metal to wax: a film gives all its momentum, and of its heat a part that grows.
+#[test]
+fn films_of_all_liquids_keep_their_balances() {
+    // ρ, µ, c, k, σ and U.
+    let liquids = [
+        [13534.0, 1.53e-3, 139.0, 8.5, 0.485, 4.0],
+        [6970.0, 1.8e-3, 245.0, 31.0, 0.55, 5.0],
+        [980.0, 4e-4, 4186.0, 0.66, 0.064, 10.0],
+        [760.0, 6.5e-4, 2700.0, 0.16, 0.019, 10.0],
+        [1240.0, 0.1, 2600.0, 0.29, 0.06, 20.0],
+        [800.0, 1.2e-2, 2200.0, 0.15, 0.025, 10.0],
+    ];
+    for [density, viscosity, heat, conductivity, tension, speed] in liquids {
+        let text = drop("film", "")
+            .replace("1000.0", &format!("{density:?}"))
+            .replace("4e-3", &format!("{viscosity:?}"))
+            .replace("4180.0", &format!("{heat:?}"))
+            .replace("0.6,", &format!("{conductivity:?},"))
+            .replace("0.05 }", &format!("{tension:?} }}"))
+            .replace("impact_velocity = 20.0", &format!("impact_velocity = {speed:?}"));
+        let mut trial = Trial::new(&(text + &plate(300.0, "")));
+        let (mass, mut last) = (PI / 6.0 * DIAMETER.powi(3) * density, 0.0);
+        for _ in 0..40 {
+            trial.step(0.1 * DIAMETER / speed);
+            let [given, momentum] = get(&mut trial, ["heat", "impulse_z"]);
+            assert!(given >= last && given < mass * heat * 50.0, "{density}: {given}");
+            assert!(momentum.abs() < mass * speed * (1.0 + 1e-9));
+            last = given;
+        }
+        let spread = trial.get("drop.spread_diameter") / DIAMETER;
+        assert!((0.9..6.0).contains(&spread), "{density}: {spread}");
+        assert!(off(trial.get("plate.heat_in"), last) < 1e-12);
+        assert!(trial.heat_residual("plate") < 1e-9);
+        // A plate of 300 K warms no further than the drop.
+        assert!(trial.get("plate.max_temperature") < 350.0);
+    }
+}
+
+/// States that no run leads to, by the place of a number.
+#[test]
+fn states_that_contradict_themselves_are_refused() {
+    let mut trial = Trial::new(&(drop("film", ON_DEMAND) + &plate(300.0, "")));
+    trial.set("drop.release", 2.0);
+    steps(&mut trial, 3);
+    let state = trial.state.clone();
+    trial.model.check_state(&state).unwrap();
+    let body = trial.model.scene().body.keys().position(|name| name == "drop").unwrap();
+    // Time, last step, asked, released, overlapping, heat, impulse; then contact, place, speed, temperature, rings.
+    let first = 9;
+    for (place, value, words) in [
+        (0, -1.0, "a last step"),
+        (1, 1.0, "a last step"),
+        (2, 7.0, "of at most 5"),
+        (2, 1.5, "asked for"),
+        (3, 3.0, "released of 5"),
+        (4, 3.0, "on others"),
+        (5, f64::NAN, "not finite"),
+        (first, 1.0, "touches the wall"),
+        (first, -1.0, "m/s and"),
+        (first + 1, 1.0, "beyond what drops reach"),
+        (first + 3, 1e3, "1000 m/s"),
+        (first + 4, -3.0, "-3 K"),
+        (first + 5, 0.0, "some of its rings"),
+        (first + 6, -1.0, "some of its rings"),
+    ] {
+        let mut forged = state.clone();
+        forged.bodies[body][place] = value;
+        let refused = trial.model.check_state(&forged).unwrap_err().to_string();
+        assert!(refused.contains(words), "{place} {value}: {refused}");
+    }
+    let mut cut = state.clone();
+    cut.bodies[body].pop();
+    assert!(trial.model.check_state(&cut).is_err());
+}
+
+#[test]
+fn drops_on_others_are_noticed_and_told_at_the_end() {
+    let mut trial = Trial::new(&(drop("film", ON_DEMAND) + TILES));
+    for (count, x) in [(1.0, 0.0), (2.0, 1e-4), (3.0, 4.5e-4)] {
+        trial.set("drop.release", count);
+        trial.set("drop.x", x);
+        steps(&mut trial, 4);
+    }
+    assert_eq!(trial.get("drop.overlapping"), 1.0);
+    let said = trial.model.closing_warnings(&trial.state);
+    assert!(said.iter().any(|words| words.contains("1 of 3 drops")), "{said:?}");
+}
+
+/// What is scarce is told ahead.
+#[test]
+fn a_forecast_counts_what_is_recorded() {
+    let told = |method: &str| {
+        let text = drop(method, ON_DEMAND) + TILES;
+        impinge::model::forecast(&scene::parse(&text, "scene").unwrap())
+    };
+    let [particles, record, film] = ["sph", "record", "film"].map(told);
+    assert_eq!(film.droplets[0].particles, 0);
+    let quarter = record.droplets[0].particles as f64;
+    assert!(quarter > 0.0 && quarter < 0.06 * particles.droplets[0].particles as f64);
+    assert!(record.droplets[0].run_time > film.droplets[0].run_time);
+}
