@@ -145,6 +145,9 @@ pub enum DropletSymmetry {
     None,
     /// A quarter; drops must arrive at the origin, straight down.
     Quarter,
+    /// The plane of radius and height, of which particles are rings; drops must arrive at the origin, straight down,
+    /// on what is round.
+    Axisymmetric,
 }
 
 /// A Newtonian fluid that conducts heat.
@@ -513,6 +516,11 @@ impl Droplet {
         let Fluid { density, surface_tension, .. } = self.fluid;
         let inertia = density * self.impact_velocity.powi(2) * self.diameter;
         self.shifting.unwrap_or(inertia > INERTIAL * surface_tension || surface_tension == 0.0)
+    }
+
+    /// Whether particles are rings about the axis.
+    pub fn is_axisymmetric(&self) -> bool {
+        self.symmetry == DropletSymmetry::Axisymmetric
     }
 
     /// Along which of x and y the half of the model stands for the whole.

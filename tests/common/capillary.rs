@@ -24,6 +24,7 @@ pub fn sound_speed(spacing: f64) -> f64 {
 pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
     DropletPlan {
         dimension,
+        axisymmetric: false,
         spacing: 2.0 * RADIUS / across,
         support: 3.0,
         kernel: Kernel::WendlandC2,

@@ -78,15 +78,6 @@ impl Effort {
     }
 }
 
-/// Number of particles of one drop, images left out.
-pub fn particles_of(plan: &DropletPlan, release: &Release) -> f64 {
-    let volume = match plan.dimension {
-        2 => PI / 4.0 * release.diameter.powi(2),
-        _ => PI / 6.0 * release.diameter.powi(3),
-    };
-    volume / plan.spacing.powi(plan.dimension as i32) / copies(plan.mirrors)
-}
-
 /// A drop at a time.
 struct Drop {
     particles: f64,
@@ -160,7 +151,7 @@ fn drop_at(plan: &DropletPlan, release: &Release, spread: Option<f64>, time: f64
         _ => (1.5 * area / across, 6.0 * LAYERS / across),
     };
     Drop {
-        particles: particles_of(plan, release),
+        particles: plan.particles_of(release.diameter),
         fastest: pressed * speed,
         at_wall: on_wall.min(1.0),
         near_surface: (layer * surface).min(1.0),

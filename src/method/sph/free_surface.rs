@@ -4,7 +4,7 @@ use super::cloud::Cloud;
 use super::field::Field;
 use super::fractions::{Energies, Fractions, Sheet, Slopes, from};
 use super::grid::Grid;
-use super::images::Images;
+use super::images::{Ends, Images};
 use super::lanes::WIDTH;
 use super::neighbours::Ways;
 use super::order::{BLOCK, Bounds, space_order};
@@ -31,6 +31,8 @@ pub struct Setting {
     pub grid: Grid,
     pub images: Images,
     pub precision: Precision,
+    /// Whether particles are rings.
+    pub rings: bool,
 }
 
 impl Setting {
@@ -38,12 +40,18 @@ impl Setting {
     pub fn of(plan: &DropletPlan, tension: f64, images: &Images) -> Self {
         let cosine = plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos());
         let spacing = 1.0 / plan.support;
+        let mut ends = images.ends();
+        if plan.axisymmetric {
+            // Points begin at the axis, as they do at a plane.
+            ends[0] = Ends::Planes { near: true, far: None };
+        }
         let energy = SurfaceEnergy::of(tension, cosine, spacing, plan.dimension);
         Self {
             energy,
-            grid: Grid::of(images.ends(), energy.smoothing.reach / FINENESS, plan.dimension),
+            grid: Grid::of(ends, energy.smoothing.reach / FINENESS, plan.axes()),
             images: images.clone(),
             precision: plan.precision,
+            rings: plan.axisymmetric,
         }
     }
 
@@ -55,6 +63,7 @@ impl Setting {
             volumes: &cloud.mass,
             smoothing: self.energy.smoothing,
             precision: self.precision,
+            rings: self.rings,
             origin: mean(&cloud.position, &cloud.mass, &self.grid),
         }
     }
@@ -134,7 +143,7 @@ impl FreeSurface {
 
     /// Pull on all particles, and the energy over ρ₀c₀²H^d.
     pub fn pulls(&mut self, setting: &Setting, cloud: &Cloud, team: &Team) -> (&[Pull], f64) {
-        let Setting { grid, energy, images, precision, .. } = setting;
+        let Setting { grid, energy, images, precision, rings } = setting;
         let field = Field::of(&cloud.position, team);
         let fractions = setting.fractions(cloud, &field);
         let spread = grid.spread();
@@ -150,6 +159,7 @@ impl FreeSurface {
             images,
             smoothing: energy.smoothing,
             precision: *precision,
+            rings: *rings,
             spread: &spread,
             sheets: &pulling,
             middles: &middles,
@@ -182,7 +192,6 @@ fn middle_way(ways: &Ways, cloud: &Cloud, grid: &Grid) -> Bounds {
 
 #[cfg(test)]
 mod tests {
-    use super::super::images::Ends;
     use super::*;
 
     const SPACING: f64 = 0.4;
@@ -206,6 +215,7 @@ mod tests {
             grid: Grid::of(ends, energy.smoothing.reach / FINENESS, 3),
             images: Images::new(ends, true, [0.0; 3]),
             precision: Precision::Double,
+            rings: false,
         };
         (setting, cloud)
     }

@@ -26,6 +26,14 @@ pub fn place(
     }
 }
 
+/// The rings of points of a circle in x and z: those with x > 0, whose shares are as their circles are long.
+pub fn rings(points: &[([f64; 3], f64)]) -> Vec<([f64; 3], f64)> {
+    let outside = points.iter().filter(|(point, _)| point[0] > 0.0);
+    let rings: Vec<_> = outside.map(|&(point, share)| (point, share * point[0])).collect();
+    let sum: f64 = rings.iter().map(|ring| ring.1).sum();
+    rings.into_iter().map(|(point, share)| (point, share / sum)).collect()
+}
+
 /// Points of a cubic lattice that has the origin in the middle of a cell.
 fn lattice(radius: f64, spacing: f64, dimension: usize) -> impl Iterator<Item = [f64; 3]> {
     let half = (radius / spacing).ceil() as i64;

@@ -4,6 +4,7 @@ use super::images::Images;
 use super::lanes::{Lanes, lanes};
 use super::loops::{Local, PairSum};
 use super::neighbours::Block;
+use super::rings::{Arc, Form, PLACES, flat};
 use crate::kernel::Shape;
 
 /// Weight of the term that acts against pairs (Monaghan 2000), and its power.
@@ -53,7 +54,7 @@ impl PairSum for Crowding<'_> {
     }
 
     #[inline(always)]
-    fn sum<L: Lanes, S: Shape>(
+    fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
         block: &Block,
         k: usize,
@@ -62,27 +63,27 @@ impl PairSum for Crowding<'_> {
         let own = &self.records[block.first + k];
         let at: [L; 3] =
             lanes([own[0] - block.centre[0], own[1] - block.centre[1], own[2] - block.centre[2]]);
-        let fullness = L::constant(own[7]);
-        let mut gradient = [L::constant(0.0); 3];
-        let mut normal = [L::constant(0.0); 3];
-        let mut surface = L::constant(0.0);
+        let here = Here {
+            position: at,
+            fullness: L::constant(own[7]),
+            reference: L::constant(self.reference),
+        };
+        let centre = L::constant(block.centre[0]);
+        let mut lanes = Sums::none();
         for places in block.neighbours(k).into_iter().flatten() {
-            let [x, y, z, _, _, _, volume, theirs] = local.gather(places);
-            let d = [at[0] - x, at[1] - y, at[2] - z];
-            let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-            let value = volume * S::value(q);
-            let slope = volume * S::slope_over_q(q);
-            let ratio = S::value(q) * L::constant(self.reference);
-            let square = ratio * ratio;
-            let pull = slope * (L::constant(1.0) + L::constant(PAIRING) * square * square);
-            let rise = slope * (theirs - fullness);
-            for a in 0..3 {
-                gradient[a] = gradient[a] + pull * d[a];
-                normal[a] = normal[a] + rise * d[a];
+            let neighbour = local.gather(places);
+            if !F::ROUND {
+                lanes.add::<S>(&here, neighbour);
+                continue;
             }
-            let none = L::constant(0.0);
-            surface = surface + theirs.choose_below(INSIDE, value, none);
+            let [x, _, z, ..] = neighbour;
+            let d = [at[0] - x, at[2] - z];
+            let arc = Arc::about(at[0] + centre, x + centre, d[0] * d[0] + d[1] * d[1]);
+            for place in 0..PLACES {
+                lanes.add::<S>(&here, arc.turn(place).record(neighbour));
+            }
         }
+        let Sums { gradient, normal, surface } = lanes;
         let scale = self.normalisation;
         let mut sums = CrowdingSums {
             gradient: [0.0; 3],
@@ -93,7 +94,49 @@ impl PairSum for Crowding<'_> {
             sums.gradient[a] = scale * gradient[a].sum().into();
             sums.normal[a] = scale * normal[a].sum().into();
         }
+        (sums.gradient, sums.normal) = (flat::<F>(sums.gradient), flat::<F>(sums.normal));
         sums
+    }
+}
+
+/// The particle whose neighbours are summed, in all lanes, and 1/w(q₀).
+struct Here<L> {
+    position: [L; 3],
+    fullness: L,
+    reference: L,
+}
+
+/// Sums over neighbours in lanes.
+struct Sums<L> {
+    gradient: [L; 3],
+    normal: [L; 3],
+    surface: L,
+}
+
+impl<L: Lanes> Sums<L> {
+    #[inline(always)]
+    fn none() -> Self {
+        let zero = L::constant(0.0);
+        Self { gradient: [zero; 3], normal: [zero; 3], surface: zero }
+    }
+
+    #[inline(always)]
+    fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8]) {
+        let [x, y, z, _, _, _, volume, theirs] = neighbour;
+        let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
+        let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+        let value = volume * S::value(q);
+        let slope = volume * S::slope_over_q(q);
+        let ratio = S::value(q) * here.reference;
+        let square = ratio * ratio;
+        let pull = slope * (L::constant(1.0) + L::constant(PAIRING) * square * square);
+        let rise = slope * (theirs - here.fullness);
+        for a in 0..3 {
+            self.gradient[a] = self.gradient[a] + pull * d[a];
+            self.normal[a] = self.normal[a] + rise * d[a];
+        }
+        let none = L::constant(0.0);
+        self.surface = self.surface + theirs.choose_below(INSIDE, value, none);
     }
 }
 
