@@ -9,6 +9,8 @@ use crate::kernel::Shape;
 
 /// Weight of the term that acts against pairs (Monaghan 2000), and its power.
 const PAIRING: f64 = 0.2;
+/// Distance squared over H² of places that are one.
+const SAME: f64 = 1e-12;
 /// Particles fuller than this lie inside the fluid.
 pub const INSIDE: f64 = 0.75;
 
@@ -66,21 +68,23 @@ impl PairSum for Crowding<'_> {
         let here = Here {
             position: at,
             fullness: L::constant(own[7]),
-            reference: L::constant(self.reference),
         };
         let centre = L::constant(block.centre[0]);
         let mut lanes = Sums::none();
         for places in block.neighbours(k).into_iter().flatten() {
             let neighbour = local.gather(places);
+            let square = here.square_to(&neighbour);
+            let closeness = S::value(square.sqrt()) * L::constant(self.reference);
             if !F::ROUND {
-                lanes.add::<S>(&here, neighbour);
+                lanes.add::<S>(&here, neighbour, closeness);
                 continue;
             }
-            let [x, _, z, ..] = neighbour;
-            let d = [at[0] - x, at[2] - z];
-            let arc = Arc::about(at[0] + centre, x + centre, d[0] * d[0] + d[1] * d[1]);
+            // Two rings are as close as they are where they are closest, and no ring is close to itself: places
+            // along it would press it outward.
+            let closeness = square.choose_below(SAME, L::constant(0.0), closeness);
+            let arc = Arc::about(at[0] + centre, neighbour[0] + centre, square);
             for place in 0..PLACES {
-                lanes.add::<S>(&here, arc.turn(place).record(neighbour));
+                lanes.add::<S>(&here, arc.turn(place).record(neighbour), closeness);
             }
         }
         let Sums { gradient, normal, surface } = lanes;
@@ -99,11 +103,18 @@ impl PairSum for Crowding<'_> {
     }
 }
 
-/// The particle whose neighbours are summed, in all lanes, and 1/w(q₀).
+/// The particle whose neighbours are summed, in all lanes.
 struct Here<L> {
     position: [L; 3],
     fullness: L,
-    reference: L,
+}
+
+impl<L: Lanes> Here<L> {
+    #[inline(always)]
+    fn square_to(&self, &[x, y, z, ..]: &[L; 8]) -> L {
+        let d = [self.position[0] - x, self.position[1] - y, self.position[2] - z];
+        d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
+    }
 }
 
 /// Sums over neighbours in lanes.
@@ -120,15 +131,15 @@ impl<L: Lanes> Sums<L> {
         Self { gradient: [zero; 3], normal: [zero; 3], surface: zero }
     }
 
+    /// Adds sixteen neighbours, whose closeness is w(q)/w(q₀).
     #[inline(always)]
-    fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8]) {
+    fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8], closeness: L) {
         let [x, y, z, _, _, _, volume, theirs] = neighbour;
         let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
         let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
         let value = volume * S::value(q);
         let slope = volume * S::slope_over_q(q);
-        let ratio = S::value(q) * here.reference;
-        let square = ratio * ratio;
+        let square = closeness * closeness;
         let pull = slope * (L::constant(1.0) + L::constant(PAIRING) * square * square);
         let rise = slope * (theirs - here.fullness);
         for a in 0..3 {
