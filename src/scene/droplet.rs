@@ -59,7 +59,7 @@ pub struct Droplet {
     #[serde(default)]
     #[schemars(extend(
         "otherwise" = "`auto`: a quarter where that is exact",
-        "condition" = "`quarter` with all drops at x = 0, y = 0, straight down"
+        "condition" = "`quarter` and `axisymmetric` with all drops at x = 0, y = 0, straight down; `axisymmetric` above rings or a disc, in three dimensions"
     ))]
     pub symmetry: DropletSymmetry,
     /// Particles on a lattice or at random with a least distance.
@@ -145,8 +145,8 @@ pub enum DropletSymmetry {
     None,
     /// A quarter; drops must arrive at the origin, straight down.
     Quarter,
-    /// The plane of radius and height, of which particles are rings; drops must arrive at the origin, straight down,
-    /// on what is round.
+    /// The plane of radius and height, in which particles are rings about the axis: two dimensions instead of three.
+    /// Drops must arrive at the origin, straight down, on nothing or on what is round itself.
     Axisymmetric,
 }
 
@@ -521,6 +521,29 @@ impl Droplet {
     /// Whether particles are rings about the axis.
     pub fn is_axisymmetric(&self) -> bool {
         self.symmetry == DropletSymmetry::Axisymmetric
+    }
+
+    /// Number of particles of all drops, images at mirrors left out.
+    pub fn particles(&self) -> f64 {
+        let across = self.diameter / self.spacing;
+        let copies: f64 =
+            self.mirrors().map(|mirrored| if mirrored { 2.0 } else { 1.0 }).iter().product();
+        let whole = match (self.is_axisymmetric(), self.dimension) {
+            (true, _) => PI / 8.0 * across.powi(2),
+            (_, 2) => PI / 4.0 * across.powi(2),
+            _ => PI / 6.0 * across.powi(3),
+        };
+        whole * self.drops() as f64 / copies
+    }
+
+    /// Axes in which particles stand.
+    pub fn axes(&self) -> usize {
+        if self.is_axisymmetric() { 2 } else { self.dimension }
+    }
+
+    /// Along which of x and y what the drops do is symmetric.
+    pub fn even(&self) -> [bool; 2] {
+        self.mirrors().map(|mirrored| mirrored || self.is_axisymmetric())
     }
 
     /// Along which of x and y the half of the model stands for the whole.

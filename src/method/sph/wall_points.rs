@@ -252,8 +252,7 @@ impl<'a> WallPoints<'a> {
         let [x, y] = page.map(|n| n * PAGE);
         let places = (0..PAGE).flat_map(|j| (0..PAGE).map(move |i| [x + i, y + j]));
         let lattice = self.lattice;
-        let point =
-            |place| Point { place, extent: lattice.extent(place), ..Point::default() };
+        let point = |place| Point { place, extent: lattice.extent(place), ..Point::default() };
         self.points.extend(places.map(point));
         self.pages.insert(page, first);
         first
@@ -305,11 +304,12 @@ impl<'a> WallPoints<'a> {
     pub fn totals(&self) -> (f64, [f64; 3]) {
         let images = copies(self.lattice.mirrors);
         let heat = self.columns.iter().map(|column| column.heat).sum::<f64>() + self.heat_beyond;
-        let impulse = [0, 1, 2].map(|n| match n < 2 && (self.lattice.mirrors[n] || self.lattice.rings) {
-            // What the images give along a mirrored axis cancels, and what a ring gives along its radius.
-            true => 0.0,
-            false => images * self.points.iter().map(|point| point.impulse[n]).sum::<f64>(),
-        });
+        let impulse =
+            [0, 1, 2].map(|n| match n < 2 && (self.lattice.mirrors[n] || self.lattice.rings) {
+                // What the images give along a mirrored axis cancels, and what a ring gives along its radius.
+                true => 0.0,
+                false => images * self.points.iter().map(|point| point.impulse[n]).sum::<f64>(),
+            });
         (images * heat, impulse)
     }
 
