@@ -34,6 +34,7 @@ mod peaks;
 mod plausibility;
 mod recovered_stress;
 mod reservoirs;
+mod rings;
 mod scene_reference;
 mod scene_refusals;
 mod solid;

@@ -273,6 +273,25 @@ mod tests {
     }
 
     #[test]
+    fn rings_that_tile_the_wall_give_every_cell_its_area() {
+        let [cells, _, _, nodes] = grids();
+        for cells in [cells, nodes] {
+            let (width, mut found) = (0.3, vec![0.0; cells.len()]);
+            for n in 0..10 {
+                let [inner, outer] = [n, n + 1].map(|n| width * f64::from(n));
+                let cover = cells.cover_ring([inner, outer]);
+                let sum = cover.cells.iter().map(|cell| cell.1).sum::<f64>() + cover.outside;
+                assert!((sum - 1.0).abs() < 1e-12, "{n}: {cover:?}");
+                let area = std::f64::consts::PI * (outer * outer - inner * inner);
+                cover.cells.iter().for_each(|&(cell, weight)| found[cell] += area * weight);
+            }
+            for (found, area) in found.iter().zip(cells.areas(Domain::whole(3))) {
+                assert!((found / area - 1.0).abs() < 1e-12, "{cells:?}: {found} {area}");
+            }
+        }
+    }
+
+    #[test]
     fn means_of_a_plane_are_those_in_the_middle() {
         let [_, _, cells, _] = grids();
         let y = [-1.0, 0.5, 1.0];

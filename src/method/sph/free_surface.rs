@@ -220,6 +220,50 @@ mod tests {
         (setting, cloud)
     }
 
+    /// The same of rings about the axis, over the wall.
+    fn rings(cosine: f64) -> (Setting, Cloud) {
+        let (setting, lump) = lump(cosine);
+        let ends = setting.images.ends();
+        let grid = Grid::of(ends, setting.energy.smoothing.reach / FINENESS, 2);
+        let ends = [Ends::Planes { near: false, far: None }, ends[1], ends[2]];
+        let images = Images::new(ends, true, [0.0; 3]);
+        let mut cloud = Cloud::default();
+        for [x, _, z] in lump.position.into_iter().filter(|x| (0.0..SPACING).contains(&x[1])) {
+            let volume = 2.0 * std::f64::consts::PI * x * SPACING.powi(2);
+            cloud.push([x, 0.0, z], [0.0; 3], volume, 0.0);
+        }
+        (Setting { grid, images, rings: true, ..setting }, cloud)
+    }
+
+    #[test]
+    fn pulls_on_rings_are_the_derivatives_of_the_energy() {
+        const STEP: f64 = 1e-4;
+        for cosine in [0.0, 0.6] {
+            let (setting, cloud) = rings(cosine);
+            let (all, _) = pulls(&setting, &cloud);
+            let force = |pull: &Pull, a: usize| pull.by_fluid[a] + pull.by_wall[a];
+            let largest = all.iter().flat_map(|pull| [force(pull, 0), force(pull, 2)]);
+            let largest = largest.map(f64::abs).fold(0.0, f64::max);
+            for i in 0..cloud.len() {
+                assert_eq!(force(&all[i], 1), 0.0);
+                for a in [0, 2] {
+                    let moved = |step: f64| {
+                        let mut cloud = cloud.clone();
+                        cloud.position[i][a] += step;
+                        pulls(&setting, &cloud).1
+                    };
+                    let slope = (moved(-STEP) - moved(STEP)) / (2.0 * STEP) / cloud.mass[i];
+                    let found = force(&all[i], a);
+                    // Places on arcs move with their ends.
+                    assert!(
+                        (slope - found).abs() < 0.02 * largest,
+                        "{cosine} {i} {a}: {slope} {found}, of up to {largest}"
+                    );
+                }
+            }
+        }
+    }
+
     fn pulls(setting: &Setting, cloud: &Cloud) -> (Vec<Pull>, f64) {
         let (team, mut surface) = (Team::new(1), FreeSurface::default());
         surface.prepare(setting, cloud, &Ways::none(cloud.len()), &team);

@@ -54,6 +54,19 @@ mod tests {
     use super::*;
 
     #[test]
+    fn rings_fill_the_droplet() {
+        for placement in [Placement::Lattice, Placement::BlueNoise] {
+            let rings = rings(&place(placement, 1.0, 0.02, 2));
+            assert!((rings.len() as f64 * 0.02f64.powi(2) / (PI / 8.0) - 1.0).abs() < 0.05);
+            let mean = |of: fn(&[f64; 3]) -> f64| rings.iter().map(|(x, s)| s * of(x)).sum::<f64>();
+            assert!((mean(|_| 1.0) - 1.0).abs() < 1e-12);
+            // Means of r and of z² over a ball: 3π/32 D and D²/20.
+            assert!((mean(|x| x[0]) / (3.0 * PI / 32.0) - 1.0).abs() < 0.01);
+            assert!((mean(|x| x[2] * x[2]) * 20.0 - 1.0).abs() < 0.03);
+        }
+    }
+
+    #[test]
     fn a_lattice_fills_the_droplet() {
         for (dimension, volume) in [(2, PI / 4.0), (3, PI / 6.0)] {
             let points = place(Placement::Lattice, 1.0, 0.02, dimension);

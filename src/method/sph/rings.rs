@@ -142,3 +142,74 @@ impl<L: Lanes> Turn<L> {
 pub fn flat<F: Form>([x, y, z]: [f64; 3]) -> [f64; 3] {
     [x, if F::ROUND { 0.0 } else { y }, z]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::lanes::{Array, Lanes};
+    use super::*;
+    use crate::kernel::{Kernel, Number};
+
+    /// Mean over a ring of a function of the distance to a place at another radius, `d` away within the plane.
+    fn mean(f: impl Fn(f64) -> f64, [own, radius]: [f64; 2], d: f64) -> f64 {
+        let lanes = Array::<f64>::constant;
+        let arc = Arc::about(lanes(own), lanes(radius), lanes(d * d));
+        let place = |place: usize| {
+            let turn = arc.turn(place);
+            // From the place at x = own to what stands at x = radius, turned round the axis.
+            let [x, y, _] = turn.place([lanes(radius), lanes(0.0), lanes(0.0)]);
+            let [x, y, weight] = [x, y, turn.weight].map(|l| l.to_array()[0]);
+            let height = d * d - (own - radius).powi(2);
+            weight * f(((x - own).powi(2) + y * y + height).sqrt())
+        };
+        (0..PLACES).map(place).sum()
+    }
+
+    /// The same by very many places.
+    fn exact(f: impl Fn(f64) -> f64, [own, radius]: [f64; 2], d: f64) -> f64 {
+        const COUNT: usize = 400_000;
+        let place = |n: usize| {
+            let half = std::f64::consts::PI * (n as f64 + 0.5) / COUNT as f64 / 2.0;
+            f((d * d + 4.0 * own * radius * half.sin().powi(2)).sqrt())
+        };
+        (0..COUNT).map(place).sum::<f64>() / COUNT as f64
+    }
+
+    #[test]
+    fn arcs_hold_what_rings_hold() {
+        for own in [0.05, 0.17, 0.5, 1.5, 20.0] {
+            for d in [0.05, 0.3, 0.6, 0.9] {
+                for part in [0.0, 0.7, -0.7] {
+                    let radii = [own, (own + part * d).abs().max(0.01)];
+                    let apart = d.max((radii[0] - radii[1]).abs());
+                    let value = |q: f64| Kernel::WendlandC2.value(q, 1.0, 3);
+                    let slope = |q: f64| -Kernel::WendlandC2.gradient_factor(q, 1.0, 3);
+                    let largest = [exact(value, [own; 2], 0.0), exact(slope, [own; 2], 0.0)];
+                    let off = [
+                        mean(value, radii, apart) - exact(value, radii, apart),
+                        mean(slope, radii, apart) - exact(slope, radii, apart),
+                    ];
+                    assert!(off[0].abs() < 0.012 * largest[0], "{radii:?} {apart}: {off:?}");
+                    assert!(off[1].abs() < 0.06 * largest[1], "{radii:?} {apart}: {off:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn whole_rings_are_whole() {
+        // The farthest place is within reach.
+        for radii in [[0.1, 0.2], [0.3, 0.3], [0.01, 0.6]] {
+            let d = (radii[0] - radii[1] as f64).abs();
+            assert!((mean(|_| 1.0, radii, d) - 1.0).abs() < 1e-12, "{radii:?}");
+        }
+    }
+
+    #[test]
+    fn arcs_are_the_same_from_both_ends() {
+        let value = |q: f64| Kernel::WendlandC2.value(q, 1.0, 3);
+        for radii in [[0.2, 0.7], [2.0, 2.3], [0.0, 0.5]] {
+            let [a, b] = [radii, [radii[1], radii[0]]].map(|radii| mean(value, radii, 0.6));
+            assert!((a - b).abs() < 1e-12 && a > 0.0, "{radii:?}: {a} {b}");
+        }
+    }
+}
