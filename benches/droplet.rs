@@ -32,6 +32,7 @@ fn plan(lean: bool, surface_tension: f64) -> DropletPlan {
     };
     DropletPlan {
         dimension: 3,
+        axisymmetric: false,
         spacing: SPACING,
         support: 3.0,
         kernel: Kernel::WendlandC2,

@@ -62,7 +62,7 @@ pub struct Droplet {
     #[serde(default)]
     #[schemars(extend(
         "otherwise" = "`auto`: a quarter where that is exact",
-        "condition" = "`quarter` with all drops at x = 0, y = 0, straight down"
+        "condition" = "`quarter` and `axisymmetric` with all drops at x = 0, y = 0, straight down; `axisymmetric` above rings or a disc, in three dimensions"
     ))]
     pub symmetry: DropletSymmetry,
     /// Particles on a lattice or at random with a least distance.
@@ -155,6 +155,9 @@ pub enum DropletSymmetry {
     None,
     /// A quarter; drops must arrive at the origin, straight down.
     Quarter,
+    /// The plane of radius and height, in which particles are rings about the axis: two dimensions instead of three.
+    /// Drops must arrive at the origin, straight down, on nothing or on what is round itself.
+    Axisymmetric,
 }
 
 /// A Newtonian fluid that conducts heat.
@@ -530,6 +533,35 @@ impl Droplet {
         let Fluid { density, surface_tension, .. } = self.fluid;
         let inertia = density * self.impact_velocity.powi(2) * self.diameter;
         self.shifting.unwrap_or(inertia > INERTIAL * surface_tension || surface_tension == 0.0)
+    }
+
+    /// Whether particles are rings about the axis.
+    pub fn is_axisymmetric(&self) -> bool {
+        self.symmetry == DropletSymmetry::Axisymmetric
+    }
+
+    /// Number of particles of all drops that are computed, images at mirrors left out: of drops that are replayed, one.
+    pub fn particles(&self) -> f64 {
+        let across = self.diameter / self.spacing;
+        let copies: f64 =
+            self.mirrors().map(|mirrored| if mirrored { 2.0 } else { 1.0 }).iter().product();
+        let whole = match (self.is_axisymmetric(), self.dimension) {
+            (true, _) => PI / 8.0 * across.powi(2),
+            (_, 2) => PI / 4.0 * across.powi(2),
+            _ => PI / 6.0 * across.powi(3),
+        };
+        let drops = if self.is_replayed() { 1.0 } else { self.drops() as f64 };
+        whole * drops / copies
+    }
+
+    /// Axes in which particles stand.
+    pub fn axes(&self) -> usize {
+        if self.is_axisymmetric() { 2 } else { self.dimension }
+    }
+
+    /// Along which of x and y what the drops do is symmetric.
+    pub fn even(&self) -> [bool; 2] {
+        self.mirrors().map(|mirrored| mirrored || self.is_axisymmetric())
     }
 
     /// Along which of x and y the half of the model stands for the whole.

@@ -24,6 +24,7 @@ pub fn sound_speed(spacing: f64) -> f64 {
 pub fn plan(dimension: usize, across: f64, viscosity: f64) -> DropletPlan {
     DropletPlan {
         dimension,
+        axisymmetric: false,
         spacing: 2.0 * RADIUS / across,
         support: 3.0,
         kernel: Kernel::WendlandC2,
@@ -165,9 +166,19 @@ impl SphericalCap {
 
     /// The drop, at first a hemisphere at rest.
     pub fn drop(&self, across: f64, viscosity: f64) -> (DropletSph, Vec<f64>) {
-        let cells = WallCells::Tiles { count: [1, 1], size: [10.0 * RADIUS; 2] };
+        self.drop_of(across, viscosity, |plan| plan)
+    }
+
+    /// The same in a model that is made of that of a quarter.
+    pub fn drop_of(
+        &self,
+        across: f64,
+        viscosity: f64,
+        model: impl Fn(DropletPlan) -> DropletPlan,
+    ) -> (DropletSph, Vec<f64>) {
+        let cells = WallCells::Rings { count: 1, radius: 10.0 * RADIUS };
         let wall = Some(Wall { cells, contact_angle: self.angle, effusivity: None });
-        let mut plan = DropletPlan { wall, ..plan(3, across, viscosity) };
+        let mut plan = model(DropletPlan { wall, ..plan(3, across, viscosity) });
         // Half of a sphere has the drop's volume.
         plan.releases[0].diameter *= 2f64.cbrt();
         upper_half(DropletSph::new(plan, 1))

@@ -97,6 +97,7 @@ impl Setup {
         };
         DropletPlan {
             dimension: 2,
+            axisymmetric: false,
             spacing: self.spacing,
             support: self.support,
             kernel: Kernel::WendlandC2,

@@ -28,6 +28,7 @@ fn impact(resolution: f64) -> DropletPlan {
     let spacing = DIAMETER / resolution;
     DropletPlan {
         dimension: 3,
+        axisymmetric: false,
         spacing,
         support: 3.0,
         kernel: Kernel::WendlandC2,

@@ -36,6 +36,7 @@ mod recovered_stress;
 mod reduced;
 mod replay;
 mod reservoirs;
+mod rings;
 mod rows;
 mod scene_reference;
 mod scene_refusals;

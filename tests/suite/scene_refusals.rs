@@ -140,7 +140,12 @@ fn droplets_may_be_alone_above_walls_or_on_solids() {
     accepted(&edited(DROP, "symmetry = \"auto\"", "symmetry = \"quarter\""));
     let disc =
         edited(IMPACT, "box = [1e-3, 1e-3, 2e-4]", "disc = { radius = 1e-3, thickness = 2e-4 }");
-    accepted(&edited(&disc, "{ x = 2e-4, y = -1e-4 }", "{ time = 1e-6 }"));
+    let disc = edited(&disc, "{ x = 2e-4, y = -1e-4 }", "{ time = 1e-6 }");
+    accepted(&disc);
+    let axisymmetric = "symmetry = \"axisymmetric\"";
+    accepted(&edited(&disc, "spacing = 1e-5", &format!("spacing = 1e-5\n{axisymmetric}")));
+    accepted(&edited(DROP, "symmetry = \"auto\"", axisymmetric));
+    accepted(&edited(free, "symmetry = \"auto\"", axisymmetric));
     let heat_alone = edited(IMPACT, "sides = { clamped = true }", "");
     let heat_alone = edited(&heat_alone, "interval = 5e-8", "traction = false");
     assert!(!accepted(&heat_alone).asks_mechanics("plate"));

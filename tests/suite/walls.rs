@@ -26,6 +26,7 @@ const INSIDE: f64 = 6.0;
 fn film_plan(cells: WallCells, effusivity: Option<f64>, mirrors: [bool; 2]) -> DropletPlan {
     DropletPlan {
         dimension: 3,
+        axisymmetric: false,
         spacing: SPACING,
         support: 3.0,
         kernel: Kernel::WendlandC2,

@@ -27,6 +27,7 @@ const SIZE: f64 = 2e-5;
 fn plan(spacing: f64, extents: [Extent; 3], placement: Placement) -> DropletPlan {
     DropletPlan {
         dimension: 3,
+        axisymmetric: false,
         spacing,
         support: 3.0,
         kernel: Kernel::WendlandC2,

@@ -74,6 +74,7 @@ impl Layer {
         };
         let plan = DropletPlan {
             dimension: 3,
+            axisymmetric: false,
             spacing,
             support: case.support,
             kernel: Kernel::WendlandC2,

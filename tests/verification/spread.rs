@@ -84,6 +84,7 @@ pub fn drop_of(weber: f64, reynolds: f64, resolution: usize) -> DropletSph {
     };
     let plan = DropletPlan {
         dimension: 3,
+        axisymmetric: false,
         spacing,
         support: 3.0,
         kernel: Kernel::WendlandC2,

@@ -186,7 +186,7 @@ impl DropletBody {
         (0.5 * dt / time_step, particles)
     }
 
-    /// All particles, images at mirrors included.
+    /// All particles, images at mirrors included; rings by their radius as x.
     fn particles(&self, state: &[f64]) -> ParticleFields {
         let mut fields = self.droplet.particles(state);
         let mirrors = self.droplet.plan().mirrors;
@@ -300,7 +300,7 @@ impl Body for DropletBody {
             heat,
             falling: Vec::new(),
             impulse: if traction { impulse } else { Vec::new() },
-            symmetric: self.droplet.plan().mirrors,
+            symmetric: self.droplet.plan().even(),
         })
     }
 

@@ -8,6 +8,10 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     let wall = scene.wall_under(name).map(|wall| &scene.wall[wall]);
     let stands = wall.is_some() || scene.coupling_from(name).is_some();
     let mut notes = vec![match droplet.mirrors() {
+        _ if droplet.is_axisymmetric() => {
+            "the drop is modelled in the plane of radius and height: particles are rings about the axis, films and \
+             spray break up into rings, and fluid that flows back to the axis has wider ones there"
+        }
         [true, true] => "a quarter of the drop is modelled: it mirrors itself in x = 0 and y = 0",
         [true, false] if droplet.dimension == 2 => {
             "half of the plane drop is modelled: it mirrors itself in x = 0"

@@ -15,6 +15,7 @@ pub fn plan_of(
     let expected = release(&Arrival::default());
     DropletPlan {
         dimension: droplet.dimension,
+        axisymmetric: droplet.is_axisymmetric(),
         spacing: droplet.spacing,
         support: droplet.support,
         kernel: droplet.kernel,

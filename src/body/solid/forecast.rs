@@ -171,7 +171,7 @@ fn becomes_odd(scene: &Scene, name: &str, axis: usize) -> bool {
         tiles || range.is_some_and(|range| range != [0.0; 2])
     };
     let of_droplet = |coupling: &Coupling| {
-        scene.droplet(&coupling.from).is_some_and(|droplet| !droplet.mirrors()[axis])
+        scene.droplet(&coupling.from).is_some_and(|droplet| !droplet.even()[axis])
     };
     scene.loads_on(name).any(of_load) || scene.couplings_to(name).any(of_droplet)
 }

@@ -1,7 +1,7 @@
 //! Whether a vector that comes from elsewhere is a state that these droplets could have come to.
 
 use super::cloud::{Cloud, HeadNumbers, cloud_of, head_len, ledger_of, particles_in};
-use super::images::{Ends, Source};
+use super::images::Source;
 use super::kick::{DENSITIES, FARTHEST, FASTEST};
 use super::method::Method;
 use super::plan::{Demand, DropletPlan};
@@ -41,10 +41,7 @@ pub fn check(
     if coldest <= 0.0 {
         return Err(format!("a particle at {coldest} K, which is not above absolute zero"));
     }
-    let near_plane = method.images.ends().map(|ends| {
-        let Ends::Planes { near, .. } = ends else { return false };
-        near
-    });
+    let near_plane = method.images.begin();
     for (i, (x, density)) in cloud.position.iter().zip(&cloud.density).enumerate() {
         for a in 0..3 {
             if x[a].abs() >= FARTHEST || (near_plane[a] && x[a] < 0.0) {

@@ -4,6 +4,7 @@ use super::images::{Images, Source};
 use super::lanes::{Lanes, WIDTH, lanes};
 use super::loops::{Local, PairSum};
 use super::neighbours::Block;
+use super::rings::{Arc, Form, PLACES, flat};
 use crate::kernel::Shape;
 
 /// Continuity with density diffusion (δ-SPH), and conduction.
@@ -101,7 +102,7 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
     }
 
     #[inline(always)]
-    fn sum<L: Lanes, S: Shape>(
+    fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
         block: &Block,
         k: usize,
@@ -120,11 +121,12 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
             density: L::constant(own[7]),
             gradient: lanes([annex[0], annex[1], annex[2]]),
             temperature: L::constant(annex[3]),
+            centre: L::constant(block.centre[0]),
         };
         let [fluid, wall] = block.neighbours(k);
         let mut sums = Sums::<L, HEAT, MOMENTS>::zero();
-        sums.add_all::<S>(&here, fluid, local);
-        sums.add_all::<S>(&here, wall, local);
+        sums.add_all::<S, F>(&here, fluid, local);
+        sums.add_all::<S, F>(&here, wall, local);
         let scale = self.normalisation;
         let dense = 1.0 + self.densities[i];
         let heating = 2.0 * self.conduction * scale / dense;
@@ -143,6 +145,10 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
             }
             for (total, sum) in rates.gradient.iter_mut().zip(sums.gradient) {
                 *total = scale * sum.sum().into();
+            }
+            rates.gradient = flat::<F>(rates.gradient);
+            if F::ROUND {
+                (rates.moment[3], rates.moment[4]) = (0.0, 0.0);
             }
         }
         let part = self
@@ -169,6 +175,16 @@ struct Here<L> {
     density: L,
     gradient: [L; 3],
     temperature: L,
+    /// x of the place about which positions are.
+    centre: L,
+}
+
+impl<L: Lanes> Here<L> {
+    #[inline(always)]
+    fn arc(&self, &[x, _, z, ..]: &[L; 8]) -> Arc<L> {
+        let d = [self.position[0] - x, self.position[2] - z];
+        Arc::about(self.position[0] + self.centre, x + self.centre, d[0] * d[0] + d[1] * d[1])
+    }
 }
 
 struct Sums<L, const HEAT: bool, const MOMENTS: bool> {
@@ -194,7 +210,7 @@ impl<L: Lanes, const HEAT: bool, const MOMENTS: bool> Sums<L, HEAT, MOMENTS> {
 
     /// Adds neighbours.
     #[inline(always)]
-    fn add_all<S: Shape>(
+    fn add_all<S: Shape, F: Form>(
         &mut self,
         here: &Here<L>,
         neighbours: &[[u16; WIDTH]],
@@ -203,7 +219,16 @@ impl<L: Lanes, const HEAT: bool, const MOMENTS: bool> Sums<L, HEAT, MOMENTS> {
         for places in neighbours {
             let annex =
                 if HEAT || MOMENTS { local.gather_annex(places) } else { [L::constant(0.0); 4] };
-            self.add::<S>(here, local.gather(places), annex);
+            let neighbour = local.gather(places);
+            if !F::ROUND {
+                self.add::<S>(here, neighbour, annex);
+                continue;
+            }
+            let arc = here.arc(&neighbour);
+            for place in 0..PLACES {
+                let turn = arc.turn(place);
+                self.add::<S>(here, turn.record(neighbour), turn.annex(annex));
+            }
         }
     }
 

@@ -28,7 +28,10 @@ impl WallCells {
     /// small part of the wall arrives where it is, however wide cells are beside it.
     pub fn cover(&self, rectangle: [[f64; 2]; 2]) -> Cover {
         match self {
-            WallCells::Rings { count, radius } => rings(*count, *radius, rectangle),
+            WallCells::Rings { count, radius } => {
+                let within = |r: f64| part_within(r, rectangle);
+                rings(*count, *radius, distances(rectangle), within)
+            }
             WallCells::Tiles { count, size } => {
                 let parts = [0, 1].map(|a| {
                     let width = size[a] / count[a] as f64;
@@ -41,7 +44,27 @@ impl WallCells {
                 let parts = [hats(x, rectangle[0]), hats(y, rectangle[1])];
                 product(parts, |i, j| i + j * x.len())
             }
-            WallCells::RadialNodes { r } => radial_hats(r, rectangle),
+            WallCells::RadialNodes { r } => {
+                let within = |r: f64| part_within(r, rectangle);
+                radial_hats(r, distances(rectangle), &bends(rectangle), within)
+            }
+        }
+    }
+}
+
+impl WallCells {
+    /// Which cells a ring between two radii [m] covers, of cells that are round themselves.
+    pub fn cover_ring(&self, [inner, outer]: [f64; 2]) -> Cover {
+        let square = |r: f64| r.clamp(inner, outer).powi(2);
+        let within = |r: f64| (square(r) - inner * inner) / (outer * outer - inner * inner);
+        let middle = 0.5 * (inner + outer);
+        let distances = [middle, inner, outer];
+        match self {
+            WallCells::Rings { count, radius } => rings(*count, *radius, distances, within),
+            WallCells::RadialNodes { r } => radial_hats(r, distances, &[inner, outer], within),
+            WallCells::Tiles { .. } | WallCells::Nodes { .. } => {
+                panic!("rings lie above round cells alone")
+            }
         }
     }
 }
@@ -109,30 +132,35 @@ fn product([x, y]: [Cover; 2], index: impl Fn(usize, usize) -> usize) -> Cover {
     complete(cells, index(x.nearest, y.nearest))
 }
 
-fn rings(count: usize, radius: f64, rectangle: [[f64; 2]; 2]) -> Cover {
+/// Of what has a middle, a nearest and a farthest point at some distances, and a part within a radius.
+fn rings(
+    count: usize,
+    radius: f64,
+    distances: [f64; 3],
+    part_within: impl Fn(f64) -> f64,
+) -> Cover {
     let width = radius / count as f64;
     let ring = |at: f64| ((at / width) as usize).min(count - 1);
-    let [nearest, first, last] = distances(rectangle).map(ring);
-    let within = |ring: usize| part_within(width * ring as f64, rectangle);
+    let [nearest, first, last] = distances.map(ring);
+    let within = |ring: usize| part_within(width * ring as f64);
     let part = |ring: usize| (ring, within(ring + 1) - within(ring));
     complete((first..=last).map(part).collect(), nearest)
 }
 
 /// Means of functions linear in the radius: between two nodes `∫ (r − r₁)/(r₂ − r₁) dA`, with the area A(r)
-/// within r, is `A(r₂) − ∫ A dr/(r₂ − r₁)`.
-fn radial_hats(nodes: &[f64], rectangle: [[f64; 2]; 2]) -> Cover {
+/// within r, is `A(r₂) − ∫ A dr/(r₂ − r₁)`. A is smooth but for some bends.
+fn radial_hats(
+    nodes: &[f64],
+    [middle, least, most]: [f64; 3],
+    bends: &[f64],
+    within: impl Fn(f64) -> f64,
+) -> Cover {
     const POINTS: usize = 4;
     let last = nodes.len() - 1;
     let below = |at: f64| nodes.partition_point(|&node| node <= at).clamp(1, last) - 1;
-    let [middle, least, most] = distances(rectangle);
     if least == most {
         return hats(nodes, [middle; 2]);
     }
-    let within = |r: f64| part_within(r, rectangle);
-    // Where the circle comes to an edge or a corner.
-    let [x, y] = rectangle;
-    let corners = x.into_iter().flat_map(|x| y.map(|y| x.hypot(y)));
-    let bends: Vec<f64> = x.into_iter().chain(y).map(f64::abs).chain(corners).collect();
     let mut cells = Vec::new();
     for n in below(least)..=below(most) {
         let [a, b] = [nodes[n], nodes[n + 1]];
@@ -146,6 +174,12 @@ fn radial_hats(nodes: &[f64], rectangle: [[f64; 2]; 2]) -> Cover {
         add(&mut cells, n + 1, within(b) - mean);
     }
     complete(cells, hats(nodes, [middle; 2]).nearest)
+}
+
+/// Where a circle about the origin comes to an edge or a corner of a rectangle.
+fn bends([x, y]: [[f64; 2]; 2]) -> Vec<f64> {
+    let corners = x.into_iter().flat_map(|x| y.map(|y| x.hypot(y)));
+    x.into_iter().chain(y).map(f64::abs).chain(corners).collect()
 }
 
 /// Distances from the origin of a rectangle's middle, of its nearest and of its farthest point.
@@ -234,6 +268,25 @@ mod tests {
             }
             for (found, area) in found.iter().zip(cells.areas(Domain::whole(3))) {
                 assert!((found / area - 1.0).abs() < 1e-4, "{cells:?}: {found} {area}");
+            }
+        }
+    }
+
+    #[test]
+    fn rings_that_tile_the_wall_give_every_cell_its_area() {
+        let [cells, _, _, nodes] = grids();
+        for cells in [cells, nodes] {
+            let (width, mut found) = (0.3, vec![0.0; cells.len()]);
+            for n in 0..10 {
+                let [inner, outer] = [n, n + 1].map(|n| width * f64::from(n));
+                let cover = cells.cover_ring([inner, outer]);
+                let sum = cover.cells.iter().map(|cell| cell.1).sum::<f64>() + cover.outside;
+                assert!((sum - 1.0).abs() < 1e-12, "{n}: {cover:?}");
+                let area = std::f64::consts::PI * (outer * outer - inner * inner);
+                cover.cells.iter().for_each(|&(cell, weight)| found[cell] += area * weight);
+            }
+            for (found, area) in found.iter().zip(cells.areas(Domain::whole(3))) {
+                assert!((found / area - 1.0).abs() < 1e-12, "{cells:?}: {found} {area}");
             }
         }
     }

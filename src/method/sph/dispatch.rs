@@ -101,6 +101,7 @@ mod tests {
         let cells = WallCells::Tiles { count: [3, 3], size: [4.0 * diameter; 2] };
         let plan = DropletPlan {
             dimension: 3,
+            axisymmetric: false,
             spacing,
             support: 3.0,
             kernel: Kernel::WendlandC2,

@@ -4,19 +4,17 @@ mod demand;
 mod half_space;
 mod totals;
 
-use std::f64::consts::PI;
 use std::sync::OnceLock;
 
 use super::acceptance::{self, Released};
 use super::cloud::{
     Cloud, HeadNumbers, Ledger, cloud_of, flatten, layout, ledger_of, particles_in,
 };
-use super::effort::particles_of;
 use super::failure::Failure;
 use super::images::copies;
 use super::loops::PART;
 use super::method::Method;
-use super::placement::place;
+use super::placement::{place, rings};
 use super::plan::{DropletPlan, Release};
 use super::stepper::Stepper;
 use super::surface::{Surface, SurfaceResponse};
@@ -274,7 +272,7 @@ impl DropletSph {
     /// Number of particles that the whole plan will have, and its time step at the speed of the
     /// fastest droplet [s].
     pub fn forecast(plan: &DropletPlan) -> (usize, f64) {
-        let particles: f64 = plan.drops().map(|r| particles_of(plan, &r)).sum();
+        let particles: f64 = plan.drops().map(|r| plan.particles_of(r.diameter)).sum();
         let speed = |r: Release| r.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
         let fastest = plan.drops().map(speed).fold(0.0, f64::max);
         let method = Method::of(plan);
@@ -337,12 +335,11 @@ impl DropletSph {
     fn add(&self, release: &Release, ledger: &mut Ledger, cloud: &mut Cloud) {
         let plan = &self.plan;
         let units = &self.method.units;
-        let points = place(plan.placement, release.diameter, plan.spacing, plan.dimension);
-        let volume = match plan.dimension {
-            2 => PI / 4.0 * release.diameter.powi(2),
-            _ => PI / 6.0 * release.diameter.powi(3),
-        };
-        let mass = plan.fluid.density * volume / units.mass();
+        let mut points = place(plan.placement, release.diameter, plan.spacing, plan.axes());
+        if plan.axisymmetric {
+            points = rings(&points);
+        }
+        let mass = plan.fluid.density * plan.volume(release.diameter) / units.mass();
         let temperature = release.temperature - self.reference_temperature();
         let images = copies(plan.mirrors);
         // Under the pressure that its surface keeps up, so that it does not begin to ring.

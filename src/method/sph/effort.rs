@@ -10,6 +10,7 @@ use std::f64::consts::PI;
 use super::images::copies;
 use super::method::Method;
 use super::plan::{DropletPlan, Release};
+use super::rings::PLACES;
 use crate::scene::Precision;
 
 /// What the effort of a run depends on beside the droplet.
@@ -60,6 +61,8 @@ const USUAL_SUPPORT: f64 = 3.0;
 const DOUBLE: f64 = 2.7;
 /// A plane model's tension beside that of a drop.
 const PLANE_TENSION: f64 = 0.25;
+/// Tension of rings beside that of particles.
+const RING_TENSION: f64 = 0.6;
 /// Speed of what is pressed out below a drop over that of the drop: bounds time steps by sound.
 const PRESSED_OUT: f64 = 3.0;
 const PRESSED_OUT_IN_PLANE: f64 = 5.0;
@@ -76,15 +79,6 @@ impl Effort {
             seconds: sum.seconds + length * rate.seconds,
         })
     }
-}
-
-/// Number of particles of one drop, images left out.
-pub fn particles_of(plan: &DropletPlan, release: &Release) -> f64 {
-    let volume = match plan.dimension {
-        2 => PI / 4.0 * release.diameter.powi(2),
-        _ => PI / 6.0 * release.diameter.powi(3),
-    };
-    volume / plan.spacing.powi(plan.dimension as i32) / copies(plan.mirrors)
 }
 
 /// A drop at a time.
@@ -155,12 +149,12 @@ fn drop_at(plan: &DropletPlan, release: &Release, spread: Option<f64>, time: f64
     };
     // A film on its disc, beside a ball: free surface over that of the ball.
     let surface = (0.5 * area).max(1.0);
-    let (on_wall, layer) = match plan.dimension {
+    let (on_wall, layer) = match plan.axes() {
         2 => (4.0 / PI * area.sqrt() / across, 4.0 * LAYERS / across),
         _ => (1.5 * area / across, 6.0 * LAYERS / across),
     };
     Drop {
-        particles: particles_of(plan, release),
+        particles: plan.particles_of(release.diameter),
         fastest: pressed * speed,
         at_wall: on_wall.min(1.0),
         near_surface: (layer * surface).min(1.0),
@@ -177,6 +171,7 @@ fn gravity(plan: &DropletPlan, method: &Method) -> f64 {
 fn neighbours(plan: &DropletPlan) -> f64 {
     let of_ball = |support: f64| 4.0 / 3.0 * PI * support.powi(3);
     let number = match plan.dimension {
+        _ if plan.axisymmetric => PLACES as f64 * PI * plan.support.powi(2),
         2 => PI * plan.support.powi(2),
         _ => of_ball(plan.support),
     };
@@ -186,6 +181,7 @@ fn neighbours(plan: &DropletPlan) -> f64 {
 /// Points of the grid of the free surface for each particle, beside those of the usual support.
 fn tension(plan: &DropletPlan) -> f64 {
     match plan.dimension {
+        _ if plan.axisymmetric => RING_TENSION,
         2 => PLANE_TENSION,
         _ => (USUAL_SUPPORT / plan.support).powi(3),
     }

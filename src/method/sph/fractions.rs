@@ -1,5 +1,8 @@
 //! Smoothed volume fractions at the points of a grid, and what their energy asks of the particles.
 
+use std::f64::consts::TAU;
+use std::marker::PhantomData;
+
 use super::candidates::Numbers;
 use super::dispatch::{Work, dispatch};
 use super::field::{Field, Nearby};
@@ -7,6 +10,7 @@ use super::grid::Spread;
 use super::images::Images;
 use super::lanes::{Lanes, WIDTH};
 use super::order::{Bounds, GROUP};
+use super::rings::{Form, with_form};
 use super::smoothing::{FractionSum, Smoothing};
 use super::tension::SurfaceEnergy;
 use crate::kernel::Number;
@@ -51,6 +55,8 @@ pub struct Fractions<'a> {
     pub volumes: &'a [f64],
     pub smoothing: Smoothing,
     pub precision: Precision,
+    /// Whether particles are rings, and points circles.
+    pub rings: bool,
     /// Of the grid.
     pub origin: [f64; 3],
 }
@@ -61,7 +67,10 @@ impl Fractions<'_> {
         let mut samples = vec![[[0.0; 2]; WIDTH]; middles.len()];
         let mut groups: Vec<_> = middles.chunks(GROUP).zip(samples.chunks_mut(GROUP)).collect();
         team.for_pieces(&mut groups, |_, groups| {
-            dispatch(Samples { fractions: self, spread, groups }, self.precision);
+            with_form!(self.rings, F => {
+                let form = PhantomData::<F>;
+                dispatch(Samples { fractions: self, spread, groups, form }, self.precision);
+            });
         });
         samples
     }
@@ -81,7 +90,11 @@ impl Fractions<'_> {
             sheets = &sheets[count..];
         }
         team.for_pieces(&mut groups, |_, groups| {
-            dispatch(SlopesOfSheets { fractions: self, energies, spread, groups }, self.precision);
+            with_form!(self.rings, F => {
+                let (fractions, form) = (self, PhantomData::<F>);
+                let work = SlopesOfSheets { fractions, energies, spread, groups, form };
+                dispatch(work, self.precision);
+            });
         });
     }
 }
@@ -94,13 +107,14 @@ pub struct Energies {
 }
 
 /// Work: fractions and lengths of gradients.
-struct Samples<'a, 'b> {
+struct Samples<'a, 'b, F> {
     fractions: &'a Fractions<'a>,
     spread: &'a Spread,
     groups: &'a mut [(&'b [[f64; 3]], &'b mut [Sample])],
+    form: PhantomData<F>,
 }
 
-impl Work for Samples<'_, '_> {
+impl<F: Form> Work for Samples<'_, '_, F> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Fractions { smoothing, origin, .. } = *self.fractions;
@@ -110,7 +124,7 @@ impl Work for Samples<'_, '_> {
             let bounds = |middle: &[f64; 3]| self.spread.bounds(from(origin, *middle));
             round.gather(self.fractions, middles.iter().map(bounds));
             for (middle, sample) in middles.iter().zip(&mut **samples) {
-                let sum = round.sum::<L>(&bounds(middle), &spread, smoothing.reach);
+                let sum = round.sum::<L, F>(&bounds(middle), &spread, smoothing.reach);
                 let [value, x, y, z] = fraction(sum, smoothing);
                 let length = (x * x + y * y + z * z).sqrt();
                 let (value, length) = (value.to_array(), length.to_array());
@@ -123,14 +137,15 @@ impl Work for Samples<'_, '_> {
 }
 
 /// Work: slopes of groups of sheets.
-struct SlopesOfSheets<'a, 'b> {
+struct SlopesOfSheets<'a, 'b, F> {
     fractions: &'a Fractions<'a>,
     energies: &'a Energies,
     spread: &'a Spread,
     groups: &'a mut [(&'b [Sheet], &'b mut [Slopes])],
+    form: PhantomData<F>,
 }
 
-impl Work for SlopesOfSheets<'_, '_> {
+impl<F: Form> Work for SlopesOfSheets<'_, '_, F> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Energies { law, volume, area } = self.energies;
@@ -141,16 +156,25 @@ impl Work for SlopesOfSheets<'_, '_> {
             let bounds = |sheet: &Sheet| self.spread.bounds(from(origin, sheet.middle));
             round.gather(self.fractions, sheets.iter().map(bounds));
             for (sheet, slopes) in sheets.iter().zip(&mut **slopes) {
-                let sum = round.sum::<L>(&bounds(sheet), &spread, smoothing.reach);
+                let sum = round.sum::<L, F>(&bounds(sheet), &spread, smoothing.reach);
                 let [value, x, y, z] = fraction(sum, smoothing);
-                if sheet.at_wall > 0 {
+                let (count, mut numbers) = if sheet.at_wall > 0 {
                     let (by_fraction, energy) = law.of_wall(value, *area);
                     let none = L::constant(0.0);
-                    slopes.store(sheet.at_wall, [none, none, none, by_fraction, energy]);
+                    (sheet.at_wall, [none, none, none, by_fraction, energy])
                 } else {
                     let ([x, y, z], by_fraction, energy) = law.of_free(value, [x, y, z], *volume);
-                    slopes.store(WIDTH, [x, y, z, by_fraction, energy]);
+                    (WIDTH, [x, y, z, by_fraction, energy])
+                };
+                if F::ROUND {
+                    // A point stands for its circle.
+                    let middle = L::constant(from(origin, sheet.middle)[0] / smoothing.reach);
+                    let circle = L::constant(TAU * smoothing.reach) * (middle + spread[0]);
+                    for number in &mut numbers {
+                        *number = circle * *number;
+                    }
                 }
+                slopes.store(count, numbers);
             }
         }
     }
@@ -223,7 +247,7 @@ impl<R: Number> Round<R> {
     /// Over the particles near sixteen of the points that these are round, which stand at `spread` about
     /// the middle of their box, in lengths of h.
     #[inline(always)]
-    fn sum<L: Lanes<Real = R>>(
+    fn sum<L: Lanes<Real = R>, F: Form>(
         &mut self,
         bounds: &Bounds,
         spread: &[L; 3],
@@ -234,9 +258,10 @@ impl<R: Number> Round<R> {
         for a in 0..3 {
             at[a] = at[a] + L::constant((own[a] - self.of_box.centre[a]) / reach);
         }
+        let centre = L::constant(self.of_box.centre[0] / reach);
         let mut sum = FractionSum::none();
         for &k in self.of_sheet.list() {
-            sum.add(&at, &self.records[k as usize]);
+            sum.add::<F>(&at, &self.records[k as usize], centre);
         }
         sum
     }

@@ -4,7 +4,7 @@ use super::cloud::Cloud;
 use super::field::Field;
 use super::fractions::{Energies, Fractions, Sheet, Slopes, from};
 use super::grid::Grid;
-use super::images::Images;
+use super::images::{Ends, Images};
 use super::lanes::WIDTH;
 use super::neighbours::Ways;
 use super::order::{BLOCK, Bounds, space_order};
@@ -31,6 +31,8 @@ pub struct Setting {
     pub grid: Grid,
     pub images: Images,
     pub precision: Precision,
+    /// Whether particles are rings.
+    pub rings: bool,
 }
 
 impl Setting {
@@ -38,12 +40,18 @@ impl Setting {
     pub fn of(plan: &DropletPlan, tension: f64, images: &Images) -> Self {
         let cosine = plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos());
         let spacing = 1.0 / plan.support;
+        let mut ends = images.ends();
+        if plan.axisymmetric {
+            // Points begin at the axis, as they do at a plane.
+            ends[0] = Ends::Planes { near: true, far: None };
+        }
         let energy = SurfaceEnergy::of(tension, cosine, spacing, plan.dimension);
         Self {
             energy,
-            grid: Grid::of(images.ends(), energy.smoothing.reach / FINENESS, plan.dimension),
+            grid: Grid::of(ends, energy.smoothing.reach / FINENESS, plan.axes()),
             images: images.clone(),
             precision: plan.precision,
+            rings: plan.axisymmetric,
         }
     }
 
@@ -55,6 +63,7 @@ impl Setting {
             volumes: &cloud.mass,
             smoothing: self.energy.smoothing,
             precision: self.precision,
+            rings: self.rings,
             origin: mean(&cloud.position, &cloud.mass, &self.grid),
         }
     }
@@ -134,7 +143,7 @@ impl FreeSurface {
 
     /// Pull on all particles, and the energy over ρ₀c₀²H^d.
     pub fn pulls(&mut self, setting: &Setting, cloud: &Cloud, team: &Team) -> (&[Pull], f64) {
-        let Setting { grid, energy, images, precision, .. } = setting;
+        let Setting { grid, energy, images, precision, rings } = setting;
         let field = Field::of(&cloud.position, team);
         let fractions = setting.fractions(cloud, &field);
         let spread = grid.spread();
@@ -150,6 +159,7 @@ impl FreeSurface {
             images,
             smoothing: energy.smoothing,
             precision: *precision,
+            rings: *rings,
             spread: &spread,
             sheets: &pulling,
             middles: &middles,
@@ -182,7 +192,6 @@ fn middle_way(ways: &Ways, cloud: &Cloud, grid: &Grid) -> Bounds {
 
 #[cfg(test)]
 mod tests {
-    use super::super::images::Ends;
     use super::*;
 
     const SPACING: f64 = 0.4;
@@ -206,8 +215,53 @@ mod tests {
             grid: Grid::of(ends, energy.smoothing.reach / FINENESS, 3),
             images: Images::new(ends, true, [0.0; 3]),
             precision: Precision::Double,
+            rings: false,
         };
         (setting, cloud)
+    }
+
+    /// The same of rings about the axis, over the wall.
+    fn rings(cosine: f64) -> (Setting, Cloud) {
+        let (setting, lump) = lump(cosine);
+        let ends = setting.images.ends();
+        let grid = Grid::of(ends, setting.energy.smoothing.reach / FINENESS, 2);
+        let ends = [Ends::Planes { near: false, far: None }, ends[1], ends[2]];
+        let images = Images::new(ends, true, [0.0; 3]);
+        let mut cloud = Cloud::default();
+        for [x, _, z] in lump.position.into_iter().filter(|x| (0.0..SPACING).contains(&x[1])) {
+            let volume = 2.0 * std::f64::consts::PI * x * SPACING.powi(2);
+            cloud.push([x, 0.0, z], [0.0; 3], volume, 0.0);
+        }
+        (Setting { grid, images, rings: true, ..setting }, cloud)
+    }
+
+    #[test]
+    fn pulls_on_rings_are_the_derivatives_of_the_energy() {
+        const STEP: f64 = 1e-4;
+        for cosine in [0.0, 0.6] {
+            let (setting, cloud) = rings(cosine);
+            let (all, _) = pulls(&setting, &cloud);
+            let force = |pull: &Pull, a: usize| pull.by_fluid[a] + pull.by_wall[a];
+            let largest = all.iter().flat_map(|pull| [force(pull, 0), force(pull, 2)]);
+            let largest = largest.map(f64::abs).fold(0.0, f64::max);
+            for i in 0..cloud.len() {
+                assert_eq!(force(&all[i], 1), 0.0);
+                for a in [0, 2] {
+                    let moved = |step: f64| {
+                        let mut cloud = cloud.clone();
+                        cloud.position[i][a] += step;
+                        pulls(&setting, &cloud).1
+                    };
+                    let slope = (moved(-STEP) - moved(STEP)) / (2.0 * STEP) / cloud.mass[i];
+                    let found = force(&all[i], a);
+                    // Places on arcs move with their ends.
+                    assert!(
+                        (slope - found).abs() < 0.02 * largest,
+                        "{cosine} {i} {a}: {slope} {found}, of up to {largest}"
+                    );
+                }
+            }
+        }
     }
 
     fn pulls(setting: &Setting, cloud: &Cloud) -> (Vec<Pull>, f64) {

@@ -48,9 +48,9 @@ enum Axis {
 }
 
 impl Grid {
-    /// Points at most `spacing` apart, lengths over H.
-    pub fn of(ends: [Ends; 3], spacing: f64, dimension: usize) -> Self {
-        let axes: Vec<_> = if dimension == 2 { vec![0, 2] } else { vec![0, 1, 2] };
+    /// Points at most `spacing` apart, lengths over H, along all axes or along x and z alone.
+    pub fn of(ends: [Ends; 3], spacing: f64, axes: usize) -> Self {
+        let axes: Vec<_> = if axes == 2 { vec![0, 2] } else { vec![0, 1, 2] };
         let mut distances = [1.0; 3];
         let bins = |length: f64| (length / (f64::from(BIN) * spacing)).ceil();
         let axes = axes.into_iter().map(|a| {

@@ -126,6 +126,8 @@ pub struct Images {
     ends: [Ends; 3],
     /// Whether the plane z = 0 is a wall that exchanges heat and momentum.
     walled: bool,
+    /// Whether x is a radius, so that what gets to x < 0 has gone through the axis.
+    round: bool,
     /// Ascending; 0 is the particle itself.
     codes: Vec<u8>,
     /// For all codes.
@@ -148,7 +150,7 @@ impl Images {
                 Ends::Period(period / length)
             }
         });
-        Self::new(ends, walled, gravity)
+        Self { round: plan.axisymmetric, ..Self::new(ends, walled, gravity) }
     }
 
     pub fn new(ends: [Ends; 3], walled: bool, gravity: [f64; 3]) -> Self {
@@ -169,11 +171,18 @@ impl Images {
             Image { signs, offset: axes.map(|axis| axis.1), stick: signs[2], weight }
         };
         let codes = (0..1 << BITS).filter(exists).collect();
-        Self { ends, walled, codes, table: (0..1 << BITS).map(image).collect() }
+        Self { ends, walled, round: false, codes, table: (0..1 << BITS).map(image).collect() }
     }
 
     pub fn ends(&self) -> [Ends; 3] {
         self.ends
+    }
+
+    /// Whether no particle gets below 0 along each axis.
+    pub fn begin(&self) -> [bool; 3] {
+        let mut begin = self.ends.map(|ends| matches!(ends, Ends::Planes { near: true, .. }));
+        begin[0] |= self.round;
+        begin
     }
 
     /// Codes of all images, those at the wall last.
@@ -218,7 +227,7 @@ impl Images {
         let mut signs = [1.0; 3];
         for a in 0..3 {
             let Ends::Planes { near, far } = self.ends[a] else { continue };
-            if near && x[a] < 0.0 {
+            if (near || (a == 0 && self.round)) && x[a] < 0.0 {
                 x[a] = -x[a];
                 signs[a] = -1.0;
             } else if let Some(end) = far.filter(|&end| x[a] > end) {

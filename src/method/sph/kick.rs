@@ -70,10 +70,10 @@ impl Motion {
         self.most_accelerated.sqrt()
     }
 
-    /// About the mean velocity, of which mirrored axes have none.
-    pub fn root_mean_square_speed(&self, particles: usize, mirrors: [bool; 2]) -> f64 {
+    /// About the mean velocity, of which axes have none along which nothing moves as a whole.
+    pub fn root_mean_square_speed(&self, particles: usize, even: [bool; 2]) -> f64 {
         let count = particles as f64;
-        let free = [!mirrors[0], !mirrors[1], true];
+        let free = [!even[0], !even[1], true];
         let mean: f64 = (0..3).filter(|&a| free[a]).map(|a| (self.sums[a] / count).powi(2)).sum();
         (self.squares / count - mean).max(0.0).sqrt()
     }

@@ -9,6 +9,7 @@ use super::images::{Images, Source};
 use super::lanes::{Annex, Lanes, Record, WIDTH};
 use super::neighbours::Block;
 use super::order::BLOCK;
+use super::rings::{Form, with_form};
 use crate::kernel::{Kernel, Number, Shape};
 use crate::math::parallel::Team;
 use crate::scene::Precision;
@@ -17,6 +18,15 @@ use crate::with_kernel_shape;
 /// Blocks that share one local copy's memory, and their particles.
 const GROUP: usize = 2;
 pub const PART: usize = GROUP * BLOCK;
+
+/// What all sums over pairs of a model have in common.
+#[derive(Debug, Clone, Copy)]
+pub struct PairKind {
+    pub kernel: Kernel,
+    pub precision: Precision,
+    /// Whether particles are rings.
+    pub rings: bool,
+}
 
 /// Something to compute for every particle from its neighbours.
 pub trait PairSum: Sync {
@@ -49,7 +59,7 @@ pub trait PairSum: Sync {
     const ANNEX: bool = false;
 
     /// Sums over the neighbours of the k-th particle of a block.
-    fn sum<L: Lanes, S: Shape>(
+    fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
         block: &Block,
         k: usize,
@@ -116,7 +126,7 @@ impl<R: Float + Number> Local<R> {
 pub fn for_all<P: PairSum<Output: Clone + Default>>(
     pass: &P,
     blocks: &[Block],
-    (kernel, precision): (Kernel, Precision),
+    kind: PairKind,
     team: &Team,
     mut all: Vec<P::Output>,
 ) -> Vec<P::Output> {
@@ -124,7 +134,7 @@ pub fn for_all<P: PairSum<Output: Clone + Default>>(
     all.resize(count, P::Output::default());
     let mut parts: Vec<&mut [P::Output]> = all.chunks_mut(PART).collect();
     let store = |part: &mut &mut [P::Output], sums: &[P::Output]| part.clone_from_slice(sums);
-    for_parts(pass, blocks, (kernel, precision), team, &mut parts, store);
+    for_parts(pass, blocks, kind, team, &mut parts, store);
     all
 }
 
@@ -133,7 +143,7 @@ pub fn for_all<P: PairSum<Output: Clone + Default>>(
 pub fn for_parts<P: PairSum, T: Send>(
     pass: &P,
     blocks: &[Block],
-    (kernel, precision): (Kernel, Precision),
+    PairKind { kernel, precision, rings }: PairKind,
     team: &Team,
     parts: &mut [T],
     take: impl Fn(&mut T, &[P::Output]) + Sync,
@@ -141,24 +151,27 @@ pub fn for_parts<P: PairSum, T: Send>(
     team.for_pieces(parts, |first, parts| {
         let last = blocks.len().min((first + parts.len()) * GROUP);
         let (blocks, take) = (&blocks[first * GROUP..last], &take);
-        with_kernel_shape!(kernel, S => {
-            let shape = PhantomData::<S>;
-            dispatch(PairWork { pass, blocks, parts, take, shape }, precision);
-        });
+        with_kernel_shape!(kernel, S => with_form!(rings, F => {
+            let kind = PhantomData::<(S, F)>;
+            dispatch(PairWork { pass, blocks, parts, take, kind }, precision);
+        }));
     });
 }
 
 /// What one thread does at once.
-struct PairWork<'a, P, T, F, S> {
+struct PairWork<'a, P, T, K, S, F> {
     pass: &'a P,
     /// [`GROUP`] for each part.
     blocks: &'a [Block],
     parts: &'a mut [T],
-    take: &'a F,
-    shape: PhantomData<S>,
+    take: &'a K,
+    kind: PhantomData<(S, F)>,
 }
 
-impl<P: PairSum, T, F: Fn(&mut T, &[P::Output]), S: Shape> Work for PairWork<'_, P, T, F, S> {
+impl<P: PairSum, T, K, S: Shape, F: Form> Work for PairWork<'_, P, T, K, S, F>
+where
+    K: Fn(&mut T, &[P::Output]),
+{
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let mut local = Local::<L::Real>::default();
@@ -168,7 +181,7 @@ impl<P: PairSum, T, F: Fn(&mut T, &[P::Output]), S: Shape> Work for PairWork<'_,
             for block in blocks {
                 local.fill::<P, L>(self.pass, block);
                 for k in 0..block.count {
-                    sums.push(self.pass.sum::<L, S>(block, k, &local));
+                    sums.push(self.pass.sum::<L, S, F>(block, k, &local));
                 }
             }
             (self.take)(part, &sums);

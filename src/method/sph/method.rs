@@ -7,6 +7,7 @@ use super::cloud::Part;
 use super::continuity::ContinuityRates;
 use super::free_surface::Setting;
 use super::images::Images;
+use super::loops::PairKind;
 use super::moment::{filled, renormalised};
 use super::plan::DropletPlan;
 use super::units::Units;
@@ -24,6 +25,9 @@ pub struct Method {
     pub precision: Precision,
     pub normalisation: f64,
     pub mirrors: [bool; 2],
+    /// Axes along which nothing moves as a whole, and whether particles are rings.
+    pub even: [bool; 2],
+    pub rings: bool,
     pub images: Images,
     /// What pairs of particles make of ν over c₀H, see [`Momentum`](super::momentum::Momentum).
     pub pair_viscosity: f64,
@@ -82,6 +86,8 @@ impl Method {
             precision: plan.precision,
             normalisation,
             mirrors: plan.mirrors,
+            even: plan.even(),
+            rings: plan.axisymmetric,
             images: images.clone(),
             pair_viscosity: 2.0 * plan.dimension as f64 / moment * viscosity,
             conduction: fluid.conductivity / (units.density * fluid.specific_heat * c * h),
@@ -97,6 +103,12 @@ impl Method {
             wall_heat: WallHeat::of(plan, &units, points.area),
             points,
         }
+    }
+
+    /// What all sums over pairs have in common.
+    pub fn pairs(&self) -> PairKind {
+        let Self { kernel, precision, rings, .. } = *self;
+        PairKind { kernel, precision, rings }
     }
 
     /// Whether the moments of the particles' neighbours are asked for.

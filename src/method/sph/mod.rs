@@ -1,7 +1,8 @@
 //! Droplets by weakly compressible smoothed particle hydrodynamics.
 //!
 //! The wall is the plane z = 0, the fluid lies above it. A plane model (two dimensions) lives in
-//! x and z and counts everything per metre of depth along y. Further planes and periods may end a
+//! x and z and counts everything per metre of depth along y. In an axisymmetric model particles are rings about the
+//! z axis, see [`rings`]. Further planes and periods may end a
 //! model; all of them act by images of the particles.
 
 mod acceptance;
@@ -33,6 +34,7 @@ mod placement;
 mod plan;
 mod pulls;
 mod requests;
+mod rings;
 mod shifting;
 mod smoothing;
 mod spread;

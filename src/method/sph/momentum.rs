@@ -4,6 +4,7 @@ use super::images::{Images, Source};
 use super::lanes::{Lanes, WIDTH, lanes};
 use super::loops::{Local, PairSum};
 use super::neighbours::Block;
+use super::rings::{Arc, Form, PLACES, flat};
 use crate::kernel::Shape;
 
 /// Pressure and viscosity, equal and opposite in every pair and along the line between both.
@@ -62,7 +63,7 @@ impl PairSum for Momentum<'_> {
     }
 
     #[inline(always)]
-    fn sum<L: Lanes, S: Shape>(
+    fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
         block: &Block,
         k: usize,
@@ -78,26 +79,38 @@ impl PairSum for Momentum<'_> {
             velocity: lanes([own[3], own[4], own[5]]),
             pressure: L::constant(own[7]),
             viscosity: L::constant(self.viscosity),
+            centre: L::constant(block.centre[0]),
         };
         let [fluid, wall] = block.neighbours(k);
         let scale = self.normalisation / (1.0 + self.densities[block.first + k]);
         [
-            scaled(total::<L, S>(fluid, &here, local), scale),
-            scaled(total::<L, S>(wall, &here, local), scale),
+            flat::<F>(scaled(total::<L, S, F>(fluid, &here, local), scale)),
+            flat::<F>(scaled(total::<L, S, F>(wall, &here, local), scale)),
         ]
     }
 }
 
 /// Sum of the forces of a list of neighbours.
 #[inline(always)]
-fn total<L: Lanes, S: Shape>(
+fn total<L: Lanes, S: Shape, F: Form>(
     neighbours: &[[u16; WIDTH]],
     here: &Here<L>,
     local: &Local<L::Real>,
 ) -> [L; 3] {
     let mut force = [L::constant(0.0); 3];
     for places in neighbours {
-        add::<L, S>(&mut force, here, local.gather(places));
+        let neighbour = local.gather(places);
+        if !F::ROUND {
+            add::<L, S>(&mut force, here, neighbour);
+            continue;
+        }
+        let [x, _, z, ..] = neighbour;
+        let d = [here.position[0] - x, here.position[2] - z];
+        let radii = [here.position[0] + here.centre, x + here.centre];
+        let arc = Arc::about(radii[0], radii[1], d[0] * d[0] + d[1] * d[1]);
+        for place in 0..PLACES {
+            add::<L, S>(&mut force, here, arc.turn(place).record(neighbour));
+        }
     }
     force
 }
@@ -113,6 +126,8 @@ struct Here<L> {
     velocity: [L; 3],
     pressure: L,
     viscosity: L,
+    /// x of the place about which positions are.
+    centre: L,
 }
 
 /// Adds the forces of sixteen neighbours.

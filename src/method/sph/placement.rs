@@ -26,6 +26,14 @@ pub fn place(
     }
 }
 
+/// The rings of points of a circle in x and z: those with x > 0, whose shares are as their circles are long.
+pub fn rings(points: &[([f64; 3], f64)]) -> Vec<([f64; 3], f64)> {
+    let outside = points.iter().filter(|(point, _)| point[0] > 0.0);
+    let rings: Vec<_> = outside.map(|&(point, share)| (point, share * point[0])).collect();
+    let sum: f64 = rings.iter().map(|ring| ring.1).sum();
+    rings.into_iter().map(|(point, share)| (point, share / sum)).collect()
+}
+
 /// Points of a cubic lattice that has the origin in the middle of a cell.
 fn lattice(radius: f64, spacing: f64, dimension: usize) -> impl Iterator<Item = [f64; 3]> {
     let half = (radius / spacing).ceil() as i64;
@@ -44,6 +52,19 @@ mod tests {
     use std::f64::consts::PI;
 
     use super::*;
+
+    #[test]
+    fn rings_fill_the_droplet() {
+        for placement in [Placement::Lattice, Placement::BlueNoise] {
+            let rings = rings(&place(placement, 1.0, 0.02, 2));
+            assert!((rings.len() as f64 * 0.02f64.powi(2) / (PI / 8.0) - 1.0).abs() < 0.05);
+            let mean = |of: fn(&[f64; 3]) -> f64| rings.iter().map(|(x, s)| s * of(x)).sum::<f64>();
+            assert!((mean(|_| 1.0) - 1.0).abs() < 1e-12);
+            // Means of r and of z² over a ball: 3π/32 D and D²/20.
+            assert!((mean(|x| x[0]) / (3.0 * PI / 32.0) - 1.0).abs() < 0.01);
+            assert!((mean(|x| x[2] * x[2]) * 20.0 - 1.0).abs() < 0.03);
+        }
+    }
 
     #[test]
     fn a_lattice_fills_the_droplet() {

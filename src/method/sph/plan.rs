@@ -1,7 +1,10 @@
 //! What a model of droplets is made from.
 
+use std::f64::consts::PI;
+
 use serde::{Deserialize, Serialize};
 
+use super::images::copies;
 use super::wall::WallCells;
 use crate::kernel::Kernel;
 pub use crate::scene::Placement;
@@ -12,6 +15,9 @@ use crate::scene::Precision;
 pub struct DropletPlan {
     /// 3, or 2 for a plane model in x and z.
     pub dimension: usize,
+    /// Whether all of it is round about the axis x = y = 0: particles are rings, of which x is the radius. Of three
+    /// dimensions, with neither mirrors nor ends along x and y.
+    pub axisymmetric: bool,
     /// Distance of particles Δx [m].
     pub spacing: f64,
     /// Support radius of the kernel over the distance of particles, H/Δx.
@@ -97,6 +103,32 @@ pub struct Demand {
 }
 
 impl DropletPlan {
+    /// Along which of x and y nothing moves as a whole.
+    pub fn even(&self) -> [bool; 2] {
+        self.mirrors.map(|mirrored| mirrored || self.axisymmetric)
+    }
+
+    /// Axes in which particles stand: 3, or x and z alone.
+    pub fn axes(&self) -> usize {
+        if self.axisymmetric { 2 } else { self.dimension }
+    }
+
+    /// Volume of a drop of some diameter [m³], in a plane model [m²].
+    pub fn volume(&self, diameter: f64) -> f64 {
+        match self.dimension {
+            2 => PI / 4.0 * diameter.powi(2),
+            _ => PI / 6.0 * diameter.powi(3),
+        }
+    }
+
+    /// Number of particles of a drop of some diameter [m], images left out.
+    pub fn particles_of(&self, diameter: f64) -> f64 {
+        if self.axisymmetric {
+            return PI / 8.0 * (diameter / self.spacing).powi(2);
+        }
+        self.volume(diameter) / self.spacing.powi(self.dimension as i32) / copies(self.mirrors)
+    }
+
     /// All drops that there may be; those on demand as if all were asked for at once.
     pub fn drops(&self) -> impl Iterator<Item = Release> + '_ {
         let asked = self.demand.iter().flat_map(|demand| (0..demand.most).map(|_| demand.expected));

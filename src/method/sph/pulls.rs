@@ -1,5 +1,7 @@
 //! What the points of the grid do to the particles.
 
+use std::marker::PhantomData;
+
 use super::candidates::Numbers;
 use super::dispatch::{Work, dispatch};
 use super::field::{Field, Nearby};
@@ -8,6 +10,7 @@ use super::grid::Spread;
 use super::images::Images;
 use super::lanes::{Lanes, WIDTH};
 use super::order::{BLOCK, Bounds, GROUP};
+use super::rings::{Form, with_form};
 use super::smoothing::{PullSum, SheetSlopes, Smoothing};
 use crate::kernel::Number;
 use crate::math::parallel::Team;
@@ -33,6 +36,8 @@ pub struct Pulls<'a> {
     pub images: &'a Images,
     pub smoothing: Smoothing,
     pub precision: Precision,
+    /// Whether particles are rings, and points circles.
+    pub rings: bool,
     /// Of the sheets' points.
     pub spread: &'a Spread,
     /// Those of all sheets that pull, which stand in blocks, and their middles.
@@ -49,7 +54,10 @@ impl Pulls<'_> {
         let field = Field::of(self.middles, team);
         let mut blocks: Vec<_> = positions.chunks(BLOCK).zip(pulls.chunks_mut(BLOCK)).collect();
         team.for_pieces(&mut blocks, |_, blocks| {
-            dispatch(PullsOnBlocks { pulls: self, field: &field, blocks }, self.precision);
+            with_form!(self.rings, F => {
+                let (field, form) = (&field, PhantomData::<F>);
+                dispatch(PullsOnBlocks { pulls: self, field, blocks, form }, self.precision);
+            });
         });
     }
 }
@@ -57,7 +65,8 @@ impl Pulls<'_> {
 /// What bounds a model, for the momentum that its surface tension may change.
 #[derive(Debug, Clone, Copy)]
 pub struct Bounded {
-    pub mirrors: [bool; 2],
+    /// Axes along which nothing moves as a whole.
+    pub even: [bool; 2],
     pub walled: bool,
 }
 
@@ -76,7 +85,7 @@ pub fn balanced(pulls: &[Pull], masses: &[f64], bounded: Bounded, team: &Team) -
     }
     let walled = bounded.walled && across > 0.0;
     let share = if walled { total[2] / across } else { 0.0 };
-    let free = [!bounded.mirrors[0], !bounded.mirrors[1], !walled];
+    let free = [!bounded.even[0], !bounded.even[1], !walled];
     let left = [0, 1, 2].map(|a| if free[a] { total[a] / mass } else { 0.0 });
     team.map(pulls.len(), |i| {
         let pull = &pulls[i];
@@ -87,13 +96,14 @@ pub fn balanced(pulls: &[Pull], masses: &[f64], bounded: Bounded, team: &Team) -
 }
 
 /// Work: pulls on the particles of some blocks.
-struct PullsOnBlocks<'a, 'b> {
+struct PullsOnBlocks<'a, 'b, F> {
     pulls: &'a Pulls<'a>,
     field: &'a Field,
     blocks: &'a mut [(&'b [[f64; 3]], &'b mut [Pull])],
+    form: PhantomData<F>,
 }
 
-impl Work for PullsOnBlocks<'_, '_> {
+impl<F: Form> Work for PullsOnBlocks<'_, '_, F> {
     #[inline(always)]
     fn run<L: Lanes>(self) {
         let Pulls { images, smoothing, spread, .. } = *self.pulls;
@@ -113,7 +123,7 @@ impl Work for PullsOnBlocks<'_, '_> {
                     round.of_group.narrow(&mut round.of_block, &bounds, smoothing.reach);
                     for (&position, pull) in group.iter().zip(pulls) {
                         let at = image.place(position);
-                        let sum = round.sum::<L>(at, (spread, &lanes), smoothing.reach);
+                        let sum = round.sum::<L, F>(at, (spread, &lanes), smoothing.reach);
                         let [x, y, z, potential] = sum.total();
                         let force = image.turn([x, y, z]);
                         let side = match images.is_at_wall(code) {
@@ -172,7 +182,7 @@ impl<R: Number> Round<R> {
 
     /// Over the sheets near a particle of the group that they were last narrowed to.
     #[inline(always)]
-    fn sum<L: Lanes<Real = R>>(
+    fn sum<L: Lanes<Real = R>, F: Form>(
         &mut self,
         position: [f64; 3],
         spread: (&Spread, &[L; 3]),
@@ -184,9 +194,11 @@ impl<R: Number> Round<R> {
             at[a] = R::constant((position[a] - self.of_block.centre[a]) / reach);
         }
         let numbers = self.of_group.numbers();
+        let centre = L::constant(self.of_block.centre[0] / reach);
         let mut sum = PullSum::none();
         for &k in self.of_particle.list() {
-            sum.add(&at, spread.1, &self.sheets[numbers[k as usize] as usize]);
+            let sheet = &self.sheets[numbers[k as usize] as usize];
+            sum.add::<F>(&at, spread.1, sheet, centre);
         }
         sum
     }

@@ -4,10 +4,13 @@ use super::images::Images;
 use super::lanes::{Lanes, lanes};
 use super::loops::{Local, PairSum};
 use super::neighbours::Block;
+use super::rings::{Arc, Form, PLACES, flat};
 use crate::kernel::Shape;
 
 /// Weight of the term that acts against pairs (Monaghan 2000), and its power.
 const PAIRING: f64 = 0.2;
+/// Distance squared over H² of places that are one.
+const SAME: f64 = 1e-12;
 /// Particles fuller than this lie inside the fluid.
 pub const INSIDE: f64 = 0.75;
 
@@ -53,7 +56,7 @@ impl PairSum for Crowding<'_> {
     }
 
     #[inline(always)]
-    fn sum<L: Lanes, S: Shape>(
+    fn sum<L: Lanes, S: Shape, F: Form>(
         &self,
         block: &Block,
         k: usize,
@@ -62,27 +65,26 @@ impl PairSum for Crowding<'_> {
         let own = &self.records[block.first + k];
         let at: [L; 3] =
             lanes([own[0] - block.centre[0], own[1] - block.centre[1], own[2] - block.centre[2]]);
-        let fullness = L::constant(own[7]);
-        let mut gradient = [L::constant(0.0); 3];
-        let mut normal = [L::constant(0.0); 3];
-        let mut surface = L::constant(0.0);
+        let here = Here { position: at, fullness: L::constant(own[7]) };
+        let centre = L::constant(block.centre[0]);
+        let mut lanes = Sums::none();
         for places in block.neighbours(k).into_iter().flatten() {
-            let [x, y, z, _, _, _, volume, theirs] = local.gather(places);
-            let d = [at[0] - x, at[1] - y, at[2] - z];
-            let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
-            let value = volume * S::value(q);
-            let slope = volume * S::slope_over_q(q);
-            let ratio = S::value(q) * L::constant(self.reference);
-            let square = ratio * ratio;
-            let pull = slope * (L::constant(1.0) + L::constant(PAIRING) * square * square);
-            let rise = slope * (theirs - fullness);
-            for a in 0..3 {
-                gradient[a] = gradient[a] + pull * d[a];
-                normal[a] = normal[a] + rise * d[a];
+            let neighbour = local.gather(places);
+            let square = here.square_to(&neighbour);
+            let closeness = S::value(square.sqrt()) * L::constant(self.reference);
+            if !F::ROUND {
+                lanes.add::<S>(&here, neighbour, closeness);
+                continue;
             }
-            let none = L::constant(0.0);
-            surface = surface + theirs.choose_below(INSIDE, value, none);
+            // Two rings are as close as they are where they are closest, and no ring is close to itself: places
+            // along it would press it outward.
+            let closeness = square.choose_below(SAME, L::constant(0.0), closeness);
+            let arc = Arc::about(at[0] + centre, neighbour[0] + centre, square);
+            for place in 0..PLACES {
+                lanes.add::<S>(&here, arc.turn(place).record(neighbour), closeness);
+            }
         }
+        let Sums { gradient, normal, surface } = lanes;
         let scale = self.normalisation;
         let mut sums = CrowdingSums {
             gradient: [0.0; 3],
@@ -93,7 +95,56 @@ impl PairSum for Crowding<'_> {
             sums.gradient[a] = scale * gradient[a].sum().into();
             sums.normal[a] = scale * normal[a].sum().into();
         }
+        (sums.gradient, sums.normal) = (flat::<F>(sums.gradient), flat::<F>(sums.normal));
         sums
+    }
+}
+
+/// The particle whose neighbours are summed, in all lanes.
+struct Here<L> {
+    position: [L; 3],
+    fullness: L,
+}
+
+impl<L: Lanes> Here<L> {
+    #[inline(always)]
+    fn square_to(&self, &[x, y, z, ..]: &[L; 8]) -> L {
+        let d = [self.position[0] - x, self.position[1] - y, self.position[2] - z];
+        d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
+    }
+}
+
+/// Sums over neighbours in lanes.
+struct Sums<L> {
+    gradient: [L; 3],
+    normal: [L; 3],
+    surface: L,
+}
+
+impl<L: Lanes> Sums<L> {
+    #[inline(always)]
+    fn none() -> Self {
+        let zero = L::constant(0.0);
+        Self { gradient: [zero; 3], normal: [zero; 3], surface: zero }
+    }
+
+    /// Adds sixteen neighbours, whose closeness is w(q)/w(q₀).
+    #[inline(always)]
+    fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8], closeness: L) {
+        let [x, y, z, _, _, _, volume, theirs] = neighbour;
+        let d = [here.position[0] - x, here.position[1] - y, here.position[2] - z];
+        let q = (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt();
+        let value = volume * S::value(q);
+        let slope = volume * S::slope_over_q(q);
+        let square = closeness * closeness;
+        let pull = slope * (L::constant(1.0) + L::constant(PAIRING) * square * square);
+        let rise = slope * (theirs - here.fullness);
+        for a in 0..3 {
+            self.gradient[a] = self.gradient[a] + pull * d[a];
+            self.normal[a] = self.normal[a] + rise * d[a];
+        }
+        let none = L::constant(0.0);
+        self.surface = self.surface + theirs.choose_below(INSIDE, value, none);
     }
 }
 

@@ -1,6 +1,7 @@
 //! The smoothed volume fraction and what derives from it: the innermost loops of surface tension.
 
 use super::lanes::{Lanes, WIDTH};
+use super::rings::{Arc, Form, PLACES};
 use crate::kernel::{Kernel, Shape, WendlandC2};
 
 /// The kernel W of support h that smooths. Kernels of which the Fourier transform has zeros, such as
@@ -45,15 +46,34 @@ impl<L: Lanes> FractionSum<L> {
         Self { value: L::constant(0.0), gradient: [L::constant(0.0); 3] }
     }
 
-    /// Adds a particle with its position and volume.
+    /// Adds a particle with its position and volume; `centre` is x of the place about which positions are.
     #[inline(always)]
-    pub fn add(&mut self, at: &[L; 3], &[x, y, z, volume]: &[L::Real; 4]) {
-        let d = [at[0] - L::splat(x), at[1] - L::splat(y), at[2] - L::splat(z)];
+    pub fn add<F: Form>(&mut self, at: &[L; 3], particle: &[L::Real; 4], centre: L) {
+        let [x, y, z, volume] = *particle;
+        let (own, volume) = ([L::splat(x), L::splat(y), L::splat(z)], L::splat(volume));
+        let d = [at[0] - own[0], at[1] - own[1], at[2] - own[2]];
+        if !F::ROUND {
+            self.add_at(d, volume);
+            return;
+        }
+        let square = d[0] * d[0] + d[2] * d[2];
+        let arc = Arc::about(at[0] + centre, own[0] + centre, square);
+        for place in 0..PLACES {
+            let turn = arc.turn(place);
+            let [x, y, z] = turn.place(own);
+            self.add_at([at[0] - x, at[1] - y, at[2] - z], volume * turn.weight);
+        }
+        // What is on both sides of the plane y = 0 cancels.
+        self.gradient[1] = L::constant(0.0);
+    }
+
+    #[inline(always)]
+    fn add_at(&mut self, d: [L; 3], volume: L) {
         let q = length(d);
-        let slope = L::splat(volume) * WendlandC2::slope_over_q(q);
-        self.value = self.value + L::splat(volume) * WendlandC2::value(q);
-        for (sum, d) in self.gradient.iter_mut().zip(d) {
-            *sum = *sum + slope * d;
+        let slope = volume * WendlandC2::slope_over_q(q);
+        self.value = self.value + volume * WendlandC2::value(q);
+        for n in 0..3 {
+            self.gradient[n] = self.gradient[n] + slope * d[n];
         }
     }
 }
@@ -80,9 +100,16 @@ impl<L: Lanes> PullSum<L> {
         Self { force: [L::constant(0.0); 3], potential: L::constant(0.0) }
     }
 
-    /// Adds a sheet whose points stand at `spread` about its middle.
+    /// Adds a sheet whose points stand at `spread` about its middle; `centre` is x of the place about which
+    /// positions are.
     #[inline(always)]
-    pub fn add(&mut self, at: &[L::Real; 3], spread: &[L; 3], sheet: &SheetSlopes<L::Real>) {
+    pub fn add<F: Form>(
+        &mut self,
+        at: &[L::Real; 3],
+        spread: &[L; 3],
+        sheet: &SheetSlopes<L::Real>,
+        centre: L,
+    ) {
         let mut d = *spread;
         let mut a = *spread;
         for n in 0..3 {
@@ -90,6 +117,24 @@ impl<L: Lanes> PullSum<L> {
             a[n] = L::of_array(&sheet.by_gradient[n]);
         }
         let b = L::of_array(&sheet.by_fraction);
+        if !F::ROUND {
+            self.add_at(d, a, b);
+            return;
+        }
+        let own = L::splat(at[0]) + centre;
+        let arc = Arc::about(own, own + d[0], d[0] * d[0] + d[2] * d[2]);
+        for place in 0..PLACES {
+            let turn = arc.turn(place);
+            let [x, y, z] = turn.vector(a);
+            let a = [turn.weight * x, turn.weight * y, turn.weight * z];
+            self.add_at(turn.place(d), a, turn.weight * b);
+        }
+        self.force[1] = L::constant(0.0);
+    }
+
+    /// Adds points at `d` from the particle, with their slopes.
+    #[inline(always)]
+    fn add_at(&mut self, d: [L; 3], a: [L; 3], b: L) {
         let q = length(d);
         let slope = WendlandC2::slope_over_q(q);
         let down = d[0] * a[0] + d[1] * a[1] + d[2] * a[2];

@@ -2,11 +2,34 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::plan::DropletPlan;
+
 /// Radius over Δx of the disc of wall that a particle covers: a lattice of particles leaves no hole
 /// up to a distance of √2 Δx, so that a film may thin out.
 const COVER: f64 = 1.0;
 /// Width of rings over Δx.
 const RING: f64 = 0.25;
+
+/// What the places of particles on a wall are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Film {
+    /// Places on a line, of a plane model.
+    Line,
+    /// Places in a plane.
+    Plane,
+    /// Rings about the origin, of which x is the radius.
+    Rings,
+}
+
+impl Film {
+    pub fn of(plan: &DropletPlan) -> Self {
+        match plan.dimension {
+            2 => Film::Line,
+            _ if plan.axisymmetric => Film::Rings,
+            _ => Film::Plane,
+        }
+    }
+}
 
 /// Diameter of the film that particles at places on the wall make round the origin, in the unit of
 /// their distance Δx.
@@ -18,11 +41,12 @@ const RING: f64 = 0.25;
 /// the same area, `(D/2 + Δx/2)² = ∫ s d(r²)`, in a plane model the line of the same length,
 /// `D/2 + Δx/2 = ∫ s dr`; of the outermost particles a disc of radius Δx/2 belongs to the film, hence
 /// the Δx/2. More places make D no smaller, and one among many changes it by a small part of Δx.
-pub fn spread_diameter(places: &[[f64; 2]], dimension: usize) -> f64 {
-    let mut arcs: Vec<Arc> = places.iter().flat_map(|&place| arcs_of(place, dimension)).collect();
+pub fn spread_diameter(places: &[[f64; 2]], film: Film) -> f64 {
+    let mut arcs: Vec<Arc> = places.iter().flat_map(|&place| arcs_of(place, film)).collect();
     arcs.sort_by(|a, b| b.ring.cmp(&a.ring).then(a.start.total_cmp(&b.start)));
     let (mut share, mut size, mut outer) = (0.0_f64, 0.0, 0);
-    let extent = |rings: usize| (rings as f64 * RING).powi(dimension as i32 - 1);
+    let power = if film == Film::Line { 1 } else { 2 };
+    let extent = |rings: usize| (rings as f64 * RING).powi(power);
     // From the outermost ring inwards.
     for arcs in arcs.chunk_by(|a, b| a.ring == b.ring) {
         let next = arcs[0].ring + 1;
@@ -31,7 +55,7 @@ pub fn spread_diameter(places: &[[f64; 2]], dimension: usize) -> f64 {
         outer = next;
     }
     size += share * extent(outer);
-    let radius = if dimension == 2 { size } else { size.sqrt() };
+    let radius = if film == Film::Line { size } else { size.sqrt() };
     (2.0 * radius - (2.0 * COVER - 1.0)).max(0.0)
 }
 
@@ -45,7 +69,7 @@ struct Arc {
 
 /// What a particle covers of the rings' middle circles; in a plane model a half circle stands for
 /// each side.
-fn arcs_of([x, y]: [f64; 2], dimension: usize) -> Vec<Arc> {
+fn arcs_of([x, y]: [f64; 2], film: Film) -> Vec<Arc> {
     let distance = x.hypot(y);
     let first = ((distance - COVER) / RING).max(0.0) as usize;
     let last = ((distance + COVER) / RING) as usize;
@@ -53,7 +77,13 @@ fn arcs_of([x, y]: [f64; 2], dimension: usize) -> Vec<Arc> {
     for ring in first..=last {
         let radius = (ring as f64 + 0.5) * RING;
         let mut add = |start: f64, end: f64| arcs.push(Arc { ring, start, end });
-        if dimension == 2 {
+        if film == Film::Rings {
+            if (radius - x).abs() < COVER {
+                add(0.0, TAU);
+            }
+            continue;
+        }
+        if film == Film::Line {
             [1.0, -1.0].into_iter().zip([0.0, PI]).for_each(|(side, start)| {
                 if (side * radius - x).abs() < COVER {
                     add(start, start + PI);
@@ -123,11 +153,11 @@ mod tests {
     #[test]
     fn a_round_film_has_its_diameter() {
         for count in [3, 8, 20, 40] {
-            let diameter = spread_diameter(&rings(count), 3);
+            let diameter = spread_diameter(&rings(count), Film::Plane);
             assert!((diameter - 2.0 * count as f64).abs() < 0.3, "{count}: {diameter}");
         }
         for radius in [5.2, 12.0, 25.7, 40.0] {
-            let diameter = spread_diameter(&lattice(radius, 1.0, 0.0), 3);
+            let diameter = spread_diameter(&lattice(radius, 1.0, 0.0), Film::Plane);
             assert!((diameter - 2.0 * radius).abs() < 0.5, "{radius}: {diameter}");
         }
     }
@@ -137,30 +167,30 @@ mod tests {
         for count in [1, 4, 31] {
             let places: Vec<[f64; 2]> =
                 (0..count).map(|i| [i as f64 + 0.5 - 0.5 * count as f64, 0.0]).collect();
-            let length = spread_diameter(&places, 2);
+            let length = spread_diameter(&places, Film::Line);
             assert!((length - count as f64).abs() < 0.3, "{count}: {length}");
         }
     }
 
     #[test]
     fn neither_holes_nor_thinning_nor_spray_count() {
-        let whole = spread_diameter(&lattice(20.0, 1.0, 0.0), 3);
-        assert_eq!(spread_diameter(&lattice(20.0, 1.0, 10.0), 3), whole);
-        let thin = spread_diameter(&lattice(20.0, 1.4, 0.0), 3);
+        let whole = spread_diameter(&lattice(20.0, 1.0, 0.0), Film::Plane);
+        assert_eq!(spread_diameter(&lattice(20.0, 1.0, 10.0), Film::Plane), whole);
+        let thin = spread_diameter(&lattice(20.0, 1.4, 0.0), Film::Plane);
         assert!((thin - whole).abs() < 1.0, "{thin} {whole}");
         let mut spray = lattice(20.0, 1.0, 0.0);
         spray.extend((0..8).map(|i| [30.0 + f64::from(i), f64::from(3 * i)]));
-        assert_eq!(spread_diameter(&spray, 3), whole);
-        assert_eq!(spread_diameter(&[], 3), 0.0);
+        assert_eq!(spread_diameter(&spray, Film::Plane), whole);
+        assert_eq!(spread_diameter(&[], Film::Plane), 0.0);
     }
 
     #[test]
     fn one_particle_more_changes_it_by_little() {
         let mut places = lattice(22.0, 1.0, 0.0);
         places.sort_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])));
-        let mut before = spread_diameter(&places[..300], 3);
+        let mut before = spread_diameter(&places[..300], Film::Plane);
         for count in 301..=places.len() {
-            let now = spread_diameter(&places[..count], 3);
+            let now = spread_diameter(&places[..count], Film::Plane);
             assert!((-1e-12..0.2).contains(&(now - before)), "{count}: {before} {now}");
             before = now;
         }

@@ -181,7 +181,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
     ) -> Result<Motion, Failure> {
         let motion = self.kick(Times { dt: 0.5 * dt, tension: begins });
         self.push_wall(&motion.pushed);
-        let speed = motion.root_mean_square_speed(self.cloud.len(), self.method.mirrors);
+        let speed = motion.root_mean_square_speed(self.cloud.len(), self.method.even);
         self.ledger.way += dt * speed;
         if self.ledger.way > SHIFT_WAY {
             self.shift()?;
@@ -301,7 +301,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         for_parts(
             &pass,
             &self.neighbours.blocks,
-            (method.kernel, method.precision),
+            method.pairs(),
             self.team,
             &mut parts,
             |(part, pushes), rates| {
@@ -348,7 +348,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let Some(setting) = &method.surface else { return };
         let (cloud, team) = (&mut *self.cloud, self.team);
         let (pulls, energy) = self.free_surface.pulls(setting, cloud, team);
-        let bounded = Bounded { mirrors: method.mirrors, walled: method.wall.is_some() };
+        let bounded = Bounded { even: method.even, walled: method.wall.is_some() };
         cloud.tension = balanced(pulls, &cloud.mass, bounded, team);
         team.for_each(&mut cloud.potential, |i, potential| *potential = pulls[i].potential);
         let images = copies(method.mirrors);
@@ -360,8 +360,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         pass: &P,
         memory: Vec<P::Output>,
     ) -> Vec<P::Output> {
-        let Method { kernel, precision, .. } = *self.method;
-        for_all(pass, &self.neighbours.blocks, (kernel, precision), self.team, memory)
+        for_all(pass, &self.neighbours.blocks, self.method.pairs(), self.team, memory)
     }
 
     /// Moves particles from crowded places to empty ones.

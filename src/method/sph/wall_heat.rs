@@ -24,7 +24,7 @@ pub struct WallHeat {
     /// κ over c₀H, and Δx over H.
     conduction: f64,
     spacing: f64,
-    /// Mass over ρ₀H^d of a whole layer of particles above the square of a point.
+    /// Mass over ρ₀H^d of a whole layer of particles above the square of a point, of a ring over its extent.
     layer: f64,
     /// Heat capacity of the unit of mass [J/K].
     capacity: f64,
@@ -187,7 +187,7 @@ impl WallHeat {
     /// How the fluid at a point exchanges heat with what is below, of which the columns' temperatures are given.
     fn contact(&self, point: &Point, walls: &[f64], dt: f64) -> Contact {
         let [bare, covered] = COVERED;
-        let layers = point.mass / self.layer;
+        let layers = point.mass / (self.layer * point.extent);
         if layers <= bare {
             return Contact::default();
         }

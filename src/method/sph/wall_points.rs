@@ -4,7 +4,9 @@
 //! particles above it stand and however small the cells are that get what the squares got.
 
 use std::collections::HashMap;
+use std::f64::consts::TAU;
 
+use super::cover::Cover;
 use super::images::copies;
 use super::plan::{DropletPlan, Extent};
 use super::surface::{CellHeat, Surface};
@@ -29,7 +31,9 @@ struct Row {
 pub struct PointLattice {
     rows: [Row; 2],
     mirrors: [bool; 2],
-    /// Area that a point stands for [m²]; metres of depth in a plane model.
+    /// Whether points are rings about the origin, in a row along the radius.
+    rings: bool,
+    /// Area that a point stands for [m²]; metres of depth in a plane model, of a ring the square of its width.
     pub area: f64,
 }
 
@@ -48,6 +52,8 @@ pub struct Point {
     place: [i32; 2],
     /// Whether the following is known.
     pub active: bool,
+    /// Its area over that of the lattice.
+    pub extent: f64,
     /// Columns below its square and their parts of it.
     pub below: Vec<(u32, f64)>,
     /// The part beyond the outermost cells of a wall that goes on there, and the column whose temperature it has.
@@ -103,13 +109,13 @@ pub struct WallPoints<'a> {
 impl PointLattice {
     pub fn of(plan: &DropletPlan) -> Self {
         let rows = [0, 1].map(|axis| {
-            let flat = axis == 1 && plan.dimension == 2;
+            let flat = axis == 1 && plan.axes() == 2;
             let fitted = |length: f64| {
                 let count = (length / plan.spacing).round().max(1.0);
                 (length / count, count as i32)
             };
             let (pitch, mirrored, end) = match plan.extents[axis] {
-                Extent::Open => (plan.spacing, plan.mirrors[axis], None),
+                Extent::Open => (plan.spacing, plan.even()[axis], None),
                 Extent::Periodic(length) => {
                     let (pitch, count) = fitted(length);
                     (pitch, false, Some((count, true)))
@@ -121,8 +127,10 @@ impl PointLattice {
             };
             Row { pitch: (!flat).then_some(pitch), mirrored, end }
         });
-        let area = rows.iter().filter_map(|row| row.pitch).product();
-        Self { rows, mirrors: plan.mirrors, area }
+        let rings = plan.axisymmetric;
+        let sides = rows.iter().filter_map(|row| row.pitch);
+        let area = sides.map(|side| if rings { side * side } else { side }).product();
+        Self { rows, mirrors: plan.mirrors, rings, area }
     }
 
     /// Where the model has points, along x and y [m]; a plane model is a metre deep.
@@ -136,7 +144,18 @@ impl PointLattice {
         Domain { along, images: copies(self.mirrors) }
     }
 
-    /// The square that a point stands for [m]; a line in a plane model.
+    /// Area of a point over that of the lattice.
+    fn extent(&self, [i, _]: [i32; 2]) -> f64 {
+        if self.rings { TAU * (f64::from(i) + 0.5) } else { 1.0 }
+    }
+
+    /// Which cells the part of the wall covers that a point stands for.
+    fn cover(&self, cells: &WallCells, place: [i32; 2]) -> Cover {
+        let square = self.square(place);
+        if self.rings { cells.cover_ring(square[0]) } else { cells.cover(square) }
+    }
+
+    /// The square that a point stands for [m]; a line in a plane model, and of a ring.
     fn square(&self, place: [i32; 2]) -> [[f64; 2]; 2] {
         [0, 1].map(|axis| match self.rows[axis].pitch {
             Some(pitch) => [place[axis], place[axis] + 1].map(|n| pitch * f64::from(n)),
@@ -204,6 +223,7 @@ impl<'a> WallPoints<'a> {
 
     /// The points about a place [m].
     pub fn stencil(&mut self, [x, y]: [f64; 2]) -> Stencil {
+        let x = if self.lattice.rings { spread_radius(x, self.lattice.area) } else { x };
         let (columns, nx) = self.lattice.rows[0].about(x);
         let (rows, ny) = self.lattice.rows[1].about(y);
         let mut stencil = Stencil { points: [(0, 0.0); 9], signs: [[1.0; 2]; 9], count: nx * ny };
@@ -231,7 +251,9 @@ impl<'a> WallPoints<'a> {
         let first = self.points.len();
         let [x, y] = page.map(|n| n * PAGE);
         let places = (0..PAGE).flat_map(|j| (0..PAGE).map(move |i| [x + i, y + j]));
-        self.points.extend(places.map(|place| Point { place, ..Point::default() }));
+        let lattice = self.lattice;
+        let point = |place| Point { place, extent: lattice.extent(place), ..Point::default() };
+        self.points.extend(places.map(point));
         self.pages.insert(page, first);
         first
     }
@@ -249,7 +271,7 @@ impl<'a> WallPoints<'a> {
 
     /// Makes a point exchange heat with the columns below it.
     pub fn activate(&mut self, point: usize) {
-        let cover = self.cells.cover(self.lattice.square(self.points[point].place));
+        let cover = self.lattice.cover(self.cells, self.points[point].place);
         let below = cover.cells.iter().map(|&(cell, part)| (self.column(cell), part));
         let below: Vec<(u32, f64)> = below.collect();
         // Where a body ends there is nothing to be as warm as its edge.
@@ -282,11 +304,12 @@ impl<'a> WallPoints<'a> {
     pub fn totals(&self) -> (f64, [f64; 3]) {
         let images = copies(self.lattice.mirrors);
         let heat = self.columns.iter().map(|column| column.heat).sum::<f64>() + self.heat_beyond;
-        let impulse = [0, 1, 2].map(|n| match n < 2 && self.lattice.mirrors[n] {
-            // What the images give along a mirrored axis cancels.
-            true => 0.0,
-            false => images * self.points.iter().map(|point| point.impulse[n]).sum::<f64>(),
-        });
+        let impulse =
+            [0, 1, 2].map(|n| match n < 2 && (self.lattice.mirrors[n] || self.lattice.rings) {
+                // What the images give along a mirrored axis cancels, and what a ring gives along its radius.
+                true => 0.0,
+                false => images * self.points.iter().map(|point| point.impulse[n]).sum::<f64>(),
+            });
         (images * heat, impulse)
     }
 
@@ -348,18 +371,31 @@ impl<'a> WallPoints<'a> {
 
     fn deposit(&self, given: &Given, exchange: &mut WallExchange) {
         let square = self.lattice.square(given.place);
-        let cover = self.cells.cover(square);
+        let cover = self.lattice.cover(self.cells, given.place);
         let radial = self.cells.are_radial();
         let middle = square.map(|[low, high]| 0.5 * (low + high));
         let impulse = if radial { radially(middle, given.impulse) } else { given.impulse };
         for &(cell, weight) in &cover.cells {
             (0..3).for_each(|n| exchange.impulse[cell][n] += weight * impulse[n]);
         }
-        let cancels = |n: usize| n < 2 && radial && self.lattice.mirrors[n];
+        let round = self.lattice.rings;
+        let cancels = |n: usize| n < 2 && radial && (round || self.lattice.mirrors[n]);
         for n in (0..3).filter(|&n| !cancels(n)) {
             exchange.impulse_outside[n] += cover.outside * given.impulse[n];
         }
     }
+}
+
+/// Square of the length over the width of rings by which [`spread_radius`] moves what is at the origin.
+const OFF_AXIS: f64 = 0.1742;
+
+/// Radius at which what is at a radius is given to rings of some width squared [m²].
+///
+/// Spread by the B-spline along a line across the axis, an even film would give the ring at the axis a quarter more
+/// than its share, and those at its edge as much less: in the plane, what is spread evenly to all sides moves
+/// outward. At `√(r² + 0.1742 Δ²)` the first ring gets its share, and every other to 0.3 %.
+fn spread_radius(radius: f64, area: f64) -> f64 {
+    (radius * radius + OFF_AXIS * area).sqrt()
 }
 
 /// What a point or an image of it gives.

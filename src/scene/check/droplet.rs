@@ -1,10 +1,9 @@
 //! Size, fluid, particles and arrivals of each droplet.
 
-use std::f64::consts::PI;
-
 use super::{Checker, fits, number, replayed};
 use crate::scene::droplet::{Arrival, Droplet, DropletSymmetry, LEAST_SOUND_OVER_FLOW};
 use crate::scene::locate::Path;
+use crate::scene::types::{Footprint, Shape};
 
 /// Fewest particles across a drop that make it one.
 const FEWEST_ACROSS: f64 = 6.0;
@@ -28,7 +27,7 @@ pub fn check(checker: &mut Checker) {
             release(checker, &path, droplet);
             direction(checker, &path.at("impact_direction"), droplet);
             arrivals(checker, &path.at("arrivals"), name, droplet);
-            symmetry(checker, &path.at("symmetry"), droplet);
+            symmetry(checker, &path.at("symmetry"), name, droplet);
         }
     }
 }
@@ -42,16 +41,12 @@ fn is_sound(checker: &Checker, path: &Path) -> bool {
 fn resolution(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let across = droplet.diameter / droplet.spacing;
     let coarsest = droplet.diameter / FEWEST_ACROSS;
-    let volume = if droplet.dimension == 3 { PI / 6.0 } else { PI / 4.0 };
-    // Of drops that are replayed one is computed.
-    let drops = if droplet.is_replayed() { 1.0 } else { droplet.drops() as f64 };
-    let copies: f64 = droplet.mirrors().map(|m| if m { 2.0 } else { 1.0 }).iter().product();
-    let particles = volume * across.powi(droplet.dimension as i32) * drops / copies;
+    let particles = droplet.particles();
     if !fits(droplet.spacing, coarsest) {
         let message = format!("only {across:.1} particles lie across the drop");
         checker.refuse(path, message, format!("0 < spacing <= {}", number(coarsest)));
     } else if particles > MOST_PARTICLES {
-        let scale = (particles / MOST_PARTICLES).powf(1.0 / droplet.dimension as f64);
+        let scale = (particles / MOST_PARTICLES).powf(1.0 / droplet.axes() as f64);
         let message = format!("this makes {} particles", number(particles.round()));
         let allowed =
             format!("{} or more, for at most 2e7 particles", number(droplet.spacing * scale));
@@ -162,11 +157,35 @@ fn meets(droplet: &Droplet, earlier: &Arrival, later: &Arrival, free: bool) -> b
     !fits(droplet.diameter, apart.hypot(fall))
 }
 
-fn symmetry(checker: &mut Checker, path: &Path, droplet: &Droplet) {
-    let fine = droplet.symmetry != DropletSymmetry::Quarter || droplet.is_centred();
-    let message = "a quarter needs all drops to arrive at x = 0, y = 0";
-    checker.require(fine, path, message, "auto, none");
-    let fine = droplet.symmetry != DropletSymmetry::Quarter || droplet.is_straight();
-    let message = "a quarter needs all drops to come straight down";
-    checker.require(fine, path, message, "auto, none, or impact_angle = 0.0");
+fn symmetry(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
+    let part = match droplet.symmetry {
+        DropletSymmetry::Auto | DropletSymmetry::None => return,
+        DropletSymmetry::Quarter => "a quarter",
+        DropletSymmetry::Axisymmetric => "an axisymmetric model",
+    };
+    let message = format!("{part} needs all drops to arrive at x = 0, y = 0");
+    checker.require(droplet.is_centred(), path, message, "auto, none");
+    let message = format!("{part} needs all drops to come straight down");
+    checker.require(droplet.is_straight(), path, message, "auto, none, or impact_angle = 0.0");
+    if droplet.is_axisymmetric() {
+        round(checker, path, name, droplet);
+    }
+}
+
+/// What is round needs three dimensions, and what is round below it.
+fn round(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
+    let message = "a plane model has no axis";
+    checker.require(droplet.dimension == 3, path, message, "auto, none, or dimension = 3");
+    let scene = checker.scene;
+    if let Some(wall) = scene.wall_under(name) {
+        let is_round = matches!(scene.wall[wall].footprint, Footprint::Rings { .. });
+        let message = format!("the cells of wall[{wall}] are not round");
+        checker.require(is_round, path, message, "auto, none, quarter, or a wall of `rings`");
+    }
+    let below = scene.coupling_from(name).and_then(|coupling| scene.coupling[coupling].solid());
+    if let Some((body, solid)) = below.and_then(|body| Some((body, scene.solid(body)?))) {
+        let is_round = matches!(solid.shape, Shape::Disc(_));
+        let message = format!("`{body}` is a box, which is not round");
+        checker.require(is_round, path, message, "auto, none, quarter, or a `disc` below");
+    }
 }

@@ -5,7 +5,7 @@ use crate::method::sph::images::copies;
 use crate::method::sph::lumps::body_of_fluid;
 use crate::method::sph::method::Method;
 use crate::method::sph::plan::DropletPlan;
-use crate::method::sph::spread::spread_diameter;
+use crate::method::sph::spread::{Film, spread_diameter};
 use crate::method::sph::units::{compression_energy, pressure};
 
 /// Sums over the fluid, images at mirrors included (a plane model: per metre of depth).
@@ -83,8 +83,7 @@ pub fn totals(
         let speed = cloud.velocity[i].iter().map(|v| v * v).sum::<f64>();
         totals.mass += mass * units.mass();
         for a in 0..3 {
-            let mirrored = a < 2 && plan.mirrors[a];
-            let share = if mirrored { 0.0 } else { mass };
+            let share = if a < 2 && plan.even()[a] { 0.0 } else { mass };
             totals.momentum[a] += share * cloud.velocity[i][a] * units.mass() * units.speed;
         }
         totals.kinetic_energy += 0.5 * mass * speed * units.energy();
@@ -112,7 +111,7 @@ pub fn totals(
     // Without a wall there is nothing to spread on, however low particles fall.
     if plan.wall.is_some() {
         let places = wetting_places(plan, cloud, &body);
-        totals.spread_diameter = plan.spacing * spread_diameter(&places, plan.dimension);
+        totals.spread_diameter = plan.spacing * spread_diameter(&places, Film::of(plan));
     }
     totals
 }
@@ -135,7 +134,7 @@ fn wetting_places(plan: &DropletPlan, cloud: &Cloud, body: &[bool]) -> Vec<[f64;
     let at_wall = |&i: &usize| body[i] && cloud.position[i][2] < AT_WALL * spacing;
     let wetting: Vec<usize> = (0..cloud.len()).filter(at_wall).collect();
     let mass: f64 = wetting.iter().map(|&i| cloud.mass[i]).sum();
-    let middle = |a: usize| match plan.mirrors[a] {
+    let middle = |a: usize| match plan.even()[a] {
         true => 0.0,
         false => wetting.iter().map(|&i| cloud.mass[i] * cloud.position[i][a]).sum::<f64>() / mass,
     };
