@@ -18,7 +18,7 @@ use std::process::{self, ExitCode};
 
 use archive::Entries;
 use clap::Parser;
-use impinge::model::notes_on_walls;
+use impinge::model::{notes_on_walls, tolerance};
 use impinge::scene::{self, Scene};
 use version::Version;
 
@@ -120,6 +120,12 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     refuse_inputs(&target, &[path, &library_path])?;
     refuse_other_files(&target, b"PK")?;
     let library = library::read(&library_path, arguments.fmi)?;
+    let (known, estimates) = tolerance::estimates(&scene);
+    for warning in tolerance::warnings(&known, &estimates) {
+        complain(&format!("warning: {warning}"));
+    }
+    let text = tolerance::packed_text(&scene, &text, &known);
+    let scene = known;
     let reference = if arguments.reference {
         reference::entries(&scene, arguments.fmi)?
     } else {

@@ -13,7 +13,7 @@ mod solid;
 use std::any::Any;
 use std::sync::Arc;
 
-pub use droplet::{WallQuantity, notes_on_walls, wall_quantities};
+pub use droplet::{WallQuantity, fine_radius, notes_on_walls, wall_quantities};
 pub use error::BodyError;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
 pub use link::{Joint, Link, Side};

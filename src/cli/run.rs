@@ -3,6 +3,7 @@ use std::time::Instant;
 
 use clap::Args;
 use impinge::machine::available_memory;
+use impinge::model::tolerance;
 use impinge::model::{Cache, Model, ModelError, State, Timeline, check_memory};
 use impinge::output::{CsvTable, FieldSeries, FolderLock, OutputError};
 use impinge::scene::{self, Scene};
@@ -70,6 +71,10 @@ impl Run {
         let started = Instant::now();
         let (scene, inputs) = self.asked_scene()?;
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
+        let (scene, estimates) = tolerance::estimates(&scene);
+        for warning in tolerance::warnings(&scene, &estimates) {
+            super::print_message("warning", &warning);
+        }
         let model = Model::build(&scene, scene.solver.threads)
             .map_err(|error| CliError::from_model(error, &scene))?;
         let timeline = Timeline::new(scene.step, scene.stop_time);

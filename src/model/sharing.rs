@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::tolerance::{self, Resolved};
 use super::{Model, ModelError, check_memory};
 use crate::math::shared_values::SharedValues;
 use crate::math::thread::aside;
@@ -16,9 +17,10 @@ impl Model {
     /// memory than is `available` [B] is not built.
     pub fn shared(scene: &Scene, threads: usize, available: f64) -> Result<Arc<Model>, ModelError> {
         aside(|| {
-            MODELS.get_or_make(scene, || {
-                check_memory(scene, available)?;
-                Model::build(scene, threads)
+            let Resolved { scene, choices } = tolerance::resolve(scene);
+            MODELS.get_or_make(&scene, || {
+                check_memory(&scene, available)?;
+                Ok(Model { choices, ..Model::build_as_it_is(&scene, threads)? })
             })
         })
     }
@@ -27,6 +29,7 @@ impl Model {
     pub fn forget_unused() {
         MODELS.forget_unused();
         forget_unused_stiffness();
+        tolerance::forget_unused();
     }
 }
 
