@@ -13,6 +13,7 @@ mod start_rates;
 mod states;
 mod tangent;
 mod timeline;
+pub mod tolerance;
 
 pub use cache::Cache;
 pub use error::ModelError;
@@ -23,7 +24,7 @@ pub use start_rates::start_rates;
 pub use tangent::Tangent;
 pub use timeline::Timeline;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use crate::body::{Assembly, Body, Fields, Joint, Link};
 pub use crate::body::{
@@ -41,6 +42,8 @@ use crate::scene::{Scene, Shape};
 use crate::variables::{Output, Registry, Slot};
 use memory::threads_that_fit;
 use schedule::Group;
+use tolerance::Resolved;
+use tolerance::choice::Choice;
 
 /// Everything known before time starts: bodies, and when they meet.
 pub struct Model {
@@ -55,6 +58,11 @@ pub struct Model {
     peaks: Vec<(usize, usize)>,
     /// What a step of the droplets takes, at most [B].
     memory_of_droplets: usize,
+    /// Of meshes, for those that choose the same meanwhile.
+    #[expect(dead_code, reason = "held for others")]
+    choices: Vec<Arc<Choice>>,
+    /// What the outputs of each body err by, estimated when first asked for.
+    errors: Vec<OnceLock<f64>>,
 }
 
 /// All that changes, as plain data: a saved state is a clone of this.
@@ -80,6 +88,12 @@ pub type Stiffness = Vec<Arc<ElasticProblem>>;
 impl Model {
     /// Builds meshes, modes and factorisations; `threads` = 0 lets the program choose.
     pub fn build(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
+        let Resolved { scene, choices } = tolerance::resolve(scene);
+        Ok(Self { choices, ..aside(|| Self::build_here(&scene, threads))? })
+    }
+
+    /// The same on the mesh that follows from the scene's keys alone.
+    fn build_as_it_is(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
         aside(|| Self::build_here(scene, threads))
     }
 
@@ -105,6 +119,8 @@ impl Model {
             schedule,
             peaks,
             memory_of_droplets: memory_of_droplets as usize,
+            choices: Vec::new(),
+            errors: scene.body.keys().map(|_| OnceLock::new()).collect(),
         })
     }
 
@@ -310,6 +326,31 @@ impl Model {
         self.bodies.iter().map(|body| body.factor_entries()).sum()
     }
 
+    /// Estimate of the largest relative error of a body's outputs over the default experiment, that of its mesh [1];
+    /// −1 where there is none.
+    pub fn estimated_error(&self, place: usize) -> f64 {
+        let Some(name) = self.scene.body.keys().nth(place) else { return NO_ESTIMATE };
+        let known = self.scene.refinement.get(name).and_then(|factors| factors.estimated_error);
+        *self.errors[place].get_or_init(|| {
+            known
+                .or_else(|| tolerance::estimate_of(&self.scene, name).worst())
+                .unwrap_or(NO_ESTIMATE)
+        })
+    }
+
+    /// Warns of bodies whose outputs are known to err by more than the tolerance: a sentence each.
+    pub fn tolerance_warnings(&self) -> Vec<String> {
+        let tolerance = self.scene.fidelity.tolerance;
+        let over = self.scene.refinement.iter().filter_map(|(name, mesh)| {
+            let error = mesh.estimated_error.filter(|&error| error > tolerance)?;
+            Some(format!(
+                "{name}: outputs err by about {error:.0e} of their ranges, more than the tolerance of {tolerance:e}; \
+                 `impinge check` names a mesh that would keep it"
+            ))
+        });
+        over.collect()
+    }
+
     /// What was chosen or left out, and why: a sentence each.
     pub fn notes(&self) -> Vec<String> {
         self.bodies.iter().flat_map(|body| body.notes()).collect()
@@ -332,6 +373,9 @@ impl Model {
         known.expect("asked for by the name of a body of the scene")
     }
 }
+
+/// What stands for an error that is not estimated.
+const NO_ESTIMATE: f64 = -1.0;
 
 /// Start values of all inputs, in the order of the layout.
 pub fn initial_inputs(scene: &Scene) -> Vec<f64> {

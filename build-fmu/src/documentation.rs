@@ -93,7 +93,8 @@ fn section(html: &mut String, heading: &str, content: &str) {
 }
 
 fn modelled(scene: &Scene) -> String {
-    let lines = words::of(scene);
+    let mut lines = words::of(scene);
+    lines.extend(errors(scene));
     let list: String = lines.iter().map(|line| format!("<li>{}</li>\n", escape(line))).collect();
     format!(
         "<ul>\n{list}</ul>\n<p>Values are in SI units, temperatures in kelvin. The default \
@@ -101,6 +102,19 @@ fn modelled(scene: &Scene) -> String {
         words::quantity(scene.stop_time, "s"),
         words::quantity(scene.step, "s")
     )
+}
+
+/// What outputs err by, body by body, as far as it is known.
+fn errors(scene: &Scene) -> impl Iterator<Item = String> {
+    let tolerance = scene.fidelity.tolerance;
+    scene.refinement.iter().filter_map(move |(name, mesh)| {
+        let error = mesh.estimated_error?;
+        let kept = if error > tolerance { "more than" } else { "within" };
+        Some(format!(
+            "{name}: its mesh makes outputs err by about {error:.0e} of their ranges over the default experiment, {kept} \
+             the tolerance of {tolerance:e}."
+        ))
+    })
 }
 
 /// A program that sets the first input and plots the first outputs.

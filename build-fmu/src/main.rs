@@ -18,7 +18,7 @@ use std::process::{self, ExitCode};
 
 use archive::Entries;
 use clap::Parser;
-use impinge::model::{notes_on_walls, records, to_be_recorded};
+use impinge::model::{notes_on_walls, records, to_be_recorded, tolerance};
 use impinge::scene::{self, Scene};
 use version::Version;
 
@@ -123,6 +123,12 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     for note in to_be_recorded(&scene) {
         complain(&format!("note: {note}"));
     }
+    let (known, estimates) = tolerance::estimates(&scene);
+    for warning in tolerance::warnings(&known, &estimates) {
+        complain(&format!("warning: {warning}"));
+    }
+    let text = tolerance::packed_text(&scene, &text, &known);
+    let scene = known;
     let reference = if arguments.reference {
         reference::entries(&scene, arguments.fmi)?
     } else {

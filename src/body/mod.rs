@@ -15,7 +15,7 @@ use std::any::Any;
 use std::sync::Arc;
 
 pub use droplet::{
-    Kept, WallQuantity, forget_unused_records, keep_record, notes_on_walls, records,
+    Kept, WallQuantity, fine_radius, forget_unused_records, keep_record, notes_on_walls, records,
     to_be_recorded, wall_quantities,
 };
 pub use error::BodyError;

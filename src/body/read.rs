@@ -36,6 +36,8 @@ pub enum Reading {
     Total(usize),
     /// Of the running maximum of a number among those of the body. It is no part of the body's state but of the model's.
     Peak { which: usize, part: PeakPart },
+    /// What the body's outputs err by: no part of its state either, but of what is known before time starts.
+    Error,
     /// Of a cell of the wall below, or of what lies beyond its cells; `quantity` is the place among the
     /// [quantities of walls](super::wall_quantities).
     Cell { quantity: usize, cell: usize },

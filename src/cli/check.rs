@@ -3,6 +3,8 @@ use std::path::PathBuf;
 
 use clap::Args;
 use impinge::machine::available_memory;
+use impinge::model::tolerance::estimate::OutputError;
+use impinge::model::tolerance::{self, BodyEstimate};
 use impinge::model::{ParticleForecast, Timeline, check_memory, forecast};
 use impinge::scene::{
     self, Coupling, Droplet, Face, Field, Load, MaterialChoice, Probe, Scene, Shape, Solid, Wall,
@@ -30,6 +32,10 @@ impl Check {
         let (scene, warnings) = scene::read_with_warnings(&self.scene)?;
         super::warn(&warnings);
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
+        let (scene, estimates) = tolerance::estimates(&scene);
+        for warning in tolerance::warnings(&scene, &estimates) {
+            super::print_message("warning", &warning);
+        }
         let sections = [
             ("Bodies", bodies(&scene)),
             ("Bodies without extent", lumps(&scene)),
@@ -41,6 +47,7 @@ impl Check {
             ("Walls", walls(&scene)),
             ("Couplings", couplings(&scene)),
             ("Model", notes(&scene)),
+            ("Errors by the mesh", errors(&estimates)),
         ];
         let mut text = head(&scene);
         for (title, body) in sections.iter().filter(|(_, body)| !body.is_empty()) {
@@ -108,6 +115,38 @@ fn notes(scene: &Scene) -> String {
     }
     let _ = writeln!(text, "  `impinge run` takes about {}", engineering(run_time, "s"));
     text
+}
+
+/// Most outputs of a body whose errors are listed.
+const MOST_ERRORS: usize = 12;
+
+/// What outputs err by, the largest errors first, and what estimates leave out.
+fn errors(estimates: &[BodyEstimate]) -> String {
+    let mut text = String::new();
+    for estimate in estimates {
+        let mut outputs: Vec<_> = estimate.outputs.iter().collect();
+        outputs.sort_by(|a, b| b.total().total_cmp(&a.total()));
+        let row = |one: &&OutputError| {
+            [one.name.clone(), part(one.along), part(one.through), part(one.total())]
+        };
+        let rows: Vec<_> = outputs.iter().take(MOST_ERRORS).map(row).collect();
+        if !rows.is_empty() {
+            let heading = ["output", "along the surface", "through the thickness", "of its range"];
+            text.push_str(&table(heading, &rows));
+        }
+        if outputs.len() > MOST_ERRORS {
+            let _ = writeln!(text, "  {} outputs more err by less", outputs.len() - MOST_ERRORS);
+        }
+        for note in &estimate.notes {
+            let _ = writeln!(text, "  - {}: {note}", estimate.body);
+        }
+    }
+    text
+}
+
+/// A part of something.
+fn part(value: f64) -> String {
+    format!("{value:.1e}")
 }
 
 /// What particles do in a communication step.

@@ -3,7 +3,9 @@ use std::time::Instant;
 
 use clap::Args;
 use impinge::machine::available_memory;
-use impinge::model::{Cache, Model, ModelError, State, Timeline, check_memory, to_be_recorded};
+use impinge::model::{
+    Cache, Model, ModelError, State, Timeline, check_memory, to_be_recorded, tolerance,
+};
 use impinge::output::{CsvTable, FieldSeries, FolderLock, OutputError};
 use impinge::scene::{self, Scene};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -72,6 +74,10 @@ impl Run {
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
         for note in to_be_recorded(&scene) {
             super::print_message("note", &note);
+        }
+        let (scene, estimates) = tolerance::estimates(&scene);
+        for warning in tolerance::warnings(&scene, &estimates) {
+            super::print_message("warning", &warning);
         }
         let model = Model::build(&scene, scene.solver.threads)
             .map_err(|error| CliError::from_model(error, &scene))?;

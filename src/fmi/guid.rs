@@ -2,6 +2,7 @@
 
 use sha2::{Digest, Sha256};
 
+use crate::model::tolerance::PACKED;
 use crate::variables::Registry;
 
 /// The first half of the SHA-256 of scene text, variables (name and causality, in their order) and
@@ -13,7 +14,8 @@ pub fn guid(scene_text: &str, registry: &Registry) -> String {
         hash.update(part);
     };
     add(env!("CARGO_PKG_VERSION"));
-    add(scene_text);
+    // What packing adds follows from the rest.
+    add(scene_text.split(PACKED).next().unwrap_or_default());
     for variable in &registry.variables {
         add(&variable.name);
         add(super::xml::causality(variable.causality()));

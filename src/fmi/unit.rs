@@ -363,6 +363,9 @@ impl Unit {
         for note in model.notes() {
             self.log.send(Status::Ok, &note);
         }
+        self.warn_once(model.tolerance_warnings());
+        // Meshes stay what they are, whatever parameters become.
+        self.scene.refinement.clone_from(&model.scene().refinement);
         self.state.bodies = model.initial_state().bodies;
         Ok(Run::new(model))
     }
@@ -443,6 +446,8 @@ impl Unit {
         self.state.bodies.clear();
         self.state.peaks.clear();
         self.scene = scene;
+        // What was estimated was so with other parameters.
+        self.scene.refinement.values_mut().for_each(|mesh| mesh.estimated_error = None);
     }
 
     /// Drops the model and what follows from the state, but for its stiffness.

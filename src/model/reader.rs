@@ -16,6 +16,9 @@ impl Reader<'_> {
         if let Reading::Peak { which, part } = output.reading {
             return self.model.read_peak(self.state, self.cache, (place, which), part);
         }
+        if output.reading == Reading::Error {
+            return Ok(self.model.estimated_error(place));
+        }
         let (body, unknowns) = (&self.model.bodies[place], &self.state.bodies[place]);
         let value = body.read(unknowns, self.cache.memo(place), &output.reading)?;
         Ok(BodyError::unless_finite(value)?)
@@ -26,6 +29,9 @@ impl Model {
     /// Whether an output of a state takes a solution of mechanics that the cache, which is up to date with it, does not
     /// have: more stack than a host's thread need have.
     pub fn is_deep(&self, state: &State, cache: &Cache, output: &Output) -> bool {
+        if output.reading == Reading::Error {
+            return self.errors[output.body].get().is_none();
+        }
         if matches!(output.reading, Reading::Peak { .. }) && !state.peaks.is_empty() {
             return false;
         }

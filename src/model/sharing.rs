@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::tolerance::{self, Resolved};
 use super::{Model, ModelError, check_memory};
 use crate::body::forget_unused_records;
 use crate::math::shared_values::SharedValues;
@@ -17,9 +18,10 @@ impl Model {
     /// memory than is `available` [B] is not built.
     pub fn shared(scene: &Scene, threads: usize, available: f64) -> Result<Arc<Model>, ModelError> {
         aside(|| {
-            MODELS.get_or_make(scene, || {
-                check_memory(scene, available)?;
-                Model::build(scene, threads)
+            let Resolved { scene, choices } = tolerance::resolve(scene);
+            MODELS.get_or_make(&scene, || {
+                check_memory(&scene, available)?;
+                Ok(Model { choices, ..Model::build_as_it_is(&scene, threads)? })
             })
         })
     }
@@ -29,6 +31,7 @@ impl Model {
         MODELS.forget_unused();
         forget_unused_stiffness();
         forget_unused_records();
+        tolerance::forget_unused();
     }
 }
 

@@ -64,6 +64,9 @@ impl Model {
     ) -> Result<f64, ModelError> {
         cache.update(self, state);
         let place = output.body;
+        if output.reading == Reading::Error {
+            return Ok(0.0);
+        }
         if matches!(output.reading, Reading::Peak { .. }) {
             match (*in_time, state.peaks.is_empty()) {
                 (true, _) => return Err(BodyError::NoRate.into()),

@@ -112,6 +112,19 @@ impl Footprint {
         }
     }
 
+    /// Distances from its centre at which what it brings jumps first and last along an axis, where round ones have a
+    /// radius other than their own [m].
+    pub fn edges(&self, radius: Option<f64>) -> [Option<f64>; 2] {
+        let [outer, other] = self.half_extents(radius);
+        match *self {
+            Footprint::Gaussian { .. } => [None; 2],
+            Footprint::Ring { inner, outer: own } => [Some(outer), Some(outer * (inner / own))],
+            // Where the extents of tiles differ, a place is an edge along one axis alone, which harms no mesh.
+            Footprint::Tiles { .. } => [Some(outer), Some(other)],
+            Footprint::Disc { .. } | Footprint::Rings { .. } => [Some(outer), None],
+        }
+    }
+
     /// Least size of a cell [m].
     pub fn finest(&self, radius: Option<f64>) -> f64 {
         let [x, y] = self.half_extents(radius);

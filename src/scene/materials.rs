@@ -25,6 +25,11 @@ pub struct MaterialChoice {
 }
 
 impl MaterialChoice {
+    /// A material of its own.
+    pub fn of(material: Material) -> Self {
+        Self { name: None, material: Some(material) }
+    }
+
     /// Looks the name up among the scene's materials; whether it is one of them.
     pub(super) fn look_up<'a>(&mut self, find: impl Fn(&str) -> Option<&'a Material>) -> bool {
         if let Some(name) = &self.name {

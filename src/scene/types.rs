@@ -67,6 +67,34 @@ pub struct Scene {
     #[serde(default)]
     #[schemars(extend("otherwise" = ""))]
     pub solver: Solver,
+    /// Tables `[refinement.BODY]`: how much finer than usual a solid's mesh is.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(extend("condition" = "of solids", "otherwise" = "from `fidelity.tolerance`"))]
+    pub refinement: BTreeMap<String, MeshFactors>,
+}
+
+/// How much finer than usual a mesh is; packing writes what follows from the tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MeshFactors {
+    /// Elements along the surface over those that follow from the other keys [1].
+    #[schemars(transform = within(0.02, 100.0, "1", "").says(FACTOR, "0.02 to 100"))]
+    pub along: f64,
+    /// Elements through the thickness over those that follow from the other keys [1].
+    #[schemars(transform = within(0.02, 100.0, "1", "").says(FACTOR, "0.02 to 100"))]
+    pub through: f64,
+    /// Largest relative error of the body's outputs that was estimated on this mesh [1].
+    #[schemars(transform = not_negative("1", "an error").otherwise("estimated when it is read"))]
+    pub estimated_error: Option<f64>,
+}
+
+const FACTOR: &str = "a mesh is finer or coarser than usual by a factor";
+
+impl MeshFactors {
+    /// Along the surface and through the thickness.
+    pub fn factors(&self) -> [f64; 2] {
+        [self.along, self.through]
+    }
 }
 
 /// Names of a unit's variables.
@@ -487,8 +515,8 @@ pub struct Fidelity {
     /// How much model is wanted.
     #[serde(default)]
     pub level: FidelityLevel,
-    /// Relative error that `auto` may make [1]; times 100 K, what an inner step of nonlinear heat may err by;
-    /// times the largest elastic strain, one of creep.
+    /// Wanted relative error of what can be read, of its range over the default experiment [1]; times 10 K, what an
+    /// inner step of nonlinear heat may err by; a tenth of it times the largest elastic strain, one of creep.
     #[serde(default = "default_tolerance")]
     #[schemars(transform = within(0.0, 1.0, "1", "")
         .open()
@@ -503,7 +531,7 @@ impl Default for Fidelity {
 }
 
 fn default_tolerance() -> f64 {
-    1e-3
+    1e-2
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]

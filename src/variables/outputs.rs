@@ -132,10 +132,19 @@ fn of_body(scene: &Scene, name: &str, list: &mut Vec<Variable>) {
         let reading = Reading::Total(total);
         list.push(variable(format!("{name}.{key}"), description, quantity, (body, reading)));
     }
+    if scene.solid(name).is_some() {
+        let description = format!("{ERROR} ({name})");
+        let name = format!("{name}.estimated_error");
+        list.push(variable(name, description, Quantity::Ratio, (body, Reading::Error)));
+    }
     for (which, descriptor) in peaks(scene, name).into_iter().enumerate() {
         of_peak((body, name), which, &descriptor, list);
     }
 }
+
+/// What is told of the error of a solid's outputs.
+const ERROR: &str = "estimate of the largest error of an output by the mesh, of its range over the default experiment, \
+                     -1 without one";
 
 /// A running maximum, then when and where it was.
 fn of_peak(

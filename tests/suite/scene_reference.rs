@@ -24,6 +24,13 @@ const SECTIONS: [Section; 28] = [
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
     (
+        "`[refinement.BODY]`",
+        PLATE,
+        "stop_time =",
+        "refinement = { plate = { zz = 1 } }\nstop_time =",
+        &[],
+    ),
+    (
         "`[body.NAME]` of a solid",
         PLATE,
         "initial_temperature",

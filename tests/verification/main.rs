@@ -17,8 +17,11 @@ mod elasticity;
 mod flows;
 mod heat;
 mod particles;
+#[path = "../common/random_scenes.rs"]
+mod random_scenes;
 mod spread;
 mod study;
 mod tension;
 mod thermal_stress;
 mod time;
+mod tolerance;

@@ -12,7 +12,7 @@ mod wall;
 
 pub use forecast::DropletForecast;
 pub use notes::{notes, notes_on_walls};
-pub use plan::{plan_of, refinements};
+pub use plan::{fine_radius, plan_of, refinements};
 pub use replay::{Kept, ReplayBody, forget_unused_records, keep_record, records, to_be_recorded};
 pub use wall::{WallQuantity, wall_quantities};
 
@@ -314,7 +314,10 @@ impl Body for DropletBody {
                 };
                 wall_quantities()[quantity].read(reader.exchange(), cell, &wall.areas)
             }
-            Reading::Point { .. } | Reading::Mean { .. } | Reading::Peak { .. } => {
+            Reading::Point { .. }
+            | Reading::Mean { .. }
+            | Reading::Peak { .. }
+            | Reading::Error => {
                 panic!("points are registered for solids")
             }
         })

@@ -24,6 +24,9 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     notes.extend(note_on_sound(droplet));
     notes.extend(droplet.is_on_demand().then(|| note_on_demand(scene, name, droplet)));
     notes.extend(stands.then(|| note_on_first_blow(droplet)));
+    let tolerance = scene.fidelity.tolerance;
+    notes
+        .extend((stands && droplet.dimension == 3).then(|| note_on_resolution(droplet, tolerance)));
     if droplet.fluid.surface_tension == 0.0 {
         notes.push("surface tension is left out: the scene names none".to_owned());
     } else if !droplet.shifts() && droplet.shifting.is_none() {
@@ -93,6 +96,33 @@ fn note_on_first_blow(droplet: &Droplet) -> String {
          `max_pressure` are in proportion to it; what follows after some D/c is not. `max_pressure` is the water \
          hammer in a single particle: it grows as particles get smaller and converges to nothing. Forces \
          converge as means over {WINDOW} D/U{window} and longer: differences of `impulse_z` over these times"
+    )
+}
+
+/// Errors of the largest spread over Δx/D, lowest and highest: at We 30, Re 500 beside finer particles and at Re 27 beside
+/// volumes of fluid (`tests/verification/README.md`).
+const SPREAD: [f64; 2] = [0.7, 2.4];
+/// Of forces as means over that window, at D/Δx 24 to 48, and of heat of contact, at any.
+const FORCE_AND_HEAT: f64 = 0.01;
+
+/// What so many particles over the diameter err by, as measured.
+fn note_on_resolution(droplet: &Droplet, tolerance: f64) -> String {
+    let particles = droplet.diameter / droplet.spacing;
+    let [low, high] = SPREAD.map(|rate| 100.0 * rate / particles);
+    let [few, many] = SPREAD.map(|rate| (rate / tolerance).round());
+    let wanted = match FORCE_AND_HEAT > tolerance {
+        true => format!(
+            "no number of particles is known to keep a tolerance of {tolerance:e} of force and heat"
+        ),
+        false => {
+            format!("a tolerance of {tolerance:e} takes D/Δx of {few} to {many} for the spread")
+        }
+    };
+    format!(
+        "at D/Δx {particles:.0} the largest spread errs by about {low:.1} to {high:.1} % (in proportion to Δx/D, measured \
+         at D/Δx 16 to 64 and Re 27 to 500; by far more where the film gets thinner than two particles), means of force \
+         over {WINDOW} D/U and heat of contact by about {:.0} % at any D/Δx from 24 on; {wanted}",
+        100.0 * FORCE_AND_HEAT
     )
 }
 

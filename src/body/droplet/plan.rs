@@ -79,7 +79,7 @@ pub fn refinements(coupling: &Coupling, droplet: &Droplet, stop_time: f64) -> Ve
         let stretch = |centre: f64| [centre - radius, centre + radius];
         let feature = 0.5 * droplet.diameter;
         let [x, y] = droplet.landing([arrival.x, arrival.y], droplet.velocity()).map(stretch);
-        Refinement { x, y, top: true, feature, heats: true }
+        Refinement { x, y, top: true, feature, heats: true, edges: [None; 2] }
     };
     // Nobody knows where inputs will have drops fall.
     let at_origin = droplet.is_on_demand().then(Arrival::default);

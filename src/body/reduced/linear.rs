@@ -44,8 +44,10 @@ impl Linear for ReducedBody {
                 Total::Bound(_) => 0.0,
                 _ => self.total(rates, place),
             },
-            Reading::Peak { .. } | Reading::Cell { .. } => {
-                panic!("a reduced model has neither running maxima nor a wall")
+            Reading::Peak { .. } | Reading::Cell { .. } | Reading::Error => {
+                panic!(
+                    "a reduced model has neither running maxima nor a wall, and its error is told by its bound"
+                )
             }
         })
     }

@@ -340,8 +340,10 @@ impl Body for ReducedBody {
             },
             Reading::Mean { field, cell, .. } => value(self.values.mean(field, cell)),
             Reading::Total(place) => self.total(state, place),
-            Reading::Peak { .. } | Reading::Cell { .. } => {
-                panic!("a reduced model has neither running maxima nor a wall")
+            Reading::Peak { .. } | Reading::Cell { .. } | Reading::Error => {
+                panic!(
+                    "a reduced model has neither running maxima nor a wall, and its error is told by its bound"
+                )
             }
         })
     }

@@ -62,7 +62,7 @@ impl Linear for SolidBody {
             Reading::Total(place) => totals::rate(&mut both, place),
             // Where and when it is stays, as long as nothing is noted.
             Reading::Peak { which, part: PeakPart::Value } => self.highest_rate(&mut both, which),
-            Reading::Peak { .. } => Ok(0.0),
+            Reading::Peak { .. } | Reading::Error => Ok(0.0),
             Reading::Cell { .. } => panic!("cells are registered for what stands on a wall"),
         }
     }

@@ -66,6 +66,9 @@ pub struct SolidBody {
     threads: usize,
 }
 
+/// Part of the tolerance of outputs that an increment of creep may err by, of the largest elastic strain.
+const PART_OF_STRAIN: f64 = 0.1;
+
 /// Solids with fewer nodes than these are quicker on one thread.
 const NODES_WORTH_THREADS: usize = 20_000;
 
@@ -87,7 +90,7 @@ impl SolidBody {
         let fem = SolidFem::new(&plan, threads)?;
         let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan);
         let ports = linked.iter().map(|&face| Port::new(face, &plan, &fem)).collect();
-        let yielding = Yielding::of(&plan, scene.fidelity.tolerance, threads)?;
+        let yielding = Yielding::of(&plan, PART_OF_STRAIN * scene.fidelity.tolerance, threads)?;
         let heat_mesh = heat_mesh(&plan);
         let means = means_of(scene, (name, solid), [&heat_mesh, fem.mesh()]);
         let rows = Rows::new(Choice::of(scene, (name, solid), &plan), &fem, &means);
@@ -227,7 +230,7 @@ impl Body for SolidBody {
                 point_quantities()[quantity].mean(&mut reader, (field, cell))
             }
             Reading::Total(place) => totals::read(&mut reader, place),
-            Reading::Peak { .. } => panic!("running maxima are no part of a body's state"),
+            Reading::Peak { .. } | Reading::Error => panic!("no part of a body's state"),
             Reading::Cell { .. } => panic!("cells are registered for what stands on a wall"),
         }
     }
@@ -253,7 +256,7 @@ impl Body for SolidBody {
             Reading::Total(place) => totals::direct(place),
             // Before anything is noted, of the present value.
             Reading::Peak { .. } => return true,
-            Reading::Cell { .. } => Direct::Nothing,
+            Reading::Cell { .. } | Reading::Error => Direct::Nothing,
         };
         direct != Direct::Nothing
     }
@@ -277,7 +280,7 @@ impl Body for SolidBody {
             Reading::Peak { which, .. } => {
                 self.is_stress_peak(which) && !memo.is_some_and(SolidMemo::has_max_stress)
             }
-            Reading::Cell { .. } => false,
+            Reading::Cell { .. } | Reading::Error => false,
         }
     }
 

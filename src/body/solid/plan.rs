@@ -4,7 +4,7 @@ use super::rows::Choice;
 use crate::body::droplet;
 use crate::method::fem::{Mechanics, Plan, PlanRequest, Refinement};
 use crate::scene::{
-    Carries, Coupling, FaceName, Load, Scene, Solid, lateral_extents, takes_newton,
+    Carries, Coupling, FaceName, Load, MeshFactors, Scene, Solid, lateral_extents, takes_newton,
 };
 
 pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
@@ -23,18 +23,44 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
         (true, true) => Mechanics::Wanted,
     };
     let newton = takes_newton(scene, solid).then_some(TEMPERATURES * scene.fidelity.tolerance);
-    let request = PlanRequest { mechanics, refinements: &refinements, shortest, newton };
+    let factors = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
+    let refinements = &refinements;
+    let request = PlanRequest { mechanics, refinements, shortest, newton, factors };
     let mut plan = Plan::new(solid, request);
+    let mesh = scene.refinement.get(name);
+    let chosen =
+        mesh.map(|mesh| note_on_mesh(mesh, solid.mesh.spacing.is_some(), scene.fidelity.tolerance));
+    plan.notes.extend(chosen);
     plan.notes.extend(solid.has_stress_peaks().then(|| NOTE_ON_PEAKS.to_owned()));
     plan.notes.extend(Choice::of(scene, (name, solid), &plan).note());
     plan
 }
 
+/// How fine a mesh is for a tolerance, chosen or the scene's own.
+fn note_on_mesh(mesh: &MeshFactors, is_own: bool, tolerance: f64) -> String {
+    let error = match mesh.estimated_error {
+        Some(error) => format!(
+            "outputs err by about {error:.0e} of their ranges over the default experiment at most, where {tolerance:e} is \
+             wanted"
+        ),
+        None => format!(
+            "outputs are to err by {tolerance:e}; what they do is estimated when it is asked for"
+        ),
+    };
+    match is_own {
+        true => format!("on the mesh that the scene asks for {error}"),
+        false => format!(
+            "{:.2} times as many elements as usual along the surface and {:.2} times through the thickness: {error}",
+            mesh.along, mesh.through
+        ),
+    }
+}
+
 const NOTE_ON_PEAKS: &str = "stress is solved at every communication point, for its running maxima; twice where a \
                              traction or a prescribed temperature jumps there";
 
-/// Differences of temperatures that a tolerance is a part of [K].
-const TEMPERATURES: f64 = 100.0;
+/// Differences of temperatures that a tolerance is a part of where heat advances in inner steps [K].
+const TEMPERATURES: f64 = 10.0;
 
 /// Where another body touches this one: heat enters over all that both have in common, most of it at once near the
 /// edge of the smaller one.
@@ -51,7 +77,14 @@ fn contacts(scene: &Scene, name: &str, solid: &Solid) -> Vec<Refinement> {
         let half = [0, 1].map(|axis| 0.5 * one[axis].min(two[axis]));
         let [x, y] = half.map(|half| [-half, half]);
         let feature = PART_OF_CONTACT * half[0].min(half[1]);
-        Some(Refinement { x, y, top: own.1 == FaceName::Top, feature, heats: true })
+        Some(Refinement {
+            x,
+            y,
+            top: own.1 == FaceName::Top,
+            feature,
+            heats: true,
+            edges: [None; 2],
+        })
     };
     scene.coupling.iter().filter_map(refinement).collect()
 }
@@ -74,5 +107,7 @@ fn refinement(load: &Load) -> Refinement {
     };
     let top = load.body_and_face().1 == FaceName::Top;
     let heats = load.carries.contains(&Carries::HeatFlux);
-    Refinement { x: stretch(0), y: stretch(1), top, feature, heats }
+    let moves = range.iter().any(Option::is_some) || load.range.radius.is_some();
+    let edges = if moves { [None; 2] } else { load.footprint.edges(load.start.radius) };
+    Refinement { x: stretch(0), y: stretch(1), top, feature, heats, edges }
 }

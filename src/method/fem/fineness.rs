@@ -25,6 +25,10 @@ const THICKNESS_ELEMENTS: f64 = 6.0;
 /// Finest chosen distance of nodes over the thickness: coordinates still tell nodes apart.
 const FINEST: f64 = 1e-6;
 
+/// Of a body that is one element along the surface.
+const COLUMN: &str = "a column, one element along the surface: faces are uniform there, no load acts on a part of one, \
+                      and what holds the sides, where stress is asked for, are rollers; this is exact";
+
 /// Distances of nodes and growth of elements.
 pub struct Fineness<'a> {
     solid: &'a Solid,
@@ -38,15 +42,31 @@ pub struct Fineness<'a> {
     pub order: usize,
     /// Shortest time of interest [s].
     shortest: f64,
+    /// Numbers of elements along the surface and through the thickness over those that follow from all this.
+    factors: [f64; 2],
+    /// Whether nothing varies along the surface, so that one element spans it.
+    is_column: bool,
+}
+
+/// What a mesh is to resolve.
+#[derive(Debug, Clone, Copy)]
+pub struct Resolution<'a> {
+    /// Where loads act.
+    pub refinements: &'a [Refinement],
+    /// Shortest time of interest [s].
+    pub shortest: f64,
+    /// Numbers of elements along the surface and through the thickness over the usual ones.
+    pub factors: [f64; 2],
+    /// Whether nothing varies along the surface.
+    pub is_column: bool,
 }
 
 impl<'a> Fineness<'a> {
-    /// Chooses what the scene leaves open; `shortest` is the shortest time of interest [s].
+    /// Chooses what the scene leaves open.
     pub fn choose(
         solid: &'a Solid,
         strata: &'a [Stratum],
-        refinements: &'a [Refinement],
-        shortest: f64,
+        Resolution { refinements, shortest, factors, is_column }: Resolution<'a>,
         notes: &mut Vec<String>,
     ) -> Self {
         let given = &solid.mesh;
@@ -61,7 +81,17 @@ impl<'a> Fineness<'a> {
         let reach = (diffusivity * shortest).sqrt();
         let finest = FINEST * solid.shape.thickness();
         let layer = lateral.min(reach / NODES_PER_DIFFUSION_LENGTH).max(finest);
-        let chosen = Self { solid, strata, refinements, lateral, layer, order, shortest };
+        let chosen = Self {
+            solid,
+            strata,
+            refinements,
+            lateral,
+            layer,
+            order,
+            shortest,
+            factors,
+            is_column,
+        };
         notes.extend(chosen.notes(reach, shortest));
         notes.extend(chosen.note_on_depth(diffusivity, shortest));
         notes.extend(chosen.note_on_edges(diffusivity, shortest));
@@ -107,6 +137,9 @@ impl<'a> Fineness<'a> {
     /// What was chosen, and why.
     fn notes(&self, reach: f64, shortest: f64) -> Vec<String> {
         let Self { lateral, layer, .. } = self;
+        if self.is_column {
+            return vec![COLUMN.to_owned()];
+        }
         let mut notes = Vec::new();
         if self.keys().spacing.is_none() && !self.refinements.is_empty() {
             notes.push(format!(
@@ -149,6 +182,9 @@ impl<'a> Fineness<'a> {
     /// Ends of the elements along x (0) or y (1) on `[start, end]`; a mesh that begins at a plane of
     /// symmetry begins at 0.
     pub fn lateral_ends(&self, axis: usize, [start, end]: [f64; 2]) -> Vec<f64> {
+        if self.is_column {
+            return vec![start, end];
+        }
         let size = self.order as f64 * self.lateral;
         let mut fine: Vec<Fine> = self.loads(axis, start);
         for face in self.sides(axis, start < 0.0) {
@@ -160,7 +196,10 @@ impl<'a> Fineness<'a> {
         if self.keys().spacing.is_some() && !self.has_lateral_places() {
             fine.push(self.stretch([start, end], size));
         }
-        graded_ends(start, end, &fine, self.coarsest(end / MeshKeys::LATERAL_ELEMENTS, size))
+        let coarsest = self.coarsest(end / MeshKeys::LATERAL_ELEMENTS, size);
+        let factor = self.factors[0];
+        let breaks = self.edges(axis, [start, end], size / factor);
+        ends_through(&breaks, &finer(&fine, factor), coarsest / factor)
     }
 
     /// Ends of the elements along z, and where layers meet.
@@ -183,7 +222,8 @@ impl<'a> Fineness<'a> {
         }
         let least = fine.iter().map(|f| f.size).fold(f64::INFINITY, f64::min);
         let usual = (thickness / THICKNESS_ELEMENTS).max(least.min(size));
-        graded_ends(-thickness, 0.0, &fine, self.coarsest(usual, least.min(size)))
+        let coarsest = self.coarsest(usual, least.min(size));
+        graded_ends(-thickness, 0.0, &finer(&fine, self.factors[1]), coarsest / self.factors[1])
     }
 
     /// Where elements along z are to be fine for loads on the top and the bottom, and, as `heated` says for the one or
@@ -210,6 +250,30 @@ impl<'a> Fineness<'a> {
             self.stretch([from - margin, to + margin], self.order as f64 * self.lateral)
         };
         self.refinements.iter().map(stretch).collect()
+    }
+
+    /// The ends of an axis, and between them places of sharp edges of loads, on which ends of elements are to stand where
+    /// the program chooses them; none nearer to the next than `least` [m].
+    fn edges(&self, axis: usize, [start, end]: [f64; 2], least: f64) -> Vec<f64> {
+        let mut places = vec![start, end];
+        if self.keys().spacing.is_some() || self.solid.heat == HeatMethod::Sph {
+            return places;
+        }
+        for refinement in self.refinements {
+            let [from, to] = [refinement.x, refinement.y][axis];
+            let centre = 0.5 * (from + to);
+            for edge in refinement.edges.iter().flatten() {
+                for place in [centre - edge, centre + edge] {
+                    let place = if start == 0.0 { place.abs() } else { place };
+                    let is_apart = |other: &f64| (place - other).abs() > 0.99 * least;
+                    if place > start && place < end && places.iter().all(is_apart) {
+                        places.push(place);
+                    }
+                }
+            }
+        }
+        places.sort_by(f64::total_cmp);
+        places
     }
 
     /// Whether loads or heated sides say where along the surface the mesh is fine; if not, what the
@@ -265,6 +329,23 @@ impl<'a> Fineness<'a> {
     fn coarsest(&self, usual: f64, size: f64) -> f64 {
         if self.keys().growth == Some(1.0) { size } else { usual }
     }
+}
+
+/// Ends of elements that pass through given places, the first and the last of which are the ends of the axis.
+fn ends_through(places: &[f64], fine: &[Fine], coarsest: f64) -> Vec<f64> {
+    let mut ends = vec![places[0]];
+    for piece in places.windows(2) {
+        ends.extend_from_slice(&graded_ends(piece[0], piece[1], fine, coarsest)[1..]);
+    }
+    ends
+}
+
+/// The same stretches for so many times as many elements: sizes and their growth fall alike, so that each element is
+/// divided into as many equal ones, about.
+fn finer(fine: &[Fine], factor: f64) -> Vec<Fine> {
+    let divide =
+        |f: &Fine| Fine { size: f.size / factor, growth: 1.0 + (f.growth - 1.0) / factor, ..*f };
+    fine.iter().map(divide).collect()
 }
 
 /// Whether a side lies at the high end of its axis.

@@ -3,14 +3,15 @@
 use std::sync::Arc;
 
 use super::elastic::Support;
-use super::fineness::Fineness;
+use super::fineness::{Fineness, Resolution};
 use super::heat::ThermalFace;
 use super::solver_choice::note_on_solver;
 use crate::material::{Constants, FlowLaw, Substance, Thermoelastic};
 use crate::method::mesh::{Axis, Weight};
 use crate::method::mesh::{Geometry, Mesh, MeshFace};
 use crate::scene::{
-    Face, FaceName, Radiation, Shape, Solid, SphOperator, SphSettings, Stratum, Symmetry,
+    Face, FaceName, HeatMethod, Radiation, Shape, Solid, SphOperator, SphSettings, Stratum,
+    Symmetry,
 };
 
 /// Everything that a solid's model is built from.
@@ -61,6 +62,8 @@ pub struct PlanRequest<'a> {
     pub shortest: f64,
     /// What a step in time of nonlinear heat may err by [K]; nothing where heat is linear.
     pub newton: Option<f64>,
+    /// Numbers of elements along the surface and through the thickness over the usual ones.
+    pub factors: [f64; 2],
 }
 
 /// A part of the top or bottom face where a load may act.
@@ -73,6 +76,8 @@ pub struct Refinement {
     pub feature: f64,
     /// Whether it brings heat.
     pub heats: bool,
+    /// Distances of sharp edges from the centre, where these stay [m].
+    pub edges: [Option<f64>; 2],
 }
 
 /// How much of a solid's mechanics a scene needs.
@@ -107,7 +112,7 @@ impl Plan {
     /// Plans a solid.
     pub fn new(
         solid: &Solid,
-        PlanRequest { mechanics, refinements, shortest, newton }: PlanRequest,
+        PlanRequest { mechanics, refinements, shortest, newton, factors }: PlanRequest,
     ) -> Self {
         let mut strata = solid.strata();
         strata.reverse();
@@ -118,7 +123,9 @@ impl Plan {
         let law = laws.filter(|_| wanted && !is_inelastic);
         let mut notes = Vec::new();
         let mirrored = mirrored(solid, newton.is_some() || is_inelastic, &mut notes);
-        let fineness = Fineness::choose(solid, &strata, refinements, shortest, &mut notes);
+        let is_column = refinements.is_empty() && is_column(solid, wanted);
+        let resolution = Resolution { refinements, shortest, factors, is_column };
+        let fineness = Fineness::choose(solid, &strata, resolution, &mut notes);
         let mesh = build_mesh(&solid.shape, mirrored, &fineness);
         notes.extend((strata.len() > 1).then(|| note_on_layers(&mesh, newton.is_none())));
         notes.extend(mechanics.note().map(str::to_owned));
@@ -246,6 +253,19 @@ fn mirrored(solid: &Solid, is_nonlinear: bool, notes: &mut Vec<String>) -> [bool
     })
 }
 
+/// Whether nothing varies along the surface of a body without loads on parts of faces, with mechanics or without.
+fn is_column(solid: &Solid, has_mechanics: bool) -> bool {
+    let mut sides = solid.shape.faces().iter().filter(|face| face.normal() != Some(2));
+    solid.heat == HeatMethod::Fem
+        && solid.mesh.spacing.is_none()
+        && sides.all(|&name| {
+            let side = solid.face(name);
+            side.thermal().is_empty()
+                && side.radiation.is_none()
+                && (!has_mechanics || side.roller && !side.clamped)
+        })
+}
+
 /// Whether two faces differ at most in the values of inputs.
 fn alike(a: &Face, b: &Face) -> bool {
     a.temperature.is_some() == b.temperature.is_some()
@@ -345,7 +365,7 @@ fn inelastic_laws(solid: &Solid, mesh: &Mesh) -> Vec<Arc<dyn FlowLaw>> {
 fn note_on_newton(NewtonPlan { tolerance, .. }: &NewtonPlan) -> String {
     format!(
         "heat is not linear: it advances in inner steps of which each errs by {tolerance:.1e} K at most \
-         (`fidelity.tolerance` times 100 K), and balances whatever these leave"
+         (`fidelity.tolerance` times 10 K), and balances whatever these leave"
     )
 }
 

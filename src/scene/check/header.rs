@@ -17,6 +17,10 @@ pub fn check(checker: &mut Checker) {
     description(checker);
     times(checker);
     names(checker);
+    let path = Path::default().key("refinement");
+    for name in checker.scene.refinement.keys() {
+        checker.body(&path.key(name), name);
+    }
 }
 
 fn description(checker: &mut Checker) {

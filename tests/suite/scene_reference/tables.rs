@@ -8,6 +8,7 @@ pub const SECTIONS: [(&str, &str); 29] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
+    ("`[refinement.BODY]`", "/$defs/MeshFactors"),
     ("`[body.NAME]` of a solid", "/$defs/Body/oneOf/0"),
     ("`shape` of a solid", "/$defs/Shape"),
     ("`shape.disc`", "/$defs/Disc"),

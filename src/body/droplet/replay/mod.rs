@@ -220,7 +220,10 @@ impl Body for ReplayBody {
                 let exchange = memo.exchange.get_or_insert_with(exchange);
                 wall_quantities()[quantity].read(exchange, cell, &wall.areas)
             }
-            Reading::Point { .. } | Reading::Mean { .. } | Reading::Peak { .. } => {
+            Reading::Point { .. }
+            | Reading::Mean { .. }
+            | Reading::Peak { .. }
+            | Reading::Error => {
                 panic!("points are registered for solids")
             }
         })

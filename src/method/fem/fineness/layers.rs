@@ -19,7 +19,8 @@ impl Fineness<'_> {
             }
             let [bottom, top] = layer.z;
             let fine = self.fine_in(strata, i);
-            let own = graded_ends(bottom, top, &fine, self.coarsest_in(layer, &fine));
+            let coarsest = self.coarsest_in(layer, &fine) / self.factors[1];
+            let own = graded_ends(bottom, top, &super::finer(&fine, self.factors[1]), coarsest);
             ends.extend_from_slice(&own[1..]);
         }
         // The contact of a layer with the one above is said with the lower one.

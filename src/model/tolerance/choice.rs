@@ -1,0 +1,257 @@
+//! Meshes that keep a tolerance: the usual one, made finer where estimates ask for it.
+
+use std::collections::BTreeMap;
+
+use super::estimate::{Estimate, OutputError, differences};
+use super::experiment::experiments;
+use super::responses::{Responses, Watched, responses, watched};
+use super::twin::{Physics, Twin};
+use crate::body::forecast;
+use crate::model::{ModelError, check_memory};
+use crate::scene::{HeatMethod, Scene, Shape, Solid, takes_newton};
+
+/// Levels of fineness along the surface and through the thickness; each has √2 times as many elements as the one
+/// before, level 0 the usual ones.
+pub type Levels = [i32; 2];
+
+/// Most nodes, times experiments, of meshes that are tried.
+const MOST_NODES: f64 = 1e5;
+/// The same where stresses are solved for: in sections, and in boxes.
+const MOST_NODES_OF_STRESS: [f64; 2] = [3e4, 1.2e4];
+/// Finest level.
+const FINEST: i32 = 10;
+/// Coarsest level of which what a finer mesh errs by is told.
+pub const COARSEST_TRIED: i32 = -8;
+/// Meshes tried after the first.
+const MOST_TRIALS: usize = 16;
+/// Tolerance that usual meshes keep, mostly.
+const USUAL: f64 = 1e-2;
+/// Orders at which errors fall with the number of elements, of quadratic elements and of what melts or yields.
+const ORDER: f64 = 3.0;
+const ORDER_OF_NONLINEAR: f64 = 2.0;
+/// The levels that the law gives without an estimate.
+const LAW: [i32; 2] = [-3, 4];
+
+/// Numbers of elements over the usual ones.
+pub fn factors(levels: Levels) -> [f64; 2] {
+    levels.map(|level| 2f64.powf(0.5 * f64::from(level)))
+}
+
+/// A mesh for a tolerance.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    pub factors: [f64; 2],
+    /// Of the outputs that were estimated.
+    pub error: Option<f64>,
+}
+
+/// Whether a scene leaves the mesh of a solid open along its surface and through its thickness.
+pub fn open(solid: &Solid) -> [bool; 2] {
+    let keys = &solid.mesh;
+    [keys.spacing.is_none(), keys.spacing.is_none() && keys.depth_spacing.is_none()]
+}
+
+/// Whether the mesh of a solid of a scene is chosen.
+pub fn is_chosen(scene: &Scene, name: &str) -> bool {
+    let is_open = |solid: &Solid| solid.heat != HeatMethod::Sph && open(solid) != [false; 2];
+    !scene.refinement.contains_key(name) && scene.solid(name).is_some_and(is_open)
+}
+
+/// Chooses the mesh of a solid of a scene that leaves it open.
+pub fn choose(scene: &Scene, name: &str) -> Choice {
+    let Some(solid) = scene.solid(name) else { return Choice { factors: [1.0; 2], error: None } };
+    let open = open(solid);
+    let tolerance = scene.fidelity.tolerance;
+    let law = |order: f64| {
+        let level = (2.0 * (USUAL / tolerance).log2() / order).round() as i32;
+        open.map(|is_open| if is_open { level.clamp(LAW[0], LAW[1]) } else { 0 })
+    };
+    if let Some(order) = order_of_law(scene, name, solid) {
+        return Choice { factors: factors(law(order)), error: None };
+    }
+    let start = first_levels(tolerance, open);
+    let Some(heat) = Twin::of(scene, name, Physics::Heat) else {
+        return Choice { factors: factors(law(ORDER)), error: None };
+    };
+    let mut trials = Trials::new(&heat, Physics::Heat);
+    if trials.is_idle() {
+        return Choice { factors: factors(law(ORDER)), error: None };
+    }
+    let (mut levels, mut error) = search(&mut trials, start, open, tolerance);
+    if scene.gives_mechanics(name)
+        && matches!(solid.shape, Shape::Disc(_))
+        && let Some(twin) = Twin::of(scene, name, Physics::Deformation)
+    {
+        let mut trials = Trials::new(&twin, Physics::Deformation);
+        let of_stress;
+        (levels, of_stress) = search(&mut trials, levels, open, tolerance);
+        error = error.zip(of_stress).map(|(a, b)| a.max(b));
+    } else if scene.gives_mechanics(name) {
+        error = None;
+    }
+    Choice { factors: factors(levels), error }
+}
+
+/// Where the search begins: what is coarser never kept a tolerance in sixty random scenes.
+pub fn first_levels(tolerance: f64, open: [bool; 2]) -> Levels {
+    let level = (FIRST - 2.0 * (tolerance / USUAL).log10()).round() as i32;
+    open.map(|is_open| if is_open { level.clamp(-6, 0) } else { 0 })
+}
+
+/// Level at which the search for the usual tolerance begins.
+const FIRST: f64 = -3.0;
+
+/// The order of the law for bodies of which too much would have to be computed to try meshes.
+fn order_of_law(scene: &Scene, name: &str, solid: &Solid) -> Option<f64> {
+    let is_nonlinear = takes_newton(scene, solid) || !solid.deforms_linearly();
+    let touches = scene.coupling.iter().any(|coupling| {
+        let of = |place: &str| place.rsplit_once('.').is_some_and(|(body, _)| body == name);
+        of(&coupling.from) || of(&coupling.to)
+    });
+    let is_layered_box = solid.strata().len() > 1 && matches!(solid.shape, Shape::Box(_));
+    if is_nonlinear {
+        Some(ORDER_OF_NONLINEAR)
+    } else if touches || is_layered_box {
+        Some(ORDER)
+    } else {
+        None
+    }
+}
+
+/// Experiments with a body on meshes of several levels, each made once.
+pub struct Trials<'a> {
+    twin: &'a Twin,
+    pub watched: Vec<Watched>,
+    solved: BTreeMap<Levels, Responses>,
+    most_nodes: f64,
+}
+
+impl<'a> Trials<'a> {
+    pub fn new(twin: &'a Twin, physics: Physics) -> Self {
+        let is_mechanical = physics == Physics::Deformation;
+        let is_box = twin.scene().solids().any(|(_, solid)| matches!(solid.shape, Shape::Box(_)));
+        let most_nodes = match physics {
+            Physics::Heat => MOST_NODES,
+            Physics::Deformation => MOST_NODES_OF_STRESS[usize::from(is_box)],
+        };
+        let watched = watched(twin.scene(), is_mechanical);
+        let count = experiments(twin.scene()).len().max(1) as f64;
+        Self { twin, watched, solved: BTreeMap::new(), most_nodes: most_nodes / count }
+    }
+
+    /// Whether nothing acts on the body by itself.
+    pub fn is_idle(&self) -> bool {
+        experiments(self.twin.scene()).is_empty()
+    }
+
+    /// Whether a mesh is too large to be tried.
+    pub fn is_too_large(&self, levels: Levels) -> bool {
+        self.nodes(levels) > self.most_nodes
+    }
+
+    /// Nodes of a mesh.
+    pub fn nodes(&self, levels: Levels) -> f64 {
+        let scene = self.twin.on_mesh(factors(levels));
+        let bodies = forecast(&scene).bodies;
+        bodies.iter().map(|body| body.unknowns[0] as f64).sum()
+    }
+
+    fn solve(&mut self, levels: Levels) -> Result<(), ModelError> {
+        if !self.solved.contains_key(&levels) {
+            let scene = self.twin.on_mesh(factors(levels));
+            check_memory(&scene, f64::INFINITY)?;
+            let responses = responses(&scene, &self.watched)?;
+            self.solved.insert(levels, responses);
+        }
+        Ok(())
+    }
+
+    /// What outputs err by on a mesh, from what they differ by on coarser ones.
+    pub fn estimate(&mut self, levels: Levels) -> Result<Estimate, ModelError> {
+        let [i, j] = levels;
+        for wanted in [levels, [i - 1, j], [i - 2, j], [i, j - 1], [i, j - 2]] {
+            self.solve(wanted)?;
+        }
+        let against = |coarse: Levels| {
+            differences(&self.solved[&levels], &self.solved[&coarse], &self.watched)
+        };
+        let along = joined(&against([i - 1, j]), &against([i - 2, j]));
+        let through = smooth(&against([i, j - 1]), &against([i, j - 2]));
+        let outputs = self.watched.iter().zip(along.into_iter().zip(through));
+        let error = |(one, (along, through)): (&Watched, (f64, f64))| OutputError {
+            name: one.name.clone(),
+            along,
+            through,
+        };
+        Ok(Estimate { outputs: outputs.map(error).collect() })
+    }
+}
+
+/// The error on a mesh from differences to one √2 and one twice as coarse along the surface, where edges of loads make it
+/// uneven: of an error of second order the first difference is equal to it, the second three times as large.
+fn joined(first: &[f64], second: &[f64]) -> Vec<f64> {
+    first.iter().zip(second).map(|(a, b)| a.max(b / 3.0)).collect()
+}
+
+/// The same through the thickness, where it is even enough to tell the order p: the differences are as 1 to `2^{p/2} + 1`,
+/// and the error is the first over `2^{p/2} − 1`.
+fn smooth(first: &[f64], second: &[f64]) -> Vec<f64> {
+    let error = |(a, b): (&f64, &f64)| {
+        let ratio = if *a > 0.0 { (b / a).clamp(FIRST_ORDER, THIRD_ORDER) } else { THIRD_ORDER };
+        (a / (ratio - 2.0)).max(b / 4.0)
+    };
+    first.iter().zip(second).map(error).collect()
+}
+
+/// `2^{p/2} + 1` of orders 1 and 3.
+const FIRST_ORDER: f64 = 2.414;
+const THIRD_ORDER: f64 = 3.828;
+
+/// The first mesh, from some levels on, whose estimate keeps a tolerance; with the estimate, as far as there is one.
+pub fn search(
+    trials: &mut Trials,
+    start: Levels,
+    open: [bool; 2],
+    tolerance: f64,
+) -> (Levels, Option<f64>) {
+    let mut levels = start;
+    let mut found = None;
+    if trials.is_too_large(start) {
+        return (start, None);
+    }
+    for _ in 0..=MOST_TRIALS {
+        let Ok(estimate) = trials.estimate(levels) else { break };
+        found = Some((levels, estimate.worst()));
+        let wanted = next(&estimate, levels, open, tolerance);
+        let Some(next) = wanted.into_iter().find(|next| !trials.is_too_large(*next)) else { break };
+        levels = next;
+    }
+    match found {
+        Some((levels, error)) => (levels, Some(error)),
+        None => (start, None),
+    }
+}
+
+/// The next meshes to try, the first that is not too large; none where the tolerance is kept or cannot be.
+fn next(estimate: &Estimate, levels: Levels, open: [bool; 2], tolerance: f64) -> Vec<Levels> {
+    if estimate.worst() <= tolerance {
+        return Vec::new();
+    }
+    let over = [0, 1].map(|way| estimate.worst_of(way) / (0.5 * tolerance));
+    let largest = [0, 1].map(|way| if open[way] { over[way] } else { 0.0 });
+    let most = largest[0].max(largest[1]);
+    let (mut far, mut near, mut least) = (levels, levels, levels);
+    for way in [0, 1].into_iter().filter(|&way| open[way]) {
+        let is_worst = largest[way] == most;
+        if over[way] > 1.0 || is_worst {
+            far[way] += if over[way] > FAR { 2 } else { 1 };
+            near[way] += 1;
+        }
+        least[way] += i32::from(is_worst);
+    }
+    let fits = |next: &Levels| *next != levels && next.iter().all(|level| *level <= FINEST);
+    [far, near, least].into_iter().filter(fits).collect()
+}
+
+/// Error over the tolerance from which on meshes are made twice as fine at once.
+const FAR: f64 = 8.0;

@@ -1,0 +1,64 @@
+//! What a body is tried with: its start values, and each input that these leave at rest.
+
+use std::ops::Range;
+
+use crate::inputs::{FaceInputKind, InputLayout};
+use crate::model::initial_inputs;
+use crate::scene::Scene;
+
+/// Most experiments with a body.
+const MOST: usize = 8;
+
+/// Inputs of the experiments with a scene of one body: first its start values, if anything happens under these, then
+/// one of every input that is at rest at the start.
+pub fn experiments(scene: &Scene) -> Vec<Vec<f64>> {
+    let layout = InputLayout::of(scene);
+    let start = initial_inputs(scene);
+    let initial = scene.body.values().next().map_or(0.0, |body| body.initial_temperature());
+    let groups = groups(&layout);
+    let rest = |group: &Group| if group.is_temperature { initial } else { 0.0 };
+    let is_at_rest =
+        |group: &&Group| start[group.range.clone()].iter().all(|&value| value == rest(group));
+    let resting: Vec<&Group> = groups.iter().filter(is_at_rest).collect();
+    let mut all = Vec::new();
+    if resting.len() < groups.len() {
+        all.push(start.clone());
+    }
+    let mut at_rest = start.clone();
+    for group in &groups {
+        at_rest[group.range.clone()].fill(rest(group));
+    }
+    for group in resting {
+        let mut inputs = at_rest.clone();
+        inputs[group.range.clone()].fill(rest(group) + 1.0);
+        all.push(inputs);
+        // Of many cells, one by itself has the finest shape.
+        if group.range.len() > 1 {
+            let mut inputs = at_rest.clone();
+            inputs[group.range.start + group.range.len() / 2] = rest(group) + 1.0;
+            all.push(inputs);
+        }
+    }
+    all.truncate(MOST);
+    all
+}
+
+/// Inputs of one amount.
+struct Group {
+    range: Range<usize>,
+    is_temperature: bool,
+}
+
+fn groups(layout: &InputLayout) -> Vec<Group> {
+    let loads = layout.loads.iter().flat_map(|load| {
+        let amounts =
+            [&load.heat_flux, &load.pressure, &load.shear_x, &load.shear_y, &load.shear_r];
+        amounts.into_iter().flatten().cloned()
+    });
+    let loads = loads.map(|range| Group { range, is_temperature: false });
+    let faces = layout.faces.iter().map(|face| Group {
+        range: face.index..face.index + 1,
+        is_temperature: face.kind != FaceInputKind::Flux,
+    });
+    loads.chain(faces).collect()
+}

@@ -1,0 +1,51 @@
+//! Meshes that keep the tolerance of a scene, and estimates of what outputs err by.
+//!
+//! A body is tried by itself over the default experiment, on meshes of several levels. What its outputs differ by on
+//! meshes that are coarser along the surface, and on such that are coarser through the thickness, tells what either
+//! costs in accuracy; the mesh is made finer where it costs too much.
+
+pub mod choice;
+pub mod estimate;
+pub mod experiment;
+mod report;
+pub mod responses;
+pub mod twin;
+
+use std::convert::Infallible;
+use std::sync::Arc;
+
+use crate::math::shared_values::SharedValues;
+use crate::scene::{MeshFactors, Scene};
+use choice::{Choice, choose, is_chosen};
+pub use report::{
+    BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, warnings,
+};
+
+/// Meshes by scene and name of the body.
+static CHOICES: SharedValues<(Scene, String), Choice> = SharedValues::new();
+
+/// A scene in which no mesh is left open that follows from the tolerance.
+pub struct Resolved {
+    pub scene: Scene,
+    /// What was chosen; others that ask for the same get it as long as this is held.
+    pub choices: Vec<Arc<Choice>>,
+}
+
+/// Chooses the meshes that a scene leaves open, such that they keep its tolerance.
+pub fn resolve(scene: &Scene) -> Resolved {
+    let mut resolved = Resolved { scene: scene.clone(), choices: Vec::new() };
+    for (name, _) in scene.solids().filter(|(name, _)| is_chosen(scene, name)) {
+        let key = (scene.clone(), name.to_owned());
+        let Ok(choice) = CHOICES.get_or_make(&key, || Ok::<_, Infallible>(choose(scene, name)));
+        let [along, through] = choice.factors;
+        let factors = MeshFactors { along, through, estimated_error: choice.error };
+        resolved.scene.refinement.insert(name.to_owned(), factors);
+        resolved.choices.push(choice);
+    }
+    resolved
+}
+
+/// Forgets choices that nobody holds any more.
+pub fn forget_unused() {
+    CHOICES.forget_unused();
+}

@@ -1,0 +1,175 @@
+//! What is told of estimates: per body, in warnings, and in scenes that are packed.
+
+use std::fmt::Write;
+
+use super::choice::{COARSEST_TRIED, Levels, Trials, factors, open, search};
+use super::estimate::{Estimate, OutputError};
+use super::resolve;
+use super::twin::{Physics, Twin};
+use crate::scene::{HeatMethod, MeshFactors, Scene};
+
+/// What the outputs of a body err by on its mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BodyEstimate {
+    pub body: String,
+    /// Relative to their ranges over the default experiment.
+    pub outputs: Vec<OutputError>,
+    /// What the estimate leaves out, and what it could not be made for: a sentence each.
+    pub notes: Vec<String>,
+}
+
+impl BodyEstimate {
+    /// The largest error of any output; none without an estimate.
+    pub fn worst(&self) -> Option<f64> {
+        let all = self.outputs.iter().map(OutputError::total);
+        all.fold(None, |worst, error| Some(worst.map_or(error, |worst: f64| worst.max(error))))
+    }
+
+    /// The same along the surface or through the thickness.
+    fn worst_of(&self, way: usize) -> f64 {
+        Estimate { outputs: self.outputs.clone() }.worst_of(way)
+    }
+}
+
+/// A scene with all its meshes chosen, and what the outputs of each solid err by on these, in it too.
+pub fn estimates(scene: &Scene) -> (Scene, Vec<BodyEstimate>) {
+    let mut resolved = resolve(scene).scene;
+    let estimates: Vec<_> = resolved.solids().map(|(name, _)| estimate(&resolved, name)).collect();
+    for one in &estimates {
+        let own = MeshFactors { along: 1.0, through: 1.0, estimated_error: None };
+        let factors = resolved.refinement.entry(one.body.clone()).or_insert(own);
+        factors.estimated_error = one.worst();
+    }
+    (resolved, estimates)
+}
+
+/// Estimates what the outputs of a solid err by, on the mesh that a scene has.
+pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
+    let mut found = BodyEstimate { body: name.to_owned(), outputs: Vec::new(), notes: Vec::new() };
+    if scene.solid(name).is_none_or(|solid| solid.heat == HeatMethod::Sph) {
+        found.notes.push("no estimate: particles conduct the heat".to_owned());
+        return found;
+    }
+    let is_touched = |place: &str| place.rsplit_once('.').is_some_and(|(body, _)| body == name);
+    if scene.coupling.iter().any(|coupling| is_touched(&coupling.from)) {
+        found.notes.push("what other bodies bring is left out of the estimate".to_owned());
+    }
+    for physics in [Physics::Heat, Physics::Deformation] {
+        let Some(twin) = Twin::of(scene, name, physics) else { continue };
+        for what in &twin.simplified {
+            let note = format!("in the estimate {what}");
+            if !found.notes.contains(&note) {
+                found.notes.push(note);
+            }
+        }
+        of_physics(&twin, physics, &mut found);
+    }
+    found
+}
+
+fn of_physics(twin: &Twin, physics: Physics, found: &mut BodyEstimate) {
+    let what = match physics {
+        Physics::Heat => "temperatures",
+        Physics::Deformation => "stress and displacement",
+    };
+    let mut trials = Trials::new(twin, physics);
+    if trials.watched.is_empty() || trials.is_idle() {
+        let why = if trials.is_idle() {
+            "nothing acts on the body by itself"
+        } else {
+            "nothing of them can be read"
+        };
+        found.notes.push(format!("no estimate of {what}: {why}"));
+        return;
+    }
+    // A mesh too large to be tried is judged by coarser ones.
+    let down = (0..=-COARSEST_TRIED).find(|&down| !trials.is_too_large([-down; 2]));
+    let estimate = down.and_then(|down| Some((down, trials.estimate([-down; 2]).ok()?)));
+    let Some((down, estimate)) = estimate else {
+        found.notes.push(format!("no estimate of {what}: the mesh is too large to be tried"));
+        return;
+    };
+    if down > 0 {
+        found.notes.push(format!(
+            "errors of {what} are those of a mesh {:.1} times as coarse over the square of that",
+            2f64.powf(0.5 * f64::from(down))
+        ));
+    }
+    // An error of second order falls by a half with each level.
+    let scale = 0.5f64.powi(down);
+    found.outputs.extend(estimate.outputs.into_iter().map(|one| OutputError {
+        along: one.along * scale,
+        through: one.through * scale,
+        ..one
+    }));
+}
+
+/// Numbers of elements along the surface and through the thickness over those of the mesh of a body that would keep the
+/// tolerance of a scene.
+pub fn finer_mesh(scene: &Scene, estimate: &BodyEstimate) -> [f64; 2] {
+    let tolerance = scene.fidelity.tolerance;
+    // As errors of second order fall.
+    let by_order = [0, 1].map(|way| (estimate.worst_of(way) / (0.5 * tolerance)).sqrt().max(1.0));
+    let Some(twin) = Twin::of(scene, &estimate.body, Physics::Heat) else { return by_order };
+    let mut trials = Trials::new(&twin, Physics::Heat);
+    let is_thermal =
+        estimate.outputs.iter().all(|one| trials.watched.iter().any(|own| own.name == one.name));
+    let start: Levels = [0; 2];
+    match search(&mut trials, start, [true; 2], tolerance) {
+        (levels, Some(error)) if is_thermal && error <= tolerance => factors(levels),
+        _ => by_order,
+    }
+}
+
+/// Warns of bodies whose mesh does not keep the tolerance of a scene, with the spacing that would.
+pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
+    let tolerance = scene.fidelity.tolerance;
+    let warning = |estimate: &BodyEstimate| {
+        let worst = estimate.worst().filter(|&worst| worst > tolerance)?;
+        let solid = scene.solid(&estimate.body)?;
+        let name = &estimate.body;
+        let output = estimate.outputs.iter().max_by(|a, b| a.total().total_cmp(&b.total()))?;
+        let over = format!(
+            "{name}: outputs err by about {:.0e} of their range ({}), more than the tolerance of {tolerance:e}",
+            worst, output.name
+        );
+        let [along, through] = finer_mesh(scene, estimate);
+        let finer = |spacing: Option<f64>, factor: f64, key: &str| {
+            let spacing = spacing.filter(|_| factor > 1.0)?;
+            Some(format!("`mesh.{key}` of {:.2e} m", spacing / factor))
+        };
+        let keys = &solid.mesh;
+        let depth = keys.depth_spacing.or(keys.spacing.filter(|_| through > along));
+        let asked = [finer(keys.spacing, along, "spacing"), finer(depth, through, "depth_spacing")];
+        let asked: Vec<String> = asked.into_iter().flatten().collect();
+        Some(match open(solid) == [true; 2] || asked.is_empty() {
+            true => format!(
+                "{over}; a finer mesh takes more than is tried (`[refinement.{name}]` sets one)"
+            ),
+            false => format!("{over}; a {} would keep it", asked.join(" and a ")),
+        })
+    };
+    estimates.iter().filter_map(warning).collect()
+}
+
+/// Begins what packing adds to the text of a scene, which the unit's GUID does not depend on.
+pub const PACKED: &str = "\n# Added when packed: how fine meshes are, and what outputs err by.\n";
+
+/// The text of a scene with the meshes and errors of the same scene when these are known, so that its unit neither
+/// chooses nor estimates anew.
+pub fn packed_text(scene: &Scene, text: &str, known: &Scene) -> String {
+    let mut packed = String::new();
+    for (body, mesh) in
+        known.refinement.iter().filter(|(body, _)| !scene.refinement.contains_key(*body))
+    {
+        let MeshFactors { along, through, estimated_error } = mesh;
+        let _ = write!(packed, "[refinement.{body}]\nalong = {along:?}\nthrough = {through:?}\n");
+        if let Some(error) = estimated_error {
+            let _ = writeln!(packed, "estimated_error = {error:e}");
+        }
+    }
+    match packed.is_empty() {
+        true => text.to_owned(),
+        false => format!("{text}{PACKED}{packed}"),
+    }
+}

@@ -1,0 +1,100 @@
+//! What is read of a body over its experiments.
+
+use super::experiment::experiments;
+use crate::body::Reading;
+use crate::model::{Cache, Model, ModelError};
+use crate::quantity::Quantity;
+use crate::scene::Scene;
+use crate::variables::{Output, Registry, Slot};
+
+/// Times at which outputs are looked at, from the first step to the last; the same of stresses.
+const TIMES: usize = 8;
+const TIMES_OF_STRESS: usize = 3;
+/// Places of a field that are looked at, about.
+const PLACES: usize = 16;
+
+/// Outputs of a body whose error is estimated.
+#[derive(Debug, Clone)]
+pub struct Watched {
+    pub name: String,
+    pub quantity: Quantity,
+    /// Before anything acts.
+    pub rest: f64,
+    pub output: Output,
+}
+
+/// The outputs of a scene of one body that follow from its mesh.
+pub fn watched(scene: &Scene, is_mechanical: bool) -> Vec<Watched> {
+    let registry = Registry::structured(scene);
+    let wanted = |quantity: Quantity| match is_mechanical {
+        true => matches!(quantity, Quantity::Stress | Quantity::Displacement),
+        false => matches!(quantity, Quantity::Temperature | Quantity::Energy),
+    };
+    let initial = scene.body.values().next().map_or(0.0, |body| body.initial_temperature());
+    let outputs = registry.variables.into_iter().filter_map(|variable| {
+        let Slot::Output(output) = variable.slot else { return None };
+        let quantity = variable.quantity.filter(|&quantity| wanted(quantity))?;
+        let is_peak = matches!(output.reading, Reading::Peak { .. });
+        let rest = if quantity == Quantity::Temperature { initial } else { 0.0 };
+        (!is_peak).then_some(Watched { name: variable.name, quantity, rest, output })
+    });
+    let all: Vec<Watched> = outputs.collect();
+    let of_grids = all.iter().filter(|watched| is_of_grid(watched)).count();
+    let stride = of_grids.div_ceil(PLACES).max(1);
+    let mut place = 0;
+    let mut is_taken = |watched: &Watched| {
+        place += usize::from(is_of_grid(watched));
+        !is_of_grid(watched) || place % stride == 0
+    };
+    all.into_iter().filter(|watched| is_taken(watched)).collect()
+}
+
+fn is_of_grid(watched: &Watched) -> bool {
+    matches!(watched.output.reading, Reading::Point { alone: false, .. } | Reading::Mean { .. })
+}
+
+/// Values of outputs, experiment by experiment, at each time; the first is time zero.
+pub type Responses = Vec<Vec<Vec<f64>>>;
+
+/// The times at which outputs are looked at after time zero [s].
+pub fn times(scene: &Scene, is_mechanical: bool) -> Vec<f64> {
+    let count = if is_mechanical { TIMES_OF_STRESS } else { TIMES };
+    let (step, stop) = (scene.step.min(scene.stop_time), scene.stop_time);
+    let ratio = step / stop;
+    let last = count - 1;
+    let time = |k: usize| stop * ratio.powf((last - k) as f64 / last as f64);
+    if ratio > 0.99 { vec![stop] } else { (0..count).map(time).collect() }
+}
+
+/// Values of the outputs of a scene of one body.
+pub fn responses(scene: &Scene, watched: &[Watched]) -> Result<Responses, ModelError> {
+    let is_mechanical = watched.iter().any(|one| one.quantity == Quantity::Stress);
+    responses_at(scene, watched, &times(scene, is_mechanical))
+}
+
+/// The same at times of one's own [s].
+pub fn responses_at(
+    scene: &Scene,
+    watched: &[Watched],
+    times: &[f64],
+) -> Result<Responses, ModelError> {
+    let model = Model::build_as_it_is(scene, 1)?;
+    let run = |inputs: Vec<f64>| -> Result<Vec<Vec<f64>>, ModelError> {
+        let mut state = model.initial_state();
+        state.inputs = inputs;
+        let mut cache = Cache::default();
+        let mut rows = Vec::new();
+        for time in std::iter::once(&0.0).chain(times) {
+            if *time > state.time {
+                let dt = time - state.time;
+                model.step(&mut state, &mut cache, dt)?;
+            }
+            let mut reader = model.reader(&state, &mut cache)?;
+            let row: Result<Vec<f64>, ModelError> =
+                watched.iter().map(|one| reader.value(&one.output)).collect();
+            rows.push(row?);
+        }
+        Ok(rows)
+    };
+    experiments(scene).into_iter().map(run).collect()
+}

@@ -1,0 +1,159 @@
+//! A body by itself, linear, with what is read of it and without what does not matter to that.
+
+use crate::body::fine_radius;
+use crate::material::{Material, Properties, Property};
+use crate::scene::{
+    Body, Carries, CellValues, Coupling, Droplet, Footprint, Gives, Load, LoadRange, LoadStart,
+    MaterialChoice, MeshFactors, PeakOf, Role, Scene, Solid, takes_newton,
+};
+
+/// What of a body is estimated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Physics {
+    Heat,
+    /// Stresses and displacements.
+    Deformation,
+}
+
+/// A scene of one body that stands for that body of another scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Twin {
+    scene: Scene,
+    name: String,
+    /// Numbers of elements of its own mesh over the usual ones.
+    own: [f64; 2],
+    /// What differs from the body itself.
+    pub simplified: Vec<&'static str>,
+}
+
+impl Twin {
+    /// Of a solid of a scene; nothing where there is nothing to be estimated.
+    pub fn of(scene: &Scene, name: &str, physics: Physics) -> Option<Self> {
+        let solid = scene.solid(name)?;
+        let is_mechanical = physics == Physics::Deformation;
+        if is_mechanical && !scene.asks_mechanics(name) {
+            return None;
+        }
+        let mut simplified = Vec::new();
+        let own = |gives: &[Gives]| -> Vec<Gives> {
+            let wanted = |what: &&Gives| {
+                what.is_mechanical() == is_mechanical && **what != Gives::PlasticStrain
+            };
+            gives.iter().filter(wanted).copied().collect()
+        };
+        let mut twin = scene.clone();
+        twin.body.retain(|other, _| other == name);
+        let own_factors = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
+        twin.refinement.clear();
+        twin.coupling.clear();
+        twin.wall.clear();
+        twin.load =
+            scene.loads_on(name).filter_map(|load| part_of_load(load, is_mechanical)).collect();
+        twin.load.extend(drops(scene, name));
+        twin.probe.retain(|probe| probe.body == name);
+        twin.probe.iter_mut().for_each(|probe| probe.gives = own(&probe.gives));
+        twin.probe.retain(|probe| !probe.gives.is_empty());
+        twin.field.retain(|field| field.body_and_place().0 == name);
+        twin.field.iter_mut().for_each(|field| field.gives = own(&field.gives));
+        twin.field.retain(|field| !field.gives.is_empty());
+        twin.solver.threads = 1;
+        if takes_newton(scene, solid) {
+            simplified.push("constants are those at the temperature at time zero, and nothing melts or radiates");
+        }
+        if !solid.deforms_linearly() && is_mechanical {
+            simplified.push("nothing yields or creeps");
+        }
+        if scene.couplings_to(name).next().is_some() {
+            simplified.push("a disc of the drop's size stands for it where it lands");
+        }
+        twin.solver.method = Default::default();
+        let Some(Body::Solid(solid)) = twin.body.get_mut(name) else { return None };
+        linearise(solid);
+        // A body whose mechanics nobody reads is read by its highest stress.
+        let reads = scene.gives_mechanics(name);
+        solid.peaks.clear();
+        if is_mechanical && !reads {
+            solid.peaks.push(PeakOf::VonMises);
+        }
+        Some(Self { scene: twin, name: name.to_owned(), own: own_factors, simplified })
+    }
+
+    /// On a mesh of so many times as many elements as its own along the surface and through the thickness.
+    pub fn on_mesh(&self, factors: [f64; 2]) -> Scene {
+        let mut scene = self.scene.clone();
+        let [along, through] = [0, 1].map(|way| self.own[way] * factors[way]);
+        let factors = MeshFactors { along, through, estimated_error: None };
+        scene.refinement.insert(self.name.clone(), factors);
+        scene
+    }
+
+    /// Without a mesh.
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+}
+
+/// The part of a load that brings heat, or all of it; nothing if that is nothing.
+fn part_of_load(load: &Load, is_mechanical: bool) -> Option<Load> {
+    let mut load = load.clone();
+    load.carries.retain(|what| is_mechanical || *what == Carries::HeatFlux);
+    Some(load).filter(|load| !load.carries.is_empty())
+}
+
+/// What drops bring, as loads of their size where they land.
+fn drops(scene: &Scene, name: &str) -> impl Iterator<Item = Load> {
+    let below = scene.couplings_to(name);
+    below.filter_map(|coupling: &Coupling| {
+        let droplet: &Droplet = scene.droplet(&coupling.from)?;
+        let radius = 0.5 * droplet.diameter;
+        let [x, y] = droplet.landings().next().unwrap_or_default();
+        let is_box = matches!(scene.solid(name)?.shape, crate::scene::Shape::Box(_));
+        let start = LoadStart {
+            x: is_box.then_some(x),
+            y: is_box.then_some(y),
+            radius: Some(radius),
+            heat_flux: Some(CellValues::Uniform(0.0)),
+            ..LoadStart::default()
+        };
+        let reach = fine_radius(coupling, droplet, scene.stop_time).max(radius);
+        Some(Load {
+            name: coupling.from.clone(),
+            on: coupling.to.clone(),
+            footprint: Footprint::Disc { radius },
+            carries: vec![Carries::HeatFlux],
+            start,
+            range: LoadRange { radius: Some([radius, reach]), ..LoadRange::default() },
+            role: Role::default(),
+        })
+    })
+}
+
+/// Makes constants numbers, those at the temperature at time zero.
+fn linearise(solid: &mut Solid) {
+    let temperature = solid.initial_temperature;
+    for face in solid.faces.values_mut() {
+        face.radiation = None;
+    }
+    let choices = solid
+        .material
+        .iter_mut()
+        .chain(solid.layers.iter_mut().flatten().map(|layer| &mut layer.material));
+    choices.for_each(|choice: &mut MaterialChoice| {
+        let own = choice.properties();
+        let number = |property: &Property| Property::Constant(property.value(temperature));
+        let constants = Properties {
+            density: own.density,
+            specific_heat: number(&own.specific_heat),
+            conductivity: number(&own.conductivity),
+            young: own.young.as_ref().map(number),
+            poisson: own.poisson.as_ref().map(number),
+            expansion: own.expansion.as_ref().map(number),
+            melting: None,
+            yield_stress: None,
+            isotropic_hardening: None,
+            kinematic_hardening: None,
+            creep: None,
+        };
+        *choice = MaterialChoice::of(Material::Thermoelastic(constants));
+    });
+}
