@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn arcs_hold_what_rings_hold() {
-        for own in [0.05, 0.17, 0.5, 1.5, 20.0] {
+        for own in [0.05_f64, 0.17, 0.5, 1.5, 20.0] {
             for d in [0.05, 0.3, 0.6, 0.9] {
                 for part in [0.0, 0.7, -0.7] {
                     let radii = [own, (own + part * d).abs().max(0.01)];
