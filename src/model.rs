@@ -25,7 +25,7 @@ pub use timeline::Timeline;
 
 use std::sync::Arc;
 
-use crate::body::{Assembly, Body, Fields, Joint, Link};
+use crate::body::{Assembly, Body, Fields, Joint, Link, Readings};
 pub use crate::body::{
     BodyError, BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast, notes_on_walls,
 };
@@ -77,15 +77,20 @@ pub struct State {
 pub type Stiffness = Vec<Arc<ElasticProblem>>;
 
 impl Model {
-    /// Builds meshes, modes and factorisations; `threads` = 0 lets the program choose.
+    /// Builds meshes and modes; `threads` = 0 lets the program choose.
     pub fn build(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
-        aside(|| Self::build_here(scene, threads))
+        aside(|| Self::build_here(scene, threads, Readings::Many))
     }
 
-    fn build_here(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
+    /// The same, of which no more than one state is read: each reading takes a solution.
+    fn build_for_one_state(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
+        aside(|| Self::build_here(scene, threads, Readings::OfOneState))
+    }
+
+    fn build_here(scene: &Scene, threads: usize, readings: Readings) -> Result<Self, ModelError> {
         let layout = InputLayout::of(scene);
         let Assembly { bodies, links, joints } =
-            crate::body::build(scene, &layout, [threads, threads_that_fit(scene)])?;
+            crate::body::build(scene, &layout, [threads, threads_that_fit(scene)], readings)?;
         let pairs: Vec<_> =
             joints.iter().map(|joint| joint.sides.each_ref().map(|side| side.body)).collect();
         let schedule = Group::all(bodies.len(), &links, &pairs);

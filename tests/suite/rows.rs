@@ -268,7 +268,7 @@ fn rows_of_real_materials_are_solutions() {
                 "shape = {{ box = [2e-3, 1.5e-3, 0.5e-3] }}\n{made_of}\
                  mesh = {{ spacing = 2.5e-4, growth = 2.0, order = {order} }}"
             );
-            let faces = "[body.b.faces]\nbottom = { clamped = true }\nsides = { roller = true }\n";
+            let faces = "[body.b.faces]\nsides = { clamped = true }\n";
             let text = solid(&keys, faces) + &loads_and_readings([1e-3, 1e2, 1e4]);
             assert_rows_are_solutions(&text, 1e-10);
         }
@@ -333,13 +333,13 @@ fn nothing_is_factored_before_a_mechanical_variable_is_read() {
         [block(&mesh(0.25, 2), &faces(false)), disc(&format!("material = {}", material(SOFT)), 1)];
     for text in bodies {
         for steps in [MANY, FEW] {
+            // A stiffness of its own: other tests of this process share theirs.
+            let text = text.replace("young = 1000.0", "young = 1001.0");
             let mut trial = Trial::new(&(head(steps) + &text));
             trial.step(STEP);
             trial.get("p.temperature");
             trial.get("b.max_temperature");
             assert_eq!(trial.model.factor_entries(), 0);
-            let before = Trial::new(&(head(steps) + &text)).get("p.stress_xx");
-            assert!(before.is_finite());
             assert!(trial.get("p.stress_xx") != 0.0 && trial.model.factor_entries() > 0);
         }
     }
@@ -349,8 +349,9 @@ fn nothing_is_factored_before_a_mechanical_variable_is_read() {
 #[test]
 fn what_is_read_at_rest_is_made_at_rest() {
     for steps in [MANY, FEW] {
-        let quiet = block(&mesh(0.25, 2), "[body.b.faces]\nbottom = { clamped = true }\n")
-            .replace("start = {", "# start = {");
+        let quiet = block(&mesh(0.25, 2), "[body.b.faces]\nsides = { clamped = true }\n")
+            .replace("start = {", "# start = {")
+            .replace("young = 1000.0", "young = 1002.0");
         let mut trial = Trial::new(&(head(steps) + &quiet));
         assert_eq!(trial.get("p.stress_xx"), 0.0);
         assert!(trial.model.factor_entries() > 0);
@@ -456,6 +457,6 @@ fn pressed_half_spaces_converge_to_their_closed_form() {
         axial.abs().max(radial.abs())
     };
     let errors = [0.4, 0.2, 0.1].map(error);
-    println!("{errors:?}");
-    assert!(errors[2] < 2e-3 && errors[1] < errors[0] / 3.0, "{errors:?}");
+    // Over two halvings: the probe lies elsewhere in its element each time.
+    assert!(errors[2] < 2e-3 && errors[2] < errors[0] / 16.0, "{errors:?}");
 }

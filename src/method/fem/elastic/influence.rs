@@ -109,13 +109,16 @@ impl Gradient {
 }
 
 impl ElasticProblem {
-    /// The row of a reading of one symmetry class; its `gradient` is asked for unless the row is known.
+    /// The row of a reading of one symmetry class; its `gradient` is asked for unless the row is known. It is solved for
+    /// aside, as its stack is more than a host's thread need have.
     pub fn row(
         &self,
         functional: &Functional,
         class: usize,
         gradient: impl FnOnce() -> Gradient + Send,
     ) -> Result<NodalRow, SolverError> {
+        // For the projection on modes, too.
+        address_space::expect(SOLUTION * self.mesh.nodes())?;
         if let Some(known) = self.kept_row(functional, class) {
             return Ok(known);
         }
@@ -153,7 +156,6 @@ impl ElasticProblem {
     fn solve_row(&self, class: usize, gradient: Gradient) -> Result<NodalRow, SolverError> {
         let Gradient { displacement: mut load, mut temperature, mut forces } = gradient;
         if load.iter().any(|&value| value != 0.0) {
-            address_space::expect(SOLUTION * self.mesh.nodes())?;
             match self.solver(class)? {
                 Solver::Factor(factor) => factor.solve_in_place(&mut load),
                 Solver::Bricks(solver) => {
