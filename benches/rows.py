@@ -56,7 +56,7 @@ start = {{ heat_flux = 1e8 }}
 [[load]]
 name = "tiles"
 on = "plate.top"
-footprint = {{ tiles = {{ count = [{tiles}, {tiles}], size = [1e-4, 1e-4] }} }}
+footprint = {{ tiles = {{ count = [{tiles}, {tiles}], size = [4e-6, 4e-6] }} }}
 carries = ["pressure"]
 {probes}"""
 

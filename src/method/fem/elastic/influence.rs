@@ -12,7 +12,9 @@ use super::{ElasticProblem, SOLUTION, Solver};
 use crate::material::Thermoelastic;
 use crate::math::address_space;
 use crate::math::cholesky::SolverError;
+use crate::math::conjugate_gradients::NotConverged;
 use crate::math::thread::aside;
+use crate::method::fem::brick_solver::{self, BrickSolver};
 use crate::method::fem::solver_choice::solver_memory;
 use crate::method::mesh::Mesh;
 
@@ -158,9 +160,7 @@ impl ElasticProblem {
         if load.iter().any(|&value| value != 0.0) {
             match self.solver(class)? {
                 Solver::Factor(factor) => factor.solve_in_place(&mut load),
-                Solver::Bricks(solver) => {
-                    solver.solve_in_place(&mut load, &[], TOLERANCE)?;
-                }
+                Solver::Bricks(solver) => solve_row_of_bricks(solver, &mut load)?,
             }
             self.add_thermal_row(&load, &mut temperature);
             let (degrees, plane) = (self.degrees(), forces[0][0].len());
@@ -175,4 +175,14 @@ impl ElasticProblem {
         }
         Ok(NodalRow { temperature: Arc::new(temperature), forces: Arc::new(forces) })
     }
+}
+
+/// What takes too many iterations for a row is solved for as a state would be.
+fn solve_row_of_bricks(solver: &BrickSolver, load: &mut [f64]) -> Result<(), NotConverged> {
+    let gradient = load.to_vec();
+    if solver.solve_in_place(load, &[], TOLERANCE).is_err() {
+        load.copy_from_slice(&gradient);
+        solver.solve_in_place(load, &[], brick_solver::TOLERANCE)?;
+    }
+    Ok(())
 }
