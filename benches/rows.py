@@ -31,7 +31,6 @@ MATERIAL = (
     'model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = 10.0, '
     "young = 300e9, poisson = 0.21, expansion = 8.1e-6"
 )
-TILES = 16
 OUTPUTS = [f"p{i}.stress_{c}" for i in range(8) for c in ("xx", "zz", "xz")]
 OUTPUTS += [f"p{i}.displacement_z" for i in range(8)]
 
@@ -61,13 +60,13 @@ carries = ["pressure"]
 {probes}"""
 
 
-def scene(kind, mesh):
+def scene(kind, mesh, tiles=16):
     probes = "".join(
         f'[[probe]]\nname = "p{i}"\nin = "plate"\nat = [0.0, 0.0, {-2e-6 * i!r}]\n'
         'gives = ["temperature", "stress", "displacement"]\n'
         for i in range(8)
     )
-    names = {"stop": STOPS[kind], "step": STEP, "mesh": mesh, "tiles": TILES}
+    names = {"stop": STOPS[kind], "step": STEP, "mesh": mesh, "tiles": tiles}
     return SCENE.format(**names, material=MATERIAL, probes=probes)
 
 
@@ -82,7 +81,7 @@ def adjoint(unit, outputs):
     """Derivatives of a sum of outputs by all tiles."""
     unknowns = np.concatenate([unit.variable(name).references for name in outputs])
     knowns = np.asarray(unit.variable("tiles.pressure").references)
-    weights, found = np.ones(len(outputs)), np.zeros(TILES * TILES)
+    weights, found = np.ones(len(outputs)), np.zeros(len(unit["tiles.pressure"].ravel()))
     types = (c_void_p, c_size_t) * 4
     places = (pointer(unknowns), len(unknowns), pointer(knowns), len(knowns))
     values = (pointer(weights), weights.size, pointer(found), found.size)
@@ -125,18 +124,18 @@ LABELS = {
     "first": "first reading of stress / s",
     "others": f"first reading of {len(OUTPUTS)} outputs / s",
     "reading": "reading after a step / s",
-    "adjoint": f"adjoint derivatives by {TILES * TILES} tiles / s",
+    "adjoint": "adjoint derivatives by all tiles / s",
     "memory": "peak memory / GB",
 }
 
 
-def compare(size, derivatives):
+def compare(size, tiles, derivatives):
     """Prints the table of a mesh."""
     results = {}
     with TemporaryDirectory() as folder:
         for kind in STOPS:
             text = Path(folder) / f"{kind}.toml"
-            text.write_text(scene(kind, MESHES[size]))
+            text.write_text(scene(kind, MESHES[size], tiles))
             unit = text.with_suffix(".fmu")
             build = [ROOT / "target/release/build-fmu", text, "-o", unit, "--fmi", "3"]
             subprocess.run(build, check=True, capture_output=True)
@@ -145,7 +144,7 @@ def compare(size, derivatives):
             ran = subprocess.run(command, check=True, capture_output=True, text=True)
             results[kind] = json.loads(ran.stdout.splitlines()[-1])
     rows, solutions = results["rows"], results["solutions"]
-    print(f"\nmesh {size}, {os.cpu_count()} threads")
+    print(f"\nmesh {size}, {tiles} × {tiles} tiles, {os.cpu_count()} threads")
     print(f"{'':42}{'rows':>12}{'solutions':>12}{'ratio':>10}")
     for key, label in LABELS.items():
         if key in rows:
@@ -163,6 +162,7 @@ def compare(size, derivatives):
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--sizes", nargs="+", choices=MESHES, default=["9e4"])
+    parser.add_argument("--tiles", type=int, default=16, help="along each side of the load")
     parser.add_argument("--without-derivatives", action="store_true", help="which take a minute")
     parser.add_argument("--unit", help=argparse.SUPPRESS)
     parser.add_argument("--kind", choices=STOPS, help=argparse.SUPPRESS)
@@ -172,7 +172,7 @@ def main():
         print(json.dumps(measure(arguments.unit, arguments.kind, arguments.derivatives)))
         return
     for size in arguments.sizes:
-        compare(size, not arguments.without_derivatives)
+        compare(size, arguments.tiles, not arguments.without_derivatives)
 
 
 if __name__ == "__main__":

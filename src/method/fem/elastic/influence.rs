@@ -125,7 +125,10 @@ impl ElasticProblem {
             return Ok(known);
         }
         let row = aside(|| self.solve_row(class, gradient()))?;
-        self.keep_row(functional, class, &row);
+        // What vanishes by symmetry is quickly found, and takes no memory as long as nobody writes there.
+        if row.temperature.iter().any(|&value| value != 0.0) {
+            self.keep_row(functional, class, &row);
+        }
         Ok(row)
     }
 
