@@ -70,6 +70,7 @@ verify: build $(VENV)/ready-verify $(MASTERS)/ready ## slow: closed forms, and a
 bench: build $(VENV)/ready-verify ## time against an independent finite-element code, and units beside those of others
 	$(BIN)/python benches/alumina_plate.py
 	$(BIN)/python benches/nonlinear.py
+	$(BIN)/python benches/rows.py
 	$(BIN)/python benches/units.py
 	$(BIN)/python benches/python_unit.py
 	OMP_NUM_THREADS=1 $(BIN)/python benches/surfaces.py

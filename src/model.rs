@@ -26,7 +26,7 @@ pub use timeline::Timeline;
 
 use std::sync::{Arc, OnceLock};
 
-use crate::body::{Assembly, Body, Fields, Joint, Link};
+use crate::body::{Assembly, Body, Fields, Joint, Link, Readings};
 pub use crate::body::{
     BodyError, BodyForecast, DropletForecast, Forecast, Kept, ParticleForecast, forecast,
     keep_record, notes_on_walls, records, to_be_recorded,
@@ -86,22 +86,27 @@ pub struct State {
 pub type Stiffness = Vec<Arc<ElasticProblem>>;
 
 impl Model {
-    /// Builds meshes, modes and factorisations; `threads` = 0 lets the program choose.
+    /// Builds meshes and modes; `threads` = 0 lets the program choose.
     pub fn build(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
         let Resolved { scene, choices } = tolerance::resolve(scene);
-        Ok(Self { choices, ..aside(|| Self::build_here(&scene, threads))? })
+        Ok(Self { choices, ..aside(|| Self::build_here(&scene, threads, Readings::Many))? })
     }
 
     /// The same on the mesh that follows from the scene's keys alone.
     fn build_as_it_is(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
-        aside(|| Self::build_here(scene, threads))
+        aside(|| Self::build_here(scene, threads, Readings::Many))
     }
 
-    fn build_here(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
+    /// The same, of which no more than one state is read: each reading takes a solution.
+    fn build_for_one_state(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
+        aside(|| Self::build_here(scene, threads, Readings::OfOneState))
+    }
+
+    fn build_here(scene: &Scene, threads: usize, readings: Readings) -> Result<Self, ModelError> {
         let layout = InputLayout::of(scene);
         let start = initial_inputs(scene);
         let Assembly { bodies, links, joints } =
-            crate::body::build(scene, (&layout, &start), [threads, threads_that_fit(scene)])?;
+            crate::body::build(scene, (&layout, &start), [threads, threads_that_fit(scene)], readings)?;
         let pairs: Vec<_> =
             joints.iter().map(|joint| joint.sides.each_ref().map(|side| side.body)).collect();
         let schedule = Group::all(bodies.len(), &links, &pairs);

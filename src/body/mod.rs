@@ -279,12 +279,21 @@ pub struct Assembly {
     pub joints: Vec<Joint>,
 }
 
-/// Builds the bodies of a scene, whose inputs begin as `start` says, and what joins them. Of the threads that are wanted, 0 for as many as are worth it, no
-/// more are taken than a second number.
+/// How much of a model is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Readings {
+    /// Many states.
+    Many,
+    OfOneState,
+}
+
+/// Builds the bodies of a scene, whose inputs begin as `start` says, and what joins them. Of the threads that are
+/// wanted, 0 for as many as are worth it, no more are taken than a second number.
 pub fn build(
     scene: &Scene,
     (layout, start): (&InputLayout, &[f64]),
     [wanted, most]: [usize; 2],
+    readings: Readings,
 ) -> Result<Assembly, BodyError> {
     let threads = |is_large| threads_for(wanted, is_large).min(most);
     let place = |name: &str| scene.body.keys().position(|key| key == name);
@@ -298,6 +307,10 @@ pub fn build(
             }
             let linked = link::linked_faces(scene, name);
             let body = SolidBody::new(scene, layout, (name, solid), &linked, threads)?;
+            let body = match readings {
+                Readings::Many => body,
+                Readings::OfOneState => body.without_rows(),
+            };
             built[index] = Some(Box::new(body));
         }
     }

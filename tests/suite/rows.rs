@@ -217,6 +217,12 @@ fn rows_of_particles_and_of_nonlinear_heat_are_solutions() {
     let particles =
         "heat = \"sph\"\nmesh = { spacing = 0.25, depth_spacing = 0.25, growth = 1.0, order = 1 }";
     assert_rows_are_solutions(&block(particles, &faces(false)), 1e-10);
+    // Where heat is not linear, the whole box is meshed.
+    let constant = "conductivity = 5.0";
+    let variable = "conductivity = { temperature = [300.0, 800.0], value = [5.0, 4.0] }";
+    let nonlinear = block(&mesh(0.25, 2), &faces(false)).replace(constant, variable);
+    assert!(nonlinear.contains(variable));
+    assert_rows_are_solutions(&nonlinear, 1e-10);
 }
 
 #[test]
@@ -262,13 +268,13 @@ fn rows_of_real_materials_are_solutions() {
     });
     let alone = [ALUMINA, COPPER, LEAD, PTFE, rubber, AEROGEL];
     let bodies = alone.map(|row| format!("material = {}\n", material(row)));
-    for made_of in bodies.iter().chain(&thin) {
-        for order in [1, 2] {
+    for (number, made_of) in bodies.iter().chain(&thin).enumerate() {
+        for order in if number % 3 == 0 { 1..=2 } else { 2..=2 } {
             let keys = format!(
                 "shape = {{ box = [2e-3, 1.5e-3, 0.5e-3] }}\n{made_of}\
                  mesh = {{ spacing = 2.5e-4, growth = 2.0, order = {order} }}"
             );
-            let faces = "[body.b.faces]\nbottom = { clamped = true }\nsides = { roller = true }\n";
+            let faces = "[body.b.faces]\nsides = { clamped = true }\n";
             let text = solid(&keys, faces) + &loads_and_readings([1e-3, 1e2, 1e4]);
             assert_rows_are_solutions(&text, 1e-10);
         }
@@ -333,13 +339,13 @@ fn nothing_is_factored_before_a_mechanical_variable_is_read() {
         [block(&mesh(0.25, 2), &faces(false)), disc(&format!("material = {}", material(SOFT)), 1)];
     for text in bodies {
         for steps in [MANY, FEW] {
+            // A stiffness of its own: other tests of this process share theirs.
+            let text = text.replace("young = 1000.0", "young = 1001.0");
             let mut trial = Trial::new(&(head(steps) + &text));
             trial.step(STEP);
             trial.get("p.temperature");
             trial.get("b.max_temperature");
             assert_eq!(trial.model.factor_entries(), 0);
-            let before = Trial::new(&(head(steps) + &text)).get("p.stress_xx");
-            assert!(before.is_finite());
             assert!(trial.get("p.stress_xx") != 0.0 && trial.model.factor_entries() > 0);
         }
     }
@@ -349,8 +355,9 @@ fn nothing_is_factored_before_a_mechanical_variable_is_read() {
 #[test]
 fn what_is_read_at_rest_is_made_at_rest() {
     for steps in [MANY, FEW] {
-        let quiet = block(&mesh(0.25, 2), "[body.b.faces]\nbottom = { clamped = true }\n")
-            .replace("start = {", "# start = {");
+        let quiet = block(&mesh(0.25, 2), "[body.b.faces]\nsides = { clamped = true }\n")
+            .replace("start = {", "# start = {")
+            .replace("young = 1000.0", "young = 1002.0");
         let mut trial = Trial::new(&(head(steps) + &quiet));
         assert_eq!(trial.get("p.stress_xx"), 0.0);
         assert!(trial.model.factor_entries() > 0);
@@ -401,6 +408,33 @@ fn derivatives_by_rows_are_those_of_solutions_and_the_limit_of_differences() {
             compare([by_rows, differences], 1e-5, input);
         }
     }
+}
+
+#[test]
+fn models_that_differ_in_heat_alone_share_what_rows_follow_from() {
+    let text = block(&mesh(0.25, 2), &faces(false)).replace("young = 1000.0", "young = 1003.0");
+    let denser = text.replace("density = 2.0", "density = 4.0");
+    let [mut first, mut second, mut solved] = [(&text, MANY), (&denser, MANY), (&denser, FEW)]
+        .map(|(text, steps)| Trial::new(&(head(steps) + text)));
+    let kept = |trial: &Trial| trial.model.stiffness()[0].row_entries();
+    let name = "p.stress_xx";
+    for trial in [&mut first, &mut second, &mut solved] {
+        trial.step(STEP);
+    }
+    assert_eq!(kept(&first), 0);
+    let value = first.get(name);
+    let entries = kept(&first);
+    assert!(entries > 0);
+    let denser = [second.get(name), solved.get(name)];
+    assert_eq!(kept(&second), entries, "the second model solved for nothing");
+    assert!(denser[0] != value && off(denser[0], denser[1]) < 1e-9, "{value} {denser:?}");
+    // What stress follows at once is its own.
+    let stiffer = text.replace("young = 1003.0", "young = 1004.0");
+    let mut stiffer = Trial::new(&(head(MANY) + &stiffer));
+    stiffer.step(STEP);
+    stiffer.get(name);
+    assert_eq!(kept(&first), entries);
+    assert!(kept(&stiffer) > 0);
 }
 
 #[test]
@@ -456,6 +490,6 @@ fn pressed_half_spaces_converge_to_their_closed_form() {
         axial.abs().max(radial.abs())
     };
     let errors = [0.4, 0.2, 0.1].map(error);
-    println!("{errors:?}");
-    assert!(errors[2] < 2e-3 && errors[1] < errors[0] / 3.0, "{errors:?}");
+    // Over two halvings: the probe lies elsewhere in its element each time.
+    assert!(errors[2] < 2e-3 && errors[2] < errors[0] / 16.0, "{errors:?}");
 }

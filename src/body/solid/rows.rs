@@ -1,8 +1,9 @@
 //! Which readings of a solid go by rows rather than by a solution for each state, and these rows.
 //!
 //! A row takes as long to solve for as one state. So the readings of a probe or a field go by rows where the scene's
-//! default experiment has more communication points than rows, of all that stand before it in the scene too, and where
-//! memory suffices. That follows from the scene alone: whoever reads what in which order gets the same bits. Rows are
+//! default experiment has four times as many communication points as rows, of all that stand before it in the scene
+//! too, and where memory suffices: who reads such points alone solves for no state, who reads all there is, extremes of
+//! the body too, solves for a quarter more than without rows. That follows from the scene alone: whoever reads what in which order gets the same bits. Rows are
 //! solved for when their reading is first asked for, of classes that are even at once, of others when something first
 //! drives them.
 
@@ -34,6 +35,9 @@ pub struct Choice {
 /// Whether stresses, and whether displacements are asked for.
 type Kinds = [bool; 2];
 
+/// Communication points that pay for a row.
+const READINGS_OF_A_ROW: f64 = 4.0;
+
 /// Symmetry classes are at most as many.
 const CLASSES: usize = 4;
 /// Parts of a reading by classes.
@@ -45,6 +49,7 @@ type Parts = Vec<(usize, ByClass)>;
 type PartsOfAll = [Option<Parts>; 9];
 
 /// The rows of a body.
+#[derive(Default)]
 pub struct Rows {
     rows: Vec<LazyRow>,
     of_points: HashMap<[u64; 3], PartsOfAll>,
@@ -55,7 +60,7 @@ pub struct Rows {
 /// The rows of one reading, one for each symmetry class.
 struct LazyRow {
     functional: Functional,
-    classes: [OnceLock<Result<ClassRow, SolverError>>; CLASSES],
+    classes: [OnceLock<ClassRow>; CLASSES],
 }
 
 /// All components along x, y, z in the order of [`PartsOfAll`].
@@ -99,7 +104,7 @@ impl Choice {
         let by_memory =
             most_memory_of_rows(&plan.mesh, laws) / (memory_of_row(&plan.mesh) * classes);
         let readings = (scene.stop_time / scene.step).ceil();
-        let most = readings.min(by_memory);
+        let most = (readings / READINGS_OF_A_ROW).min(by_memory);
         // Of what stress and displacement are composed in the axes of the mesh.
         let counts = match plan.mesh.geometry {
             Geometry::Box => [6, 3],
@@ -165,8 +170,7 @@ impl Choice {
 
 impl Rows {
     pub fn new(choice: Choice, solid: &SolidFem, means: &[(usize, FaceMeans)]) -> Self {
-        let mut made =
-            Self { rows: Vec::new(), of_points: HashMap::new(), of_cells: HashMap::new() };
+        let mut made = Self::default();
         let mut numbers: HashMap<([u64; 3], Component), usize> = HashMap::new();
         for (point, kinds) in choice.points {
             let mut own: PartsOfAll = made.of_points.remove(&bits(point)).unwrap_or_default();
@@ -234,12 +238,15 @@ impl LazyRow {
         Self { functional, classes: Default::default() }
     }
 
+    /// Who finds it missing makes it: of several at once all do, which gives the same bits.
     fn class(&self, solid: &SolidFem, class: usize) -> Result<&ClassRow, SolverError> {
-        let make = || {
-            let row = solid.row(&self.functional, class);
-            row.expect("rows are chosen where mechanics is linear")
-        };
-        self.classes[class].get_or_init(make).as_ref().map_err(Clone::clone)
+        let lock = &self.classes[class];
+        if let Some(row) = lock.get() {
+            return Ok(row);
+        }
+        let row = solid.row(&self.functional, class);
+        let row = row.expect("rows are chosen where mechanics is linear")?;
+        Ok(lock.get_or_init(|| row))
     }
 }
 

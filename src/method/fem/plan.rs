@@ -85,10 +85,9 @@ pub struct Refinement {
 pub enum Mechanics {
     /// No stress or displacement can be read.
     Absent,
-    /// They can be read but need not be, as of a plate under a droplet: their solver is made at the first
-    /// reading.
+    /// They can be read but need not be, as of a plate under a droplet.
     Offered,
-    /// A probe or field gives them: their solver is made when the model is built.
+    /// A probe or field gives them.
     Wanted,
 }
 

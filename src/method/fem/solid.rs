@@ -143,8 +143,9 @@ impl SolidLoads {
 }
 
 impl SolidFem {
-    /// Builds matrices and factorisations of a plan on at most `threads` threads.
-    pub fn new(plan: &Plan, threads: usize) -> Result<Self, SolverError> {
+    /// Builds what heat takes of a plan, on at most `threads` threads; what solves for displacements waits until these
+    /// are first asked for.
+    pub fn new(plan: &Plan, threads: usize) -> Self {
         let mesh = plan.mesh.clone();
         let heat = Conduction::new(plan, threads);
         let ends = [false, true].map(|high| EndResponse::of(plan, high));
@@ -159,7 +160,7 @@ impl SolidFem {
         let parities = mesh.parities();
         let initial_temperature = plan.initial_temperature;
         let nodes_of_sided = mesh.nodes_of_sided();
-        Ok(Self {
+        Self {
             mesh,
             initial_temperature,
             stress_free_rise: plan.stress_free_rise,
@@ -169,7 +170,7 @@ impl SolidFem {
             elastic,
             recoveries,
             parities,
-        })
+        }
     }
 
     pub fn mesh(&self) -> &Mesh {
@@ -292,6 +293,7 @@ impl SolidFem {
     ) -> Result<Deformation, SolverError> {
         let mut result = Deformation::default();
         let Some(elastic) = &self.elastic else { return Ok(result) };
+        // At rest, too: hosts read initial values before the first step, which is then as fast as the others.
         elastic.prepare()?;
         for (class, temperature) in temperatures.iter().enumerate() {
             let displacement = elastic.displacement(class, temperature, &loads.force[class])?;

@@ -12,7 +12,9 @@ use super::{ElasticProblem, SOLUTION, Solver};
 use crate::material::Thermoelastic;
 use crate::math::address_space;
 use crate::math::cholesky::SolverError;
+use crate::math::conjugate_gradients::NotConverged;
 use crate::math::thread::aside;
+use crate::method::fem::brick_solver::{self, BrickSolver};
 use crate::method::fem::solver_choice::solver_memory;
 use crate::method::mesh::Mesh;
 
@@ -109,18 +111,24 @@ impl Gradient {
 }
 
 impl ElasticProblem {
-    /// The row of a reading of one symmetry class; its `gradient` is asked for unless the row is known.
+    /// The row of a reading of one symmetry class; its `gradient` is asked for unless the row is known. It is solved for
+    /// aside, as its stack is more than a host's thread need have.
     pub fn row(
         &self,
         functional: &Functional,
         class: usize,
         gradient: impl FnOnce() -> Gradient + Send,
     ) -> Result<NodalRow, SolverError> {
+        // For the projection on modes, too.
+        address_space::expect(SOLUTION * self.mesh.nodes())?;
         if let Some(known) = self.kept_row(functional, class) {
             return Ok(known);
         }
         let row = aside(|| self.solve_row(class, gradient()))?;
-        self.keep_row(functional, class, &row);
+        // What vanishes by symmetry is quickly found, and takes no memory as long as nobody writes there.
+        if row.temperature.iter().any(|&value| value != 0.0) {
+            self.keep_row(functional, class, &row);
+        }
         Ok(row)
     }
 
@@ -153,12 +161,9 @@ impl ElasticProblem {
     fn solve_row(&self, class: usize, gradient: Gradient) -> Result<NodalRow, SolverError> {
         let Gradient { displacement: mut load, mut temperature, mut forces } = gradient;
         if load.iter().any(|&value| value != 0.0) {
-            address_space::expect(SOLUTION * self.mesh.nodes())?;
             match self.solver(class)? {
                 Solver::Factor(factor) => factor.solve_in_place(&mut load),
-                Solver::Bricks(solver) => {
-                    solver.solve_in_place(&mut load, &[], TOLERANCE)?;
-                }
+                Solver::Bricks(solver) => solve_row_of_bricks(solver, &mut load)?,
             }
             self.add_thermal_row(&load, &mut temperature);
             let (degrees, plane) = (self.degrees(), forces[0][0].len());
@@ -173,4 +178,14 @@ impl ElasticProblem {
         }
         Ok(NodalRow { temperature: Arc::new(temperature), forces: Arc::new(forces) })
     }
+}
+
+/// What takes too many iterations for a row is solved for as a state would be.
+fn solve_row_of_bricks(solver: &BrickSolver, load: &mut [f64]) -> Result<(), NotConverged> {
+    let gradient = load.to_vec();
+    if solver.solve_in_place(load, &[], TOLERANCE).is_err() {
+        load.copy_from_slice(&gradient);
+        solver.solve_in_place(load, &[], brick_solver::TOLERANCE)?;
+    }
+    Ok(())
 }

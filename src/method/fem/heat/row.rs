@@ -1,8 +1,8 @@
 //! From derivatives of a reading by nodal temperatures to those by what a state holds.
 
-use super::HeatProblem;
 use super::class::dot;
 use super::depth::DepthModes;
+use super::{HeatProblem, is_zero};
 use crate::math::separable::{Side, add_product, contract, transform};
 
 impl<D: DepthModes> HeatProblem<D> {
@@ -15,6 +15,9 @@ impl<D: DepthModes> HeatProblem<D> {
     /// which prescribed temperatures alone act at once.
     pub fn row(&self, class: usize, nodal: &[f64]) -> [Vec<f64>; 2] {
         let class = &self.classes[class];
+        if is_zero(nodal, &[]) {
+            return [self.len(class), self.faces.len()].map(|count| vec![0.0; count]);
+        }
         let [x, y] = class.lateral.each_ref().map(|modes| &modes.shapes);
         let mixed = transform(nodal, [x, y, self.depth.basis()], Side::Transposed);
         // Modes are orthogonal: what turns coefficients into amplitudes is the transpose of the way back.
