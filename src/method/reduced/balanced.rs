@@ -18,7 +18,7 @@ use crate::math::eigenvectors::eigenvectors;
 use crate::math::singular_values::{SingularValues, singular_values};
 
 /// Part of a Gramian that its low-rank factor leaves out.
-const LEFT_OUT: f64 = 1e-20;
+const LEFT_OUT: f64 = 1e-26;
 /// Singular values below this part of the largest tell that vectors depend on each other.
 const DEPENDENT: f64 = 1e-11;
 
