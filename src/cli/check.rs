@@ -5,7 +5,7 @@ use clap::Args;
 use impinge::machine::available_memory;
 use impinge::model::tolerance::estimate::OutputError;
 use impinge::model::tolerance::{self, BodyEstimate};
-use impinge::model::{ParticleForecast, Timeline, check_memory, forecast};
+use impinge::model::{Model, ParticleForecast, Timeline, check_memory, forecast};
 use impinge::scene::{
     self, Coupling, Droplet, Face, Field, Load, MaterialChoice, Probe, Scene, Shape, Solid, Wall,
 };
@@ -53,6 +53,7 @@ impl Check {
         for (title, body) in sections.iter().filter(|(_, body)| !body.is_empty()) {
             let _ = write!(text, "\n{title}\n{body}");
         }
+        text.push_str(&reductions(&scene)?);
         text.push_str(&variables(&scene, self.outputs));
         Ok(text)
     }
@@ -147,6 +148,16 @@ fn errors(estimates: &[BodyEstimate]) -> String {
 /// A part of something.
 fn part(value: f64) -> String {
     format!("{value:.1e}")
+}
+
+/// Orders and bounds of solids that are reduced, for which they are built.
+fn reductions(scene: &Scene) -> Result<String, CliError> {
+    if !scene.solids().any(|(name, _)| scene.is_reduced(name)) {
+        return Ok(String::new());
+    }
+    let model = Model::build(scene, scene.solver.threads).map_err(CliError::Model)?;
+    let notes = model.notes().into_iter();
+    Ok(format!("\nReduction\n{}", notes.map(|note| format!("  {note}\n")).collect::<String>()))
 }
 
 /// What particles do in a communication step.

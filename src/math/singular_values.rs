@@ -14,7 +14,7 @@ pub struct SingularValues {
 }
 
 /// Cosine of the angle between columns that counts as none, and sweeps at most.
-const ORTHOGONAL: f64 = 1e-14;
+const ORTHOGONAL: f64 = 1e-13;
 const SWEEPS: usize = 40;
 /// Columns shorter than this part of the longest are left out.
 const SHORT: f64 = 1e-15;
@@ -45,7 +45,7 @@ pub fn singular_values(matrix: &Mat<f64>) -> Option<SingularValues> {
         .map(|j| (0..kept.len()).map(|i| if i == j { 1.0 } else { 0.0 }).collect())
         .collect();
     for _ in 0..SWEEPS {
-        if !sweep(&mut columns, &mut turns) {
+        if !sweep(&mut columns, &mut turns, SHORT * longest) {
             break;
         }
     }
@@ -64,14 +64,16 @@ pub fn singular_values(matrix: &Mat<f64>) -> Option<SingularValues> {
 }
 
 /// Turns all pairs once; whether any was not orthogonal.
-fn sweep(columns: &mut [Vec<f64>], turns: &mut [Vec<f64>]) -> bool {
+fn sweep(columns: &mut [Vec<f64>], turns: &mut [Vec<f64>], short: f64) -> bool {
     let mut any = false;
     for p in 0..columns.len() {
         for q in p + 1..columns.len() {
             let (first, second) = columns.split_at_mut(q);
             let (a, b) = (&mut first[p], &mut second[0]);
             let (aa, bb, ab) = (dot(a, a), dot(b, b), dot(a, b));
-            if ab.abs() <= ORTHOGONAL * (aa * bb).sqrt() {
+            // What is as short as rounding has no direction.
+            let is_noise = aa.min(bb) <= short * short;
+            if is_noise || ab.abs() <= ORTHOGONAL * (aa * bb).sqrt() {
                 continue;
             }
             any = true;

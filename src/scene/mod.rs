@@ -40,6 +40,7 @@ pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
 pub use plausibility::{Measure, Warning, implausible_input};
 pub use recording::Recording;
+pub use reduction::footprints_along;
 pub use reservoir::Reservoir;
 pub use sampling::{FieldCells, Sampling};
 pub use schema::{SCHEMA, derived_schema};

@@ -143,8 +143,36 @@ impl Scene {
 
     /// Values of loads and faces that drive a body.
     fn driving_inputs(&self, name: &str) -> usize {
-        let of_load = |load: &Load| load.carries.len() * load.footprint.cell_count();
+        let of_load = |load: &Load| {
+            let footprints: usize = footprints_along(load).into_iter().product();
+            load.carries.len() * load.footprint.cell_count() * footprints
+        };
         let faces = self.solid(name).map_or(0, |solid| solid.faces.len());
         self.loads_on(name).map(of_load).sum::<usize>() + faces
     }
 }
+
+/// Footprints along the range of a load along x, y and the radius, enough for one that is as smooth as what heat makes of
+/// it: for each of its radii of the range about two.
+pub fn footprints_along(load: &Load) -> [usize; 3] {
+    let own = load.footprint.radius().unwrap_or(0.0);
+    let least = load.range.radius.map_or(load.start.radius.unwrap_or(own), |[low, _]| low);
+    let half = load.footprint.half_extents(Some(least));
+    let along = |range: Option<[f64; 2]>, size: f64| {
+        let length = range.map_or(0.0, |[low, high]| high - low);
+        let count = FIRST_FOOTPRINTS + FOOTPRINTS * length / size;
+        if length > 0.0 { (count.ceil() as usize).min(MOST_FOOTPRINTS) } else { 1 }
+    };
+    let radius = load.range.radius.filter(|[low, high]| low < high);
+    let of_radius = radius.map_or(1, |[low, high]| {
+        (FIRST_FOOTPRINTS + OF_RADIUS * (high / low).ln()).ceil() as usize
+    });
+    [along(load.range.x, half[0]), along(load.range.y, half[1]), of_radius]
+}
+
+/// How many footprints stand for one that moves: at least, for each of its radii that the range is long, for each e-fold
+/// of the radius, at most.
+const FIRST_FOOTPRINTS: f64 = 3.0;
+const FOOTPRINTS: f64 = 2.0;
+const OF_RADIUS: f64 = 5.0;
+const MOST_FOOTPRINTS: usize = 64;

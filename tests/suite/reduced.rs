@@ -157,3 +157,168 @@ fn errors_stay_within_their_bounds_on_steps_and_on_random_inputs() {
         assert!(worst > 1e-3, "{}: {worst}", case.name);
     }
 }
+
+const DISC: &str = r#"
+name = "Reduced"
+stop_time = 2.0
+step = 0.01
+[body.plate]
+kind = "solid"
+shape = { disc = { radius = 20e-3, thickness = 3e-3 } }
+layers = [
+    { material = { model = "thermoelastic", density = 6050.0, specific_heat = 450.0, conductivity = 2.5 }, thickness = 0.5e-3 },
+    { material = { model = "thermoelastic", density = 7850.0, specific_heat = 470.0, conductivity = 45.0 }, thickness = 2.5e-3, contact_resistance = 1e-5 },
+]
+initial_temperature = 300.0
+mesh = { spacing = 1e-3, depth_spacing = 0.1e-3, growth = 1.5 }
+[body.plate.faces]
+bottom = { convection = { coefficient = 1e3, ambient = 300.0 } }
+[[load]]
+name = "spot"
+on = "plate.top"
+carries = ["heat_flux"]
+footprint = { rings = { count = 4, radius = 8e-3 } }
+start = { heat_flux = [1e5, 2e5, 0.0, 1e5] }
+[[probe]]
+name = "a"
+in = "plate"
+at = [1e-3, 0.0, -0.5e-3]
+gives = ["temperature"]
+[[field]]
+name = "rim"
+on = "plate.top"
+footprint = { rings = { count = 3, radius = 15e-3 } }
+gives = ["temperature"]
+"#;
+
+#[test]
+fn layers_rings_and_means_stay_within_their_bounds() {
+    let [mut full, mut reduced] =
+        ["full", "reduced"].map(|level| Trial::new(&at(level, DISC, 1e-3)));
+    for n in 0..30 {
+        for trial in [&mut full, &mut reduced] {
+            for ring in 1..=4 {
+                trial.set(&format!("spot.heat_flux[{ring}]"), 3e5 * noise(7 * n + ring));
+            }
+            trial.step(if n < 20 { 0.02 } else { 3.0 });
+        }
+        let bound = reduced.get("plate.error_bound_temperature");
+        for name in ["a.temperature", "rim.temperature[1]", "rim.temperature[3]"] {
+            let (wanted, found) = (full.get(name), reduced.get(name));
+            assert!((wanted - found).abs() <= bound + 1e-9, "{name}: {wanted} {found}, {bound:e}");
+        }
+        assert!(bound < 1.0, "{bound}");
+        assert!(reduced.heat_residual("plate") < 1e-12);
+    }
+}
+
+fn mechanical(range: &str) -> String {
+    let material = "{ model = \"thermoelastic\", density = 3950.0, specific_heat = 900.0, conductivity = 10.0, \
+                    young = 300e9, poisson = 0.21, expansion = 8.1e-6 }";
+    let faces = "stress_free_temperature = 340.0\n[body.plate.faces]\nsides = { clamped = true }";
+    let rest = format!(
+        "[[load]]\nname = \"spot\"\non = \"plate.top\"\ncarries = [\"heat_flux\", \"pressure\", \"shear\"]\n\
+         footprint = {{ gaussian = {{ radius = 2e-4 }} }}\nstart = {{ x = 1e-4, y = -5e-5 }}\n{range}\n\
+         [[probe]]\nname = \"a\"\nin = \"plate\"\nat = [0.5e-4, 0.0, -2e-5]\n\
+         gives = [\"temperature\", \"stress\", \"max_principal\", \"displacement\"]\n"
+    );
+    boxed(material, faces, &rest)
+}
+
+#[test]
+fn stress_and_displacement_stay_within_their_bounds() {
+    let text = mechanical("");
+    let [mut full, mut reduced] =
+        ["full", "reduced"].map(|level| Trial::new(&at(level, &text, 1e-3)));
+    let keys =
+        ["stress_xx", "stress_zz", "stress_xy", "stress_yz", "displacement_x", "displacement_z"];
+    for n in 0..6 {
+        for trial in [&mut full, &mut reduced] {
+            trial.set("spot.heat_flux", 3e7 * noise(n));
+            trial.set("spot.pressure", 1e6 * noise(n + 10));
+            trial.set("spot.shear_x", 1e6 * noise(n + 20));
+            trial.step(1e-4);
+        }
+        for key in keys {
+            let name = format!("a.{key}");
+            let (wanted, found) = (full.get(&name), reduced.get(&name));
+            let (kind, rounding) =
+                if key.starts_with("stress") { ("stress", 1.0) } else { ("displacement", 1e-15) };
+            let bound = reduced.get(&format!("plate.error_bound_{kind}"));
+            assert!(
+                (wanted - found).abs() <= bound + rounding,
+                "{name}: {wanted} {found}, {bound:e}"
+            );
+        }
+        // A measure of stress moves by no more than thrice its components.
+        let bound = 3.0 * reduced.get("plate.error_bound_stress") + 10.0;
+        for key in ["von_mises", "max_principal"] {
+            let name = format!("a.{key}");
+            assert!((full.get(&name) - reduced.get(&name)).abs() <= bound, "{name}");
+        }
+    }
+    assert!(reduced.get("plate.error_bound_stress") < 1e6);
+}
+
+#[test]
+fn footprints_move_within_their_range() {
+    let text = mechanical("range = { x = [-3e-4, 3e-4] }")
+        .replace("\"stress\", \"max_principal\", \"displacement\"", "\"stress\"");
+    let [mut full, mut reduced] =
+        ["full", "reduced"].map(|level| Trial::new(&at(level, &text, 1e-3)));
+    for n in 0..12 {
+        for trial in [&mut full, &mut reduced] {
+            trial.state.derivatives.clear();
+            trial.set("spot.heat_flux", 3e7);
+            trial.set("spot.x", -3e-4 + 5e-5 * f64::from(n));
+            trial.set_derivative("spot.x", 1, 0.5);
+            trial.step(1e-4);
+        }
+        let bound = reduced.get("plate.error_bound_temperature");
+        let (wanted, found) = (full.get("a.temperature"), reduced.get("a.temperature"));
+        assert!((wanted - found).abs() <= bound, "{n}: {wanted} {found}, {bound:e}");
+        assert!(bound < 10.0, "{bound}");
+    }
+    let place = reduced.input("spot.y");
+    reduced.state.inputs[place] += 1e-5;
+    let refused = reduced.try_step(1e-4).unwrap_err().to_string();
+    assert!(refused.contains("moves spot, whose footprint a reduced model holds"), "{refused}");
+}
+
+#[test]
+fn derivatives_are_the_limit_of_differences_and_states_go_on_to_the_bit() {
+    let text = at("reduced", &mechanical(""), 1e-3);
+    let mut trial = Trial::new(&text);
+    trial.set("spot.heat_flux", 3e7);
+    trial.set("spot.pressure", 1e6);
+    trial.step(2e-4);
+    let names: Vec<String> =
+        ["a.temperature", "a.stress_xx", "a.von_mises", "plate.heat_stored", "plate.heat_in"]
+            .map(String::from)
+            .to_vec();
+    let (saved, rates) = (trial.state.clone(), trial.rates(&names));
+    let values = |trial: &mut Trial| names.iter().map(|name| trial.get(name)).collect::<Vec<f64>>();
+    let before = values(&mut trial);
+    let h = 1e-8;
+    trial.step(h);
+    let after = values(&mut trial);
+    trial.restart(&saved);
+    trial.step(2.0 * h);
+    let later = values(&mut trial);
+    for (i, name) in names.iter().enumerate() {
+        let difference = (4.0 * after[i] - later[i] - 3.0 * before[i]) / (2.0 * h);
+        assert!(
+            (difference - rates[i]).abs() <= 1e-3 * rates[i].abs(),
+            "{name}: {difference} {}",
+            rates[i]
+        );
+    }
+    trial.restart(&saved);
+    trial.step(h);
+    assert_eq!(values(&mut trial), after);
+    // Unknowns that no loads lead to are refused.
+    let mut forged = saved.clone();
+    forged.bodies[0][1] = 1e3 * forged.bodies[0][1].abs().max(1e9);
+    assert!(trial.model.check_state(&saved).is_ok());
+    assert!(trial.model.check_state(&forged).is_err());
+}

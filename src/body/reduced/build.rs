@@ -7,8 +7,9 @@ use crate::body::BodyError;
 use crate::body::solid::{BodyLoads, means_of, plan};
 use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
+use crate::math::exponential::weights as weights_of;
 use crate::method::fem::{Component, HeatValue, Mesh, ModalRow, SolidFem, SolidLoads, heat_mesh};
-use crate::method::reduced::{Clumped, Ranges, ReducedSystem, Request};
+use crate::method::reduced::{Clumped, Ranges, ReducedSystem, Request, Residues, integral};
 use crate::scene::{Scene, Solid};
 
 /// Of the largest range of all outputs of a kind, the least that an output's own range counts as.
@@ -22,6 +23,8 @@ pub struct Full<'a> {
     meshes: [Mesh; 2],
     /// What a unit of each drive does.
     columns: Vec<SolidLoads>,
+    /// What single units of loads do between the footprints that stand for them, and what drives then.
+    trials: Vec<(SolidLoads, Vec<f64>)>,
     /// Which symmetry classes any of these drives.
     take: Vec<bool>,
     means: Vec<(usize, FaceMeans)>,
@@ -55,10 +58,22 @@ impl<'a> Full<'a> {
             loads.change(&inputs, &unit, meshes.each_ref())
         };
         let columns: Vec<SolidLoads> = drives.list.iter().map(column).collect();
-        let take = fem.driven_classes(&columns);
+        let trial = |(index, inputs): (usize, Vec<f64>)| {
+            let mut unit = vec![0.0; start.len()];
+            unit[index] = 1.0;
+            let found = loads.change(&inputs, &unit, meshes.each_ref());
+            (found, drives.values(&inputs))
+        };
+        let trials: Vec<(SolidLoads, Vec<f64>)> =
+            drives.trials(start).into_iter().map(trial).collect();
+        let mut take = fem.driven_classes(&columns);
+        for (loads, _) in &trials {
+            let driven = fem.driven_classes(std::slice::from_ref(loads));
+            take.iter_mut().zip(driven).for_each(|(take, driven)| *take |= driven);
+        }
         let means = means_of(scene, (name, solid), meshes.each_ref());
         let initial_temperature = solid.initial_temperature;
-        Ok(Self { scene, initial_temperature, fem, meshes, columns, take, means })
+        Ok(Self { scene, initial_temperature, fem, meshes, columns, trials, take, means })
     }
 
     /// The reduced model; `sizes` are those that drives start with.
@@ -68,11 +83,17 @@ impl<'a> Full<'a> {
             self.fem.modal_rates(&self.take),
             self.columns.iter().map(sources).collect(),
         );
-        let (mut residues, mut slow, mut direct, mut offsets) =
-            (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let between = Clumped::new(
+            self.fem.modal_rates(&self.take),
+            self.trials.iter().map(|(loads, _)| sources(loads)).collect(),
+        );
+        let (mut residues, mut slow, mut direct, mut offsets, mut missed) =
+            (Vec::new(), Vec::new(), Vec::new(), Vec::new(), Vec::new());
         for value in &values.list {
             let row = self.row(value)?;
-            residues.push(clumped.residues(&row.modes));
+            let own = clumped.residues(&row.modes);
+            missed.push(self.missed(&between, &row, &own));
+            residues.push(own);
             slow.push(clumped.slow_output(&row.modes));
             direct.push(row.direct);
             offsets.push(row.offset);
@@ -85,6 +106,7 @@ impl<'a> Full<'a> {
             slow: &slow,
             direct: &direct,
             start: sizes,
+            missed: &missed,
             horizon: self.scene.stop_time,
             allowed: &|ranges| allowed(tolerance, &kinds, sizes, ranges),
         };
@@ -94,10 +116,36 @@ impl<'a> Full<'a> {
         Ok(Reduction { system, offsets, brought, modes: clumped.modes() })
     }
 
+    /// For each drive what footprints that move miss at most between those that stand for them: heat over all time, and
+    /// what acts at once.
+    fn missed(&self, between: &Clumped, row: &Row, own: &Residues) -> Vec<f64> {
+        let found = between.residues(&row.modes);
+        let mut missed = vec![0.0_f64; self.columns.len()];
+        for (t, (_, weights)) in self.trials.iter().enumerate() {
+            let mut values = found.values[t].clone();
+            let (mut slow, mut direct) = (found.slow[t], row.trials[t]);
+            for (j, weight) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                values.iter_mut().zip(&own.values[j]).for_each(|(v, r)| *v -= weight * r);
+                slow -= weight * own.slow[j];
+                direct -= weight * row.direct[j];
+            }
+            let horizon = self.scene.stop_time;
+            let lasting = slow.abs() * horizon * weights_of(between.slow_rate() * horizon)[1];
+            let miss = integral(&between.points, &values) + lasting + direct.abs();
+            for (own, weight) in missed.iter_mut().zip(weights) {
+                if *weight != 0.0 {
+                    *own = own.max(miss);
+                }
+            }
+        }
+        missed
+    }
+
     fn row(&self, value: &Value) -> Result<Row, BodyError> {
         let thermal = |row: ModalRow, offset: f64| {
             let direct = self.columns.iter().map(|loads| row.direct(&loads.faces)).collect();
-            Row { modes: row.modes, direct, offset }
+            let trials = self.trials.iter().map(|(loads, _)| row.direct(&loads.faces)).collect();
+            Row { modes: row.modes, direct, trials, offset }
         };
         Ok(match *value {
             Value::Temperature(point) => {
@@ -122,7 +170,12 @@ impl<'a> Full<'a> {
     /// nothing drives are not solved.
     fn mechanical(&self, component: Component, point: [f64; 3]) -> Result<Row, BodyError> {
         let functional = self.fem.functional(component, &[(point, 1.0)]);
-        let mut out = Row { modes: Vec::new(), direct: vec![0.0; self.columns.len()], offset: 0.0 };
+        let mut out = Row {
+            modes: Vec::new(),
+            direct: vec![0.0; self.columns.len()],
+            trials: vec![0.0; self.trials.len()],
+            offset: 0.0,
+        };
         for (class, &take) in self.take.iter().enumerate() {
             let at_once = |loads: &SolidLoads| SolidFem::drives_at_once(loads, class);
             if !take && !self.columns.iter().any(at_once) {
@@ -131,6 +184,9 @@ impl<'a> Full<'a> {
             let row = self.fem.row(&functional, class);
             let row = row.expect("a checked scene has mechanics where it gives stress")?;
             for (direct, loads) in out.direct.iter_mut().zip(&self.columns) {
+                *direct += row.of(&[], &loads.faces[class], &loads.force[class]);
+            }
+            for (direct, (loads, _)) in out.trials.iter_mut().zip(&self.trials) {
                 *direct += row.of(&[], &loads.faces[class], &loads.force[class]);
             }
             out.offset += row.constant;
@@ -146,6 +202,8 @@ impl<'a> Full<'a> {
 struct Row {
     modes: Vec<f64>,
     direct: Vec<f64>,
+    /// The same as `direct`, of trials.
+    trials: Vec<f64>,
     offset: f64,
 }
 

@@ -49,6 +49,12 @@ impl Points {
         0.5 * (low + high) - 0.5 * (high - low) * angle(point, self.count).cos()
     }
 
+    /// A place between two points, or an end of the range.
+    fn between(&self, number: usize) -> f64 {
+        let [low, high] = self.range;
+        0.5 * (low + high) - 0.5 * (high - low) * (PI * number as f64 / self.count as f64).cos()
+    }
+
     /// Weight of each point at a place, and its derivative by the place.
     fn weights(&self, place: f64) -> Vec<[f64; 2]> {
         let of_point = |point: usize| {
@@ -166,6 +172,40 @@ impl Drives {
                 self.list.push(Drive { index, base: 0.0, member });
             }
         }
+    }
+
+    /// Inputs with a footprint between those that stand for it and a unit of one amount, and the place of that: where
+    /// polynomials through the others miss most. Of places, those along one axis at a time are enough.
+    pub fn trials(&self, start: &[f64]) -> Vec<(usize, Vec<f64>)> {
+        let mut still = start.to_vec();
+        self.list.iter().for_each(|drive| still[drive.index] = drive.base);
+        let mut trials = Vec::new();
+        let firsts = self.list.iter().filter_map(|drive| match drive.member {
+            Some((family, 0)) => Some((drive.index, family)),
+            _ => None,
+        });
+        for (index, family) in firsts {
+            let Family { places, points } = &self.families[family];
+            for axis in 0..3 {
+                let Some(_) = places[axis] else { continue };
+                for between in 0..=points[axis].count {
+                    let mut inputs = still.clone();
+                    inputs[index] = 1.0;
+                    for (other, place) in places.iter().enumerate() {
+                        let Some(place) = place else { continue };
+                        let own = &points[other];
+                        inputs[*place] = if other == axis {
+                            own.between(between)
+                        } else {
+                            // Off the middle, which is a point where these are odd in number.
+                            0.35 * own.range[0] + 0.65 * own.range[1]
+                        };
+                    }
+                    trials.push((index, inputs));
+                }
+            }
+        }
+        trials
     }
 
     /// What drives under inputs.

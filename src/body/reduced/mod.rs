@@ -23,7 +23,7 @@ use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::Allowance;
 use crate::method::fem::NodalFields;
 use crate::method::reduced::ReducedSystem;
-use crate::scene::{Scene, Solid};
+use crate::scene::{Scene, Solid, footprints_along};
 use crate::state::{Field, Layout, Per};
 use build::Full;
 use drives::Drives;
@@ -72,7 +72,7 @@ impl ReducedBody {
         start: &[f64],
         threads: usize,
     ) -> Result<Self, BodyError> {
-        let drives = Drives::of(scene, layout, name, |_| [1; 3]);
+        let drives = Drives::of(scene, layout, name, footprints_along);
         let values = Values::of(scene, name);
         let sizes = drives.values(start);
         let full = Full::new(scene, layout, (name, solid), start, &drives, threads)?;

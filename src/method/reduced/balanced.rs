@@ -7,22 +7,26 @@
 //! 1981, doi 10.1109/TAC.1981.1102568; A. J. Laub, M. T. Heath, C. C. Paige and R. C. Ward 1987, doi
 //! 10.1109/TAC.1987.1104549).
 //!
-//! Such systems are stable; where their poles are real, as they nearly always are, they become diagonal again.
+//! Such systems are stable, and where their poles are real they become diagonal again. With several inputs and outputs some
+//! orders have pairs of complex poles. There the system is projected on the space that left and right vectors of half the
+//! order span together: symmetric as `M` is, its poles are real and positive whatever the space, and so are those of
+//! every order for which it is asked.
 
 use faer::Mat;
 
+use crate::math::eigenvectors::eigenvectors;
 use crate::math::singular_values::{SingularValues, singular_values};
 
 /// Part of a Gramian that its low-rank factor leaves out.
-const LEFT_OUT: f64 = 1e-20;
+const LEFT_OUT: f64 = 1e-26;
+/// Singular values below this part of the largest tell that vectors depend on each other.
+const DEPENDENT: f64 = 1e-11;
 
 /// Why there is no reduced system.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReductionError {
     #[error("its singular values could not be found")]
     Decomposition,
-    #[error("no order has poles that are real")]
-    Poles,
 }
 
 /// A system balanced: what systems of any order follow from.
@@ -38,6 +42,10 @@ pub struct Balanced {
     shifted: Mat<f64>,
     entering: Mat<f64>,
     leaving: Mat<f64>,
+    rates: Vec<f64>,
+    factor: Vec<Vec<f64>>,
+    /// Of each output and input.
+    residues: Vec<Vec<Vec<f64>>>,
 }
 
 /// A diagonal system: rates [1/s], `B` by inputs, `C` by outputs.
@@ -82,7 +90,21 @@ impl Balanced {
         }
         let SingularValues { left, values: singular, right } =
             singular_values(&hankel).ok_or(ReductionError::Decomposition)?;
-        Ok(Self { inputs, outputs, rank, singular, left, right, shifted, entering, leaving })
+        let own = |row: &Vec<&[f64]>| row.iter().map(|values| values.to_vec()).collect();
+        Ok(Self {
+            inputs,
+            outputs,
+            rank,
+            singular,
+            left,
+            right,
+            shifted,
+            entering,
+            leaving,
+            rates: rates.to_vec(),
+            factor,
+            residues: residues.iter().map(own).collect(),
+        })
     }
 
     /// Highest order that singular values above rounding allow.
@@ -91,8 +113,13 @@ impl Balanced {
         self.singular.iter().filter(|&&value| value > 1e-13 * largest).count()
     }
 
+    /// The system of an order at most, by whatever way makes its poles real.
+    pub fn truncated(&self, order: usize) -> Truncated {
+        self.two_sided(order).unwrap_or_else(|| self.projected(order.div_ceil(2)))
+    }
+
     /// The system of an order; nothing where its poles are not all real and stable.
-    pub fn truncated(&self, order: usize) -> Option<Truncated> {
+    fn two_sided(&self, order: usize) -> Option<Truncated> {
         let root = |i: usize| self.singular[i].sqrt();
         let left =
             Mat::from_fn(self.outputs * self.rank, order, |i, r| self.left[(i, r)] / root(r));
@@ -102,11 +129,7 @@ impl Balanced {
         let entering = left.transpose() * &self.entering;
         let leaving = &self.leaving * &right;
         if order == 0 {
-            return Some(Truncated {
-                rates: Vec::new(),
-                inputs: vec![Vec::new(); self.inputs],
-                outputs: vec![Vec::new(); self.outputs],
-            });
+            return Some(Truncated::none(self.inputs, self.outputs));
         }
         let modes = matrix.eigen().ok()?;
         let values = modes.S().column_vector();
@@ -134,6 +157,79 @@ impl Balanced {
             inputs: (0..self.inputs).map(of_input).collect(),
             outputs: (0..self.outputs).map(of_output).collect(),
         })
+    }
+
+    /// The system on the space that left and right vectors of an order span together.
+    fn projected(&self, order: usize) -> Truncated {
+        let points = self.rates.len();
+        let along = |vectors: &Mat<f64>, block: usize, r: usize| -> Vec<f64> {
+            let mut sum = vec![0.0; points];
+            for (a, column) in self.factor.iter().enumerate() {
+                let weight = vectors[(block * self.rank + a, r)];
+                sum.iter_mut().zip(column).for_each(|(sum, l)| *sum += weight * l);
+            }
+            sum
+        };
+        let mut span = Mat::zeros(points * self.inputs, 2 * order);
+        for r in 0..order {
+            for j in 0..self.inputs {
+                for (q, value) in along(&self.right, j, r).into_iter().enumerate() {
+                    span[(j * points + q, 2 * r)] = value;
+                }
+            }
+            for k in 0..self.outputs {
+                for (q, value) in along(&self.left, k, r).into_iter().enumerate() {
+                    for j in 0..self.inputs {
+                        span[(j * points + q, 2 * r + 1)] += self.residues[k][j][q] * value;
+                    }
+                }
+            }
+        }
+        for r in 0..2 * order {
+            let length = span.col(r).iter().map(|value| value * value).sum::<f64>().sqrt();
+            if length > 0.0 {
+                span.col_mut(r).iter_mut().for_each(|value| *value /= length);
+            }
+        }
+        let Some(SingularValues { left, values, .. }) = singular_values(&span) else {
+            return Truncated::none(self.inputs, self.outputs);
+        };
+        let count = values.iter().filter(|&&value| value > DEPENDENT * values[0]).count();
+        let place = |i: usize| self.rates[i % points];
+        let matrix = Mat::from_fn(count, count, |a, b| {
+            (0..points * self.inputs).map(|i| left[(i, a)] * place(i) * left[(i, b)]).sum()
+        });
+        let turn = eigenvectors(&matrix);
+        let basis = left.subcols(0, count) * &turn;
+        let rate = |r: usize| {
+            (0..points * self.inputs).map(|i| place(i) * basis[(i, r)].powi(2)).sum::<f64>()
+        };
+        let input = |j: usize, r: usize| (0..points).map(|q| basis[(j * points + q, r)]).sum();
+        let output = |k: usize, r: usize| {
+            let of_input = |(j, values): (usize, &Vec<f64>)| {
+                let parts = values.iter().enumerate();
+                parts.map(|(q, value)| value * basis[(j * points + q, r)]).sum::<f64>()
+            };
+            self.residues[k].iter().enumerate().map(of_input).sum()
+        };
+        Truncated {
+            rates: (0..count).map(rate).collect(),
+            inputs: (0..self.inputs).map(|j| (0..count).map(|r| input(j, r)).collect()).collect(),
+            outputs: (0..self.outputs)
+                .map(|k| (0..count).map(|r| output(k, r)).collect())
+                .collect(),
+        }
+    }
+}
+
+impl Truncated {
+    /// Of no order.
+    fn none(inputs: usize, outputs: usize) -> Self {
+        Self {
+            rates: Vec::new(),
+            inputs: vec![Vec::new(); inputs],
+            outputs: vec![Vec::new(); outputs],
+        }
     }
 }
 
@@ -182,7 +278,7 @@ mod tests {
         }
         let balanced = Balanced::new(&rates, &[vec![&values]]).unwrap();
         assert!(balanced.singular[3] < 1e-12 * balanced.singular[0]);
-        let found = balanced.truncated(3).unwrap();
+        let found = balanced.two_sided(3).unwrap();
         for (i, at) in [3, 11, 20].into_iter().enumerate() {
             assert!((found.rates[i] / rates[at] - 1.0).abs() < 1e-9);
             let residue = found.inputs[0][i] * found.outputs[0][i];
@@ -197,7 +293,7 @@ mod tests {
         let values: Vec<f64> = rates.iter().map(|rate| rate.powf(0.4)).collect();
         let balanced = Balanced::new(&rates, &[vec![&values]]).unwrap();
         for order in [2, 5, 9] {
-            let system = balanced.truncated(order).unwrap();
+            let system = balanced.truncated(order);
             let rest = 2.0 * balanced.singular[order..].iter().sum::<f64>();
             for s in [0.0, 0.3, 10.0, 1e4] {
                 let full: f64 = values.iter().zip(&rates).map(|(r, mu)| r / (s + mu)).sum();

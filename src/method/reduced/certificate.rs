@@ -54,6 +54,12 @@ pub fn integrals(
     found.chunks(inputs.max(1)).map(<[f64]>::to_vec).collect()
 }
 
+/// Estimate of `∫₀^∞ |h| dt` of one answer.
+pub fn integral(points: &[f64], values: &[f64]) -> f64 {
+    let all = Differences { rates: points.to_vec(), weights: vec![values.to_vec()] };
+    all.integrals(Wanted::Estimate)[0]
+}
+
 impl Differences {
     fn integrals(&self, wanted: Wanted) -> Vec<f64> {
         let least = self.rates.iter().copied().fold(f64::INFINITY, f64::min);

@@ -9,5 +9,6 @@ pub mod clumped;
 pub mod system;
 
 pub use balanced::{Balanced, ReductionError};
+pub use certificate::integral;
 pub use clumped::{Clumped, Residues};
 pub use system::{Ranges, ReducedSystem, Request};

@@ -37,6 +37,9 @@ pub struct Request<'a> {
     pub horizon: f64,
     /// Inputs of the default experiment.
     pub start: &'a [f64],
+    /// For each output and input what the inputs themselves miss of what they stand for: part of the bound, but nothing
+    /// that a higher order mends.
+    pub missed: &'a [Vec<f64>],
     /// For each output and input, from the answers to steps: the error that is allowed.
     pub allowed: &'a dyn Fn(&Ranges) -> Vec<Vec<f64>>,
 }
@@ -88,14 +91,14 @@ impl ReducedSystem {
             if singular(order) > hopeless && order < most {
                 continue;
             }
-            let Some(truncated) = balanced.truncated(order) else { continue };
+            let truncated = balanced.truncated(order);
             let done = fits(&truncated, Wanted::Estimate) && fits(&truncated, Wanted::Bound);
             best = Some(truncated);
             if done {
                 break;
             }
         }
-        let truncated = best.ok_or(ReductionError::Poles)?;
+        let truncated = best.ok_or(ReductionError::Decomposition)?;
         let found = integrals(&clumped.points, &rows, &truncated, Wanted::Bound);
         Ok(request.system(&truncated, &scale, &found, &ranges))
     }
@@ -234,7 +237,8 @@ impl Request<'_> {
             system.direct.extend(&self.direct[k]);
             system.ranges.extend(&ranges.single[k]);
             let pairs = found[k].iter().zip(&self.residues[k].error).zip(inputs);
-            system.bounds.extend(pairs.map(|((found, error), s)| found / (output * s) + error));
+            let bounds = pairs.map(|((found, error), s)| found / (output * s) + error);
+            system.bounds.extend(bounds.zip(&self.missed[k]).map(|(bound, missed)| bound + missed));
         }
         system
     }
