@@ -35,7 +35,7 @@ def simulate(fmu: Path):
         print(
             f"heat balance of the plate: {abs(balance / unit['plate.heat_in']):.0e} of what came in"
         )
-    return np.array(rows), [np.reshape(field, (96, 32)) for field in fields]
+    return np.array(rows), [np.reshape(field, (48, 16)) for field in fields]
 
 
 def report(rows: np.ndarray):

@@ -16,6 +16,7 @@ COARSE = {
         "spacing = 7.5e-6, depth_spacing": "spacing = 12e-6, depth_spacing",
     },
     "moving_spot": {"spacing = 40e-6, depth_spacing": "spacing = 80e-6, depth_spacing"},
+    "printed_line": {"\nspacing = 3e-6": "\nspacing = 6e-6"},
 }
 FEWER = {
     "printer_control": ["--drops", "1", "--after", "0.15"],

@@ -161,7 +161,8 @@ fn drops_are_superposed() {
 
 #[test]
 fn drops_on_demand_are_those_of_arrivals() {
-    let arrivals = "symmetry = \"none\"\nheight = 3e-5\narrivals = [{ x = 4e-5 }, { time = 5e-6, x = -9e-5, y = 3e-5 }]\n";
+    let arrivals =
+        "height = 3e-5\narrivals = [{ x = 4e-5 }, { time = 5e-6, x = -9e-5, y = 3e-5 }]\n";
     let asked = format!("height = 3e-5\n{ON_DEMAND}");
     for method in ["record", "film"] {
         let mut timed = Trial::new(&(drop(method, arrivals) + TILES));
@@ -224,12 +225,13 @@ fn a_drop_that_falls_from_above_comes_later_and_faster() {
     };
     let (time, momentum) = from(1e-3, 0.0);
     assert!((time - 1e-3 / SPEED).abs() < 2.0 * STEP, "{time}");
-    assert!((momentum + 1.0).abs() < 1e-6, "{momentum}");
+    // What is known of a film ends when 1.4e-6 of its momentum is left.
+    assert!((momentum + 1.0).abs() < 1e-5, "{momentum}");
     // v² = U² + 2gh
     let fast = (SPEED * SPEED + 2.0 * 1e5 * 1e-3_f64).sqrt();
     let (time, momentum) = from(1e-3, 1e5);
     assert!((time - 2e-3 / (SPEED + fast)).abs() < 2.0 * STEP, "{time}");
-    assert!((momentum + fast / SPEED).abs() < 1e-6, "{momentum}");
+    assert!((momentum + fast / SPEED).abs() < 1e-5, "{momentum}");
 }
 
 fn refusal(trial: &mut Trial) -> String {
