@@ -57,7 +57,7 @@ def run(program, text):
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         (table,) = Path(folder, "out").glob("*.csv")
         with open(table) as file:
-            rows = [{k: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+            rows = [{k.split(" ")[0]: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
     seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return rows, seconds
 

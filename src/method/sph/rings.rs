@@ -177,7 +177,7 @@ mod tests {
     #[test]
     fn arcs_hold_what_rings_hold() {
         for own in [0.05_f64, 0.17, 0.5, 1.5, 20.0] {
-            for d in [0.05, 0.3, 0.6, 0.9] {
+            for d in [0.05_f64, 0.3, 0.6, 0.9] {
                 for part in [0.0, 0.7, -0.7] {
                     let radii = [own, (own + part * d).abs().max(0.01)];
                     let apart = d.max((radii[0] - radii[1]).abs());
@@ -198,8 +198,8 @@ mod tests {
     #[test]
     fn whole_rings_are_whole() {
         // The farthest place is within reach.
-        for radii in [[0.1, 0.2], [0.3, 0.3], [0.01, 0.6]] {
-            let d = (radii[0] - radii[1] as f64).abs();
+        for radii in [[0.1_f64, 0.2], [0.3, 0.3], [0.01, 0.6]] {
+            let d = (radii[0] - radii[1]).abs();
             assert!((mean(|_| 1.0, radii, d) - 1.0).abs() < 1e-12, "{radii:?}");
         }
     }
