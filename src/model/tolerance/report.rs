@@ -105,21 +105,28 @@ fn of_physics(twin: &Twin, physics: Physics, found: &mut BodyEstimate) {
 }
 
 /// Numbers of elements along the surface and through the thickness over those of the mesh of a body that would keep the
-/// tolerance of a scene.
-pub fn finer_mesh(scene: &Scene, estimate: &BodyEstimate) -> [f64; 2] {
+/// tolerance of a scene, as far as it is near enough to be told.
+pub fn finer_mesh(scene: &Scene, estimate: &BodyEstimate) -> Option<[f64; 2]> {
     let tolerance = scene.fidelity.tolerance;
+    if let Some(twin) = Twin::of(scene, &estimate.body, Physics::Heat) {
+        let mut trials = Trials::new(&twin, Physics::Heat);
+        let is_watched = |one: &OutputError| trials.watched.iter().any(|own| own.name == one.name);
+        let is_thermal = estimate.outputs.iter().all(is_watched);
+        let start: Levels = [0; 2];
+        if is_thermal
+            && let (levels, Some(error)) = search(&mut trials, start, [true; 2], tolerance)
+            && error <= tolerance
+        {
+            return Some(factors(levels));
+        }
+    }
     // As errors of second order fall.
     let by_order = [0, 1].map(|way| (estimate.worst_of(way) / (0.5 * tolerance)).sqrt().max(1.0));
-    let Some(twin) = Twin::of(scene, &estimate.body, Physics::Heat) else { return by_order };
-    let mut trials = Trials::new(&twin, Physics::Heat);
-    let is_thermal =
-        estimate.outputs.iter().all(|one| trials.watched.iter().any(|own| own.name == one.name));
-    let start: Levels = [0; 2];
-    match search(&mut trials, start, [true; 2], tolerance) {
-        (levels, Some(error)) if is_thermal && error <= tolerance => factors(levels),
-        _ => by_order,
-    }
+    (by_order[0].max(by_order[1]) <= FARTHEST).then_some(by_order)
 }
+
+/// Numbers of elements over those of a mesh beyond which nothing is told of it by the order alone.
+const FARTHEST: f64 = 8.0;
 
 /// Warns of bodies whose mesh does not keep the tolerance of a scene, with the spacing that would.
 pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
@@ -133,21 +140,29 @@ pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
             "{name}: outputs err by about {:.0e} of their range ({}), more than the tolerance of {tolerance:e}",
             worst, output.name
         );
-        let [along, through] = finer_mesh(scene, estimate);
+        let keys = &solid.mesh;
+        if open(solid) == [true; 2] {
+            let more = "what is finer takes more than is tried";
+            return Some(format!("{over}; {more}: `[refinement.{name}]` sets how fine it is"));
+        }
+        let Some([along, through]) = finer_mesh(scene, estimate) else {
+            return Some(format!(
+                "{over}, and by far: without `mesh.spacing` and `mesh.depth_spacing` the mesh follows from the tolerance"
+            ));
+        };
         let finer = |spacing: Option<f64>, factor: f64, key: &str| {
             let spacing = spacing.filter(|_| factor > 1.0)?;
-            Some(format!("`mesh.{key}` of {:.2e} m", spacing / factor))
+            Some(format!("`mesh.{key} = {:.1e}`", spacing / factor))
         };
-        let keys = &solid.mesh;
         let depth = keys.depth_spacing.or(keys.spacing.filter(|_| through > along));
-        let asked = [finer(keys.spacing, along, "spacing"), finer(depth, through, "depth_spacing")];
+        let growth = keys.growth.filter(|&growth| growth > 1.0);
+        let growth = growth.map(|growth| {
+            format!("`mesh.growth = {:.2}`", 1.0 + (growth - 1.0) / along.max(through))
+        });
+        let asked =
+            [finer(keys.spacing, along, "spacing"), finer(depth, through, "depth_spacing"), growth];
         let asked: Vec<String> = asked.into_iter().flatten().collect();
-        Some(match open(solid) == [true; 2] || asked.is_empty() {
-            true => format!(
-                "{over}; a finer mesh takes more than is tried (`[refinement.{name}]` sets one)"
-            ),
-            false => format!("{over}; a {} would keep it", asked.join(" and a ")),
-        })
+        Some(format!("{over}; about {} would keep it", asked.join(", ")))
     };
     estimates.iter().filter_map(warning).collect()
 }
