@@ -97,7 +97,7 @@ fn a_column_is_one_element_along_the_surface_and_exact() {
         let (mut column, mut whole) = (Trial::of(column), Trial::new(&text(&own)));
         let mut fine = Trial::new(&text("").replace("through = 1.0", "through = 4.0"));
         for _ in 0..5 {
-            [&mut column, &mut whole, &mut fine].map(|trial| trial.step(0.02));
+            [&mut column, &mut whole, &mut fine].into_iter().for_each(|trial| trial.step(0.02));
             for name in ["p.temperature", "p.stress_xx", "p.displacement_z"] {
                 let [one, all, fine] = [&mut column, &mut whole, &mut fine].map(|t| t.get(name));
                 assert!(

@@ -6,6 +6,7 @@ use super::choice::{COARSEST_TRIED, Levels, Trials, factors, open, search};
 use super::estimate::{Estimate, OutputError};
 use super::resolve;
 use super::twin::{Physics, Twin};
+use crate::body::forecast;
 use crate::scene::{HeatMethod, MeshFactors, Scene};
 
 /// What the outputs of a body err by on its mesh.
@@ -128,6 +129,23 @@ pub fn finer_mesh(scene: &Scene, estimate: &BodyEstimate) -> Option<[f64; 2]> {
 /// Numbers of elements over those of a mesh beyond which nothing is told of it by the order alone.
 const FARTHEST: f64 = 8.0;
 
+/// Growth of elements where a scene gives distances of nodes alone.
+const GROWTH: f64 = 1.2;
+
+/// Least distances of nodes along the surface and through the thickness of a mesh of so many times as many elements [m].
+fn finest(scene: &Scene, name: &str, factors: [f64; 2]) -> [f64; 2] {
+    let mut finer = scene.clone();
+    let own = finer.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
+    let [along, through] = [0, 1].map(|way| own[way] * factors[way]);
+    let mesh = MeshFactors { along, through, estimated_error: None };
+    finer.refinement.insert(name.to_owned(), mesh);
+    let bodies = forecast(&finer).bodies;
+    let body = bodies.iter().find(|body| body.name == name);
+    let spacing = body.map_or([[0.0; 2]; 3], |body| body.spacing);
+    let lateral = spacing[..2].iter().filter(|[_, most]| *most > 0.0);
+    [lateral.map(|[least, _]| *least).fold(f64::INFINITY, f64::min), spacing[2][0]]
+}
+
 /// Warns of bodies whose mesh does not keep the tolerance of a scene, with the spacing that would.
 pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
     let tolerance = scene.fidelity.tolerance;
@@ -150,19 +168,13 @@ pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
                 "{over}, and by far: without `mesh.spacing` and `mesh.depth_spacing` the mesh follows from the tolerance"
             ));
         };
-        let finer = |spacing: Option<f64>, factor: f64, key: &str| {
-            let spacing = spacing.filter(|_| factor > 1.0)?;
-            Some(format!("`mesh.{key} = {:.1e}`", spacing / factor))
-        };
-        let depth = keys.depth_spacing.or(keys.spacing.filter(|_| through > along));
-        let growth = keys.growth.filter(|&growth| growth > 1.0);
-        let growth = growth.map(|growth| {
-            format!("`mesh.growth = {:.2}`", 1.0 + (growth - 1.0) / along.max(through))
-        });
-        let asked =
-            [finer(keys.spacing, along, "spacing"), finer(depth, through, "depth_spacing"), growth];
-        let asked: Vec<String> = asked.into_iter().flatten().collect();
-        Some(format!("{over}; about {} would keep it", asked.join(", ")))
+        let [spacing, depth] = finest(scene, name, [along, through]);
+        let growth = keys.growth.unwrap_or(GROWTH);
+        let growth = 1.0 + (growth - 1.0) / along.max(through);
+        Some(format!(
+            "{over}; about `mesh.spacing = {spacing:.1e}`, `mesh.depth_spacing = {depth:.1e}`, `mesh.growth = {growth:.3}` \
+             would keep it"
+        ))
     };
     estimates.iter().filter_map(warning).collect()
 }
