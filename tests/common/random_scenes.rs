@@ -1,6 +1,13 @@
 //! Random plates under spots, rings and tiles, and with faces that heat passes: the same for the same seed.
 
+use std::time::Instant;
+
 use fastrand::Rng;
+use impinge::model::tolerance::choice::{Levels, Trials, factors, first_levels, search};
+use impinge::model::tolerance::estimate::differences;
+use impinge::model::tolerance::responses::{Responses, responses};
+use impinge::model::tolerance::twin::{Physics, Twin};
+use impinge::scene;
 
 /// Density [kg/m³], specific heat capacity [J/(kg K)], conductivity [W/(m K)], Young's modulus [Pa], expansion [1/K].
 const MATERIALS: [(&str, [f64; 5]); 8] = [
@@ -20,6 +27,8 @@ pub struct Drawn {
     /// In a few words.
     pub words: String,
     pub is_disc: bool,
+    /// Whether stresses are asked for.
+    pub is_mechanical: bool,
 }
 
 fn log_uniform(rng: &mut Rng, [low, high]: [f64; 2]) -> f64 {
@@ -105,7 +114,14 @@ pub fn random_scene(seed: u64, wants_stress: bool) -> Drawn {
          {conductivity}, young = {young:e}, poisson = 0.25, expansion = {expansion:e} }}\ninitial_temperature = 300.0\n\
          [body.plate.faces]\n"
     );
+    if wants_stress && !faces.iter().any(|(name, _)| *name == "bottom") {
+        faces.push(("bottom", String::new()));
+    }
     for (name, condition) in &faces {
+        // What bears stress is held.
+        let held = if wants_stress && *name == "bottom" { "roller = true" } else { "" };
+        let comma = if held.is_empty() || condition.is_empty() { "" } else { ", " };
+        let condition = format!("{condition}{comma}{held}");
         text.push_str(&format!("{name} = {{ {condition} }}\n"));
     }
     if let Some(footprint) = &footprint {
@@ -148,5 +164,72 @@ pub fn random_scene(seed: u64, wants_stress: bool) -> Drawn {
         stop / step,
         conditions.join(", ")
     );
-    Drawn { text, words, is_disc }
+    Drawn { text, words, is_disc, is_mechanical: wants_stress }
+}
+
+/// What came of a scene at a tolerance.
+pub struct Outcome {
+    pub estimated: f64,
+    /// Largest error of an output against the reference.
+    pub found: f64,
+    /// Nodes over those of the cheapest mesh that keeps the tolerance; none where the chosen one does not.
+    pub cost: Option<f64>,
+    /// That the choice took [s].
+    pub seconds: f64,
+}
+
+/// Nodes of references, at most.
+const MOST_NODES: f64 = 1.5e5;
+
+/// Chooses a mesh for a tolerance and compares with meshes finer along the surface and through the thickness: by two levels
+/// of √2, of discs along the surface by four. Nothing where the reference would be too large.
+pub fn outcome(drawn: &Drawn, tolerance: f64) -> Option<Outcome> {
+    let scene =
+        scene::parse(&drawn.text, "scene").unwrap_or_else(|e| panic!("{e}\n{}", drawn.text));
+    let physics = if drawn.is_mechanical { Physics::Deformation } else { Physics::Heat };
+    let twin = Twin::of(&scene, "plate", physics)?;
+    let mut trials = Trials::new(&twin, physics);
+    let begun = Instant::now();
+    let start = first_levels(tolerance, [true; 2]);
+    let (levels, estimated) = search(&mut trials, start, [true; 2], tolerance);
+    let seconds = begun.elapsed().as_secs_f64();
+    let [i, j] = levels;
+    let finer = [[i + if drawn.is_disc { 4 } else { 2 }, j], [i, j + 2]];
+    let most = if drawn.is_mechanical { 0.2 * MOST_NODES } else { MOST_NODES };
+    if finer.iter().any(|finer| trials.nodes(*finer) > most) {
+        return None;
+    }
+    let watched = trials.watched.clone();
+    let run = |levels: Levels| responses(&twin.on_mesh(factors(levels)), &watched).unwrap();
+    let chosen = run(levels);
+    let reference = sum(&run(finer[0]), &run(finer[1]), &chosen);
+    let error_of = |found: &Responses| {
+        differences(&reference, found, &watched).into_iter().fold(0.0, f64::max)
+    };
+    let found = error_of(&chosen);
+    let cost = (found <= tolerance).then(|| {
+        let mut cheapest = levels;
+        // Down from the chosen mesh, as long as a coarser one keeps the tolerance.
+        loop {
+            let [a, b] = cheapest;
+            let mut coarser = [[a - 1, b - 1], [a - 1, b], [a, b - 1]];
+            coarser.sort_by(|x, y| trials.nodes(*x).total_cmp(&trials.nodes(*y)));
+            let nodes = trials.nodes(cheapest);
+            let mut cheaper = coarser.into_iter().filter(|one| trials.nodes(*one) < nodes);
+            match cheaper.find(|one| error_of(&run(*one)) <= tolerance) {
+                Some(found) => cheapest = found,
+                None => return trials.nodes(levels) / nodes,
+            }
+        }
+    });
+    Some(Outcome { estimated: estimated.unwrap_or(f64::INFINITY), found, cost, seconds })
+}
+
+/// `a + b − c`: errors of two ways on their own, which hardly depend on each other.
+fn sum(a: &Responses, b: &Responses, c: &Responses) -> Responses {
+    let mut out = a.clone();
+    let all = out.iter_mut().flatten().flatten();
+    let others = b.iter().flatten().flatten().zip(c.iter().flatten().flatten());
+    all.zip(others).for_each(|(value, (b, c))| *value += b - c);
+    out
 }

@@ -34,7 +34,7 @@ RADIATING = """
 radiation = { emissivity = 0.9, ambient = 300.0 }
 
 [fidelity]
-tolerance = 1e-5
+tolerance = 1e-4
 """
 
 

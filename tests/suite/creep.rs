@@ -99,6 +99,8 @@ const HELD: &str = "left = { roller = true }\nright = { roller = true }\nfront =
 
 /// A bar that has been held since it was hotter.
 fn held(material: &Material, more: &str, tolerance: f64) -> Trial {
+    // An increment may err by a tenth of it.
+    let tolerance = 10.0 * tolerance;
     let free = material.temperature + material.strain / 1e-5;
     let rest = format!("{PROBE}[fidelity]\ntolerance = {tolerance:e}\n");
     Trial::new(&scene(BAR, &material.text(more), [material.temperature, free], HELD, &rest))

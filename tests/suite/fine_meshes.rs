@@ -77,6 +77,7 @@ impl Case<'_> {
 name = "Fine"
 stop_time = {:?}
 step = {:?}
+fidelity = {{ tolerance = 1e-3 }}
 [body.b]
 kind = "solid"
 shape = {}
@@ -287,6 +288,9 @@ name = "a"
 in = "p"
 at = [0.0, 0.0, 0.0]
 gives = ["temperature"]
+[refinement.p]
+along = 1.0
+through = 1.0
 "#
         )
     };

@@ -42,5 +42,6 @@ mod scene_reference;
 mod scene_refusals;
 mod solid;
 mod tension;
+mod tolerance;
 mod walls;
 mod yielding;

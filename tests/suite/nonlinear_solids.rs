@@ -59,7 +59,7 @@ fn off_modes(spacing: [f64; 2]) -> [f64; 2] {
     let text = text.replacen("initial_", "symmetry = \"quarter\"\ninitial_", 1);
     let mut modal = Trial::new(&text);
     let mut newton = Trial::new(&format!(
-        "{text}\n[solver]\nmethod = \"newton\"\n[fidelity]\ntolerance = 1e-5\n"
+        "{text}\n[solver]\nmethod = \"newton\"\n[fidelity]\ntolerance = 1e-4\n"
     ));
     for _ in 0..4 {
         modal.step(2e-3);

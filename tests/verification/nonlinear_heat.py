@@ -44,7 +44,7 @@ def toml(table):
     return f"{{ temperature = {list(table[0])}, value = {list(table[1])} }}"
 
 
-def scene(spacing, tolerance=1e-3):
+def scene(spacing, tolerance=1e-2):
     mesh = f"spacing = {spacing}, depth_spacing = {spacing}, growth = 1.0, order = 1"
     return f"""
 name = "Melts"
@@ -94,7 +94,7 @@ class Result:
         return depth, self.front(axes[0], self.temperature[:, 0, -1])
 
 
-def run_impinge(spacing, stop=STOP, tolerance=1e-3):
+def run_impinge(spacing, stop=STOP, tolerance=1e-2):
     """Nodes along the axes of the quarter, and the result at the end."""
     with TemporaryDirectory() as folder:
         folder = Path(folder)

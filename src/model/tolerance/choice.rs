@@ -18,6 +18,9 @@ pub type Levels = [i32; 2];
 const MOST_NODES: f64 = 1e5;
 /// The same where stresses are solved for: in sections, and in boxes.
 const MOST_NODES_OF_STRESS: [f64; 2] = [3e4, 1.2e4];
+/// Nodes of meshes for stress that are taken without a trial, at most, and levels beyond the last trial.
+const MOST_NODES_UNTRIED: f64 = 4e4;
+const BEYOND: i32 = 4;
 /// Finest level.
 const FINEST: i32 = 10;
 /// Coarsest level of which what a finer mesh errs by is told.
@@ -79,15 +82,21 @@ pub fn choose(scene: &Scene, name: &str) -> Choice {
     }
     let (mut levels, mut error) = search(&mut trials, start, open, tolerance);
     if scene.gives_mechanics(name)
-        && matches!(solid.shape, Shape::Disc(_))
         && let Some(twin) = Twin::of(scene, name, Physics::Deformation)
     {
         let mut trials = Trials::new(&twin, Physics::Deformation);
         let of_stress;
         (levels, of_stress) = search(&mut trials, levels, open, tolerance);
-        error = error.zip(of_stress).map(|(a, b)| a.max(b));
-    } else if scene.gives_mechanics(name) {
-        error = None;
+        // Beyond meshes that are tried, errors fall as those of second order: by a half with each level.
+        let (mut left, mut beyond) = (of_stress.unwrap_or(0.0), 0);
+        while left > tolerance && beyond < BEYOND {
+            let next = [0, 1].map(|way| levels[way] + i32::from(open[way]));
+            if trials.nodes(next) > MOST_NODES_UNTRIED {
+                break;
+            }
+            (levels, left, beyond) = (next, 0.5 * left, beyond + 1);
+        }
+        error = error.zip(of_stress.map(|_| left)).map(|(a, b)| a.max(b));
     }
     Choice { factors: factors(levels), error }
 }

@@ -6,6 +6,7 @@ use super::choice::{COARSEST_TRIED, Levels, Trials, factors, open, search};
 use super::estimate::{Estimate, OutputError};
 use super::resolve;
 use super::twin::{Physics, Twin};
+use crate::body::forecast;
 use crate::scene::{HeatMethod, MeshFactors, Scene};
 
 /// What the outputs of a body err by on its mesh.
@@ -105,20 +106,44 @@ fn of_physics(twin: &Twin, physics: Physics, found: &mut BodyEstimate) {
 }
 
 /// Numbers of elements along the surface and through the thickness over those of the mesh of a body that would keep the
-/// tolerance of a scene.
-pub fn finer_mesh(scene: &Scene, estimate: &BodyEstimate) -> [f64; 2] {
+/// tolerance of a scene, as far as it is near enough to be told.
+pub fn finer_mesh(scene: &Scene, estimate: &BodyEstimate) -> Option<[f64; 2]> {
     let tolerance = scene.fidelity.tolerance;
+    if let Some(twin) = Twin::of(scene, &estimate.body, Physics::Heat) {
+        let mut trials = Trials::new(&twin, Physics::Heat);
+        let is_watched = |one: &OutputError| trials.watched.iter().any(|own| own.name == one.name);
+        let is_thermal = estimate.outputs.iter().all(is_watched);
+        let start: Levels = [0; 2];
+        if is_thermal
+            && let (levels, Some(error)) = search(&mut trials, start, [true; 2], tolerance)
+            && error <= tolerance
+        {
+            return Some(factors(levels));
+        }
+    }
     // As errors of second order fall.
     let by_order = [0, 1].map(|way| (estimate.worst_of(way) / (0.5 * tolerance)).sqrt().max(1.0));
-    let Some(twin) = Twin::of(scene, &estimate.body, Physics::Heat) else { return by_order };
-    let mut trials = Trials::new(&twin, Physics::Heat);
-    let is_thermal =
-        estimate.outputs.iter().all(|one| trials.watched.iter().any(|own| own.name == one.name));
-    let start: Levels = [0; 2];
-    match search(&mut trials, start, [true; 2], tolerance) {
-        (levels, Some(error)) if is_thermal && error <= tolerance => factors(levels),
-        _ => by_order,
-    }
+    (by_order[0].max(by_order[1]) <= FARTHEST).then_some(by_order)
+}
+
+/// Numbers of elements over those of a mesh beyond which nothing is told of it by the order alone.
+const FARTHEST: f64 = 8.0;
+
+/// Growth of elements where a scene gives distances of nodes alone.
+const GROWTH: f64 = 1.2;
+
+/// Least distances of nodes along the surface and through the thickness of a mesh of so many times as many elements [m].
+fn finest(scene: &Scene, name: &str, factors: [f64; 2]) -> [f64; 2] {
+    let mut finer = scene.clone();
+    let own = finer.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
+    let [along, through] = [0, 1].map(|way| own[way] * factors[way]);
+    let mesh = MeshFactors { along, through, estimated_error: None };
+    finer.refinement.insert(name.to_owned(), mesh);
+    let bodies = forecast(&finer).bodies;
+    let body = bodies.iter().find(|body| body.name == name);
+    let spacing = body.map_or([[0.0; 2]; 3], |body| body.spacing);
+    let lateral = spacing[..2].iter().filter(|[_, most]| *most > 0.0);
+    [lateral.map(|[least, _]| *least).fold(f64::INFINITY, f64::min), spacing[2][0]]
 }
 
 /// Warns of bodies whose mesh does not keep the tolerance of a scene, with the spacing that would.
@@ -133,21 +158,23 @@ pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
             "{name}: outputs err by about {:.0e} of their range ({}), more than the tolerance of {tolerance:e}",
             worst, output.name
         );
-        let [along, through] = finer_mesh(scene, estimate);
-        let finer = |spacing: Option<f64>, factor: f64, key: &str| {
-            let spacing = spacing.filter(|_| factor > 1.0)?;
-            Some(format!("`mesh.{key}` of {:.2e} m", spacing / factor))
-        };
         let keys = &solid.mesh;
-        let depth = keys.depth_spacing.or(keys.spacing.filter(|_| through > along));
-        let asked = [finer(keys.spacing, along, "spacing"), finer(depth, through, "depth_spacing")];
-        let asked: Vec<String> = asked.into_iter().flatten().collect();
-        Some(match open(solid) == [true; 2] || asked.is_empty() {
-            true => format!(
-                "{over}; a finer mesh takes more than is tried (`[refinement.{name}]` sets one)"
-            ),
-            false => format!("{over}; a {} would keep it", asked.join(" and a ")),
-        })
+        if open(solid) == [true; 2] {
+            let more = "what is finer takes more than is tried";
+            return Some(format!("{over}; {more}: `[refinement.{name}]` sets how fine it is"));
+        }
+        let Some([along, through]) = finer_mesh(scene, estimate) else {
+            return Some(format!(
+                "{over}, and by far: without `mesh.spacing` and `mesh.depth_spacing` the mesh follows from the tolerance"
+            ));
+        };
+        let [spacing, depth] = finest(scene, name, [along, through]);
+        let growth = keys.growth.unwrap_or(GROWTH);
+        let growth = 1.0 + (growth - 1.0) / along.max(through);
+        Some(format!(
+            "{over}; about `mesh.spacing = {spacing:.1e}`, `mesh.depth_spacing = {depth:.1e}`, `mesh.growth = {growth:.3}` \
+             would keep it"
+        ))
     };
     estimates.iter().filter_map(warning).collect()
 }

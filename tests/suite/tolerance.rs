@@ -1,0 +1,169 @@
+//! Meshes follow from the tolerance, and what outputs err by is told.
+
+#[path = "../common/random_scenes.rs"]
+#[allow(dead_code)]
+mod random_scenes;
+
+use crate::common::{Trial, off};
+use impinge::closed_form::{Conductor, UniformFlux};
+use impinge::fmi::guid::guid;
+use impinge::model::tolerance::{estimates, packed_text, warnings};
+use impinge::model::{Model, forecast};
+use impinge::scene::{Scene, parse};
+use impinge::variables::Registry;
+use random_scenes::{outcome, random_scene};
+
+/// Material constants from mercury to aerogel: ρ [kg/m³], c [J/(kg K)], k [W/(m K)].
+const MATERIALS: [[f64; 3]; 6] = [
+    [13534.0, 140.0, 8.5],
+    [8960.0, 385.0, 398.0],
+    [3950.0, 900.0, 30.0],
+    [6000.0, 450.0, 2.5],
+    [1180.0, 1450.0, 0.19],
+    [10.0, 1000.0, 0.015],
+];
+
+fn plate(shape: &str, [density, heat, conductivity]: [f64; 3], rest: &str) -> String {
+    format!(
+        "name = \"Plate\"\nstop_time = 1.0\nstep = 0.05\n[body.plate]\nkind = \"solid\"\nshape = {{ {shape} }}\nmaterial = \
+         {{ model = \"thermoelastic\", density = {density:?}, specific_heat = {heat:?}, conductivity = {conductivity:?}, \
+         young = 1e11, poisson = 0.3, expansion = 1e-5 }}\ninitial_temperature = 300.0\n{rest}"
+    )
+}
+
+fn probe(gives: &str) -> String {
+    format!("[[probe]]\nname = \"p\"\nin = \"plate\"\nat = [0.0, 0.0, 0.0]\ngives = [{gives}]\n")
+}
+
+fn scene(text: &str) -> Scene {
+    parse(text, "scene").unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+#[test]
+fn random_scenes_keep_their_tolerance() {
+    for seed in [0, 3, 5, 8, 12, 15, 23] {
+        let drawn = random_scene(seed, false);
+        for tolerance in [1e-1, 1e-2] {
+            let found = outcome(&drawn, tolerance).unwrap();
+            assert!(found.estimated <= tolerance, "{}", drawn.words);
+            assert!(found.found <= tolerance, "{}: {:e}", drawn.words, found.found);
+        }
+    }
+}
+
+#[test]
+fn a_half_space_keeps_the_tolerance_that_is_asked_for_by_the_closed_form() {
+    for material in MATERIALS {
+        let [density, heat, conductivity] = material;
+        let body = Conductor { conductivity, heat_capacity: density * heat };
+        // Deep enough for nothing to reach the bottom.
+        let thickness = 12.0 * (conductivity / (density * heat)).sqrt();
+        let exact = UniformFlux { body, flux: 1e3 };
+        for tolerance in [1e-1, 1e-2, 1e-3] {
+            let faces = "[body.plate.faces]\ntop = { flux = 1e3 }\n";
+            let shape = format!("box = [1.0, 1.0, {thickness:e}]");
+            let fidelity = format!("[fidelity]\ntolerance = {tolerance:e}\n");
+            let rest = format!("{faces}{}{fidelity}", probe("\"temperature\""));
+            let mut trial = Trial::new(&plate(&shape, material, &rest));
+            let range = exact.rise(0.0, 1.0);
+            for step in 1..=20 {
+                trial.step(0.05);
+                let rise = trial.get("p.temperature") - 300.0;
+                let error = (rise - exact.rise(0.0, 0.05 * f64::from(step))).abs() / range;
+                assert!(error <= tolerance, "{material:?} {tolerance:e}: {error:e}");
+            }
+            assert!(trial.heat_residual("plate") < 1e-9);
+            let told = trial.get("plate.estimated_error");
+            assert!(told > 0.0 && told <= tolerance, "{told:e}");
+        }
+    }
+}
+
+#[test]
+fn a_column_is_one_element_along_the_surface_and_exact() {
+    let sides = "bottom = { temperature = 350.0, roller = true }\nsides = { roller = true }\n";
+    for shape in ["box = [2e-3, 1e-3, 1e-3]", "disc = { radius = 1e-3, thickness = 1e-3 }"] {
+        let text = |mesh: &str| {
+            let faces = format!("{mesh}[body.plate.faces]\ntop = {{ flux = 1e5 }}\n{sides}");
+            let fixed = "[refinement.plate]\nalong = 1.0\nthrough = 1.0\n";
+            let probes = probe("\"temperature\", \"stress\", \"displacement\"");
+            plate(shape, MATERIALS[2], &format!("{faces}{probes}{fixed}"))
+        };
+        let column = scene(&text(""));
+        let nodes = forecast(&column).bodies[0].nodes;
+        assert_eq!([nodes[0], nodes[1].min(3)], [3, nodes[1].min(3)], "{nodes:?}");
+        let depth = forecast(&column).bodies[0].spacing[2][0];
+        let own = format!("mesh = {{ spacing = 2e-4, depth_spacing = {depth:e}, growth = 1.4 }}\n");
+        let (mut column, mut whole) = (Trial::of(column), Trial::new(&text(&own)));
+        let mut fine = Trial::new(&text("").replace("through = 1.0", "through = 4.0"));
+        for _ in 0..5 {
+            [&mut column, &mut whole, &mut fine].into_iter().for_each(|trial| trial.step(0.02));
+            for name in ["p.temperature", "p.stress_xx", "p.displacement_z"] {
+                let [one, all, fine] = [&mut column, &mut whole, &mut fine].map(|t| t.get(name));
+                assert!(
+                    off(one, all) < 1e-3 && off(one, fine) < 1e-3,
+                    "{name}: {one} {all} {fine}"
+                );
+            }
+            // Held along the surface, it bears −EαΔT/(1 − ν).
+            let rise = column.get("p.temperature") - 300.0;
+            let wanted = -1e11 * 1e-5 * rise / 0.7;
+            assert!(off(column.get("p.stress_xx"), wanted) < 1e-6);
+        }
+        assert!(column.heat_residual("plate") < 1e-9);
+    }
+}
+
+#[test]
+fn a_mesh_too_coarse_is_warned_of_with_one_that_keeps_the_tolerance() {
+    let load = "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = { gaussian = { radius = 1e-3 } }\n\
+                carries = [\"heat_flux\"]\nstart = { heat_flux = 1e6 }\n";
+    let text = |mesh: &str| {
+        let probes = probe("\"temperature\"");
+        let disc = "disc = { radius = 1e-2, thickness = 5e-3 }";
+        plate(disc, MATERIALS[3], &format!("mesh = {{ {mesh} }}\n{load}{probes}"))
+    };
+    let told = |mesh: &str| {
+        let (scene, estimates) = estimates(&scene(&text(mesh)));
+        (warnings(&scene, &estimates), estimates[0].worst().unwrap())
+    };
+    let (warned, error) = told("spacing = 2e-3");
+    assert!(warned.len() == 1 && error > 0.1, "{warned:?} {error}");
+    // With the keys that it names it is as good as asked for, but for rounding of these numbers.
+    let keys: Vec<&str> = warned[0].split('`').skip(1).step_by(2).collect();
+    let keys: Vec<&str> = keys.iter().filter_map(|key| key.strip_prefix("mesh.")).collect();
+    assert!(!keys.is_empty(), "{warned:?}");
+    let (_, error) = told(&keys.join(", "));
+    assert!(error < 1.5e-2, "{keys:?}: {error}");
+    let (warned, error) = told("");
+    assert!(warned.is_empty() && error <= 1e-2, "{warned:?} {error}");
+}
+
+#[test]
+fn a_packed_scene_neither_chooses_nor_estimates_anew() {
+    let text = random_scene(8, false).text;
+    let scene = scene(&text);
+    let (known, estimates) = estimates(&scene);
+    let packed = packed_text(&scene, &text, &known);
+    let again = parse(&packed, "scene").unwrap();
+    assert_eq!(again.refinement["plate"].factors(), known.refinement["plate"].factors());
+    let error = estimates[0].worst().unwrap();
+    let mut trial = Trial::of(again.clone());
+    assert!(off(trial.get("plate.estimated_error"), error) < 1e-12);
+    let registry = Registry::of(&scene);
+    assert_eq!(guid(&text, &registry), guid(&packed, &registry));
+    let nodes = |scene: &Scene| Model::build(scene, 1).unwrap().initial_state().bodies[0].len();
+    assert_eq!(nodes(&scene), nodes(&again));
+}
+
+#[test]
+fn particles_have_no_estimate_and_say_so() {
+    let text = plate(
+        "box = [1e-3, 1e-3, 1e-3]",
+        MATERIALS[1],
+        "heat = \"sph\"\nmesh = { spacing = 1e-4, growth = 1.0 }\n[body.plate.faces]\ntop = { flux = 1e3 }\n",
+    );
+    let (known, found) = estimates(&scene(&text));
+    assert!(found[0].worst().is_none() && !found[0].notes.is_empty(), "{found:?}");
+    assert_eq!(Trial::of(known).get("plate.estimated_error"), -1.0);
+}
