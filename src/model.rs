@@ -105,8 +105,12 @@ impl Model {
     fn build_here(scene: &Scene, threads: usize, readings: Readings) -> Result<Self, ModelError> {
         let layout = InputLayout::of(scene);
         let start = initial_inputs(scene);
-        let Assembly { bodies, links, joints } =
-            crate::body::build(scene, (&layout, &start), [threads, threads_that_fit(scene)], readings)?;
+        let Assembly { bodies, links, joints } = crate::body::build(
+            scene,
+            (&layout, &start),
+            [threads, threads_that_fit(scene)],
+            readings,
+        )?;
         let pairs: Vec<_> =
             joints.iter().map(|joint| joint.sides.each_ref().map(|side| side.body)).collect();
         let schedule = Group::all(bodies.len(), &links, &pairs);

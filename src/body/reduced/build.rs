@@ -40,7 +40,7 @@ impl<'a> Full<'a> {
         threads: usize,
     ) -> Result<Self, BodyError> {
         let plan = plan(scene, name, solid);
-        let fem = SolidFem::new(&plan, threads)?;
+        let fem = SolidFem::new(&plan, threads);
         let meshes = [heat_mesh(&plan), fem.mesh().clone()];
         let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan);
         let column = |drive: &Drive| {
