@@ -526,5 +526,7 @@ fn what_cannot_be_printed_ends_without_a_panic() {
         shell(&format!("run {bed} --until 2 --out {folder} {doubted} 2>/dev/full")).succeeds();
     }
     let piped = shell("check scene.toml | true; echo done").succeeds();
-    assert_eq!((piped.stdout().as_str(), piped.stderr().as_str()), ("done\n", ""));
+    let said = piped.stderr();
+    let mut others = said.lines().filter(|line| !line.contains("outputs err by about"));
+    assert_eq!((piped.stdout().as_str(), others.next()), ("done\n", None));
 }
