@@ -159,7 +159,9 @@ fn check_says_what_will_be_modelled() {
 fn check_and_run_warn_of_what_is_hardly_meant() {
     let place = Workplace::new();
     let clean = place.call(&["check", "scene.toml"]).succeeds().stderr();
-    assert!(!clean.contains("warning"), "{clean}");
+    // Its mesh is coarse, and that is all.
+    assert_eq!(clean.lines().count(), 1, "{clean}");
+    assert!(clean.starts_with("warning: plate: outputs err by about "), "{clean}");
     let celsius = SCENE.replacen("293.15", "20.0", 1);
     fs::write(place.path("scene.toml"), celsius).unwrap();
     for arguments in [["check", "scene.toml"], ["run", "scene.toml"]] {
@@ -182,7 +184,7 @@ fn inputs_are_judged_like_the_scenes_constants() {
                   mean 293.15 (20 °C)?";
     assert!(said.contains(wanted), "{said}");
     assert!(run("spot.pressure=1e12").contains("a pressure or shear is plausible"));
-    assert!(!run("plate.bottom.temperature=300").contains("warning"));
+    assert!(!run("plate.bottom.temperature=300").contains("plausible"));
 }
 
 #[test]
@@ -524,5 +526,7 @@ fn what_cannot_be_printed_ends_without_a_panic() {
         shell(&format!("run {bed} --until 2 --out {folder} {doubted} 2>/dev/full")).succeeds();
     }
     let piped = shell("check scene.toml | true; echo done").succeeds();
-    assert_eq!((piped.stdout().as_str(), piped.stderr().as_str()), ("done\n", ""));
+    let said = piped.stderr();
+    let mut others = said.lines().filter(|line| !line.contains("outputs err by about"));
+    assert_eq!((piped.stdout().as_str(), others.next()), ("done\n", None));
 }

@@ -143,7 +143,9 @@ impl<'a> Fineness<'a> {
         let mut notes = Vec::new();
         if self.keys().spacing.is_none() && !self.refinements.is_empty() {
             notes.push(format!(
-                "mesh spacing chosen: {lateral:.3e} m along the surface (a tenth of the finest load)"
+                "mesh spacing chosen: {:.3e} m along the surface (a tenth of the finest load, over {:.2})",
+                lateral / self.factors[0],
+                self.factors[0]
             ));
         }
         let half = lateral_extents(&self.solid.shape).into_iter().fold(0.0_f64, f64::max) / 2.0;
@@ -164,7 +166,9 @@ impl<'a> Fineness<'a> {
                 format!("a fifth of the {reach:.3e} m that heat goes in {shortest:.3e} s")
             };
             notes.push(format!(
-                "mesh spacing chosen: {layer:.3e} m below the faces that heat passes ({why})"
+                "mesh spacing chosen: {:.3e} m below the faces that heat passes ({why}; over {:.2})",
+                layer / self.factors[1],
+                self.factors[1]
             ));
         }
         notes
