@@ -177,7 +177,7 @@ mod tests {
 
     fn integral_of(points: &[f64], values: &[f64], wanted: Wanted) -> f64 {
         let none =
-            Truncated { rates: Vec::new(), inputs: vec![Vec::new()], outputs: vec![Vec::new()] };
+            Truncated { poles: Vec::new(), inputs: vec![Vec::new()], outputs: vec![Vec::new()] };
         integrals(points, &[vec![values]], &none, wanted)[0][0]
     }
 
