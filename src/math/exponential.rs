@@ -38,10 +38,54 @@ pub fn weights(z: f64) -> [f64; COUNT] {
     [decay, first, second, third, (1.0 / 6.0 - third) / z]
 }
 
+/// `φ₀ … φ₃` of `−z` for complex `z` with a real part that is not negative, real and imaginary parts each.
+pub fn complex_weights(z: [f64; 2]) -> [[f64; 2]; 4] {
+    let times = |a: [f64; 2], b: [f64; 2]| [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]];
+    let from = |value: f64, a: [f64; 2]| [value - a[0], -a[1]];
+    if z[0].hypot(z[1]) < 1.0 {
+        let mut series = [1.0, 0.0];
+        for j in (4..22).rev() {
+            series = from(1.0, times(z, series).map(|part| part / f64::from(j)));
+        }
+        let third = series.map(|part| part / 6.0);
+        let second = from(0.5, times(z, third));
+        let first = from(1.0, times(z, second));
+        return [from(1.0, times(z, first)), first, second, third];
+    }
+    let square = z[0] * z[0] + z[1] * z[1];
+    let inverse = [z[0] / square, -z[1] / square];
+    let size = (-z[0]).exp();
+    let decay = [size * z[1].cos(), -size * z[1].sin()];
+    let first = times(from(1.0, decay), inverse);
+    let second = times(from(1.0, first), inverse);
+    [decay, first, second, times(from(0.5, second), inverse)]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::math::gauss::gauss_on;
+
+    #[test]
+    fn complex_weights_are_their_integrals() {
+        for z in [[0.0, 0.3], [0.6, 0.7999], [0.6, 0.8001], [1e-3, 5.0], [12.0, 3.0]] {
+            let found = complex_weights(z);
+            let mut factorial = 1.0;
+            for (k, value) in found.into_iter().enumerate().skip(1) {
+                factorial *= (k.max(2) - 1) as f64;
+                let part = |imaginary: bool| -> f64 {
+                    let at = |t: f64| {
+                        let angle = -z[1] * (1.0 - t);
+                        let turn = if imaginary { angle.sin() } else { angle.cos() };
+                        (-z[0] * (1.0 - t)).exp() * turn * t.powi(k as i32 - 1) / factorial
+                    };
+                    gauss_on(24, 0.0, 1.0).map(|(t, w)| w * at(t)).sum()
+                };
+                let off = (value[0] - part(false)).hypot(value[1] - part(true));
+                assert!(off < 1e-14, "φ{k}({z:?}): {off:e}");
+            }
+        }
+    }
 
     #[test]
     fn weights_are_their_integrals() {

@@ -26,7 +26,7 @@ pub enum Place {
 }
 
 /// Inputs times outputs times the fewer of both, at most: work of the reduction.
-const MOST_WORK: usize = 120_000;
+const MOST_WORK: usize = 20_000;
 /// Points whose stresses and displacements are given, at most: each of their components takes a solution.
 const MOST_MECHANICAL: usize = 100;
 
@@ -153,7 +153,8 @@ impl Scene {
 }
 
 /// Footprints along the range of a load along x, y and the radius, enough for one that is as smooth as what heat makes of
-/// it: for each of its radii of the range about two.
+/// it: for each of its radii of the range about four, as a Gaussian of 1/e² radius R is a polynomial of degree 4 L/R over a
+/// range L to 1e-5.
 pub fn footprints_along(load: &Load) -> [usize; 3] {
     let own = load.footprint.radius().unwrap_or(0.0);
     let least = load.range.radius.map_or(load.start.radius.unwrap_or(own), |[low, _]| low);
@@ -173,6 +174,6 @@ pub fn footprints_along(load: &Load) -> [usize; 3] {
 /// How many footprints stand for one that moves: at least, for each of its radii that the range is long, for each e-fold
 /// of the radius, at most.
 const FIRST_FOOTPRINTS: f64 = 3.0;
-const FOOTPRINTS: f64 = 2.0;
+const FOOTPRINTS: f64 = 4.0;
 const OF_RADIUS: f64 = 5.0;
 const MOST_FOOTPRINTS: usize = 64;

@@ -7,20 +7,15 @@
 //! 1981, doi 10.1109/TAC.1981.1102568; A. J. Laub, M. T. Heath, C. C. Paige and R. C. Ward 1987, doi
 //! 10.1109/TAC.1987.1104549).
 //!
-//! Such systems are stable, and where their poles are real they become diagonal again. With several inputs and outputs some
-//! orders have pairs of complex poles. There the system is projected on the space that left and right vectors of half the
-//! order span together: symmetric as `M` is, its poles are real and positive whatever the space, and so are those of
-//! every order for which it is asked.
+//! Such systems are stable. Their poles are real or, with several inputs and outputs, some of them pairs.
 
-use faer::Mat;
+use faer::linalg::solvers::Solve;
+use faer::{Mat, c64};
 
-use crate::math::eigenvectors::eigenvectors;
 use crate::math::singular_values::{SingularValues, singular_values};
 
 /// Part of a Gramian that its low-rank factor leaves out.
 const LEFT_OUT: f64 = 1e-26;
-/// Singular values below this part of the largest tell that vectors depend on each other.
-const DEPENDENT: f64 = 1e-11;
 
 /// Why there is no reduced system.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -42,18 +37,18 @@ pub struct Balanced {
     shifted: Mat<f64>,
     entering: Mat<f64>,
     leaving: Mat<f64>,
-    rates: Vec<f64>,
-    factor: Vec<Vec<f64>>,
-    /// Of each output and input.
-    residues: Vec<Vec<Vec<f64>>>,
 }
 
-/// A diagonal system: rates [1/s], `B` by inputs, `C` by outputs.
+/// A complex number.
+pub type Complex = [f64; 2];
+
+/// A diagonal system that answers `Σ Re(c b e^{−ν t})`: poles ν [1/s], of each pair the one with the positive imaginary
+/// part, `B` by inputs, `C` by outputs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Truncated {
-    pub rates: Vec<f64>,
-    pub inputs: Vec<Vec<f64>>,
-    pub outputs: Vec<Vec<f64>>,
+    pub poles: Vec<Complex>,
+    pub inputs: Vec<Vec<Complex>>,
+    pub outputs: Vec<Vec<Complex>>,
 }
 
 impl Balanced {
@@ -90,21 +85,7 @@ impl Balanced {
         }
         let SingularValues { left, values: singular, right } =
             singular_values(&hankel).ok_or(ReductionError::Decomposition)?;
-        let own = |row: &Vec<&[f64]>| row.iter().map(|values| values.to_vec()).collect();
-        Ok(Self {
-            inputs,
-            outputs,
-            rank,
-            singular,
-            left,
-            right,
-            shifted,
-            entering,
-            leaving,
-            rates: rates.to_vec(),
-            factor,
-            residues: residues.iter().map(own).collect(),
-        })
+        Ok(Self { inputs, outputs, rank, singular, left, right, shifted, entering, leaving })
     }
 
     /// Highest order that singular values above rounding allow.
@@ -113,13 +94,15 @@ impl Balanced {
         self.singular.iter().filter(|&&value| value > 1e-13 * largest).count()
     }
 
-    /// The system of an order at most, by whatever way makes its poles real.
-    pub fn truncated(&self, order: usize) -> Truncated {
-        self.two_sided(order).unwrap_or_else(|| self.projected(order.div_ceil(2)))
-    }
-
-    /// The system of an order; nothing where its poles are not all real and stable.
-    fn two_sided(&self, order: usize) -> Option<Truncated> {
+    /// The system of an order; nothing where rounding makes it unstable.
+    pub fn truncated(&self, order: usize) -> Option<Truncated> {
+        if order == 0 {
+            return Some(Truncated {
+                poles: Vec::new(),
+                inputs: vec![Vec::new(); self.inputs],
+                outputs: vec![Vec::new(); self.outputs],
+            });
+        }
         let root = |i: usize| self.singular[i].sqrt();
         let left =
             Mat::from_fn(self.outputs * self.rank, order, |i, r| self.left[(i, r)] / root(r));
@@ -128,108 +111,37 @@ impl Balanced {
         let matrix = left.transpose() * (&self.shifted * &right);
         let entering = left.transpose() * &self.entering;
         let leaving = &self.leaving * &right;
-        if order == 0 {
-            return Some(Truncated::none(self.inputs, self.outputs));
-        }
         let modes = matrix.eigen().ok()?;
         let values = modes.S().column_vector();
-        let is_fine =
-            |i: usize| values[i].re > 0.0 && values[i].im == 0.0 && values[i].re.is_finite();
-        if !(0..order).all(is_fine) {
+        if !(0..order).all(|i| values[i].re > 0.0 && values[i].re.is_finite()) {
             return None;
         }
-        let vectors = Mat::from_fn(order, order, |i, k| modes.U()[(i, k)].re);
-        let inverse = faer::linalg::solvers::Solve::solve(
-            &vectors.full_piv_lu(),
-            Mat::<f64>::identity(order, order),
-        );
-        let (entering, leaving) = (inverse * entering, leaving * vectors);
-        let all = entering.col_iter().chain(leaving.col_iter());
-        if !all.flat_map(|column| column.iter().copied()).all(f64::is_finite) {
-            return None;
-        }
-        let mut places: Vec<usize> = (0..order).collect();
+        let complex = |real: &Mat<f64>| {
+            Mat::from_fn(real.nrows(), real.ncols(), |i, j| c64::new(real[(i, j)], 0.0))
+        };
+        let vectors = modes.U().to_owned();
+        let entering = Solve::solve(&vectors.full_piv_lu(), complex(&entering));
+        let leaving = complex(&leaving) * vectors;
+        let mut places: Vec<usize> = (0..order).filter(|&i| values[i].im >= 0.0).collect();
         places.sort_by(|&a, &b| values[a].re.total_cmp(&values[b].re));
-        let of_input = |j: usize| places.iter().map(|&i| entering[(i, j)]).collect();
-        let of_output = |k: usize| places.iter().map(|&i| leaving[(k, i)]).collect();
-        Some(Truncated {
-            rates: places.iter().map(|&i| values[i].re).collect(),
+        // What is real is so to the bit; the other of a pair adds the same real part.
+        let pick = |i: usize, value: c64, factor: f64| match values[i].im > 0.0 {
+            true => [factor * value.re, factor * value.im],
+            false => [value.re, 0.0],
+        };
+        let of_input =
+            |j: usize| places.iter().map(|&i| pick(i, entering[(i, j)], 1.0)).collect::<Vec<_>>();
+        let of_output =
+            |k: usize| places.iter().map(|&i| pick(i, leaving[(k, i)], 2.0)).collect::<Vec<_>>();
+        let found = Truncated {
+            poles: places.iter().map(|&i| [values[i].re, values[i].im]).collect(),
             inputs: (0..self.inputs).map(of_input).collect(),
             outputs: (0..self.outputs).map(of_output).collect(),
-        })
-    }
-
-    /// The system on the space that left and right vectors of an order span together.
-    fn projected(&self, order: usize) -> Truncated {
-        let points = self.rates.len();
-        let along = |vectors: &Mat<f64>, block: usize, r: usize| -> Vec<f64> {
-            let mut sum = vec![0.0; points];
-            for (a, column) in self.factor.iter().enumerate() {
-                let weight = vectors[(block * self.rank + a, r)];
-                sum.iter_mut().zip(column).for_each(|(sum, l)| *sum += weight * l);
-            }
-            sum
         };
-        let mut span = Mat::zeros(points * self.inputs, 2 * order);
-        for r in 0..order {
-            for j in 0..self.inputs {
-                for (q, value) in along(&self.right, j, r).into_iter().enumerate() {
-                    span[(j * points + q, 2 * r)] = value;
-                }
-            }
-            for k in 0..self.outputs {
-                for (q, value) in along(&self.left, k, r).into_iter().enumerate() {
-                    for j in 0..self.inputs {
-                        span[(j * points + q, 2 * r + 1)] += self.residues[k][j][q] * value;
-                    }
-                }
-            }
-        }
-        for r in 0..2 * order {
-            let length = span.col(r).iter().map(|value| value * value).sum::<f64>().sqrt();
-            if length > 0.0 {
-                span.col_mut(r).iter_mut().for_each(|value| *value /= length);
-            }
-        }
-        let Some(SingularValues { left, values, .. }) = singular_values(&span) else {
-            return Truncated::none(self.inputs, self.outputs);
-        };
-        let count = values.iter().filter(|&&value| value > DEPENDENT * values[0]).count();
-        let place = |i: usize| self.rates[i % points];
-        let matrix = Mat::from_fn(count, count, |a, b| {
-            (0..points * self.inputs).map(|i| left[(i, a)] * place(i) * left[(i, b)]).sum()
-        });
-        let turn = eigenvectors(&matrix);
-        let basis = left.subcols(0, count) * &turn;
-        let rate = |r: usize| {
-            (0..points * self.inputs).map(|i| place(i) * basis[(i, r)].powi(2)).sum::<f64>()
-        };
-        let input = |j: usize, r: usize| (0..points).map(|q| basis[(j * points + q, r)]).sum();
-        let output = |k: usize, r: usize| {
-            let of_input = |(j, values): (usize, &Vec<f64>)| {
-                let parts = values.iter().enumerate();
-                parts.map(|(q, value)| value * basis[(j * points + q, r)]).sum::<f64>()
-            };
-            self.residues[k].iter().enumerate().map(of_input).sum()
-        };
-        Truncated {
-            rates: (0..count).map(rate).collect(),
-            inputs: (0..self.inputs).map(|j| (0..count).map(|r| input(j, r)).collect()).collect(),
-            outputs: (0..self.outputs)
-                .map(|k| (0..count).map(|r| output(k, r)).collect())
-                .collect(),
-        }
-    }
-}
-
-impl Truncated {
-    /// Of no order.
-    fn none(inputs: usize, outputs: usize) -> Self {
-        Self {
-            rates: Vec::new(),
-            inputs: vec![Vec::new(); inputs],
-            outputs: vec![Vec::new(); outputs],
-        }
+        let all = found.inputs.iter().chain(&found.outputs).flatten().flatten();
+        let unknowns: usize =
+            found.poles.iter().map(|pole| if pole[1] > 0.0 { 2 } else { 1 }).sum();
+        (unknowns == order && all.copied().all(f64::is_finite)).then_some(found)
     }
 }
 
@@ -278,10 +190,10 @@ mod tests {
         }
         let balanced = Balanced::new(&rates, &[vec![&values]]).unwrap();
         assert!(balanced.singular[3] < 1e-12 * balanced.singular[0]);
-        let found = balanced.two_sided(3).unwrap();
+        let found = balanced.truncated(3).unwrap();
         for (i, at) in [3, 11, 20].into_iter().enumerate() {
-            assert!((found.rates[i] / rates[at] - 1.0).abs() < 1e-9);
-            let residue = found.inputs[0][i] * found.outputs[0][i];
+            assert!((found.poles[i][0] / rates[at] - 1.0).abs() < 1e-9);
+            let residue = found.inputs[0][i][0] * found.outputs[0][i][0];
             assert!((residue / values[at] - 1.0).abs() < 1e-8, "{residue} {}", values[at]);
         }
     }
@@ -293,12 +205,12 @@ mod tests {
         let values: Vec<f64> = rates.iter().map(|rate| rate.powf(0.4)).collect();
         let balanced = Balanced::new(&rates, &[vec![&values]]).unwrap();
         for order in [2, 5, 9] {
-            let system = balanced.truncated(order);
+            let system = balanced.truncated(order).unwrap();
             let rest = 2.0 * balanced.singular[order..].iter().sum::<f64>();
             for s in [0.0, 0.3, 10.0, 1e4] {
                 let full: f64 = values.iter().zip(&rates).map(|(r, mu)| r / (s + mu)).sum();
-                let parts = system.inputs[0].iter().zip(&system.outputs[0]).zip(&system.rates);
-                let reduced: f64 = parts.map(|((b, c), mu)| b * c / (s + mu)).sum();
+                let parts = system.inputs[0].iter().zip(&system.outputs[0]).zip(&system.poles);
+                let reduced: f64 = parts.map(|((b, c), pole)| b[0] * c[0] / (s + pole[0])).sum();
                 assert!((full - reduced).abs() <= rest * (1.0 + 1e-9), "{order} {s}");
             }
         }

@@ -7,7 +7,7 @@
 //! `D⁶ e^{−x} = (x⁶ − 15x⁵ + 65x⁴ − 90x³ + 31x² − x) e^{−x}`, `x = αt`. What is before the first cell and behind the last
 //! one is bounded in closed form. No point of time is left out.
 
-use super::balanced::Truncated;
+use super::balanced::{Complex, Truncated};
 
 /// Half the length of a cell along ln t.
 const HALF: f64 = 0.025;
@@ -26,11 +26,12 @@ pub enum Wanted {
     Estimate,
 }
 
-/// Differences of all outputs' answers to all inputs, over the same rates.
-struct Differences {
+/// Differences of all outputs' answers to all inputs, over the same rates and poles.
+struct Differences<'a> {
     rates: Vec<f64>,
-    /// For each output and input, a weight for each rate.
-    weights: Vec<Vec<f64>>,
+    poles: &'a [Complex],
+    /// For each output and input, a weight for each rate, and one for each pole.
+    weights: Vec<(Vec<f64>, Vec<Complex>)>,
 }
 
 /// For each output and input `∫₀^∞ |h − ĥ| dt` of residues at points and a truncated system.
@@ -41,30 +42,48 @@ pub fn integrals(
     wanted: Wanted,
 ) -> Vec<Vec<f64>> {
     let inputs = truncated.inputs.len();
-    let weights = |(row, outputs): (&Vec<&[f64]>, &Vec<f64>)| {
-        let of_pair = |(values, inputs): (&&[f64], &Vec<f64>)| {
-            let own = inputs.iter().zip(outputs).map(|(b, c)| -b * c);
-            values.iter().copied().chain(own).collect::<Vec<f64>>()
+    let weights = |(row, outputs): (&Vec<&[f64]>, &Vec<Complex>)| {
+        let of_pair = |(values, inputs): (&&[f64], &Vec<Complex>)| {
+            let own = inputs.iter().zip(outputs).map(|(b, c)| times(*b, *c).map(|part| -part));
+            (values.to_vec(), own.collect::<Vec<Complex>>())
         };
         row.iter().zip(&truncated.inputs).map(of_pair).collect::<Vec<_>>()
     };
     let all = residues.iter().zip(&truncated.outputs).flat_map(weights);
-    let rates = points.iter().chain(&truncated.rates).copied().collect();
-    let found = Differences { rates, weights: all.collect() }.integrals(wanted);
+    let differences =
+        Differences { rates: points.to_vec(), poles: &truncated.poles, weights: all.collect() };
+    let found = differences.integrals(wanted);
     found.chunks(inputs.max(1)).map(<[f64]>::to_vec).collect()
 }
 
 /// Estimate of `∫₀^∞ |h| dt` of one answer.
 pub fn integral(points: &[f64], values: &[f64]) -> f64 {
-    let all = Differences { rates: points.to_vec(), weights: vec![values.to_vec()] };
+    let all = Differences {
+        rates: points.to_vec(),
+        poles: &[],
+        weights: vec![(values.to_vec(), Vec::new())],
+    };
     all.integrals(Wanted::Estimate)[0]
 }
 
-impl Differences {
+fn times(a: Complex, b: Complex) -> Complex {
+    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
+}
+
+fn size(a: &Complex) -> f64 {
+    a[0].hypot(a[1])
+}
+
+/// Of an exponential `D^k e^{−x} δ^k/k!` for k = 0 … 5, and the remainder.
+type Terms = ([Complex; ORDER], f64);
+
+impl Differences<'_> {
     fn integrals(&self, wanted: Wanted) -> Vec<f64> {
-        let least = self.rates.iter().copied().fold(f64::INFINITY, f64::min);
-        let most = self.rates.iter().copied().fold(0.0, f64::max);
-        if self.rates.is_empty() {
+        let slowest = self.rates.iter().copied().chain(self.poles.iter().map(|pole| pole[0]));
+        let fastest = self.rates.iter().copied().chain(self.poles.iter().map(size));
+        let least = slowest.fold(f64::INFINITY, f64::min);
+        let most = fastest.fold(0.0, f64::max);
+        if most == 0.0 {
             return vec![0.0; self.weights.len()];
         }
         let (begin, end) = (BEGIN / most, END / least);
@@ -73,70 +92,83 @@ impl Differences {
         for cell in 0..cells as usize {
             let middle = begin * ((2.0 * cell as f64 + 1.0) * HALF).exp();
             let length = 2.0 * middle * HALF.sinh();
-            let terms = self.terms(middle, wanted);
+            let live = self.rates.iter().enumerate().filter(|(_, rate)| *rate * middle < 600.0);
+            let real: Vec<(usize, Terms)> =
+                live.map(|(i, rate)| (i, derivatives([rate * middle, 0.0], wanted))).collect();
+            let of_pole = |pole: &Complex| derivatives(pole.map(|part| part * middle), wanted);
+            let complex: Vec<Terms> = self.poles.iter().map(of_pole).collect();
             for (sum, weights) in sums.iter_mut().zip(&self.weights) {
-                *sum += length * bound(&terms, weights);
+                *sum += length * bound(&real, &complex, weights);
             }
         }
         sums
     }
 
     /// Before the first cell, where exponents are small, and behind the last one.
-    fn ends(&self, weights: &[f64], begin: f64, end: f64) -> f64 {
-        let value: f64 = weights.iter().sum();
-        let parts = weights.iter().zip(&self.rates);
+    fn ends(&self, (real, complex): &(Vec<f64>, Vec<Complex>), begin: f64, end: f64) -> f64 {
+        let value = real.iter().sum::<f64>() + complex.iter().map(|weight| weight[0]).sum::<f64>();
         let (mut change, mut tail) = (0.0, 0.0);
-        for (weight, rate) in parts {
-            change += weight.abs() * (rate * begin + ROUNDING);
-            tail += weight.abs() / rate * (-rate * end).exp();
-        }
+        let mut add = |weight: f64, [least, most]: [f64; 2]| {
+            change += weight * (most * begin + ROUNDING);
+            tail += weight / least * (-least * end).exp();
+        };
+        real.iter().zip(&self.rates).for_each(|(weight, rate)| add(weight.abs(), [*rate; 2]));
+        let poles = complex.iter().zip(self.poles);
+        poles.for_each(|(weight, pole)| add(size(weight), [pole[0], size(pole)]));
         begin * (value.abs() + change) + tail
-    }
-
-    /// Of each rate that has not died out `D^k e^{−x} δ^k/k!` for k = 0 … 5, and the remainder.
-    fn terms(&self, t: f64, wanted: Wanted) -> Vec<(usize, [f64; ORDER + 1])> {
-        let live = self.rates.iter().enumerate().filter(|(_, rate)| *rate * t < 600.0);
-        live.map(|(i, rate)| (i, derivatives(rate * t, wanted))).collect()
     }
 }
 
-fn derivatives(x: f64, wanted: Wanted) -> [f64; ORDER + 1] {
-    let decay = (-x).exp();
-    let mut out = [0.0; ORDER + 1];
+fn derivatives(x: Complex, wanted: Wanted) -> Terms {
+    let decay = (-x[0]).exp();
+    let decay = [decay * x[1].cos(), -decay * x[1].sin()];
+    let mut out = [[0.0; 2]; ORDER];
     out[0] = decay;
     if wanted == Wanted::Estimate {
-        return out;
+        return (out, 0.0);
     }
-    let powers = [
-        -x,
-        x * (x - 1.0),
-        x * (-1.0 + x * (3.0 - x)),
-        x * (-1.0 + x * (7.0 + x * (-6.0 + x))),
-        x * (-1.0 + x * (15.0 + x * (-25.0 + x * (10.0 - x)))),
+    // `D^k e^{−x}` over `e^{−x}`, by their coefficients from x on.
+    const POLYNOMIALS: [&[f64]; 5] = [
+        &[-1.0],
+        &[-1.0, 1.0],
+        &[-1.0, 3.0, -1.0],
+        &[-1.0, 7.0, -6.0, 1.0],
+        &[-1.0, 15.0, -25.0, 10.0, -1.0],
     ];
     let mut scale = 1.0;
-    for (k, polynomial) in powers.into_iter().enumerate() {
+    for (k, coefficients) in POLYNOMIALS.into_iter().enumerate() {
         scale *= HALF / (k + 1) as f64;
-        out[k + 1] = scale * polynomial * decay;
+        let mut sum = [0.0; 2];
+        for coefficient in coefficients.iter().rev() {
+            sum = times(sum, x);
+            sum[0] += coefficient;
+        }
+        out[k + 1] = times(times(sum, x), decay).map(|part| scale * part);
     }
     // The highest that any x of the cell may make of it.
-    let y = x * HALF.exp();
+    let y = size(&x) * HALF.exp();
     let sixth = y * (1.0 + y * (31.0 + y * (90.0 + y * (65.0 + y * (15.0 + y)))));
-    out[ORDER] = scale * HALF / 6.0 * sixth * (-x * (-HALF).exp()).exp() + ROUNDING * decay;
-    out
+    let rest = scale * HALF / 6.0 * sixth * (-x[0] * (-HALF).exp()).exp();
+    (out, rest + ROUNDING * size(&decay))
 }
 
 /// Bound of |f| over a cell.
-fn bound(terms: &[(usize, [f64; ORDER + 1])], weights: &[f64]) -> f64 {
-    let mut sums = [0.0; ORDER + 1];
-    for (i, term) in terms {
-        let weight = weights[*i];
-        for (sum, value) in sums[..ORDER].iter_mut().zip(term) {
-            *sum += weight * value;
-        }
-        sums[ORDER] += weight.abs() * term[ORDER];
+fn bound(
+    real: &[(usize, Terms)],
+    complex: &[Terms],
+    (of_rates, of_poles): &(Vec<f64>, Vec<Complex>),
+) -> f64 {
+    let (mut sums, mut rest) = ([0.0; ORDER], 0.0);
+    for (i, (terms, remainder)) in real {
+        let weight = of_rates[*i];
+        sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += weight * term[0]);
+        rest += weight.abs() * remainder;
     }
-    sums.iter().map(|sum| sum.abs()).sum()
+    for (weight, (terms, remainder)) in of_poles.iter().zip(complex) {
+        sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += times(*weight, *term)[0]);
+        rest += size(weight) * remainder;
+    }
+    rest + sums.iter().map(|sum| sum.abs()).sum::<f64>()
 }
 
 #[cfg(test)]
@@ -145,7 +177,7 @@ mod tests {
 
     fn integral_of(points: &[f64], values: &[f64], wanted: Wanted) -> f64 {
         let none =
-            Truncated { rates: Vec::new(), inputs: vec![Vec::new()], outputs: vec![Vec::new()] };
+            Truncated { poles: Vec::new(), inputs: vec![Vec::new()], outputs: vec![Vec::new()] };
         integrals(points, &[vec![values]], &none, wanted)[0][0]
     }
 
@@ -164,9 +196,10 @@ mod tests {
             let found = integral_of(&[rate], &[2.0], Wanted::Bound) * rate / 2.0;
             assert!((1.0..1.06).contains(&found), "{found}");
         }
-        // What cancels leaves next to nothing.
+        // What cancels leaves the remainders alone: δ⁶/6! ∫ (x⁶ + 15x⁵ + …) e^{−x} dx = 1.6e-9 of each integral, a third more
+        // for the cell's width.
         let found = integral_of(&[1.0, 1.0], &[1e3, -1e3], Wanted::Bound);
-        assert!(found < 3e-6, "{found:e}");
+        assert!(found < 2.2e-9 * 2e3, "{found:e}");
     }
 
     #[test]

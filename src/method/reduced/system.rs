@@ -1,4 +1,5 @@
 //! A reduced system: a few scalar equations `ẋ_r = −ν_r x_r + Σ_j b_rj u_j`, outputs `y_k = Σ_r c_kr x_r + Σ_j d_kj u_j`.
+//! Where ν is one of a pair of complex poles, x is complex: its real and imaginary parts stand one after the other.
 
 use super::balanced::{Balanced, ReductionError, Truncated};
 use super::certificate::{Wanted, integrals};
@@ -10,8 +11,10 @@ use crate::math::exponential;
 pub struct ReducedSystem {
     pub inputs: usize,
     pub outputs: usize,
-    /// ν [1/s]; the first is that of the slowest mode, which is exact.
+    /// Real part of ν of each unknown [1/s]; the first is that of the slowest mode, which is exact.
     pub rates: Vec<f64>,
+    /// Imaginary part: zero, or that of both unknowns of a pair.
+    pub turns: Vec<f64>,
     /// `b`, for each rate a number for each input.
     pub entering: Vec<f64>,
     /// `c`, for each output a number for each rate.
@@ -71,7 +74,7 @@ impl ReducedSystem {
             scaled.iter().map(|row| row.iter().map(Vec::as_slice).collect()).collect();
         let balanced = Balanced::new(&clumped.points, &rows)?;
         let most = balanced.most();
-        let fits = |truncated: &Truncated, wanted: Wanted| {
+        let excess_of = |truncated: &Truncated, wanted: Wanted| {
             let found = integrals(&clumped.points, &rows, truncated, wanted);
             let parts = found.iter().zip(residues.iter().zip(&allowed).zip(&scale.0));
             let excess = parts.map(|(found, ((residues, allowed), output))| {
@@ -81,24 +84,29 @@ impl ReducedSystem {
                 })
                 .fold(0.0, f64::max)
             });
-            excess.fold(0.0, f64::max) <= 1.0
+            excess.fold(0.0, f64::max)
         };
         let singular = |order: usize| balanced.singular.get(order).copied().unwrap_or(0.0);
         let hopeless = 2.0 * ((rows.len() * scale.1.len()) as f64).sqrt();
-        let mut best = None;
+        let mut best: Option<(f64, Truncated)> = None;
         for order in 0..=most {
             // Errors of all pairs together are no less than this.
             if singular(order) > hopeless && order < most {
                 continue;
             }
-            let truncated = balanced.truncated(order);
-            let done = fits(&truncated, Wanted::Estimate) && fits(&truncated, Wanted::Bound);
-            best = Some(truncated);
-            if done {
+            let Some(truncated) = balanced.truncated(order) else { continue };
+            let mut excess = excess_of(&truncated, Wanted::Estimate);
+            if excess <= 1.0 {
+                excess = excess_of(&truncated, Wanted::Bound);
+            }
+            if best.as_ref().is_none_or(|(least, _)| excess < *least) {
+                best = Some((excess, truncated));
+            }
+            if excess <= 1.0 {
                 break;
             }
         }
-        let truncated = best.ok_or(ReductionError::Decomposition)?;
+        let (_, truncated) = best.ok_or(ReductionError::Decomposition)?;
         let found = integrals(&clumped.points, &rows, &truncated, Wanted::Bound);
         Ok(request.system(&truncated, &scale, &found, &ranges))
     }
@@ -110,23 +118,53 @@ impl ReducedSystem {
     /// Advances `x` by `dt` [s] under inputs that are polynomials in time: their values at the beginning, then their
     /// derivatives.
     pub fn advance(&self, x: &mut [f64], inputs: &[&[f64]], dt: f64) {
-        for (i, (value, rate)) in x.iter_mut().zip(&self.rates).enumerate() {
-            let weights = exponential::weights(rate * dt);
-            let row = &self.entering[i * self.inputs..][..self.inputs];
-            let mut end = weights[0] * *value;
-            let mut power = dt;
+        let mut i = 0;
+        while i < self.order() {
+            let nu = [self.rates[i], self.turns[i]];
+            if nu[1] == 0.0 {
+                let weights = exponential::weights(nu[0] * dt);
+                let (mut end, mut power) = (weights[0] * x[i], dt);
+                for (k, input) in inputs.iter().enumerate() {
+                    end += weights[k + 1] * power * self.driven(i, input);
+                    power *= dt;
+                }
+                x[i] = end;
+                i += 1;
+                continue;
+            }
+            let weights = exponential::complex_weights(nu.map(|part| part * dt));
+            let (mut end, mut power) = (times(weights[0], [x[i], x[i + 1]]), dt);
             for (k, input) in inputs.iter().enumerate() {
-                end += weights[k + 1] * power * dot(row, input);
+                let source = [self.driven(i, input), self.driven(i + 1, input)];
+                let part = times(weights[k + 1], source);
+                end = [end[0] + power * part[0], end[1] + power * part[1]];
                 power *= dt;
             }
-            *value = end;
+            x[i..i + 2].copy_from_slice(&end);
+            i += 2;
         }
+    }
+
+    /// What inputs drive an unknown with.
+    fn driven(&self, unknown: usize, inputs: &[f64]) -> f64 {
+        dot(&self.entering[unknown * self.inputs..][..self.inputs], inputs)
     }
 
     /// `ẋ` under inputs.
     pub fn rates_of(&self, x: &[f64], inputs: &[f64]) -> Vec<f64> {
-        let row = |i: usize| dot(&self.entering[i * self.inputs..][..self.inputs], inputs);
-        x.iter().zip(&self.rates).enumerate().map(|(i, (x, rate))| row(i) - rate * x).collect()
+        let mut out: Vec<f64> =
+            (0..self.order()).map(|i| self.driven(i, inputs) - self.rates[i] * x[i]).collect();
+        let mut i = 0;
+        while i < self.order() {
+            if self.turns[i] == 0.0 {
+                i += 1;
+                continue;
+            }
+            out[i] += self.turns[i] * x[i + 1];
+            out[i + 1] -= self.turns[i] * x[i];
+            i += 2;
+        }
+        out
     }
 
     /// An output.
@@ -146,22 +184,38 @@ impl ReducedSystem {
 
     /// How large inputs that never exceeded these sizes can make each unknown.
     pub fn reach(&self, sizes: &[f64]) -> Vec<f64> {
-        let of = |(i, rate): (usize, &f64)| {
+        let driven = |i: usize| {
             let row = &self.entering[i * self.inputs..][..self.inputs];
-            let driven: f64 = row.iter().zip(sizes).map(|(b, size)| (b * size).abs()).sum();
-            match driven {
-                0.0 => 0.0,
-                _ if *rate > 0.0 => driven / rate,
-                _ => f64::INFINITY,
-            }
+            row.iter().zip(sizes).map(|(b, size)| (b * size).abs()).sum::<f64>()
         };
-        self.rates.iter().enumerate().map(of).collect()
+        let mut out = Vec::with_capacity(self.order());
+        while out.len() < self.order() {
+            let i = out.len();
+            let is_pair = self.turns[i] != 0.0;
+            let all = if is_pair { driven(i) + driven(i + 1) } else { driven(i) };
+            let bound = match all {
+                0.0 => 0.0,
+                _ if self.rates[i] > 0.0 => all / self.rates[i],
+                _ => f64::INFINITY,
+            };
+            out.resize(i + if is_pair { 2 } else { 1 }, bound);
+        }
+        out
     }
 
     /// What an output may err by if inputs never exceeded these sizes.
     pub fn bound(&self, sizes: &[f64], place: usize) -> f64 {
         dot(&self.bounds[place * self.inputs..][..self.inputs], sizes)
     }
+}
+
+/// Unknowns of a pole.
+fn parts_of(turn: f64) -> usize {
+    if turn == 0.0 { 1 } else { 2 }
+}
+
+fn times(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
+    [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
 }
 
 /// In the order of their places, so that it is the same to the bit wherever it is made.
@@ -220,20 +274,29 @@ impl Request<'_> {
         ranges: &Ranges,
     ) -> ReducedSystem {
         let slow = self.clumped.slow_inputs();
-        let rates = std::iter::once(self.clumped.slow_rate()).chain(truncated.rates.clone());
         let mut system = ReducedSystem {
             inputs: inputs.len(),
             outputs: outputs.len(),
-            rates: rates.collect(),
+            rates: vec![self.clumped.slow_rate()],
+            turns: vec![0.0],
             ..ReducedSystem::default()
         };
         system.entering.extend(&slow);
-        for r in 0..truncated.rates.len() {
-            system.entering.extend(truncated.inputs.iter().zip(inputs).map(|(b, s)| b[r] / s));
+        for (r, &[rate, turn]) in truncated.poles.iter().enumerate() {
+            for part in 0..parts_of(turn) {
+                system.rates.push(rate);
+                system.turns.push(turn);
+                let entering = truncated.inputs.iter().zip(inputs);
+                system.entering.extend(entering.map(|(b, s)| b[r][part] / s));
+            }
         }
         for (k, output) in outputs.iter().enumerate() {
             system.leaving.push(self.slow[k]);
-            system.leaving.extend(truncated.outputs[k].iter().map(|c| c / output));
+            for (r, pole) in truncated.poles.iter().enumerate() {
+                let [real, imaginary] = truncated.outputs[k][r];
+                let parts = [real, -imaginary];
+                system.leaving.extend(parts[..parts_of(pole[1])].iter().map(|c| c / output));
+            }
             system.direct.extend(&self.direct[k]);
             system.ranges.extend(&ranges.single[k]);
             let pairs = found[k].iter().zip(&self.residues[k].error).zip(inputs);
