@@ -244,8 +244,8 @@ mod tests {
             let force = |pull: &Pull, a: usize| pull.by_fluid[a] + pull.by_wall[a];
             let largest = all.iter().flat_map(|pull| [force(pull, 0), force(pull, 2)]);
             let largest = largest.map(f64::abs).fold(0.0, f64::max);
-            for i in 0..cloud.len() {
-                assert_eq!(force(&all[i], 1), 0.0);
+            for (i, pull) in all.iter().enumerate() {
+                assert_eq!(force(pull, 1), 0.0);
                 for a in [0, 2] {
                     let moved = |step: f64| {
                         let mut cloud = cloud.clone();
@@ -253,7 +253,7 @@ mod tests {
                         pulls(&setting, &cloud).1
                     };
                     let slope = (moved(-STEP) - moved(STEP)) / (2.0 * STEP) / cloud.mass[i];
-                    let found = force(&all[i], a);
+                    let found = force(pull, a);
                     // Places on arcs move with their ends.
                     assert!(
                         (slope - found).abs() < 0.02 * largest,

@@ -139,9 +139,9 @@ impl<L: Lanes> Sums<L> {
         let square = closeness * closeness;
         let pull = slope * (L::constant(1.0) + L::constant(PAIRING) * square * square);
         let rise = slope * (theirs - here.fullness);
-        for a in 0..3 {
-            self.gradient[a] = self.gradient[a] + pull * d[a];
-            self.normal[a] = self.normal[a] + rise * d[a];
+        for ((gradient, normal), d) in self.gradient.iter_mut().zip(&mut self.normal).zip(d) {
+            *gradient = *gradient + pull * d;
+            *normal = *normal + rise * d;
         }
         let none = L::constant(0.0);
         self.surface = self.surface + theirs.choose_below(INSIDE, value, none);

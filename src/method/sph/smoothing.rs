@@ -72,8 +72,8 @@ impl<L: Lanes> FractionSum<L> {
         let q = length(d);
         let slope = volume * WendlandC2::slope_over_q(q);
         self.value = self.value + volume * WendlandC2::value(q);
-        for n in 0..3 {
-            self.gradient[n] = self.gradient[n] + slope * d[n];
+        for (sum, d) in self.gradient.iter_mut().zip(d) {
+            *sum = *sum + slope * d;
         }
     }
 }
