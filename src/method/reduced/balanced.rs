@@ -69,9 +69,9 @@ impl Balanced {
                     let sum: f64 = scaled.iter().sum();
                     entering[(k * rank + a, j)] = sum;
                     leaving[(k, j * rank + a)] = sum;
-                    for b in 0..=a {
+                    for (b, column) in factor[..=a].iter().enumerate() {
                         let (mut plain, mut weighted) = (0.0, 0.0);
-                        for ((l, s), mu) in factor[b].iter().zip(&scaled).zip(rates) {
+                        for ((l, s), mu) in column.iter().zip(&scaled).zip(rates) {
                             plain += l * s;
                             weighted += l * s * mu;
                         }
