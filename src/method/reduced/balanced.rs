@@ -63,14 +63,15 @@ impl Balanced {
         let mut leaving = Mat::zeros(outputs, inputs * rank);
         for (k, row) in residues.iter().enumerate() {
             for (j, values) in row.iter().enumerate() {
-                for (a, own) in factor.iter().enumerate() {
-                    let scaled: Vec<f64> = own.iter().zip(*values).map(|(l, r)| l * r).collect();
+                for a in 0..rank {
+                    let scaled: Vec<f64> =
+                        factor[a].iter().zip(*values).map(|(l, r)| l * r).collect();
                     let sum: f64 = scaled.iter().sum();
                     entering[(k * rank + a, j)] = sum;
                     leaving[(k, j * rank + a)] = sum;
-                    for (b, other) in factor[..=a].iter().enumerate() {
+                    for (b, column) in factor[..=a].iter().enumerate() {
                         let (mut plain, mut weighted) = (0.0, 0.0);
-                        for ((l, s), mu) in other.iter().zip(&scaled).zip(rates) {
+                        for ((l, s), mu) in column.iter().zip(&scaled).zip(rates) {
                             plain += l * s;
                             weighted += l * s * mu;
                         }
