@@ -349,12 +349,14 @@ impl Model {
 
     /// Warns of bodies whose outputs are known to err by more than the tolerance: a sentence each.
     pub fn tolerance_warnings(&self) -> Vec<String> {
-        let tolerance = self.scene.fidelity.tolerance;
+        let wanted = self.scene.fidelity.tolerance;
         let over = self.scene.refinement.iter().filter_map(|(name, mesh)| {
-            let error = mesh.estimated_error.filter(|&error| error > tolerance)?;
+            let error = mesh.estimated_error.filter(|&error| error > wanted)?;
             Some(format!(
-                "{name}: outputs err by about {error:.0e} of their ranges, more than the tolerance of {tolerance:e}; \
-                 `impinge check` names a mesh that would keep it"
+                "{name}: outputs err by about {} of their ranges, more than the tolerance of {}; `impinge check` tells \
+                 which, and what would keep it",
+                tolerance::percent(error),
+                tolerance::percent(wanted)
             ))
         });
         over.collect()

@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 pub use droplet::{
     Kept, WallQuantity, fine_radius, forget_unused_records, keep_record, notes_on_walls, records,
-    to_be_recorded, wall_quantities,
+    to_be_recorded, wall_quantities, warnings_on_landing,
 };
 pub use error::BodyError;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use clap::Args;
 use impinge::machine::available_memory;
 use impinge::model::tolerance::estimate::OutputError;
-use impinge::model::tolerance::{self, BodyEstimate};
+use impinge::model::tolerance::{self, BodyEstimate, percent};
 use impinge::model::{Model, ParticleForecast, Timeline, check_memory, forecast};
 use impinge::scene::{
     self, Coupling, Droplet, Face, Field, Load, MaterialChoice, Probe, Scene, Shape, Solid, Wall,
@@ -128,7 +128,7 @@ fn errors(estimates: &[BodyEstimate]) -> String {
         let mut outputs: Vec<_> = estimate.outputs.iter().collect();
         outputs.sort_by(|a, b| b.total().total_cmp(&a.total()));
         let row = |one: &&OutputError| {
-            [one.name.clone(), part(one.along), part(one.through), part(one.total())]
+            [one.name.clone(), percent(one.along), percent(one.through), percent(one.total())]
         };
         let rows: Vec<_> = outputs.iter().take(MOST_ERRORS).map(row).collect();
         if !rows.is_empty() {
@@ -143,11 +143,6 @@ fn errors(estimates: &[BodyEstimate]) -> String {
         }
     }
     text
-}
-
-/// A part of something.
-fn part(value: f64) -> String {
-    format!("{value:.1e}")
 }
 
 /// Orders and bounds of solids that are reduced, for which they are built.

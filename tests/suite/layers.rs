@@ -136,6 +136,7 @@ pub fn error_against_series(stack: Stack, back: Back, sudden: bool, mesh: &str) 
     let top = if sudden { "top = { temperature = 340.0 }" } else { "top = { flux = 1e5 }" };
     let bottom = if back == Back::Held { "bottom = { temperature = 300.0 }" } else { "" };
     let (text, list) = places(stack);
+    let text = format!("{text}\n[fidelity]\ntolerance = 1e-3\n");
     let times = [passage(stack), passage(stack) / f64::from(STEPS)];
     let faces = format!("{top}\n{bottom}");
     let scene = body(&disc(thickness(stack)), &layers(stack), times, mesh, &faces, &text);

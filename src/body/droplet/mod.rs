@@ -11,7 +11,7 @@ mod totals;
 mod wall;
 
 pub use forecast::DropletForecast;
-pub use notes::{notes, notes_on_walls};
+pub use notes::{notes, notes_on_walls, warnings_on_landing};
 pub use plan::{fine_radius, plan_of, refinements};
 pub use replay::{Kept, ReplayBody, forget_unused_records, keep_record, records, to_be_recorded};
 pub use wall::{WallQuantity, wall_quantities};

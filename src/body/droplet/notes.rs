@@ -1,7 +1,8 @@
 //! What a user should know of a droplet before it runs.
 
 use super::plan::fine_radius;
-use crate::scene::{Droplet, Governing, Scene, Wall};
+use super::replay;
+use crate::scene::{Coupling, Droplet, Governing, Scene, Wall};
 
 /// What was chosen or left out, and why: a sentence each.
 pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
@@ -58,6 +59,25 @@ pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
         note_on_held_wall(wall, droplet).filter(|_| droplet.fluid.conductivity > 0.0)
     };
     scene.wall.iter().filter_map(note).collect()
+}
+
+/// What drops may get wrong on the solids of a scene without anything else telling: a sentence each.
+pub fn warnings_on_landing(scene: &Scene) -> Vec<String> {
+    let warning = |coupling: &Coupling| {
+        let droplet = scene.droplet(&coupling.from)?;
+        let is_unknown = droplet.is_on_demand() && coupling.radius.is_none();
+        is_unknown.then(|| {
+            format!(
+                "{}: inputs may let drops fall anywhere on `{}`, whose mesh is fine out to {:.1e} m from its middle alone: \
+                 beyond, rises of temperature are too low by far; `radius` of the coupling sets how far it is fine",
+                coupling.from,
+                coupling.to,
+                fine_radius(coupling, droplet, scene.stop_time)
+            )
+        })
+    };
+    let landing = scene.coupling.iter().filter_map(warning);
+    landing.chain(replay::warnings(scene)).collect()
 }
 
 /// What drops that inputs release wait for, and what is said of them ahead.

@@ -40,8 +40,8 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
 fn note_on_mesh(mesh: &MeshFactors, is_own: bool, tolerance: f64) -> String {
     let error = match mesh.estimated_error {
         Some(error) => format!(
-            "outputs err by about {error:.0e} of their ranges over the default experiment at most, where {tolerance:e} is \
-             wanted"
+            "outputs err by about {:.1e} of their ranges over the default experiment at most, where {tolerance:e} is wanted",
+            error
         ),
         None => format!(
             "outputs are to err by {tolerance:e}; what they do is estimated when it is asked for"

@@ -6,7 +6,7 @@ use super::estimate::{Estimate, OutputError, differences};
 use super::experiment::experiments;
 use super::responses::{Responses, Watched, responses, watched};
 use super::twin::{Physics, Twin};
-use crate::body::forecast;
+use crate::body::{Reading, forecast};
 use crate::model::{ModelError, check_memory};
 use crate::scene::{HeatMethod, Scene, Shape, Solid, takes_newton};
 
@@ -23,6 +23,8 @@ const MOST_NODES_UNTRIED: f64 = 4e4;
 const BEYOND: i32 = 4;
 /// Finest level.
 const FINEST: i32 = 10;
+/// Levels beyond a mesh that does not get coarser, of the mesh that tells what it errs by: four times as many elements.
+const FINER: i32 = 4;
 /// Coarsest level of which what a finer mesh errs by is told.
 pub const COARSEST_TRIED: i32 = -8;
 /// Meshes tried after the first.
@@ -143,7 +145,9 @@ impl<'a> Trials<'a> {
             Physics::Heat => MOST_NODES,
             Physics::Deformation => MOST_NODES_OF_STRESS[usize::from(is_box)],
         };
-        let watched = watched(twin.scene(), is_mechanical);
+        let mut watched = watched(twin.scene(), is_mechanical);
+        let is_extreme = |one: &Watched| matches!(one.output.reading, Reading::Total(_));
+        watched.retain(|one| twin.reads_extremes || !is_extreme(one));
         let count = experiments(twin.scene()).len().max(1) as f64;
         Self { twin, watched, solved: BTreeMap::new(), most_nodes: most_nodes / count }
     }
@@ -165,6 +169,32 @@ impl<'a> Trials<'a> {
         bodies.iter().map(|body| body.unknowns[0] as f64).sum()
     }
 
+    /// Whether a mesh has so few elements that a coarser level is no coarser; columns are exact along the surface.
+    fn is_coarsest(&self, levels: Levels, coarser: Levels) -> bool {
+        self.nodes(levels) == self.nodes(coarser)
+    }
+
+    /// What outputs differ by from those on another mesh.
+    fn beside(&mut self, levels: Levels, other: Levels) -> Result<Vec<f64>, ModelError> {
+        self.solve(other)?;
+        Ok(differences(&self.solved[&levels], &self.solved[&other], &self.watched))
+    }
+
+    /// What outputs differ by from those on a finer mesh, which itself may be too coarse by far: what they differ by
+    /// from a mesh finer again says so.
+    fn beside_finer(&mut self, levels: Levels, finer: Levels) -> Result<Vec<f64>, ModelError> {
+        if self.nodes(levels) == self.nodes(finer) {
+            return Ok(vec![0.0; self.watched.len()]);
+        }
+        let finest = [0, 1].map(|way| 2 * finer[way] - levels[way]);
+        let mut errors = self.beside(levels, finer)?;
+        if !self.is_too_large(finest) {
+            let more = self.beside(levels, finest)?;
+            errors.iter_mut().zip(more).for_each(|(error, more)| *error = error.max(more));
+        }
+        Ok(errors)
+    }
+
     fn solve(&mut self, levels: Levels) -> Result<(), ModelError> {
         if !self.solved.contains_key(&levels) {
             let scene = self.twin.on_mesh(factors(levels));
@@ -175,17 +205,19 @@ impl<'a> Trials<'a> {
         Ok(())
     }
 
-    /// What outputs err by on a mesh, from what they differ by on coarser ones.
+    /// What outputs err by on a mesh, from what they differ by on coarser ones, or on finer ones where it is so coarse
+    /// that it does not get coarser.
     pub fn estimate(&mut self, levels: Levels) -> Result<Estimate, ModelError> {
         let [i, j] = levels;
-        for wanted in [levels, [i - 1, j], [i - 2, j], [i, j - 1], [i, j - 2]] {
-            self.solve(wanted)?;
-        }
-        let against = |coarse: Levels| {
-            differences(&self.solved[&levels], &self.solved[&coarse], &self.watched)
+        self.solve(levels)?;
+        let along = match self.is_coarsest(levels, [i - 2, j]) {
+            true => self.beside_finer(levels, [i + FINER, j])?,
+            false => joined(&self.beside(levels, [i - 1, j])?, &self.beside(levels, [i - 2, j])?),
         };
-        let along = joined(&against([i - 1, j]), &against([i - 2, j]));
-        let through = smooth(&against([i, j - 1]), &against([i, j - 2]));
+        let through = match self.is_coarsest(levels, [i, j - 2]) {
+            true => self.beside_finer(levels, [i, j + FINER])?,
+            false => smooth(&self.beside(levels, [i, j - 1])?, &self.beside(levels, [i, j - 2])?),
+        };
         let outputs = self.watched.iter().zip(along.into_iter().zip(through));
         let error = |(one, (along, through)): (&Watched, (f64, f64))| OutputError {
             name: one.name.clone(),

@@ -1,4 +1,4 @@
-//! What a body is tried with: its start values, and each input that these leave at rest.
+//! What a body is tried with: its start values, and each load and flux that these leave at rest.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::scene::Scene;
 const MOST: usize = 8;
 
 /// Inputs of the experiments with a scene of one body: first its start values, if anything happens under these, then
-/// one of every input that is at rest at the start.
+/// one of every input that is at rest at the start; temperatures of faces only where all is at rest.
 pub fn experiments(scene: &Scene) -> Vec<Vec<f64>> {
     let layout = InputLayout::of(scene);
     let start = initial_inputs(scene);
@@ -28,7 +28,9 @@ pub fn experiments(scene: &Scene) -> Vec<Vec<f64>> {
     for group in &groups {
         at_rest[group.range.clone()].fill(rest(group));
     }
-    for group in resting {
+    // Faces whose temperature rests are no question where something else acts.
+    let is_asked = |group: &&Group| !group.is_temperature || resting.len() == groups.len();
+    for group in resting.iter().copied().filter(is_asked) {
         let mut inputs = at_rest.clone();
         inputs[group.range.clone()].fill(rest(group) + 1.0);
         all.push(inputs);

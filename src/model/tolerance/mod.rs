@@ -18,7 +18,8 @@ use crate::math::shared_values::SharedValues;
 use crate::scene::{MeshFactors, Scene};
 use choice::{Choice, choose, is_chosen};
 pub use report::{
-    BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, warnings,
+    BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, percent,
+    warnings,
 };
 
 /// Meshes by scene and name of the body.

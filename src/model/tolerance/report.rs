@@ -6,7 +6,7 @@ use super::choice::{COARSEST_TRIED, Levels, Trials, factors, open, search};
 use super::estimate::{Estimate, OutputError};
 use super::resolve;
 use super::twin::{Physics, Twin};
-use crate::body::forecast;
+use crate::body::{forecast, warnings_on_landing};
 use crate::scene::{HeatMethod, MeshFactors, Scene};
 
 /// What the outputs of a body err by on its mesh.
@@ -54,6 +54,10 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
     let is_touched = |place: &str| place.rsplit_once('.').is_some_and(|(body, _)| body == name);
     if scene.coupling.iter().any(|coupling| is_touched(&coupling.from)) {
         found.notes.push("what other bodies bring is left out of the estimate".to_owned());
+    }
+    if scene.asks_mechanics(name) && Twin::of(scene, name, Physics::Deformation).is_none() {
+        let why = "no probe, field or running maximum gives them";
+        found.notes.push(format!("no estimate of stress and displacement: {why}"));
     }
     for physics in [Physics::Heat, Physics::Deformation] {
         let Some(twin) = Twin::of(scene, name, physics) else { continue };
@@ -146,7 +150,8 @@ fn finest(scene: &Scene, name: &str, factors: [f64; 2]) -> [f64; 2] {
     [lateral.map(|[least, _]| *least).fold(f64::INFINITY, f64::min), spacing[2][0]]
 }
 
-/// Warns of bodies whose mesh does not keep the tolerance of a scene, with the spacing that would.
+/// Warns of bodies whose mesh does not keep the tolerance of a scene, with the spacing that would, and of drops that may
+/// land where the mesh below is coarse or give what they should not.
 pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
     let tolerance = scene.fidelity.tolerance;
     let warning = |estimate: &BodyEstimate| {
@@ -155,13 +160,18 @@ pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
         let name = &estimate.body;
         let output = estimate.outputs.iter().max_by(|a, b| a.total().total_cmp(&b.total()))?;
         let over = format!(
-            "{name}: outputs err by about {:.0e} of their range ({}), more than the tolerance of {tolerance:e}",
-            worst, output.name
+            "{name}: {} errs by about {} of its range, more than the tolerance of {}",
+            output.name,
+            percent(worst),
+            percent(tolerance)
         );
         let keys = &solid.mesh;
         if open(solid) == [true; 2] {
-            let more = "what is finer takes more than is tried";
-            return Some(format!("{over}; {more}: `[refinement.{name}]` sets how fine it is"));
+            return Some(format!(
+                "{over}; finer meshes are not tried here: `[refinement.{name}]` with larger factors than these makes it finer: \
+                 {}",
+                factors_of(scene, name)
+            ));
         }
         let Some([along, through]) = finer_mesh(scene, estimate) else {
             return Some(format!(
@@ -176,7 +186,25 @@ pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
              would keep it"
         ))
     };
-    estimates.iter().filter_map(warning).collect()
+    estimates.iter().filter_map(warning).chain(warnings_on_landing(scene)).collect()
+}
+
+/// The factors of the mesh that a body has.
+fn factors_of(scene: &Scene, name: &str) -> String {
+    let [along, through] = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
+    format!("along = {along:.2}, through = {through:.2}")
+}
+
+/// A part of something as a percentage.
+pub fn percent(part: f64) -> String {
+    let value = 100.0 * part;
+    match value {
+        0.0 => "0 %".to_owned(),
+        _ if value < 0.01 => format!("{value:.0e} %"),
+        _ if value < 1.0 => format!("{value:.2} %"),
+        _ if value < 10.0 => format!("{value:.1} %"),
+        _ => format!("{value:.0} %"),
+    }
 }
 
 /// Begins what packing adds to the text of a scene, which the unit's GUID does not depend on.

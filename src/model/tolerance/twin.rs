@@ -3,8 +3,8 @@
 use crate::body::fine_radius;
 use crate::material::{Material, Properties, Property};
 use crate::scene::{
-    Body, Carries, CellValues, Coupling, Droplet, Footprint, Gives, Load, LoadRange, LoadStart,
-    MaterialChoice, MeshFactors, PeakOf, Role, Scene, Solid, takes_newton,
+    Body, Carries, CellValues, Coupling, Droplet, FidelityLevel, Footprint, Gives, Load, LoadRange,
+    LoadStart, MaterialChoice, MeshFactors, PeakOf, Role, Scene, Solid, takes_newton,
 };
 
 /// What of a body is estimated.
@@ -22,6 +22,9 @@ pub struct Twin {
     name: String,
     /// Numbers of elements of its own mesh over the usual ones.
     own: [f64; 2],
+    /// Whether extremes of the body count: those of stress, which may lie at edges where no mesh finds them, count where
+    /// running maxima ask for them.
+    pub reads_extremes: bool,
     /// What differs from the body itself.
     pub simplified: Vec<&'static str>,
 }
@@ -31,7 +34,9 @@ impl Twin {
     pub fn of(scene: &Scene, name: &str, physics: Physics) -> Option<Self> {
         let solid = scene.solid(name)?;
         let is_mechanical = physics == Physics::Deformation;
-        if is_mechanical && !scene.asks_mechanics(name) {
+        let reads = scene.gives_mechanics(name);
+        let has_stress_peaks = solid.has_stress_peaks();
+        if is_mechanical && !reads && !has_stress_peaks {
             return None;
         }
         let mut simplified = Vec::new();
@@ -57,6 +62,7 @@ impl Twin {
         twin.field.iter_mut().for_each(|field| field.gives = own(&field.gives));
         twin.field.retain(|field| !field.gives.is_empty());
         twin.solver.threads = 1;
+        twin.fidelity.level = FidelityLevel::Full;
         if takes_newton(scene, solid) {
             simplified.push("constants are those at the temperature at time zero, and nothing melts or radiates");
         }
@@ -69,13 +75,18 @@ impl Twin {
         twin.solver.method = Default::default();
         let Some(Body::Solid(solid)) = twin.body.get_mut(name) else { return None };
         linearise(solid);
-        // A body whose mechanics nobody reads is read by its highest stress.
-        let reads = scene.gives_mechanics(name);
         solid.peaks.clear();
         if is_mechanical && !reads {
             solid.peaks.push(PeakOf::VonMises);
         }
-        Some(Self { scene: twin, name: name.to_owned(), own: own_factors, simplified })
+        let reads_extremes = !is_mechanical || has_stress_peaks;
+        Some(Self {
+            scene: twin,
+            name: name.to_owned(),
+            own: own_factors,
+            reads_extremes,
+            simplified,
+        })
     }
 
     /// On a mesh of so many times as many elements as its own along the surface and through the thickness.
