@@ -22,7 +22,8 @@ pub fn engineering(value: f64, unit: &str) -> String {
             let shifted = shifted.parse().unwrap_or(value);
             format!("{shifted} {prefix}{unit}")
         }
-        _ if value == 0.0 || !value.is_finite() => format!("{value} {unit}"),
+        // Without the sign of a negative zero.
+        _ if value == 0.0 || !value.is_finite() => format!("{} {unit}", value + 0.0),
         _ => format!("{value:.4e} {unit}"),
     }
 }

@@ -1,8 +1,10 @@
 //! Singular value decompositions by one-sided rotations, on the thread that calls.
 //!
-//! Columns of `A` are turned against each other until all are orthogonal: then they are `σ u`, and the turns are `V` (M. R.
-//! Hestenes 1958, doi 10.1137/0106005). Small singular values of graded matrices keep their digits (J. Demmel and K.
-//! Veselić 1992, doi 10.1137/0613074), which methods that first make the matrix bidiagonal lose.
+//! `A P = Q R` with the longest column that is left first, then the columns of `Rᵀ`, as many as the rank, are turned
+//! against each other until all are orthogonal: they are `σ u` then, and the turns are `V` (M. R. Hestenes 1958, doi
+//! 10.1137/0106005; Z. Drmač and K. Veselić 2008, doi 10.1137/050639193). Small singular values of graded matrices keep
+//! their digits (J. Demmel and K. Veselić 1992, doi 10.1137/0613074), which methods that first make the matrix bidiagonal
+//! lose.
 
 use faer::Mat;
 
@@ -32,18 +34,12 @@ pub fn singular_values(matrix: &Mat<f64>) -> Option<SingularValues> {
     }
     let own: Vec<Vec<f64>> =
         (0..matrix.ncols()).map(|j| matrix.col(j).iter().copied().collect()).collect();
-    let lengths: Vec<f64> = own.iter().map(|column| length(column)).collect();
-    let longest = lengths.iter().copied().fold(0.0, f64::max);
-    if !lengths.iter().all(|length| length.is_finite()) {
-        return None;
-    }
-    let mut kept: Vec<usize> = (0..own.len()).filter(|&j| lengths[j] > SHORT * longest).collect();
-    // Long ones first: what is graded takes few sweeps then.
-    kept.sort_by(|&a, &b| lengths[b].total_cmp(&lengths[a]));
-    let mut columns: Vec<Vec<f64>> = kept.iter().map(|&j| own[j].clone()).collect();
-    let mut turns: Vec<Vec<f64>> = (0..kept.len())
-        .map(|j| (0..kept.len()).map(|i| if i == j { 1.0 } else { 0.0 }).collect())
+    let Orthogonal { basis, rows } = orthogonal(own)?;
+    let mut columns = rows;
+    let mut turns: Vec<Vec<f64>> = (0..columns.len())
+        .map(|j| (0..columns.len()).map(|i| if i == j { 1.0 } else { 0.0 }).collect())
         .collect();
+    let longest = columns.iter().map(|column| length(column)).fold(0.0, f64::max);
     for _ in 0..SWEEPS {
         if !sweep(&mut columns, &mut turns, SHORT * longest) {
             break;
@@ -52,15 +48,64 @@ pub fn singular_values(matrix: &Mat<f64>) -> Option<SingularValues> {
     let values: Vec<f64> = columns.iter().map(|column| length(column)).collect();
     let mut order: Vec<usize> = (0..values.len()).filter(|&j| values[j] > 0.0).collect();
     order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-    let left =
-        Mat::from_fn(matrix.nrows(), order.len(), |i, r| columns[order[r]][i] / values[order[r]]);
-    let mut right = Mat::zeros(matrix.ncols(), order.len());
+    let mut left = Mat::zeros(matrix.nrows(), order.len());
     for (r, &j) in order.iter().enumerate() {
-        for (i, &column) in kept.iter().enumerate() {
-            right[(column, r)] = turns[j][i];
+        for (column, turn) in basis.iter().zip(&turns[j]) {
+            left.col_mut(r).iter_mut().zip(column).for_each(|(out, q)| *out += turn * q);
         }
     }
+    let right =
+        Mat::from_fn(matrix.ncols(), order.len(), |i, r| columns[order[r]][i] / values[order[r]]);
     Some(SingularValues { left, values: order.iter().map(|&j| values[j]).collect(), right })
+}
+
+/// `A = Q R`: orthonormal columns of `Q`, and the rows of `R`, columns where those of `A` are.
+struct Orthogonal {
+    basis: Vec<Vec<f64>>,
+    rows: Vec<Vec<f64>>,
+}
+
+/// Orthogonalises columns, the longest that is left first, until all that are left are short; nothing where any holds no
+/// numbers.
+///
+/// What a column loses is taken twice, so that the basis is orthogonal to rounding (L. Giraud, J. Langou, M. Rozložník and
+/// J. van den Eshof 2005, doi 10.1007/s00211-005-0615-4).
+fn orthogonal(mut columns: Vec<Vec<f64>>) -> Option<Orthogonal> {
+    let mut lengths: Vec<f64> = columns.iter().map(|column| length(column)).collect();
+    if !lengths.iter().all(|length| length.is_finite()) {
+        return None;
+    }
+    let short = SHORT * lengths.iter().copied().fold(0.0, f64::max);
+    let (mut basis, mut rows): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
+    while let Some(longest) = (0..columns.len()).max_by(|&a, &b| lengths[a].total_cmp(&lengths[b]))
+    {
+        if lengths[longest] <= short || basis.len() == columns[longest].len() {
+            break;
+        }
+        let mut own = columns[longest].clone();
+        for column in &basis {
+            let part = dot(column, &own);
+            own.iter_mut().zip(column).for_each(|(own, q)| *own -= part * q);
+        }
+        let norm = length(&own);
+        if norm <= short {
+            lengths[longest] = 0.0;
+            continue;
+        }
+        own.iter_mut().for_each(|value| *value /= norm);
+        let mut row = vec![0.0; columns.len()];
+        for (j, column) in columns.iter_mut().enumerate() {
+            if lengths[j] == 0.0 {
+                continue;
+            }
+            row[j] = dot(&own, column);
+            column.iter_mut().zip(&own).for_each(|(value, q)| *value -= row[j] * q);
+            lengths[j] = if j == longest { 0.0 } else { length(column) };
+        }
+        basis.push(own);
+        rows.push(row);
+    }
+    Some(Orthogonal { basis, rows })
 }
 
 /// Turns all pairs once; whether any was not orthogonal.

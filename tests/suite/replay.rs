@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use crate::common::{Trial, off};
 use impinge::model::ModelError;
+use impinge::model::tolerance::warnings;
 use impinge::scene;
 
 const DIAMETER: f64 = 1e-4;
@@ -390,4 +391,33 @@ fn a_forecast_counts_what_is_recorded() {
     let quarter = record.droplets[0].particles as f64;
     assert!(quarter > 0.0 && quarter < 0.06 * particles.droplets[0].particles as f64);
     assert!(record.droplets[0].run_time > film.droplets[0].run_time);
+}
+
+/// What is said ahead of drops on a plate of a conductivity, with more keys of drop and coupling.
+fn warned(method: &str, conductivity: f64, drop_keys: &str, radius: &str) -> Vec<String> {
+    let text = format!("{}{}", drop(method, drop_keys), plate(300.0, ""))
+        .replace("conductivity = 10.0", &format!("conductivity = {conductivity:?}"))
+        .replace("radius = 1.5e-4", radius);
+    warnings(&scene::parse(&text, "scene").unwrap(), &[])
+}
+
+#[test]
+fn records_on_insulators_are_warned_of() {
+    // √(kρc) of the fluid is 1580 W √s/(m² K), of plates 1890 √k.
+    for (conductivity, is_doubtful) in [(10.0, false), (3.0, false), (2.5, true), (0.02, true)] {
+        let found = warned("record", conductivity, "", "radius = 1.5e-4");
+        assert_eq!(!found.is_empty(), is_doubtful, "{conductivity}: {found:?}");
+        assert!(warned("sph", conductivity, "", "radius = 1.5e-4").is_empty());
+    }
+    assert!(warned("record", 0.02, "", "radius = 1.5e-4")[0].contains("sph"));
+}
+
+#[test]
+fn drops_on_demand_are_warned_of_where_the_mesh_is_fine_around_the_middle_alone() {
+    for method in ["sph", "record"] {
+        let found = warned(method, 30.0, ON_DEMAND, "");
+        assert!(found.len() == 1 && found[0].contains("`radius`"), "{found:?}");
+        assert!(warned(method, 30.0, ON_DEMAND, "radius = 1.5e-4").is_empty());
+        assert!(warned(method, 30.0, "", "").is_empty());
+    }
 }

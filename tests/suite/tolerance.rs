@@ -5,7 +5,7 @@
 mod random_scenes;
 
 use crate::common::{Trial, off};
-use impinge::closed_form::{Conductor, UniformFlux};
+use impinge::closed_form::{Conductor, DiscFlux, UniformFlux};
 use impinge::fmi::guid::guid;
 use impinge::model::tolerance::{estimates, packed_text, warnings};
 use impinge::model::{Model, forecast};
@@ -166,4 +166,102 @@ fn particles_have_no_estimate_and_say_so() {
     let (known, found) = estimates(&scene(&text));
     assert!(found[0].worst().is_none() && !found[0].notes.is_empty(), "{found:?}");
     assert_eq!(Trial::of(known).get("plate.estimated_error"), -1.0);
+}
+
+/// Where a mesh is so coarse that no coarser one tells what it errs by, a finer one does.
+#[test]
+fn meshes_that_cannot_get_coarser_are_judged() {
+    // Mercury under a disc of flux; the thickness is all but one element.
+    let (radius, flux, stop) = (2e-4, 4.25e6, 1e-3);
+    for material in [MATERIALS[0], MATERIALS[2], MATERIALS[4]] {
+        let [density, heat, conductivity] = material;
+        let body = Conductor { conductivity, heat_capacity: density * heat };
+        let load = format!(
+            "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = {{ disc = {{ radius = {radius:e} }} }}\n\
+             carries = [\"heat_flux\"]\nstart = {{ heat_flux = {flux:e} }}\n"
+        );
+        let text = |depth: &str| {
+            let disc = "disc = { radius = 4e-3, thickness = 4e-3 }";
+            let mesh = format!("mesh = {{ {depth} }}\n");
+            plate(disc, material, &format!("{mesh}{load}{}", probe("\"temperature\"")))
+                .replace("stop_time = 1.0\nstep = 0.05", "stop_time = 1e-3\nstep = 1e-4")
+        };
+        let exact = DiscFlux { body, flux, radius }.rise_on_axis(0.0, stop);
+        for depth in ["depth_spacing = 6e-4", "depth_spacing = 1e-3"] {
+            let scene = scene(&text(depth));
+            let (_, found) = estimates(&scene);
+            let mut trial = Trial::of(scene);
+            (0..10).for_each(|_| trial.step(1e-4));
+            let error = (trial.get("p.temperature") - 300.0 - exact).abs() / exact;
+            let told = found[0].worst().unwrap();
+            assert!(error > 1e-2 && told > 0.5 * error, "{material:?} {depth}: {told} {error}");
+        }
+    }
+    // A column of one linear element.
+    for top in ["flux = 1e3", "temperature = 350.0"] {
+        let faces = format!("[body.plate.faces]\ntop = {{ {top} }}\n");
+        let mesh = "mesh = { depth_spacing = 1e-2, order = 1 }\n";
+        let probes = probe("\"temperature\"").replace("0.0]", "-5e-3]");
+        let shape = "box = [1e-2, 1e-2, 1e-2]";
+        let text = |mesh: &str| {
+            plate(shape, MATERIALS[4], &format!("{mesh}{faces}{probes}"))
+                .replace("stop_time = 1.0\nstep = 0.05", "stop_time = 100.0\nstep = 5.0")
+        };
+        let (_, found) = estimates(&scene(&text(mesh)));
+        let (mut coarse, mut fine) = (Trial::new(&text(mesh)), Trial::new(&text("")));
+        let (mut error, mut range) = (0.0_f64, 0.0_f64);
+        for _ in 0..20 {
+            [&mut coarse, &mut fine].into_iter().for_each(|trial| trial.step(5.0));
+            let [value, wanted] = [&mut coarse, &mut fine].map(|t| t.get("p.temperature"));
+            (error, range) = (error.max((value - wanted).abs()), range.max((wanted - 300.0).abs()));
+        }
+        let told = found[0].worst().unwrap();
+        assert!(told > 0.5 * (error / range).min(1.0), "{top}: {told} {error} {range}");
+    }
+}
+
+/// What a disc with a spot and a probe of temperature asks for, with more said of the plate, its probe and the scene.
+fn spotted(plate_says: &str, gives: &str, says: &str) -> Scene {
+    let load = "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = { gaussian = { radius = 1e-3 } }\n\
+                carries = [\"heat_flux\"]\nstart = { heat_flux = 1e6 }\n";
+    let disc = "disc = { radius = 1e-2, thickness = 5e-3 }";
+    scene(&plate(disc, MATERIALS[3], &format!("{plate_says}\n{load}{}{says}", probe(gives))))
+}
+
+#[test]
+fn reduced_solids_get_the_meshes_of_full_ones() {
+    let of = |level: &str| {
+        let says = format!("[fidelity]\nlevel = \"{level}\"\n");
+        estimates(&spotted("", "\"temperature\"", &says)).0.refinement["plate"]
+    };
+    assert_eq!(of("reduced"), of("full"));
+}
+
+/// A face that keeps its temperature is no experiment of its own where something else happens.
+#[test]
+fn ambients_at_rest_take_no_finer_mesh() {
+    let faces = |bottom: &str| format!("[body.plate.faces]\nbottom = {{ {bottom} }}\n");
+    let of = |bottom: &str| {
+        let known = estimates(&spotted(&faces(bottom), "\"temperature\"", "")).0;
+        known.refinement["plate"].factors()
+    };
+    assert_eq!(
+        of("convection = { coefficient = 1e4, ambient = 300.0 }"),
+        of("convection = { coefficient = 1e4, ambient = 300.0 }, role = \"parameter\"")
+    );
+}
+
+/// Extremes of stress may lie at edges where no mesh finds them: they count where running maxima ask for them.
+#[test]
+fn extremes_of_stress_count_where_they_are_asked_for() {
+    let names = |peaks: &str| {
+        let held = "[body.plate.faces]\nbottom = { clamped = true }\n";
+        let says = format!("{peaks}\n{held}");
+        let (_, found) = estimates(&spotted(&says, "\"temperature\", \"von_mises\"", ""));
+        found[0].outputs.iter().map(|one| one.name.clone()).collect::<Vec<_>>()
+    };
+    let has_extreme = |names: &[String]| names.iter().any(|name| name == "plate.max_von_mises");
+    assert!(!has_extreme(&names("")), "{:?}", names(""));
+    assert!(has_extreme(&names("peaks = [\"von_mises\"]")));
+    assert!(names("").iter().any(|name| name == "plate.max_temperature"));
 }

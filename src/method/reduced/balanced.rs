@@ -189,7 +189,7 @@ mod tests {
             values[at] = value;
         }
         let balanced = Balanced::new(&rates, &[vec![&values]]).unwrap();
-        assert!(balanced.singular[3] < 1e-12 * balanced.singular[0]);
+        assert!(balanced.singular[3..].iter().all(|value| *value < 1e-12 * balanced.singular[0]));
         let found = balanced.truncated(3).unwrap();
         for (i, at) in [3, 11, 20].into_iter().enumerate() {
             assert!((found.poles[i][0] / rates[at] - 1.0).abs() < 1e-9);

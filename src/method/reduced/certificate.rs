@@ -9,8 +9,9 @@
 
 use super::balanced::{Complex, Truncated};
 
-/// Half the length of a cell along ln t.
+/// Half the length of a cell along ln t, of a bound and of an estimate.
 const HALF: f64 = 0.025;
+const HALF_OF_ESTIMATE: f64 = 0.1;
 /// Where cells begin and end: over the fastest and the slowest rate.
 const BEGIN: f64 = 1e-6;
 const END: f64 = 45.0;
@@ -30,8 +31,22 @@ pub enum Wanted {
 struct Differences<'a> {
     rates: Vec<f64>,
     poles: &'a [Complex],
-    /// For each output and input, a weight for each rate, and one for each pole.
-    weights: Vec<(Vec<f64>, Vec<Complex>)>,
+    /// For each output and input.
+    weights: Vec<Weights>,
+}
+
+/// A weight for each rate, and one for each pole with its size.
+struct Weights {
+    of_rates: Vec<f64>,
+    of_poles: Vec<Complex>,
+    sizes: Vec<f64>,
+}
+
+impl Weights {
+    fn new(of_rates: Vec<f64>, of_poles: Vec<Complex>) -> Self {
+        let sizes = of_poles.iter().map(size).collect();
+        Self { of_rates, of_poles, sizes }
+    }
 }
 
 /// For each output and input `∫₀^∞ |h − ĥ| dt` of residues at points and a truncated system.
@@ -45,7 +60,7 @@ pub fn integrals(
     let weights = |(row, outputs): (&Vec<&[f64]>, &Vec<Complex>)| {
         let of_pair = |(values, inputs): (&&[f64], &Vec<Complex>)| {
             let own = inputs.iter().zip(outputs).map(|(b, c)| times(*b, *c).map(|part| -part));
-            (values.to_vec(), own.collect::<Vec<Complex>>())
+            Weights::new(values.to_vec(), own.collect())
         };
         row.iter().zip(&truncated.inputs).map(of_pair).collect::<Vec<_>>()
     };
@@ -61,7 +76,7 @@ pub fn integral(points: &[f64], values: &[f64]) -> f64 {
     let all = Differences {
         rates: points.to_vec(),
         poles: &[],
-        weights: vec![(values.to_vec(), Vec::new())],
+        weights: vec![Weights::new(values.to_vec(), Vec::new())],
     };
     all.integrals(Wanted::Estimate)[0]
 }
@@ -86,35 +101,37 @@ impl Differences<'_> {
         if most == 0.0 {
             return vec![0.0; self.weights.len()];
         }
+        let half = if wanted == Wanted::Estimate { HALF_OF_ESTIMATE } else { HALF };
         let (begin, end) = (BEGIN / most, END / least);
-        let cells = ((end / begin).ln() / (2.0 * HALF)).ceil();
+        let cells = ((end / begin).ln() / (2.0 * half)).ceil();
         let mut sums: Vec<f64> = self.weights.iter().map(|w| self.ends(w, begin, end)).collect();
         for cell in 0..cells as usize {
-            let middle = begin * ((2.0 * cell as f64 + 1.0) * HALF).exp();
-            let length = 2.0 * middle * HALF.sinh();
+            let middle = begin * ((2.0 * cell as f64 + 1.0) * half).exp();
+            let length = 2.0 * middle * half.sinh();
             let live = self.rates.iter().enumerate().filter(|(_, rate)| *rate * middle < 600.0);
             let real: Vec<(usize, Terms)> =
                 live.map(|(i, rate)| (i, derivatives([rate * middle, 0.0], wanted))).collect();
             let of_pole = |pole: &Complex| derivatives(pole.map(|part| part * middle), wanted);
             let complex: Vec<Terms> = self.poles.iter().map(of_pole).collect();
             for (sum, weights) in sums.iter_mut().zip(&self.weights) {
-                *sum += length * bound(&real, &complex, weights);
+                *sum += length * bound(&real, &complex, weights, wanted);
             }
         }
         sums
     }
 
     /// Before the first cell, where exponents are small, and behind the last one.
-    fn ends(&self, (real, complex): &(Vec<f64>, Vec<Complex>), begin: f64, end: f64) -> f64 {
-        let value = real.iter().sum::<f64>() + complex.iter().map(|weight| weight[0]).sum::<f64>();
+    fn ends(&self, weights: &Weights, begin: f64, end: f64) -> f64 {
+        let Weights { of_rates, of_poles, sizes } = weights;
+        let value = of_rates.iter().chain(of_poles.iter().map(|weight| &weight[0])).sum::<f64>();
         let (mut change, mut tail) = (0.0, 0.0);
         let mut add = |weight: f64, [least, most]: [f64; 2]| {
             change += weight * (most * begin + ROUNDING);
             tail += weight / least * (-least * end).exp();
         };
-        real.iter().zip(&self.rates).for_each(|(weight, rate)| add(weight.abs(), [*rate; 2]));
-        let poles = complex.iter().zip(self.poles);
-        poles.for_each(|(weight, pole)| add(size(weight), [pole[0], size(pole)]));
+        of_rates.iter().zip(&self.rates).for_each(|(weight, rate)| add(weight.abs(), [*rate; 2]));
+        let poles = sizes.iter().zip(self.poles);
+        poles.for_each(|(weight, pole)| add(*weight, [pole[0], size(pole)]));
         begin * (value.abs() + change) + tail
     }
 }
@@ -152,21 +169,23 @@ fn derivatives(x: Complex, wanted: Wanted) -> Terms {
     (out, rest + ROUNDING * size(&decay))
 }
 
-/// Bound of |f| over a cell.
-fn bound(
-    real: &[(usize, Terms)],
-    complex: &[Terms],
-    (of_rates, of_poles): &(Vec<f64>, Vec<Complex>),
-) -> f64 {
+/// Bound of |f| over a cell; of terms without derivatives an estimate.
+fn bound(real: &[(usize, Terms)], complex: &[Terms], weights: &Weights, wanted: Wanted) -> f64 {
+    let poles = weights.of_poles.iter().zip(complex);
+    if wanted == Wanted::Estimate {
+        let own: f64 = real.iter().map(|(i, (terms, _))| weights.of_rates[*i] * terms[0][0]).sum();
+        let others: f64 = poles.map(|(weight, (terms, _))| times(*weight, terms[0])[0]).sum();
+        return (own + others).abs();
+    }
     let (mut sums, mut rest) = ([0.0; ORDER], 0.0);
     for (i, (terms, remainder)) in real {
-        let weight = of_rates[*i];
+        let weight = weights.of_rates[*i];
         sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += weight * term[0]);
         rest += weight.abs() * remainder;
     }
-    for (weight, (terms, remainder)) in of_poles.iter().zip(complex) {
+    for ((weight, (terms, remainder)), size) in poles.zip(&weights.sizes) {
         sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += times(*weight, *term)[0]);
-        rest += size(weight) * remainder;
+        rest += size * remainder;
     }
     rest + sums.iter().map(|sum| sum.abs()).sum::<f64>()
 }

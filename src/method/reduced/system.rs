@@ -73,7 +73,6 @@ impl ReducedSystem {
         let rows: Vec<Vec<&[f64]>> =
             scaled.iter().map(|row| row.iter().map(Vec::as_slice).collect()).collect();
         let balanced = Balanced::new(&clumped.points, &rows)?;
-        let most = balanced.most();
         let excess_of = |truncated: &Truncated, wanted: Wanted| {
             let found = integrals(&clumped.points, &rows, truncated, wanted);
             let parts = found.iter().zip(residues.iter().zip(&allowed).zip(&scale.0));
@@ -86,27 +85,9 @@ impl ReducedSystem {
             });
             excess.fold(0.0, f64::max)
         };
-        let singular = |order: usize| balanced.singular.get(order).copied().unwrap_or(0.0);
-        let hopeless = 2.0 * ((rows.len() * scale.1.len()) as f64).sqrt();
-        let mut best: Option<(f64, Truncated)> = None;
-        for order in 0..=most {
-            // Errors of all pairs together are no less than this.
-            if singular(order) > hopeless && order < most {
-                continue;
-            }
-            let Some(truncated) = balanced.truncated(order) else { continue };
-            let mut excess = excess_of(&truncated, Wanted::Estimate);
-            if excess <= 1.0 {
-                excess = excess_of(&truncated, Wanted::Bound);
-            }
-            if best.as_ref().is_none_or(|(least, _)| excess < *least) {
-                best = Some((excess, truncated));
-            }
-            if excess <= 1.0 {
-                break;
-            }
-        }
-        let (_, truncated) = best.ok_or(ReductionError::Decomposition)?;
+        let truncated =
+            smallest(&balanced, 2.0 * ((rows.len() * scale.1.len()) as f64).sqrt(), excess_of)
+                .ok_or(ReductionError::Decomposition)?;
         let found = integrals(&clumped.points, &rows, &truncated, Wanted::Bound);
         Ok(request.system(&truncated, &scale, &found, &ranges))
     }
@@ -305,6 +286,40 @@ impl Request<'_> {
         }
         system
     }
+}
+
+/// The truncated system of the smallest order whose bounds are within what is allowed, between orders whose singular
+/// values exceed `hopeless` and the highest; where none is, of those tried the one that exceeds it least.
+///
+/// Errors fall with the order but for rounding, so the order is found by halving, first of estimates; the bound then
+/// may ask for a few more unknowns.
+fn smallest(
+    balanced: &Balanced,
+    hopeless: f64,
+    excess_of: impl Fn(&Truncated, Wanted) -> f64,
+) -> Option<Truncated> {
+    let most = balanced.most();
+    let mut best: Option<(f64, Truncated)> = None;
+    let mut keeps = |order: usize, wanted: Wanted| {
+        let Some(truncated) = balanced.truncated(order) else { return false };
+        let excess = excess_of(&truncated, wanted);
+        // An estimate that keeps what is allowed is none yet that a bound keeps.
+        let kept = excess <= 1.0;
+        let counts = !kept || wanted == Wanted::Bound;
+        if counts && best.as_ref().is_none_or(|(least, _)| excess < *least) {
+            best = Some((excess, truncated));
+        }
+        kept
+    };
+    // All errors together are no less than the first singular value left out.
+    let first = balanced.singular.iter().take_while(|&&value| value > hopeless).count().min(most);
+    let [mut low, mut high] = [first, most];
+    while low < high {
+        let middle = low + (high - low) / 2;
+        if keeps(middle, Wanted::Estimate) { high = middle } else { low = middle + 1 }
+    }
+    let _ = (low..=most).any(|order| keeps(order, Wanted::Bound));
+    best.map(|(_, truncated)| truncated)
 }
 
 /// Factors of outputs and inputs that bring what is allowed to about one: `s_k t_j a_kj ≤ 1`, close to it where that can

@@ -18,13 +18,15 @@ pub type Levels = [i32; 2];
 const MOST_NODES: f64 = 1e5;
 /// The same where stresses are solved for: in sections, and in boxes.
 const MOST_NODES_OF_STRESS: [f64; 2] = [3e4, 1.2e4];
+/// Most nodes along any axis: all modes along it are found, which takes the cube of their number.
+const MOST_ALONG: usize = 1000;
 /// Nodes of meshes for stress that are taken without a trial, at most, and levels beyond the last trial.
 const MOST_NODES_UNTRIED: f64 = 4e4;
 const BEYOND: i32 = 4;
 /// Finest level.
 const FINEST: i32 = 10;
-/// Levels beyond a mesh that does not get coarser, of the mesh that tells what it errs by: four times as many elements.
-const FINER: i32 = 4;
+/// Levels beyond a mesh of those that tell what it errs by where coarser ones do not.
+const FINER: [i32; 3] = [2, 4, 8];
 /// Coarsest level of which what a finer mesh errs by is told.
 pub const COARSEST_TRIED: i32 = -8;
 /// Meshes tried after the first.
@@ -159,7 +161,9 @@ impl<'a> Trials<'a> {
 
     /// Whether a mesh is too large to be tried.
     pub fn is_too_large(&self, levels: Levels) -> bool {
-        self.nodes(levels) > self.most_nodes
+        let bodies = forecast(&self.twin.on_mesh(factors(levels))).bodies;
+        let along = bodies.iter().flat_map(|body| body.nodes).max().unwrap_or(0);
+        along > MOST_ALONG || self.nodes(levels) > self.most_nodes
     }
 
     /// Nodes of a mesh.
@@ -180,17 +184,19 @@ impl<'a> Trials<'a> {
         Ok(differences(&self.solved[&levels], &self.solved[&other], &self.watched))
     }
 
-    /// What outputs differ by from those on a finer mesh, which itself may be too coarse by far: what they differ by
-    /// from a mesh finer again says so.
-    fn beside_finer(&mut self, levels: Levels, finer: Levels) -> Result<Vec<f64>, ModelError> {
-        if self.nodes(levels) == self.nodes(finer) {
-            return Ok(vec![0.0; self.watched.len()]);
-        }
-        let finest = [0, 1].map(|way| 2 * finer[way] - levels[way]);
-        let mut errors = self.beside(levels, finer)?;
-        if !self.is_too_large(finest) {
-            let more = self.beside(levels, finest)?;
-            errors.iter_mut().zip(more).for_each(|(error, more)| *error = error.max(more));
+    /// What outputs differ by from those on meshes that are finer along the surface or through the thickness: one may be
+    /// too coarse by far itself, which one finer again tells. Only of meshes that are not too large.
+    fn beside_finer(&mut self, levels: Levels, way: usize) -> Result<Vec<f64>, ModelError> {
+        let mut errors: Vec<f64> = vec![0.0; self.watched.len()];
+        let own = self.nodes(levels);
+        for more in FINER {
+            let mut finer = levels;
+            finer[way] += more;
+            if self.nodes(finer) == own || self.is_too_large(finer) {
+                break;
+            }
+            let found = self.beside(levels, finer)?;
+            errors.iter_mut().zip(found).for_each(|(error, found)| *error = error.max(found));
         }
         Ok(errors)
     }
@@ -211,11 +217,11 @@ impl<'a> Trials<'a> {
         let [i, j] = levels;
         self.solve(levels)?;
         let along = match self.is_coarsest(levels, [i - 2, j]) {
-            true => self.beside_finer(levels, [i + FINER, j])?,
+            true => self.beside_finer(levels, 0)?,
             false => joined(&self.beside(levels, [i - 1, j])?, &self.beside(levels, [i - 2, j])?),
         };
         let through = match self.is_coarsest(levels, [i, j - 2]) {
-            true => self.beside_finer(levels, [i, j + FINER])?,
+            true => self.beside_finer(levels, 1)?,
             false => smooth(&self.beside(levels, [i, j - 1])?, &self.beside(levels, [i, j - 2])?),
         };
         let outputs = self.watched.iter().zip(along.into_iter().zip(through));
@@ -225,6 +231,20 @@ impl<'a> Trials<'a> {
             through,
         };
         Ok(Estimate { outputs: outputs.map(error).collect() })
+    }
+
+    /// The same of a mesh that the scene asks for along the surface or through the thickness: it may be so coarse that it
+    /// and all coarser ones are wrong alike, which finer ones tell.
+    pub fn judge(&mut self, levels: Levels, given: [bool; 2]) -> Result<Estimate, ModelError> {
+        let mut estimate = self.estimate(levels)?;
+        for way in (0..2).filter(|&way| given[way]) {
+            let found = self.beside_finer(levels, way)?;
+            for (own, found) in estimate.outputs.iter_mut().zip(found) {
+                let part = if way == 0 { &mut own.along } else { &mut own.through };
+                *part = part.max(found);
+            }
+        }
+        Ok(estimate)
     }
 }
 
@@ -279,16 +299,13 @@ fn next(estimate: &Estimate, levels: Levels, open: [bool; 2], tolerance: f64) ->
         return Vec::new();
     }
     let over = [0, 1].map(|way| estimate.worst_of(way) / (0.5 * tolerance));
-    let largest = [0, 1].map(|way| if open[way] { over[way] } else { 0.0 });
-    let most = largest[0].max(largest[1]);
+    let most = over[0].max(over[1]);
     let (mut far, mut near, mut least) = (levels, levels, levels);
-    for way in [0, 1].into_iter().filter(|&way| open[way]) {
-        let is_worst = largest[way] == most;
-        if over[way] > 1.0 || is_worst {
-            far[way] += if over[way] > FAR { 2 } else { 1 };
-            near[way] += 1;
-        }
-        least[way] += i32::from(is_worst);
+    // What the other direction errs by is mended by none of these.
+    for way in [0, 1].into_iter().filter(|&way| open[way] && over[way] > 1.0) {
+        far[way] += if over[way] > FAR { 2 } else { 1 };
+        near[way] += 1;
+        least[way] += i32::from(over[way] == most);
     }
     let fits = |next: &Levels| *next != levels && next.iter().all(|level| *level <= FINEST);
     [far, near, least].into_iter().filter(fits).collect()

@@ -89,7 +89,9 @@ fn of_physics(twin: &Twin, physics: Physics, found: &mut BodyEstimate) {
     }
     // A mesh too large to be tried is judged by coarser ones.
     let down = (0..=-COARSEST_TRIED).find(|&down| !trials.is_too_large([-down; 2]));
-    let estimate = down.and_then(|down| Some((down, trials.estimate([-down; 2]).ok()?)));
+    let solid = twin.scene().solids().map(|(_, solid)| solid).next();
+    let given = solid.map_or([false; 2], |solid| open(solid).map(|is_open| !is_open));
+    let estimate = down.and_then(|down| Some((down, trials.judge([-down; 2], given).ok()?)));
     let Some((down, estimate)) = estimate else {
         found.notes.push(format!("no estimate of {what}: the mesh is too large to be tried"));
         return;
