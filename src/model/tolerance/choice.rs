@@ -15,13 +15,13 @@ use crate::scene::{HeatMethod, Scene, Shape, Solid, takes_newton};
 pub type Levels = [i32; 2];
 
 /// Most nodes, times experiments, of meshes that are tried.
-const MOST_NODES: f64 = 1e5;
+const MOST_NODES: f64 = 2.5e5;
 /// The same where stresses are solved for: in sections, and in boxes.
-const MOST_NODES_OF_STRESS: [f64; 2] = [3e4, 1.2e4];
+const MOST_NODES_OF_STRESS: [f64; 2] = [3e4, 8e4];
 /// Most nodes along any axis: all modes along it are found, which takes the cube of their number.
 const MOST_ALONG: usize = 1000;
 /// Nodes of meshes for stress that are taken without a trial, at most, and levels beyond the last trial.
-const MOST_NODES_UNTRIED: f64 = 4e4;
+const MOST_NODES_UNTRIED: f64 = 1.5e5;
 const BEYOND: i32 = 4;
 /// Finest level.
 const FINEST: i32 = 10;
