@@ -18,6 +18,7 @@ use std::process::{self, ExitCode};
 
 use archive::Entries;
 use clap::Parser;
+use impinge::machine::available_memory;
 use impinge::model::{notes_on_walls, records, to_be_recorded, tolerance};
 use impinge::scene::{self, Scene};
 use version::Version;
@@ -110,10 +111,14 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     for note in notes_on_walls(&scene) {
         complain(&format!("note: {note}"));
     }
+    let levels = tolerance::levels(&scene, available_memory());
+    for note in &levels.notes {
+        complain(&format!("note: {note}"));
+    }
     if let Some(target) = &arguments.xml {
         refuse_inputs(target, &[path])?;
         refuse_other_files(target, b"<?xml")?;
-        return write(target, arguments.fmi.model_description(&scene, &text).as_bytes());
+        return write(target, arguments.fmi.model_description(&levels.scene, &text).as_bytes());
     }
     let library_path = library::path(arguments.library.as_deref())?;
     let target = arguments.output.clone().unwrap_or_else(|| format!("{}.fmu", scene.name).into());
@@ -123,7 +128,7 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     for note in to_be_recorded(&scene) {
         complain(&format!("note: {note}"));
     }
-    let (known, estimates) = tolerance::estimates(&scene);
+    let (known, estimates) = tolerance::estimates(&levels.scene);
     for warning in tolerance::warnings(&known, &estimates) {
         complain(&format!("warning: {warning}"));
     }
@@ -205,6 +210,10 @@ fn unit(
     let records = records(scene, scene.solver.threads);
     for (body, bytes) in records.map_err(|error| format!("no record of its drops: {error}"))? {
         entries.insert(format!("resources/records/{body}.record"), bytes);
+    }
+    let reductions = tolerance::stored_reductions(scene);
+    for (body, bytes) in reductions.map_err(|error| format!("no reduction: {error}"))? {
+        entries.insert(format!("resources/reduced/{body}.reduced"), bytes);
     }
     archive::zip(&entries)
 }

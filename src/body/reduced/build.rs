@@ -99,6 +99,7 @@ impl<'a> Full<'a> {
             offsets.push(row.offset);
         }
         let kinds: Vec<Kind> = values.kinds().collect();
+        let experiment = Experiment { kinds: &kinds, sizes };
         let tolerance = self.scene.fidelity.tolerance;
         let request = Request {
             clumped: &clumped,
@@ -108,12 +109,13 @@ impl<'a> Full<'a> {
             start: sizes,
             missed: &missed,
             horizon: self.scene.stop_time,
-            allowed: &|ranges| allowed(tolerance, &kinds, sizes, ranges),
+            allowed: &|ranges| experiment.allowed(tolerance, ranges),
         };
-        let system = ReducedSystem::new(&request)
+        let (system, ranges) = ReducedSystem::new(&request)
             .map_err(|error| BodyError::Reduction { message: error.to_string() })?;
+        let errors = experiment.errors(&system, &ranges);
         let brought = self.columns.iter().map(|loads| self.fem.brought_in_by(loads)).collect();
-        Ok(Reduction { system, offsets, brought, modes: clumped.modes() })
+        Ok(Reduction { system, offsets, errors, brought, modes: clumped.modes() })
     }
 
     /// For each drive what footprints that move miss at most between those that stand for them: heat over all time, and
@@ -207,19 +209,46 @@ struct Row {
     offset: f64,
 }
 
-/// For each output and drive the error that is allowed: together a part of the output's range over the default
-/// experiment; where a drive starts from nothing, of the range under a unit of it.
-fn allowed(tolerance: f64, kinds: &[Kind], sizes: &[f64], ranges: &Ranges) -> Vec<Vec<f64>> {
-    let at_least = |values: &dyn Fn(usize) -> f64, k: usize| {
-        let of_kind = (0..kinds.len()).filter(|&other| kinds[other] == kinds[k]);
-        let largest = of_kind.map(values).fold(0.0, f64::max);
-        let range = values(k).max(LEAST_RANGE * largest);
+/// What outputs are measured in, and how large drives are as they start.
+struct Experiment<'a> {
+    kinds: &'a [Kind],
+    sizes: &'a [f64],
+}
+
+impl Experiment<'_> {
+    /// The range of an output that counts: its own, or a part of the largest of its kind; infinite where none has any.
+    fn range(&self, ranges: &dyn Fn(usize) -> f64, k: usize) -> f64 {
+        let of_kind = (0..self.kinds.len()).filter(|&other| self.kinds[other] == self.kinds[k]);
+        let largest = of_kind.map(ranges).fold(0.0, f64::max);
+        let range = ranges(k).max(LEAST_RANGE * largest);
         if range > 0.0 { range } else { f64::INFINITY }
-    };
-    let active = sizes.iter().filter(|&&size| size != 0.0).count() as f64;
-    let of_pair = |k: usize, j: usize| match sizes[j] != 0.0 {
-        true => tolerance * at_least(&|k| ranges.together[k], k) / (active * sizes[j].abs()),
-        false => tolerance * at_least(&|k| ranges.single[k][j], k),
-    };
-    (0..kinds.len()).map(|k| (0..sizes.len()).map(|j| of_pair(k, j)).collect()).collect()
+    }
+
+    /// For each output and drive the error that is allowed: together a part of the output's range over the default
+    /// experiment; where a drive starts from nothing, of the range under a unit of it.
+    fn allowed(&self, tolerance: f64, ranges: &Ranges) -> Vec<Vec<f64>> {
+        let Self { kinds, sizes } = *self;
+        let active = sizes.iter().filter(|&&size| size != 0.0).count() as f64;
+        let of_pair = |k: usize, j: usize| match sizes[j] != 0.0 {
+            true => tolerance * self.range(&|k| ranges.together[k], k) / (active * sizes[j].abs()),
+            false => tolerance * self.range(&|k| ranges.single[k][j], k),
+        };
+        (0..kinds.len()).map(|k| (0..sizes.len()).map(|j| of_pair(k, j)).collect()).collect()
+    }
+
+    /// Of each output its bound over its range: over the default experiment, or under a drive alone that starts from
+    /// nothing, whichever is larger.
+    fn errors(&self, system: &ReducedSystem, ranges: &Ranges) -> Vec<f64> {
+        let Self { kinds, sizes } = *self;
+        let start: Vec<f64> = sizes.iter().map(|size| size.abs()).collect();
+        let of_output = |k: usize| {
+            let together = system.bound(&start, k) / self.range(&|k| ranges.together[k], k);
+            let idle = (0..sizes.len()).filter(|&j| sizes[j] == 0.0);
+            let alone = idle.map(|j| {
+                system.bounds[k * system.inputs + j] / self.range(&|k| ranges.single[k][j], k)
+            });
+            alone.fold(together, f64::max)
+        };
+        (0..kinds.len()).map(of_output).collect()
+    }
 }

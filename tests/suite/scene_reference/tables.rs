@@ -9,6 +9,7 @@ pub const SECTIONS: [(&str, &str); 30] = [
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
     ("`[refinement.BODY]`", "/$defs/MeshFactors"),
+    ("`[resolved.BODY]`", "/$defs/ResolvedLevel"),
     ("`[body.NAME]` of a solid", "/$defs/Body/oneOf/0"),
     ("`shape` of a solid", "/$defs/Shape"),
     ("`shape.disc`", "/$defs/Disc"),

@@ -1,0 +1,49 @@
+//! What a reduced solid will cost.
+
+use super::drives::Drives;
+use super::store;
+use super::values::Values;
+use crate::body::BodyForecast;
+use crate::inputs::InputLayout;
+use crate::scene::{Scene, footprints_along};
+
+/// Time of a step and of reading what is offered beside the unknowns [s], and for each number that goes into them.
+const STEP: f64 = 5e-7;
+const NUMBER: f64 = 1e-9;
+/// Time to clump a mode for an input and an output, and to decompose, for each of the numbers that are decomposed times
+/// the fewer of rows and columns [s].
+const CLUMPING: f64 = 1e-7;
+const DECOMPOSING: f64 = 2e-9;
+/// Columns of the factor of a Gramian, about.
+const RANK: f64 = 45.0;
+/// Unknowns at the tolerance 1, and for each decimal that it is smaller, times the root of inputs.
+const UNKNOWNS: [f64; 2] = [6.0, 4.0];
+
+/// From what the full solid costs.
+pub fn forecast(scene: &Scene, name: &str, full: BodyForecast) -> BodyForecast {
+    let drives = Drives::of(scene, &InputLayout::of(scene), name, footprints_along);
+    let [inputs, outputs] = [drives.list.len(), Values::of(scene, name).list.len()].map(|n| n as f64);
+    let known = store::held(scene, name);
+    let order = known.as_ref().map_or_else(
+        || {
+            let decimals = -scene.fidelity.tolerance.log10();
+            (UNKNOWNS[0] + UNKNOWNS[1] * decimals) * inputs.max(1.0).sqrt()
+        },
+        |known| known.system.order() as f64,
+    );
+    let numbers = order * (inputs + outputs) + outputs * inputs;
+    let step_time = STEP + NUMBER * numbers;
+    let unknowns = known.as_ref().map(|known| known.system.order());
+    if known.is_some() {
+        // Nothing of the full solid is built.
+        let memory = 8.0 * (numbers + 2.0 * inputs * outputs);
+        return BodyForecast { memory, build_time: 0.0, step_time, reduced: Some(unknowns), ..full };
+    }
+    let size = RANK * RANK * inputs * outputs;
+    let modes = full.unknowns[0] as f64;
+    let build_time = full.build_time
+        + CLUMPING * modes * inputs * outputs
+        + DECOMPOSING * size * RANK * inputs.min(outputs);
+    let memory = full.memory + 8.0 * (modes * inputs + 4.0 * size);
+    BodyForecast { memory, build_time, step_time, reduced: Some(unknowns), ..full }
+}
