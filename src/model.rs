@@ -28,8 +28,8 @@ use std::sync::{Arc, OnceLock};
 
 use crate::body::{Assembly, Body, Fields, Joint, Link, Readings};
 pub use crate::body::{
-    BodyError, BodyForecast, DropletForecast, Forecast, Kept, ParticleForecast, forecast,
-    KeptReduction, keep_record, keep_reduction, notes_on_walls, records, to_be_recorded,
+    BodyError, BodyForecast, DropletForecast, Forecast, Kept, KeptReduction, ParticleForecast,
+    forecast, keep_record, keep_reduction, notes_on_walls, records, to_be_recorded,
 };
 pub use crate::inputs::HIGHEST_INPUT_DERIVATIVE;
 use crate::inputs::{InputLayout, InputPath};

@@ -1,9 +1,9 @@
 //! What a scene will cost.
 
 pub use super::droplet::DropletForecast;
-use super::{link, reduced};
 use super::solid::forecast_solid;
 pub use super::solid::{BodyForecast, ParticleForecast};
+use super::{link, reduced};
 use crate::scene::{Coupling, Scene};
 
 /// What a scene will cost, estimated before it is built.

@@ -100,8 +100,9 @@ fn notes(scene: &Scene) -> String {
             ),
             Some(Some(unknowns)) => writeln!(
                 text,
-                "    reduced to {unknowns} unknowns: {:.0} kB, about {step_time} a step with all that is read",
-                body.memory / 1e3
+                "    reduced to {unknowns} unknowns of {:.1} kB, {} to get there, about {step_time} a step with all that is read",
+                body.memory / 1e3,
+                engineering(body.build_time, "s")
             ),
         };
         for note in &body.notes {

@@ -22,7 +22,8 @@ const UNKNOWNS: [f64; 2] = [6.0, 4.0];
 /// From what the full solid costs.
 pub fn forecast(scene: &Scene, name: &str, full: BodyForecast) -> BodyForecast {
     let drives = Drives::of(scene, &InputLayout::of(scene), name, footprints_along);
-    let [inputs, outputs] = [drives.list.len(), Values::of(scene, name).list.len()].map(|n| n as f64);
+    let [inputs, outputs] =
+        [drives.list.len(), Values::of(scene, name).list.len()].map(|n| n as f64);
     let known = store::held(scene, name);
     let order = known.as_ref().map_or_else(
         || {
@@ -33,17 +34,16 @@ pub fn forecast(scene: &Scene, name: &str, full: BodyForecast) -> BodyForecast {
     );
     let numbers = order * (inputs + outputs) + outputs * inputs;
     let step_time = STEP + NUMBER * numbers;
-    let unknowns = known.as_ref().map(|known| known.system.order());
-    if known.is_some() {
-        // Nothing of the full solid is built.
-        let memory = 8.0 * (numbers + 2.0 * inputs * outputs);
-        return BodyForecast { memory, build_time: 0.0, step_time, reduced: Some(unknowns), ..full };
-    }
+    let reduced = Some(known.as_ref().map(|known| known.system.order()));
     let size = RANK * RANK * inputs * outputs;
     let modes = full.unknowns[0] as f64;
     let build_time = full.build_time
         + CLUMPING * modes * inputs * outputs
         + DECOMPOSING * size * RANK * inputs.min(outputs);
-    let memory = full.memory + 8.0 * (modes * inputs + 4.0 * size);
-    BodyForecast { memory, build_time, step_time, reduced: Some(unknowns), ..full }
+    // Where the reduction is held nothing of the full solid is built in this process.
+    let memory = match known {
+        Some(_) => 8.0 * (numbers + 2.0 * inputs * outputs),
+        None => full.memory + 8.0 * (modes * inputs + 4.0 * size),
+    };
+    BodyForecast { memory, build_time, step_time, reduced, ..full }
 }

@@ -105,7 +105,8 @@ impl Reduction {
     fn from_bytes(bytes: &[u8]) -> Result<(String, Self), String> {
         let (key, found) = REDUCTION.open(bytes, Self::read)?;
         let checked = found.check();
-        checked.map_err(|reason| format!("the reduction is none that this program makes: {reason}"))?;
+        checked
+            .map_err(|reason| format!("the reduction is none that this program makes: {reason}"))?;
         Ok((key, found))
     }
 
@@ -184,6 +185,9 @@ mod tests {
         }
         assert!(reduction().fits("plate", [1, 2]).is_ok());
         let refused = reduction().fits("plate", [2, 2]).unwrap_err().to_string();
-        assert!(refused.contains("1 inputs and 2 outputs, where this body has 2 and 2"), "{refused}");
+        assert!(
+            refused.contains("1 inputs and 2 outputs, where this body has 2 and 2"),
+            "{refused}"
+        );
     }
 }

@@ -5,7 +5,8 @@ use crate::math::sealed::{Content, Reader};
 
 impl ReducedSystem {
     pub fn put(&self, content: &mut Content) {
-        let Self { inputs, outputs, rates, turns, entering, leaving, direct, bounds, ranges } = self;
+        let Self { inputs, outputs, rates, turns, entering, leaving, direct, bounds, ranges } =
+            self;
         [*inputs, *outputs, rates.len()].into_iter().for_each(|count| content.count(count));
         for numbers in [rates, turns, entering, leaving, direct, bounds, ranges] {
             content.numbers(numbers.iter().copied());
@@ -36,7 +37,9 @@ impl ReducedSystem {
             return Err(format!("{value} is no finite number"));
         }
         // A bound below zero would promise what nothing keeps.
-        for (words, values) in [("a rate of decay", rates), ("a bound", bounds), ("a range", ranges)] {
+        for (words, values) in
+            [("a rate of decay", rates), ("a bound", bounds), ("a range", ranges)]
+        {
             if let Some(value) = values.iter().find(|value| **value < 0.0) {
                 return Err(format!("{value} as {words}"));
             }
@@ -50,9 +53,13 @@ impl ReducedSystem {
                 i += 1;
                 continue;
             }
-            let is_pair = turns.get(i + 1) == Some(&turns[i]) && rates.get(i + 1) == Some(&rates[i]);
+            let is_pair =
+                turns.get(i + 1) == Some(&turns[i]) && rates.get(i + 1) == Some(&rates[i]);
             if !is_pair || turns[i] < 0.0 {
-                return Err(format!("{} as imaginary part of a pole that is none of a pair", turns[i]));
+                return Err(format!(
+                    "{} as imaginary part of a pole that is none of a pair",
+                    turns[i]
+                ));
             }
             i += 2;
         }

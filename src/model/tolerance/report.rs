@@ -208,7 +208,8 @@ pub fn percent(part: f64) -> String {
 }
 
 /// Begins what packing adds to the text of a scene, which the unit's GUID does not depend on.
-pub const PACKED: &str = "\n# Added when packed: how fine meshes are, what outputs err by, and levels left open.\n";
+pub const PACKED: &str =
+    "\n# Added when packed: how fine meshes are, what outputs err by, and levels left open.\n";
 
 /// The text of a scene with the meshes, errors and levels of the same scene when these are known, so that its unit
 /// neither chooses nor estimates anew.

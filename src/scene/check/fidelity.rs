@@ -27,7 +27,9 @@ pub fn check(checker: &mut Checker) {
     }
     for (name, solid) in checker.scene.solids() {
         let is_asked = !checker.scene.is_open_level(name) && checker.scene.is_reduced(name);
-        let Some(obstacle) = checker.scene.obstacle(name, solid).filter(|_| is_asked) else { continue };
+        let Some(obstacle) = checker.scene.obstacle(name, solid).filter(|_| is_asked) else {
+            continue;
+        };
         let path = match obstacle.at {
             Place::Body(key) => Path::default().key("body").key(name).key(key),
             Place::Element(tables, number) => Path::default().key(tables).index(number),
