@@ -1,10 +1,14 @@
 //! Singular value decompositions by one-sided rotations, on the thread that calls.
 //!
-//! Columns of `A` are turned against each other until all are orthogonal: then they are `σ u`, and the turns are `V` (M. R.
-//! Hestenes 1958, doi 10.1137/0106005). Small singular values of graded matrices keep their digits (J. Demmel and K.
-//! Veselić 1992, doi 10.1137/0613074), which methods that first make the matrix bidiagonal lose.
+//! `A P = Q R` with the longest column first; columns of `Rᵀ`, of which there are no more than the rank, are turned against
+//! each other until all are orthogonal: then they are `σ u`, and the turns are `V` (M. R. Hestenes 1958, doi
+//! 10.1137/0106005; Z. Drmač and K. Veselić 2008, doi 10.1137/050639193). Small singular values of graded matrices keep
+//! their digits (J. Demmel and K. Veselić 1992, doi 10.1137/0613074), which methods that first make the matrix bidiagonal
+//! lose.
 
 use faer::Mat;
+
+use super::product::product;
 
 /// `A = U diag(σ) Vᵀ` with as many columns as singular values that count, descending.
 pub struct SingularValues {
@@ -37,30 +41,72 @@ pub fn singular_values(matrix: &Mat<f64>) -> Option<SingularValues> {
     if !lengths.iter().all(|length| length.is_finite()) {
         return None;
     }
-    let mut kept: Vec<usize> = (0..own.len()).filter(|&j| lengths[j] > SHORT * longest).collect();
-    // Long ones first: what is graded takes few sweeps then.
-    kept.sort_by(|&a, &b| lengths[b].total_cmp(&lengths[a]));
-    let mut columns: Vec<Vec<f64>> = kept.iter().map(|&j| own[j].clone()).collect();
-    let mut turns: Vec<Vec<f64>> = (0..kept.len())
-        .map(|j| (0..kept.len()).map(|i| if i == j { 1.0 } else { 0.0 }).collect())
-        .collect();
+    let Factors { basis, mut rows } = factors(own, SHORT * longest);
+    let rank = rows.len();
+    let mut turns: Vec<Vec<f64>> =
+        (0..rank).map(|j| (0..rank).map(|i| if i == j { 1.0 } else { 0.0 }).collect()).collect();
     for _ in 0..SWEEPS {
-        if !sweep(&mut columns, &mut turns, SHORT * longest) {
+        if !sweep(&mut rows, &mut turns, SHORT * longest) {
             break;
         }
     }
-    let values: Vec<f64> = columns.iter().map(|column| length(column)).collect();
-    let mut order: Vec<usize> = (0..values.len()).filter(|&j| values[j] > 0.0).collect();
+    let values: Vec<f64> = rows.iter().map(|row| length(row)).collect();
+    let mut order: Vec<usize> = (0..rank).filter(|&j| values[j] > 0.0).collect();
     order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-    let left =
-        Mat::from_fn(matrix.nrows(), order.len(), |i, r| columns[order[r]][i] / values[order[r]]);
-    let mut right = Mat::zeros(matrix.ncols(), order.len());
-    for (r, &j) in order.iter().enumerate() {
-        for (i, &column) in kept.iter().enumerate() {
-            right[(column, r)] = turns[j][i];
-        }
-    }
+    let right =
+        Mat::from_fn(matrix.ncols(), order.len(), |i, r| rows[order[r]][i] / values[order[r]]);
+    let basis = Mat::from_fn(matrix.nrows(), rank, |i, k| basis[k][i]);
+    let turned = Mat::from_fn(rank, order.len(), |k, r| turns[order[r]][k]);
+    let mut left = vec![0.0; matrix.nrows() * order.len()];
+    product(&mut left, basis.as_ref(), turned.as_ref());
+    let left = Mat::from_fn(matrix.nrows(), order.len(), |i, r| left[r * matrix.nrows() + i]);
     Some(SingularValues { left, values: order.iter().map(|&j| values[j]).collect(), right })
+}
+
+/// Orthonormal columns, and for each of these a row: their products sum up to a matrix.
+struct Factors {
+    basis: Vec<Vec<f64>>,
+    rows: Vec<Vec<f64>>,
+}
+
+/// Of the columns of a matrix, the longest of what is left first, down to those that are `short`.
+fn factors(mut left: Vec<Vec<f64>>, short: f64) -> Factors {
+    let count = left.len();
+    let mut lengths: Vec<f64> = left.iter().map(|column| length(column)).collect();
+    let mut found = Factors { basis: Vec::new(), rows: Vec::new() };
+    while found.basis.len() < count {
+        let longer = |best: usize, j: usize| if lengths[j] > lengths[best] { j } else { best };
+        let pivot = (1..count).fold(0, longer);
+        let size = lengths[pivot];
+        // Without this, numbers that are none would never end.
+        if size.is_nan() || size <= short {
+            break;
+        }
+        let mut unit: Vec<f64> = left[pivot].iter().map(|value| value / size).collect();
+        // What rounding has left along those before is taken away once more.
+        for (before, row) in found.basis.iter().zip(&mut found.rows) {
+            let part = dot(before, &unit);
+            subtract(&mut unit, part, before);
+            row[pivot] += part * size;
+        }
+        let scale = length(&unit);
+        unit.iter_mut().for_each(|value| *value /= scale);
+        let mut row = vec![0.0; count];
+        for (j, column) in left.iter_mut().enumerate().filter(|(_, column)| !column.is_empty()) {
+            row[j] = dot(&unit, column);
+            subtract(column, row[j], &unit);
+            lengths[j] = length(column);
+        }
+        left[pivot].clear();
+        lengths[pivot] = 0.0;
+        found.basis.push(unit);
+        found.rows.push(row);
+    }
+    found
+}
+
+fn subtract(from: &mut [f64], part: f64, values: &[f64]) {
+    from.iter_mut().zip(values).for_each(|(from, value)| *from -= part * value);
 }
 
 /// Turns all pairs once; whether any was not orthogonal.
@@ -105,6 +151,39 @@ fn length(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_wide_matrix_of_low_rank_comes_back() {
+        let wave = |a: f64, n: usize| (a * (n as f64 + 1.0)).sin();
+        let own = Mat::from_fn(30, 400, |i, j| {
+            (1..=5)
+                .map(|k| {
+                    10f64.powi(-3 * k) * wave(0.7 * f64::from(k), i) * wave(0.013 * f64::from(k), j)
+                })
+                .sum()
+        });
+        let found = singular_values(&own).unwrap();
+        // Beyond the rank there is rounding alone.
+        let rounding = 1e-14 * found.values[0];
+        assert!(found.values.iter().skip(5).all(|value| *value < rounding), "{:?}", found.values);
+        assert!(found.values[4] > 10.0 * rounding && found.values.len() < 30);
+        for (i, j) in (0..30).zip((0..400).step_by(13)) {
+            let parts = found.values.iter().enumerate();
+            let sum: f64 = parts.map(|(r, s)| found.left[(i, r)] * s * found.right[(j, r)]).sum();
+            assert!((sum - own[(i, j)]).abs() < rounding);
+        }
+        for a in 0..found.values.len() {
+            for b in 0..=a {
+                let wanted = if a == b { 1.0 } else { 0.0 };
+                let left: f64 = (0..30).map(|i| found.left[(i, a)] * found.left[(i, b)]).sum();
+                assert!((left - wanted).abs() < 1e-12);
+                let right: f64 = (0..400).map(|i| found.right[(i, a)] * found.right[(i, b)]).sum();
+                // What is as short as rounding has no direction.
+                let is_noise = found.values[a] < rounding;
+                assert!((right - wanted).abs() < 1e-12 || is_noise);
+            }
+        }
+    }
 
     #[test]
     fn graded_matrices_keep_their_small_singular_values() {

@@ -7,13 +7,18 @@
 //! `D⁶ e^{−x} = (x⁶ − 15x⁵ + 65x⁴ − 90x³ + 31x² − x) e^{−x}`, `x = αt`. What is before the first cell and behind the last
 //! one is bounded in closed form. No point of time is left out.
 
+use faer::Mat;
+
 use super::balanced::{Complex, Truncated};
+use crate::math::product::product;
 
 /// Half the length of a cell along ln t.
 const HALF: f64 = 0.025;
 /// Where cells begin and end: over the fastest and the slowest rate.
 const BEGIN: f64 = 1e-6;
 const END: f64 = 45.0;
+/// Exponents beyond which nothing is left of a term.
+const GONE: f64 = 600.0;
 /// Order of the remainder.
 const ORDER: usize = 6;
 /// Rounding of a term, over it.
@@ -87,21 +92,65 @@ impl Differences<'_> {
             return vec![0.0; self.weights.len()];
         }
         let (begin, end) = (BEGIN / most, END / least);
-        let cells = ((end / begin).ln() / (2.0 * HALF)).ceil();
-        let mut sums: Vec<f64> = self.weights.iter().map(|w| self.ends(w, begin, end)).collect();
-        for cell in 0..cells as usize {
-            let middle = begin * ((2.0 * cell as f64 + 1.0) * HALF).exp();
-            let length = 2.0 * middle * HALF.sinh();
-            let live = self.rates.iter().enumerate().filter(|(_, rate)| *rate * middle < 600.0);
-            let real: Vec<(usize, Terms)> =
-                live.map(|(i, rate)| (i, derivatives([rate * middle, 0.0], wanted))).collect();
-            let of_pole = |pole: &Complex| derivatives(pole.map(|part| part * middle), wanted);
-            let complex: Vec<Terms> = self.poles.iter().map(of_pole).collect();
-            for (sum, weights) in sums.iter_mut().zip(&self.weights) {
-                *sum += length * bound(&real, &complex, weights);
+        let cells = ((end / begin).ln() / (2.0 * HALF)).ceil() as usize;
+        let middle = |cell: usize| begin * ((2.0 * cell as f64 + 1.0) * HALF).exp();
+        let lengths: Vec<f64> = (0..cells).map(|cell| 2.0 * middle(cell) * HALF.sinh()).collect();
+        let heights = self.heights(&(0..cells).map(middle).collect::<Vec<_>>(), wanted);
+        let pairs = self.weights.iter().zip(heights.chunks(cells));
+        let sum = |(weights, heights): (&(Vec<f64>, Vec<Complex>), &[f64])| {
+            let parts = heights.iter().zip(&lengths).map(|(height, length)| height * length);
+            self.ends(weights, begin, end) + parts.sum::<f64>()
+        };
+        pairs.map(sum).collect()
+    }
+
+    /// Bounds of |f| over cells about these times, or estimates; all cells of one pair after those of another.
+    fn heights(&self, middles: &[f64], wanted: Wanted) -> Vec<f64> {
+        let (rates, poles) = (self.rates.len(), self.poles.len());
+        let (cells, pairs) = (middles.len(), self.weights.len());
+        let powers = if wanted == Wanted::Bound { ORDER } else { 1 };
+        // Of a pole both parts stand beside each other.
+        let mut terms = vec![Mat::<f64>::zeros(cells, rates + 2 * poles); powers];
+        let mut rests = Mat::<f64>::zeros(cells, rates + poles);
+        for (cell, middle) in middles.iter().enumerate() {
+            let of_rates = self.rates.iter().map(|rate| [rate * middle, 0.0]);
+            let of_poles = self.poles.iter().map(|pole| pole.map(|part| part * middle));
+            for (i, x) in of_rates.chain(of_poles).enumerate() {
+                if x[0] >= GONE {
+                    continue;
+                }
+                let (values, rest) = derivatives(x, wanted);
+                rests[(cell, i)] = rest;
+                for (terms, value) in terms.iter_mut().zip(values) {
+                    match i.checked_sub(rates) {
+                        None => terms[(cell, i)] = value[0],
+                        Some(pole) => {
+                            terms[(cell, rates + 2 * pole)] = value[0];
+                            terms[(cell, rates + 2 * pole + 1)] = -value[1];
+                        }
+                    }
+                }
             }
         }
-        sums
+        let weights = Mat::from_fn(rates + 2 * poles, pairs, |i, pair| {
+            let (of_rates, of_poles) = &self.weights[pair];
+            i.checked_sub(rates).map_or_else(|| of_rates[i], |at| of_poles[at / 2][at % 2])
+        });
+        let mut heights = vec![0.0; cells * pairs];
+        let mut sums = vec![0.0; cells * pairs];
+        for terms in &terms {
+            product(&mut sums, terms.as_ref(), weights.as_ref());
+            heights.iter_mut().zip(&sums).for_each(|(height, sum)| *height += sum.abs());
+        }
+        if wanted == Wanted::Bound {
+            let sizes = Mat::from_fn(rates + poles, pairs, |i, pair| {
+                let (of_rates, of_poles) = &self.weights[pair];
+                i.checked_sub(rates).map_or_else(|| of_rates[i].abs(), |at| size(&of_poles[at]))
+            });
+            product(&mut sums, rests.as_ref(), sizes.as_ref());
+            heights.iter_mut().zip(&sums).for_each(|(height, sum)| *height += sum);
+        }
+        heights
     }
 
     /// Before the first cell, where exponents are small, and behind the last one.
@@ -150,25 +199,6 @@ fn derivatives(x: Complex, wanted: Wanted) -> Terms {
     let sixth = y * (1.0 + y * (31.0 + y * (90.0 + y * (65.0 + y * (15.0 + y)))));
     let rest = scale * HALF / 6.0 * sixth * (-x[0] * (-HALF).exp()).exp();
     (out, rest + ROUNDING * size(&decay))
-}
-
-/// Bound of |f| over a cell.
-fn bound(
-    real: &[(usize, Terms)],
-    complex: &[Terms],
-    (of_rates, of_poles): &(Vec<f64>, Vec<Complex>),
-) -> f64 {
-    let (mut sums, mut rest) = ([0.0; ORDER], 0.0);
-    for (i, (terms, remainder)) in real {
-        let weight = of_rates[*i];
-        sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += weight * term[0]);
-        rest += weight.abs() * remainder;
-    }
-    for (weight, (terms, remainder)) in of_poles.iter().zip(complex) {
-        sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += times(*weight, *term)[0]);
-        rest += size(weight) * remainder;
-    }
-    rest + sums.iter().map(|sum| sum.abs()).sum::<f64>()
 }
 
 #[cfg(test)]
