@@ -22,16 +22,19 @@ struct System {
 impl System {
     fn read(path: &str) -> Self {
         let bytes = fs::read(path).unwrap_or_else(|error| panic!("{path}: {error}"));
-        let mut words = bytes.chunks_exact(8).map(|word| <[u8; 8]>::try_from(word).expect("eight bytes"));
+        let mut words =
+            bytes.chunks_exact(8).map(|word| <[u8; 8]>::try_from(word).expect("eight bytes"));
         let mut count = || u64::from_le_bytes(words.next().expect("a count")) as usize;
         let [modes, outputs] = [count(), count()];
-        let mut list = || -> Vec<f64> { words.by_ref().take(modes).map(f64::from_le_bytes).collect() };
+        let mut list =
+            || -> Vec<f64> { words.by_ref().take(modes).map(f64::from_le_bytes).collect() };
         Self { rates: list(), input: list(), rows: (0..outputs).map(|_| list()).collect() }
     }
 
     /// What outputs answer to a step.
     fn steps(&self, t: f64) -> Vec<f64> {
-        let grown: Vec<f64> = self.rates.iter().zip(&self.input).map(|(rate, b)| b * step(*rate, t)).collect();
+        let grown: Vec<f64> =
+            self.rates.iter().zip(&self.input).map(|(rate, b)| b * step(*rate, t)).collect();
         self.rows.iter().map(|row| row.iter().zip(&grown).map(|(c, g)| c * g).sum()).collect()
     }
 }
@@ -48,7 +51,8 @@ fn complex_step([re, im]: [f64; 2], t: f64) -> [f64; 2] {
 }
 
 fn main() {
-    let arguments: Vec<String> = env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
+    let arguments: Vec<String> =
+        env::args().skip(1).filter(|word| !word.starts_with("--")).collect();
     let Some((path, orders)) = arguments.split_first() else {
         println!("FILE ORDER …");
         return;
@@ -64,11 +68,16 @@ fn main() {
     let clumped = Clumped::new(system.rates.clone(), vec![system.input.clone()]);
     let residues: Vec<Residues> = system.rows.iter().map(|row| clumped.residues(row)).collect();
     let clumping = begin.elapsed().as_secs_f64();
-    let rows: Vec<Vec<&[f64]>> = residues.iter().map(|own| vec![own.values[0].as_slice()]).collect();
+    let rows: Vec<Vec<&[f64]>> =
+        residues.iter().map(|own| vec![own.values[0].as_slice()]).collect();
     let begin = Instant::now();
     let balanced = Balanced::new(&clumped.points, &rows).expect("singular values");
     let balancing = begin.elapsed().as_secs_f64();
-    println!("{} modes, {} rates: clumped in {clumping:.2} s, balanced in {balancing:.2} s", system.rates.len(), clumped.points.len());
+    println!(
+        "{} modes, {} rates: clumped in {clumping:.2} s, balanced in {balancing:.2} s",
+        system.rates.len(),
+        clumped.points.len()
+    );
     for order in orders.iter().filter_map(|order| order.parse::<usize>().ok()) {
         // The slowest mode is one of them.
         let Some(found) = balanced.truncated(order - 1) else { continue };
@@ -100,12 +109,17 @@ fn main() {
             start: &[1.0],
             missed: &missed,
             horizon: LAST / slowest,
-            allowed: &|ranges: &Ranges| ranges.together.iter().map(|range| vec![tolerance * range]).collect(),
+            allowed: &|ranges: &Ranges| {
+                ranges.together.iter().map(|range| vec![tolerance * range]).collect()
+            },
         };
         let begin = Instant::now();
         let (reduced, _) = ReducedSystem::new(&request).expect("a system");
         let spent = begin.elapsed().as_secs_f64();
         let bound = reduced.bounds.iter().copied().fold(0.0, f64::max);
-        println!("tolerance {tolerance:e}: order {}, bound {bound:.2e}, {spent:.2} s", reduced.order());
+        println!(
+            "tolerance {tolerance:e}: order {}, bound {bound:.2e}, {spent:.2} s",
+            reduced.order()
+        );
     }
 }

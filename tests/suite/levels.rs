@@ -5,6 +5,8 @@ use impinge::model::{Model, forecast, keep_reduction};
 use impinge::scene::{self, Scene, SolidLevel};
 use impinge::variables::Registry;
 
+use crate::common::Trial;
+
 const AVAILABLE: f64 = 4e9;
 
 /// A plate below a spot, held from below.
@@ -153,4 +155,57 @@ fn a_forecast_is_of_the_reduced_model() {
     let order = model.initial_state().bodies[0].len() - 4;
     assert_eq!(known.reduced, Some(Some(order)));
     assert!(known.memory < 1e5 && before.memory > without.memory);
+}
+
+const TILES: &str = r#"
+name = "Levels"
+stop_time = 1e-3
+step = 1e-5
+[body.plate]
+kind = "solid"
+shape = { box = [2e-3, 2e-3, 0.2e-3] }
+material = { model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = 10.0 }
+initial_temperature = 300.0
+mesh = { spacing = 1e-4, depth_spacing = 2e-5, growth = 1.5 }
+[body.plate.faces]
+bottom = { convection = { coefficient = 1e3, ambient = 300.0 } }
+[[load]]
+name = "spray"
+on = "plate.top"
+footprint = { tiles = { count = [4, 4], size = [1e-3, 1e-3] } }
+carries = ["heat_flux"]
+[[probe]]
+name = "a"
+in = "plate"
+at = [4e-4, 4e-4, 0.0]
+gives = ["temperature"]
+[[probe]]
+name = "b"
+in = "plate"
+at = [-1e-4, 1e-4, -5e-5]
+gives = ["temperature"]
+"#;
+
+#[test]
+fn cells_that_heat_does_not_go_from_to_a_probe_do_not_decide() {
+    let text = |level: &str| format!("{TILES}[fidelity]\nlevel = \"{level}\"\ntolerance = 1e-2\n");
+    let Levels { scene, notes, .. } = levels(&parsed(&text("auto")), AVAILABLE);
+    assert_eq!(scene.resolved["plate"].level, SolidLevel::Reduced, "{notes:?}");
+    let mut trials = ["full", "reduced"].map(|level| Trial::new(&text(level)));
+    for n in 0..20 {
+        for trial in &mut trials {
+            for cell in 0..16 {
+                let name = format!("spray.heat_flux[{},{}]", cell / 4 + 1, cell % 4 + 1);
+                trial.set(&name, 1e7 * f64::from((7 * n + 5 * cell) % 11) / 11.0);
+            }
+            trial.step(if n < 15 { 2e-5 } else { 1e-3 });
+        }
+        let [full, reduced] = &mut trials;
+        let bound = reduced.get("plate.error_bound_temperature");
+        for name in ["a.temperature", "b.temperature"] {
+            let (wanted, found) = (full.get(name), reduced.get(name));
+            assert!((wanted - found).abs() <= bound, "{name}: {wanted} {found}, {bound:e}");
+        }
+        assert!(reduced.heat_residual("plate") < 1e-12);
+    }
 }

@@ -11,7 +11,7 @@ use crate::method::reduced::ReducedSystem;
 use crate::scene::{FidelityLevel, MeshFactors, Naming, Scene, Solver};
 
 /// Changes with what a reduction is made of.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 const REDUCTION: Format = Format { magic: b"IMPRED01", noun: "reduction", of: "a solid" };
 
