@@ -11,7 +11,7 @@ RELEASE := target/release
 PY_FILES := $(wildcard python build-fmu/*.py tests/conftest.py tests/fmpy tests/python tests/verification benches examples)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo units examples test rust-test python-test fuzz verify bench charts bench-droplet build clean
+.PHONY: help demo units examples test rust-test python-test fuzz verify bench charts bench-droplet bench-reduced build clean
 
 help: ## say what there is
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
@@ -83,6 +83,10 @@ charts: build $(VENV)/ready ## chart errors over time, level beside level; goes 
 
 bench-droplet: $(PEERS)/ready ## time droplets against two other particle codes (needs g++ and OpenGL's libraries)
 	$(PEERS)/bin/python benches/droplet_peers.py
+
+bench-reduced: build $(VENV)/ready $(PEERS)/ready ## time reduced solids, and the reduction beside pyMOR's (needs cc)
+	$(BIN)/python benches/reduced.py
+	$(PEERS)/bin/python benches/reduced_peer.py
 
 build:
 	cargo build --release --workspace

@@ -28,8 +28,8 @@ use std::sync::{Arc, OnceLock};
 
 use crate::body::{Assembly, Body, Fields, Joint, Link, Readings};
 pub use crate::body::{
-    BodyError, BodyForecast, DropletForecast, Forecast, Kept, ParticleForecast, forecast,
-    keep_record, notes_on_walls, records, to_be_recorded,
+    BodyError, BodyForecast, DropletForecast, Forecast, Kept, KeptReduction, ParticleForecast,
+    forecast, keep_record, keep_reduction, notes_on_walls, records, to_be_recorded,
 };
 pub use crate::inputs::HIGHEST_INPUT_DERIVATIVE;
 use crate::inputs::{InputLayout, InputPath};
@@ -359,7 +359,25 @@ impl Model {
                 tolerance::percent(wanted)
             ))
         });
-        over.collect()
+        over.chain(self.reduction_warnings()).collect()
+    }
+
+    /// Warns of reduced bodies whose bound does not keep the tolerance: a sentence each.
+    pub fn reduction_warnings(&self) -> impl Iterator<Item = String> {
+        self.bodies.iter().filter_map(|body| {
+            let beyond = body.beyond_tolerance()?;
+            Some(format!(
+                "{}: {beyond}; `fidelity.level = \"full\"` keeps it, as \"auto\" does, which then takes the full model",
+                body.name()
+            ))
+        })
+    }
+
+    /// Of each reduced body its name and what it was reduced to; others that need the same find it as long as this is
+    /// held.
+    pub fn reductions(&self) -> Vec<(String, KeptReduction)> {
+        let named = |body: &Box<dyn Body>| Some((body.name().to_owned(), body.reduction()?));
+        self.bodies.iter().filter_map(named).collect()
     }
 
     /// What was chosen or left out, and why: a sentence each.

@@ -28,7 +28,7 @@ pub fn licences() -> Entries {
 }
 
 /// The page of a scene's unit.
-pub fn page(scene: &Scene, fmi: Version) -> String {
+pub fn page(scene: &Scene, fmi: Version, reductions: &[String]) -> String {
     let (registry, arrays) = (Registry::of(scene), ArrayRegistry::of(scene));
     let title = escape(&scene.name);
     let mut html = format!(
@@ -40,7 +40,7 @@ pub fn page(scene: &Scene, fmi: Version) -> String {
         fmi.icon(),
         escape(&scene.description)
     );
-    section(&mut html, "What is modelled", &modelled(scene));
+    section(&mut html, "What is modelled", &modelled(scene, reductions));
     section(&mut html, "How to run it", &how_to_run(scene, &registry, &arrays, fmi));
     for (causality, heading, text) in [
         (Causality::Input, "Inputs", "Held constant during a communication step."),
@@ -92,9 +92,10 @@ fn section(html: &mut String, heading: &str, content: &str) {
     let _ = writeln!(html, "<section>\n<h2>{heading}</h2>\n{content}</section>");
 }
 
-fn modelled(scene: &Scene) -> String {
+fn modelled(scene: &Scene, reductions: &[String]) -> String {
     let mut lines = words::of(scene);
     lines.extend(errors(scene));
+    lines.extend(reductions.iter().map(|note| format!("{note}.")));
     let list: String = lines.iter().map(|line| format!("<li>{}</li>\n", escape(line))).collect();
     format!(
         "<ul>\n{list}</ul>\n<p>Values are in SI units, temperatures in kelvin. The default \

@@ -18,7 +18,8 @@ use std::process::{self, ExitCode};
 
 use archive::Entries;
 use clap::Parser;
-use impinge::model::{notes_on_walls, records, to_be_recorded, tolerance};
+use impinge::machine::available_memory;
+use impinge::model::{Model, check_memory, notes_on_walls, records, to_be_recorded, tolerance};
 use impinge::scene::{self, Scene};
 use version::Version;
 
@@ -110,10 +111,14 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     for note in notes_on_walls(&scene) {
         complain(&format!("note: {note}"));
     }
+    let levels = tolerance::levels(&scene, available_memory());
+    for note in &levels.notes {
+        complain(&format!("note: {note}"));
+    }
     if let Some(target) = &arguments.xml {
         refuse_inputs(target, &[path])?;
         refuse_other_files(target, b"<?xml")?;
-        return write(target, arguments.fmi.model_description(&scene, &text).as_bytes());
+        return write(target, arguments.fmi.model_description(&levels.scene, &text).as_bytes());
     }
     let library_path = library::path(arguments.library.as_deref())?;
     let target = arguments.output.clone().unwrap_or_else(|| format!("{}.fmu", scene.name).into());
@@ -123,12 +128,17 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     for note in to_be_recorded(&scene) {
         complain(&format!("note: {note}"));
     }
-    let (known, estimates) = tolerance::estimates(&scene);
+    let (known, estimates) = tolerance::estimates(&levels.scene);
     for warning in tolerance::warnings(&known, &estimates) {
         complain(&format!("warning: {warning}"));
     }
     let text = tolerance::packed_text(&scene, &text, &known);
     let scene = known;
+    // Held, so that nothing of it is made twice.
+    let reduced = reduced(&scene)?;
+    for warning in reduced.iter().flat_map(Model::reduction_warnings) {
+        complain(&format!("warning: {warning}"));
+    }
     let reference = if arguments.reference {
         reference::entries(&scene, arguments.fmi)?
     } else {
@@ -185,6 +195,16 @@ fn is_same_file(_a: &Path, _b: &Path) -> bool {
     false
 }
 
+/// The model of a scene with solids that are reduced: only that tells their orders and bounds.
+fn reduced(scene: &Scene) -> Result<Option<Model>, String> {
+    if !scene.solids().any(|(name, _)| scene.is_reduced(name)) {
+        return Ok(None);
+    }
+    check_memory(scene, available_memory()).map_err(|error| error.to_string())?;
+    let model = Model::build(scene, scene.solver.threads);
+    model.map(Some).map_err(|error| error.to_string())
+}
+
 /// The bytes of the unit; `entries` come from the options.
 fn unit(
     scene: &Scene,
@@ -197,7 +217,9 @@ fn unit(
     entries.insert("modelDescription.xml".into(), fmi.model_description(scene, text).into());
     entries.insert("resources/scene.toml".into(), text.into());
     entries.insert("resources/cells.json".into(), cells::json(scene).into());
-    entries.insert("documentation/index.html".into(), documentation::page(scene, fmi).into());
+    let notes = reduced(scene)?.map_or(Vec::new(), |model| model.notes());
+    let page = documentation::page(scene, fmi, &notes);
+    entries.insert("documentation/index.html".into(), page.into());
     let icon = picture::png(scene)?;
     entries.append(&mut terminals::entries(scene, fmi, &icon)?);
     entries.insert(fmi.icon().into(), icon);
@@ -205,6 +227,10 @@ fn unit(
     let records = records(scene, scene.solver.threads);
     for (body, bytes) in records.map_err(|error| format!("no record of its drops: {error}"))? {
         entries.insert(format!("resources/records/{body}.record"), bytes);
+    }
+    let reductions = tolerance::stored_reductions(scene);
+    for (body, bytes) in reductions.map_err(|error| format!("no reduction: {error}"))? {
+        entries.insert(format!("resources/reduced/{body}.reduced"), bytes);
     }
     archive::zip(&entries)
 }

@@ -2,7 +2,9 @@
 
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
+use std::collections::BTreeMap;
 use std::fs;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -145,4 +147,64 @@ fn what_cannot_be_printed_ends_without_a_panic() {
 fn endless_scenes_are_refused() {
     let place = Place::new();
     place.refused("/dev/zero --library lib.so", "at most 16000000 bytes");
+}
+
+/// A plate below a spot, at a level.
+fn leveled(constants: &str, level: &str) -> String {
+    format!(
+        "name = \"Leveled\"\nstop_time = 1e-3\nstep = 1e-5\n\
+         fidelity = {{ level = \"{level}\", tolerance = 1e-4 }}\n[body.plate]\nkind = \"solid\"\n\
+         shape = {{ box = [2e-3, 1.6e-3, 0.4e-3] }}\n\
+         material = {{ model = \"thermoelastic\", {constants} }}\ninitial_temperature = 300.0\n\
+         mesh = {{ spacing = 1e-4, depth_spacing = 3e-5, growth = 1.5 }}\n\
+         [body.plate.faces]\nbottom = {{ temperature = 300.0 }}\n\
+         [[load]]\nname = \"spot\"\non = \"plate.top\"\ncarries = [\"heat_flux\"]\n\
+         footprint = {{ gaussian = {{ radius = 2e-4 }} }}\nstart = {{ heat_flux = 3e7 }}\n\
+         [[probe]]\nname = \"a\"\nin = \"plate\"\nat = [0.0, 0.0, 0.0]\ngives = [\"temperature\"]\n\
+         [[probe]]\nname = \"b\"\nin = \"plate\"\nat = [1e-4, 5e-5, -5e-5]\ngives = [\"temperature\"]\n"
+    )
+}
+
+/// The texts of a unit's files by their names.
+fn texts(path: &Path) -> BTreeMap<String, String> {
+    let mut archive = zip::ZipArchive::new(fs::File::open(path).unwrap()).unwrap();
+    let names: Vec<String> = archive.file_names().map(str::to_owned).collect();
+    let text = |name: String| {
+        let mut bytes = Vec::new();
+        archive.by_name(&name).unwrap().read_to_end(&mut bytes).unwrap();
+        (name, String::from_utf8_lossy(&bytes).into_owned())
+    };
+    names.into_iter().map(text).collect()
+}
+
+#[test]
+fn a_level_that_is_left_open_is_packed_with_its_answer() {
+    let place = Place::new();
+    let copper = "density = 8960.0, specific_heat = 385.0, conductivity = 400.0";
+    let aerogel = "density = 100.0, specific_heat = 1000.0, conductivity = 0.015";
+    for (constants, level, reason) in [
+        (copper, "reduced", "plate: reduced, which keeps the tolerance"),
+        (aerogel, "full", "plate: full, as temperatures of a reduced model err"),
+    ] {
+        fs::write(place.path("open.toml"), leveled(constants, "auto")).unwrap();
+        let packed = place.shell("open.toml -o open.fmu --library lib.so");
+        let said = String::from_utf8_lossy(&packed.stderr);
+        assert!(packed.status.success() && said.contains(reason), "{said}");
+        let files = texts(&place.path("open.fmu"));
+        let resolved = format!("[resolved.plate]\nlevel = \"{level}\"");
+        assert!(files["resources/scene.toml"].contains(&resolved));
+        let is_reduced = level == "reduced";
+        assert_eq!(files.contains_key("resources/reduced/plate.reduced"), is_reduced);
+        let description = &files["modelDescription.xml"];
+        assert_eq!(description.contains("plate.error_bound_temperature"), is_reduced);
+        assert_eq!(files["documentation/index.html"].contains("unknowns"), is_reduced);
+        // The description alone is that of the unit.
+        assert!(place.shell("open.toml --xml open.xml").status.success());
+        assert_eq!(&fs::read_to_string(place.path("open.xml")).unwrap(), description);
+    }
+    fs::write(place.path("tight.toml"), leveled(aerogel, "reduced")).unwrap();
+    let packed = place.shell("tight.toml -o tight.fmu --library lib.so");
+    let said = String::from_utf8_lossy(&packed.stderr);
+    assert!(packed.status.success(), "{said}");
+    assert!(said.contains("warning: plate: temperatures of a reduced model err"), "{said}");
 }

@@ -1,9 +1,9 @@
 //! What a scene will cost.
 
 pub use super::droplet::DropletForecast;
-use super::link;
 use super::solid::forecast_solid;
 pub use super::solid::{BodyForecast, ParticleForecast};
+use super::{link, reduced};
 use crate::scene::{Coupling, Scene};
 
 /// What a scene will cost, estimated before it is built.
@@ -31,7 +31,10 @@ impl Forecast {
 
 /// What a scene will cost, without building it.
 pub fn forecast(scene: &Scene) -> Forecast {
-    let solids = scene.solids().map(|(name, solid)| forecast_solid(scene, name, solid));
+    let solids = scene.solids().map(|(name, solid)| {
+        let full = forecast_solid(scene, name, solid);
+        if scene.is_reduced(name) { reduced::forecast(scene, name, full) } else { full }
+    });
     let droplets = droplet_forecasts(scene);
     let steps = (scene.stop_time / scene.step).ceil();
     let bodies: Vec<BodyForecast> = solids.collect();

@@ -22,6 +22,7 @@ pub use error::BodyError;
 pub use forecast::{BodyForecast, DropletForecast, Forecast, ParticleForecast, forecast};
 pub use link::{Joint, Link, Side};
 pub use read::{Descriptor, Direct, PeakPart, Reading, peaks, totals};
+pub use reduced::{KeptReduction, forget_unused_reductions, keep_reduction};
 pub use solid::{PointQuantity, point_quantities};
 
 use crate::inputs::{InputLayout, InputPath};
@@ -139,6 +140,16 @@ pub trait Body: Send + Sync {
     /// What was chosen or left out, and why: a sentence each.
     fn notes(&self) -> Vec<String> {
         Vec::new()
+    }
+
+    /// What of its own making errs by more than the scene's tolerance, in words.
+    fn beyond_tolerance(&self) -> Option<String> {
+        None
+    }
+
+    /// What a reduced body follows from, for those that are equal.
+    fn reduction(&self) -> Option<KeptReduction> {
+        None
     }
 
     /// What a user should know of a state, quickly found.
@@ -340,6 +351,19 @@ pub fn build(
     }
     let joints = link::joints(scene, &built, place);
     Ok(Assembly { bodies: built.into_iter().flatten().collect(), links, joints })
+}
+
+/// The reductions of a scene whose inputs begin as `start` says, each with the name of its body, as bytes.
+pub fn reductions(
+    scene: &Scene,
+    (layout, start): (&InputLayout, &[f64]),
+    threads: usize,
+) -> Result<Vec<(String, Vec<u8>)>, BodyError> {
+    let bytes = |(name, solid): (&str, &scene::Solid)| {
+        let body = ReducedBody::new(scene, layout, (name, solid), start, threads.max(1))?;
+        Ok((name.to_owned(), body.to_bytes(scene)))
+    };
+    scene.solids().filter(|(name, _)| scene.is_reduced(name)).map(bytes).collect()
 }
 
 /// Threads for a body; 0 are wanted for as many as are worth it.

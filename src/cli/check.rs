@@ -32,10 +32,12 @@ impl Check {
         let (scene, warnings) = scene::read_with_warnings(&self.scene)?;
         super::warn(&warnings);
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
-        let (scene, estimates) = tolerance::estimates(&scene);
+        let levels = tolerance::levels(&scene, available_memory());
+        let (scene, estimates) = tolerance::estimates(&levels.scene);
         for warning in tolerance::warnings(&scene, &estimates) {
             super::print_message("warning", &warning);
         }
+        let reduced = reduced_model(&scene)?;
         let sections = [
             ("Bodies", bodies(&scene)),
             ("Bodies without extent", lumps(&scene)),
@@ -53,7 +55,7 @@ impl Check {
         for (title, body) in sections.iter().filter(|(_, body)| !body.is_empty()) {
             let _ = write!(text, "\n{title}\n{body}");
         }
-        text.push_str(&reductions(&scene)?);
+        text.push_str(&reductions(reduced.as_ref(), &levels.notes));
         text.push_str(&variables(&scene, self.outputs));
         Ok(text)
     }
@@ -82,13 +84,27 @@ fn notes(scene: &Scene) -> String {
         if let Some(particles) = &body.particles {
             let _ = writeln!(text, "    {}", conduction(particles, columns * rows * layers));
         }
-        let _ = writeln!(
-            text,
-            "    about {:.0} MB, {} to build, {} a step whose stresses are read",
-            body.memory / 1e6,
-            engineering(body.build_time, "s"),
-            engineering(body.step_time, "s")
-        );
+        let step_time = engineering(body.step_time, "s");
+        let _ = match body.reduced {
+            None => writeln!(
+                text,
+                "    about {:.0} MB, {} to build, {step_time} a step whose stresses are read",
+                body.memory / 1e6,
+                engineering(body.build_time, "s")
+            ),
+            Some(None) => writeln!(
+                text,
+                "    reduced: about {:.0} MB and {} to get there, then {step_time} a step with all that is read",
+                body.memory / 1e6,
+                engineering(body.build_time, "s")
+            ),
+            Some(Some(unknowns)) => writeln!(
+                text,
+                "    reduced to {unknowns} unknowns of {:.1} kB, {} to get there, about {step_time} a step with all that is read",
+                body.memory / 1e3,
+                engineering(body.build_time, "s")
+            ),
+        };
         for note in &body.notes {
             let _ = writeln!(text, "    - {note}");
         }
@@ -145,14 +161,24 @@ fn errors(estimates: &[BodyEstimate]) -> String {
     text
 }
 
-/// Orders and bounds of solids that are reduced, for which they are built.
-fn reductions(scene: &Scene) -> Result<String, CliError> {
+/// The model of a scene with solids that are reduced: only building it tells their orders and bounds.
+fn reduced_model(scene: &Scene) -> Result<Option<Model>, CliError> {
     if !scene.solids().any(|(name, _)| scene.is_reduced(name)) {
-        return Ok(String::new());
+        return Ok(None);
     }
     let model = Model::build(scene, scene.solver.threads).map_err(CliError::Model)?;
-    let notes = model.notes().into_iter();
-    Ok(format!("\nReduction\n{}", notes.map(|note| format!("  {note}\n")).collect::<String>()))
+    for warning in model.reduction_warnings() {
+        super::print_message("warning", &warning);
+    }
+    Ok(Some(model))
+}
+
+/// Orders and bounds of solids that are reduced, and what levels that were left open came to.
+fn reductions(model: Option<&Model>, levels: &[String]) -> String {
+    let mut notes = levels.to_vec();
+    notes.extend(model.into_iter().flat_map(Model::notes));
+    let lines: String = notes.into_iter().map(|note| format!("  {note}\n")).collect();
+    if lines.is_empty() { lines } else { format!("\nReduction\n{lines}") }
 }
 
 /// What particles do in a communication step.

@@ -75,12 +75,19 @@ impl Run {
         for note in to_be_recorded(&scene) {
             super::print_message("note", &note);
         }
-        let (scene, estimates) = tolerance::estimates(&scene);
+        let levels = tolerance::levels(&scene, available_memory());
+        for note in &levels.notes {
+            super::print_message("note", note);
+        }
+        let (scene, estimates) = tolerance::estimates(&levels.scene);
         for warning in tolerance::warnings(&scene, &estimates) {
             super::print_message("warning", &warning);
         }
         let model = Model::build(&scene, scene.solver.threads)
             .map_err(|error| CliError::from_model(error, &scene))?;
+        for warning in model.reduction_warnings() {
+            super::print_message("warning", &warning);
+        }
         let timeline = Timeline::new(scene.step, scene.stop_time);
         let table = self.input_table(&scene, &inputs)?;
         let rows = table.as_ref().map_or(0, |table| table.rows_until(scene.stop_time));

@@ -1,7 +1,7 @@
 //! What an instance is and does, in safe Rust: its life from instantiation to the last step.
 
 use std::cell::OnceCell;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::CString;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,8 +20,8 @@ use crate::math::address_space::{self, PRODUCTS, SPARE};
 use crate::math::allowance::{Halt, Interrupt};
 use crate::math::thread::{STACK, aside};
 use crate::model::{
-    BodyError, Cache, Kept, Model, ModelError, State, Stiffness, Tangent, initial_inputs,
-    keep_record, to_be_recorded,
+    BodyError, Cache, Kept, KeptReduction, Model, ModelError, State, Stiffness, Tangent,
+    initial_inputs, keep_record, keep_reduction, to_be_recorded,
 };
 use crate::output::{FieldSeries, FolderLock, OutputError};
 use crate::scene::{self, Scene, Warning};
@@ -61,6 +61,10 @@ pub struct Unit {
     kept: Stiffness,
     /// Recorded drops of the unit, which its models find as long as they are held here.
     _records: Vec<Kept>,
+    /// Reductions that the unit has stored, each with the name of its body.
+    stored: Vec<(String, KeptReduction)>,
+    /// Those of a model that has gone, for the next one.
+    reductions: Vec<(String, KeptReduction)>,
     /// What is implausible in the scene as packed.
     warnings: Vec<Warning>,
     /// What the master has been warned of.
@@ -105,6 +109,7 @@ pub struct Packed {
     /// At the start of time.
     state: State,
     records: Vec<Kept>,
+    reductions: Vec<(String, KeptReduction)>,
 }
 
 impl Packed {
@@ -112,7 +117,8 @@ impl Packed {
         let registry = Registry::of(&scene);
         let guid = guid::guid(text, &registry);
         let state = start_state(&scene);
-        Self { scene, warnings, registry, guid, state, records: Vec::new() }
+        let (records, reductions) = (Vec::new(), Vec::new());
+        Self { scene, warnings, registry, guid, state, records, reductions }
     }
 }
 
@@ -143,30 +149,35 @@ fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
              modelDescription.xml, scene and library are not of one unit"
         ));
     }
-    packed.records = records_in(&resources.join(RECORDS))?;
+    packed.records = kept_in(&resources.join(RECORDS), keep_record)?.into_values().collect();
+    packed.reductions = kept_in(&resources.join(REDUCTIONS), keep_reduction)?.into_iter().collect();
     Ok(packed)
 }
 
-/// Folder of recorded drops among a unit's resources, which not every unit has.
+/// Folders among a unit's resources, which not every unit has: of recorded drops, and of reduced solids.
 const RECORDS: &str = "records";
+const REDUCTIONS: &str = "reduced";
 
-/// Recorded drops of a unit.
-fn records_in(folder: &Path) -> Result<Vec<Kept>, String> {
-    let Ok(files) = fs::read_dir(folder) else { return Ok(Vec::new()) };
+/// What the files of a folder hold, by the names of bodies.
+fn kept_in<T>(
+    folder: &Path,
+    keep: impl Fn(&[u8]) -> Result<T, String>,
+) -> Result<BTreeMap<String, T>, String> {
+    let Ok(files) = fs::read_dir(folder) else { return Ok(BTreeMap::new()) };
     let mut paths: Vec<_> = files.filter_map(|file| Some(file.ok()?.path())).collect();
     paths.sort();
     let kept = |path: PathBuf| {
+        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let bytes = fs::read(&path).map_err(|reason| reason.to_string());
-        bytes
-            .and_then(|bytes| keep_record(&bytes))
-            .map_err(|reason| format!("{}: {reason}", path.display()))
+        let kept = bytes.and_then(|bytes| keep(&bytes));
+        Ok((name, kept.map_err(|reason| format!("{}: {reason}", path.display()))?))
     };
     paths.into_iter().map(kept).collect()
 }
 
 impl Unit {
     pub fn new(packed: Packed, log: Log) -> Self {
-        let Packed { scene, warnings, registry, guid, state, records } = packed;
+        let Packed { scene, warnings, registry, guid, state, records, reductions } = packed;
         Self {
             log,
             phase: Phase::Instantiated,
@@ -179,6 +190,8 @@ impl Unit {
             has_set_derivatives: false,
             kept: Vec::new(),
             _records: records,
+            stored: reductions,
+            reductions: Vec::new(),
             packed: scene.clone(),
             scene,
             directory: String::new(),
@@ -359,7 +372,11 @@ impl Unit {
             other => other?,
         };
         self.kept.clear();
+        self.reductions.clear();
         self.warn_of_scene();
+        for note in self.reduced_anew(&model) {
+            self.log.send(Status::Ok, &note);
+        }
         for note in model.notes() {
             self.log.send(Status::Ok, &note);
         }
@@ -368,6 +385,18 @@ impl Unit {
         self.scene.refinement.clone_from(&model.scene().refinement);
         self.state.bodies = model.initial_state().bodies;
         Ok(Run::new(model))
+    }
+
+    /// Solids whose stored reduction is not that of a model.
+    fn reduced_anew(&self, model: &Model) -> Vec<String> {
+        let anew = model.reductions().into_iter().filter_map(|(name, reduction)| {
+            let stored = self.stored.iter().find(|(body, _)| *body == name)?;
+            let note = format!(
+                "{name}: reduced anew, as the reduction that the unit has stored belongs to other parameters"
+            );
+            (stored.1 != reduction).then_some(note)
+        });
+        anew.collect()
     }
 
     /// What is computed before the first step, as neither this process nor the unit knows it.
@@ -450,10 +479,11 @@ impl Unit {
         self.scene.refinement.values_mut().for_each(|mesh| mesh.estimated_error = None);
     }
 
-    /// Drops the model and what follows from the state, but for its stiffness.
+    /// Drops the model and what follows from the state, but for its stiffness and its reductions.
     fn drop_run(&mut self) {
         if let Some(run) = self.run.take() {
             self.kept = run.model.stiffness();
+            self.reductions = run.model.reductions();
         }
     }
 

@@ -17,6 +17,7 @@ pub mod lagrange;
 pub mod nested_dissection;
 pub mod parallel;
 pub mod product;
+pub mod sealed;
 pub mod separable;
 pub mod shared_values;
 pub mod singular_values;

@@ -47,8 +47,14 @@ impl<K: Clone + PartialEq, V> SharedValues<K, V> {
 
     /// Whether somebody holds the value of a key.
     pub fn has(&self, key: &K) -> bool {
-        let is_held = |slot: &Mutex<Weak<V>>| slot.try_lock().is_ok_and(|v| v.strong_count() > 0);
-        self.entries().iter().any(|(other, slot)| other == key && is_held(slot))
+        self.get(key).is_some()
+    }
+
+    /// The value of a key, if somebody holds it.
+    pub fn get(&self, key: &K) -> Option<Arc<V>> {
+        let entries = self.entries();
+        let (_, slot) = entries.iter().find(|(other, _)| other == key)?;
+        slot.try_lock().ok()?.upgrade()
     }
 
     /// Forgets keys whose values nobody holds any more.

@@ -1,12 +1,14 @@
 //! Singular value decompositions by one-sided rotations, on the thread that calls.
 //!
-//! `A P = Q R` with the longest column that is left first, then the columns of `Rᵀ`, as many as the rank, are turned
-//! against each other until all are orthogonal: they are `σ u` then, and the turns are `V` (M. R. Hestenes 1958, doi
+//! `A P = Q R` with the longest column first; columns of `Rᵀ`, of which there are no more than the rank, are turned against
+//! each other until all are orthogonal: then they are `σ u`, and the turns are `V` (M. R. Hestenes 1958, doi
 //! 10.1137/0106005; Z. Drmač and K. Veselić 2008, doi 10.1137/050639193). Small singular values of graded matrices keep
 //! their digits (J. Demmel and K. Veselić 1992, doi 10.1137/0613074), which methods that first make the matrix bidiagonal
 //! lose.
 
 use faer::Mat;
+
+use super::product::product;
 
 /// `A = U diag(σ) Vᵀ` with as many columns as singular values that count, descending.
 pub struct SingularValues {
@@ -34,78 +36,77 @@ pub fn singular_values(matrix: &Mat<f64>) -> Option<SingularValues> {
     }
     let own: Vec<Vec<f64>> =
         (0..matrix.ncols()).map(|j| matrix.col(j).iter().copied().collect()).collect();
-    let Orthogonal { basis, rows } = orthogonal(own)?;
-    let mut columns = rows;
-    let mut turns: Vec<Vec<f64>> = (0..columns.len())
-        .map(|j| (0..columns.len()).map(|i| if i == j { 1.0 } else { 0.0 }).collect())
-        .collect();
-    let longest = columns.iter().map(|column| length(column)).fold(0.0, f64::max);
+    let lengths: Vec<f64> = own.iter().map(|column| length(column)).collect();
+    let longest = lengths.iter().copied().fold(0.0, f64::max);
+    if !lengths.iter().all(|length| length.is_finite()) {
+        return None;
+    }
+    let Factors { basis, mut rows } = factors(own, SHORT * longest);
+    let rank = rows.len();
+    let mut turns: Vec<Vec<f64>> =
+        (0..rank).map(|j| (0..rank).map(|i| if i == j { 1.0 } else { 0.0 }).collect()).collect();
     for _ in 0..SWEEPS {
-        if !sweep(&mut columns, &mut turns, SHORT * longest) {
+        if !sweep(&mut rows, &mut turns, SHORT * longest) {
             break;
         }
     }
-    let values: Vec<f64> = columns.iter().map(|column| length(column)).collect();
-    let mut order: Vec<usize> = (0..values.len()).filter(|&j| values[j] > 0.0).collect();
+    let values: Vec<f64> = rows.iter().map(|row| length(row)).collect();
+    let mut order: Vec<usize> = (0..rank).filter(|&j| values[j] > 0.0).collect();
     order.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
-    let mut left = Mat::zeros(matrix.nrows(), order.len());
-    for (r, &j) in order.iter().enumerate() {
-        for (column, turn) in basis.iter().zip(&turns[j]) {
-            left.col_mut(r).iter_mut().zip(column).for_each(|(out, q)| *out += turn * q);
-        }
-    }
     let right =
-        Mat::from_fn(matrix.ncols(), order.len(), |i, r| columns[order[r]][i] / values[order[r]]);
+        Mat::from_fn(matrix.ncols(), order.len(), |i, r| rows[order[r]][i] / values[order[r]]);
+    let basis = Mat::from_fn(matrix.nrows(), rank, |i, k| basis[k][i]);
+    let turned = Mat::from_fn(rank, order.len(), |k, r| turns[order[r]][k]);
+    let mut left = vec![0.0; matrix.nrows() * order.len()];
+    product(&mut left, basis.as_ref(), turned.as_ref());
+    let left = Mat::from_fn(matrix.nrows(), order.len(), |i, r| left[r * matrix.nrows() + i]);
     Some(SingularValues { left, values: order.iter().map(|&j| values[j]).collect(), right })
 }
 
-/// `A = Q R`: orthonormal columns of `Q`, and the rows of `R`, columns where those of `A` are.
-struct Orthogonal {
+/// Orthonormal columns, and for each of these a row: their products sum up to a matrix.
+struct Factors {
     basis: Vec<Vec<f64>>,
     rows: Vec<Vec<f64>>,
 }
 
-/// Orthogonalises columns, the longest that is left first, until all that are left are short; nothing where any holds no
-/// numbers.
-///
-/// What a column loses is taken twice, so that the basis is orthogonal to rounding (L. Giraud, J. Langou, M. Rozložník and
-/// J. van den Eshof 2005, doi 10.1007/s00211-005-0615-4).
-fn orthogonal(mut columns: Vec<Vec<f64>>) -> Option<Orthogonal> {
-    let mut lengths: Vec<f64> = columns.iter().map(|column| length(column)).collect();
-    if !lengths.iter().all(|length| length.is_finite()) {
-        return None;
-    }
-    let short = SHORT * lengths.iter().copied().fold(0.0, f64::max);
-    let (mut basis, mut rows): (Vec<Vec<f64>>, Vec<Vec<f64>>) = (Vec::new(), Vec::new());
-    while let Some(longest) = (0..columns.len()).max_by(|&a, &b| lengths[a].total_cmp(&lengths[b]))
-    {
-        if lengths[longest] <= short || basis.len() == columns[longest].len() {
+/// Of the columns of a matrix, the longest of what is left first, down to those that are `short`.
+fn factors(mut left: Vec<Vec<f64>>, short: f64) -> Factors {
+    let count = left.len();
+    let mut lengths: Vec<f64> = left.iter().map(|column| length(column)).collect();
+    let mut found = Factors { basis: Vec::new(), rows: Vec::new() };
+    while found.basis.len() < count {
+        let longer = |best: usize, j: usize| if lengths[j] > lengths[best] { j } else { best };
+        let pivot = (1..count).fold(0, longer);
+        let size = lengths[pivot];
+        // Without this, numbers that are none would never end.
+        if size.is_nan() || size <= short {
             break;
         }
-        let mut own = columns[longest].clone();
-        for column in &basis {
-            let part = dot(column, &own);
-            own.iter_mut().zip(column).for_each(|(own, q)| *own -= part * q);
+        let mut unit: Vec<f64> = left[pivot].iter().map(|value| value / size).collect();
+        // What rounding has left along those before is taken away once more.
+        for (before, row) in found.basis.iter().zip(&mut found.rows) {
+            let part = dot(before, &unit);
+            subtract(&mut unit, part, before);
+            row[pivot] += part * size;
         }
-        let norm = length(&own);
-        if norm <= short {
-            lengths[longest] = 0.0;
-            continue;
+        let scale = length(&unit);
+        unit.iter_mut().for_each(|value| *value /= scale);
+        let mut row = vec![0.0; count];
+        for (j, column) in left.iter_mut().enumerate().filter(|(_, column)| !column.is_empty()) {
+            row[j] = dot(&unit, column);
+            subtract(column, row[j], &unit);
+            lengths[j] = length(column);
         }
-        own.iter_mut().for_each(|value| *value /= norm);
-        let mut row = vec![0.0; columns.len()];
-        for (j, column) in columns.iter_mut().enumerate() {
-            if lengths[j] == 0.0 {
-                continue;
-            }
-            row[j] = dot(&own, column);
-            column.iter_mut().zip(&own).for_each(|(value, q)| *value -= row[j] * q);
-            lengths[j] = if j == longest { 0.0 } else { length(column) };
-        }
-        basis.push(own);
-        rows.push(row);
+        left[pivot].clear();
+        lengths[pivot] = 0.0;
+        found.basis.push(unit);
+        found.rows.push(row);
     }
-    Some(Orthogonal { basis, rows })
+    found
+}
+
+fn subtract(from: &mut [f64], part: f64, values: &[f64]) {
+    from.iter_mut().zip(values).for_each(|(from, value)| *from -= part * value);
 }
 
 /// Turns all pairs once; whether any was not orthogonal.
@@ -150,6 +151,39 @@ fn length(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_wide_matrix_of_low_rank_comes_back() {
+        let wave = |a: f64, n: usize| (a * (n as f64 + 1.0)).sin();
+        let own = Mat::from_fn(30, 400, |i, j| {
+            (1..=5)
+                .map(|k| {
+                    10f64.powi(-3 * k) * wave(0.7 * f64::from(k), i) * wave(0.013 * f64::from(k), j)
+                })
+                .sum()
+        });
+        let found = singular_values(&own).unwrap();
+        // Beyond the rank there is rounding alone.
+        let rounding = 1e-14 * found.values[0];
+        assert!(found.values.iter().skip(5).all(|value| *value < rounding), "{:?}", found.values);
+        assert!(found.values[4] > 10.0 * rounding && found.values.len() < 30);
+        for (i, j) in (0..30).zip((0..400).step_by(13)) {
+            let parts = found.values.iter().enumerate();
+            let sum: f64 = parts.map(|(r, s)| found.left[(i, r)] * s * found.right[(j, r)]).sum();
+            assert!((sum - own[(i, j)]).abs() < rounding);
+        }
+        for a in 0..found.values.len() {
+            for b in 0..=a {
+                let wanted = if a == b { 1.0 } else { 0.0 };
+                let left: f64 = (0..30).map(|i| found.left[(i, a)] * found.left[(i, b)]).sum();
+                assert!((left - wanted).abs() < 1e-12);
+                let right: f64 = (0..400).map(|i| found.right[(i, a)] * found.right[(i, b)]).sum();
+                // What is as short as rounding has no direction.
+                let is_noise = found.values[a] < rounding;
+                assert!((right - wanted).abs() < 1e-12 || is_noise);
+            }
+        }
+    }
 
     #[test]
     fn graded_matrices_keep_their_small_singular_values() {

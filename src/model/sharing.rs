@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::tolerance::{self, Resolved};
 use super::{Model, ModelError, check_memory};
-use crate::body::forget_unused_records;
+use crate::body::{forget_unused_records, forget_unused_reductions};
 use crate::math::shared_values::SharedValues;
 use crate::math::thread::aside;
 use crate::method::fem::forget_unused_stiffness;
@@ -31,6 +31,7 @@ impl Model {
         MODELS.forget_unused();
         forget_unused_stiffness();
         forget_unused_records();
+        forget_unused_reductions();
         tolerance::forget_unused();
     }
 }

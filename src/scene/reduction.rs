@@ -3,7 +3,7 @@
 use super::Sampling;
 use super::check::takes_newton;
 use super::lookup::split_place;
-use super::types::{FidelityLevel, Gives, HeatMethod, Load, Scene, Solid};
+use super::types::{FidelityLevel, Gives, HeatMethod, Load, Scene, Solid, SolidLevel};
 
 /// What keeps a solid from being reduced.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,10 +36,16 @@ impl Scene {
         match self.fidelity.level {
             FidelityLevel::Full => false,
             FidelityLevel::Reduced => self.solid(name).is_some(),
-            FidelityLevel::Auto => {
-                self.solid(name).is_some_and(|solid| self.obstacle(name, solid).is_none())
-            }
+            FidelityLevel::Auto => match self.resolved.get(name) {
+                Some(resolved) => resolved.level == SolidLevel::Reduced,
+                None => self.solid(name).is_some_and(|solid| self.obstacle(name, solid).is_none()),
+            },
         }
+    }
+
+    /// Whether the level of a solid is to be found.
+    pub fn is_open_level(&self, name: &str) -> bool {
+        self.fidelity.level == FidelityLevel::Auto && !self.resolved.contains_key(name)
     }
 
     /// What keeps a solid from being a reduced model; the first found.

@@ -71,6 +71,30 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     #[schemars(extend("condition" = "of solids", "otherwise" = "from `fidelity.tolerance`"))]
     pub refinement: BTreeMap<String, MeshFactors>,
+    /// Tables `[resolved.BODY]`: what `fidelity.level = "auto"` came to for a solid; packing writes them.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    #[schemars(extend(
+        "condition" = "of solids, where the level is `auto`",
+        "otherwise" = "`reduced` where that can be"
+    ))]
+    pub resolved: BTreeMap<String, ResolvedLevel>,
+}
+
+/// What a solid is where a scene leaves it open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ResolvedLevel {
+    /// How much model the solid is.
+    pub level: SolidLevel,
+}
+
+/// The levels that a solid can have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub enum SolidLevel {
+    Full,
+    /// Some tens of unknowns, with a bound of the error.
+    Reduced,
 }
 
 /// How much finer than usual a mesh is; packing writes what follows from the tolerance.

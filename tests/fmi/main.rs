@@ -16,6 +16,7 @@ mod master;
 mod model_description;
 mod peaks;
 mod records;
+mod reduced;
 mod refusals;
 mod states;
 mod stepping;

@@ -24,6 +24,7 @@ mod impossible;
 mod joints;
 mod layered_mechanics;
 mod layers;
+mod levels;
 mod named_materials;
 mod nonlinear_heat;
 mod nonlinear_solids;

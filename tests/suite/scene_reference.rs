@@ -19,7 +19,7 @@ const IMPACT: &str = include_str!("../scenes/impact.toml");
 /// stands there with a key that there is not, and keys that choose the section's type.
 type Section = (&'static str, &'static str, &'static str, &'static str, &'static [&'static str]);
 
-const SECTIONS: [Section; 29] = [
+const SECTIONS: [Section; 30] = [
     ("The whole", PLATE, "stop_time =", "zz = 1\nstop_time =", &[]),
     ("`fidelity`", PLATE, "level =", "zz = 1\nlevel =", &[]),
     ("`solver`", PLATE, "stop_time =", "solver = { zz = 1 }\nstop_time =", &[]),
@@ -28,6 +28,13 @@ const SECTIONS: [Section; 29] = [
         PLATE,
         "stop_time =",
         "refinement = { plate = { zz = 1 } }\nstop_time =",
+        &[],
+    ),
+    (
+        "`[resolved.BODY]`",
+        PLATE,
+        "stop_time =",
+        "resolved = { plate = { zz = 1 } }\nstop_time =",
         &[],
     ),
     (

@@ -1,7 +1,7 @@
 //! From a solid to its reduced model.
 
 use super::Reduction;
-use super::drives::{Drive, Drives};
+use super::drives::{Drive, DriveKind, Drives};
 use super::values::{Kind, Value, Values};
 use crate::body::BodyError;
 use crate::body::solid::{BodyLoads, means_of, plan};
@@ -21,7 +21,8 @@ pub struct Full<'a> {
     initial_temperature: f64,
     fem: SolidFem,
     meshes: [Mesh; 2],
-    /// What a unit of each drive does.
+    /// What each drive is measured in, and what a unit of it does.
+    drive_kinds: Vec<DriveKind>,
     columns: Vec<SolidLoads>,
     /// What single units of loads do between the footprints that stand for them, and what drives then.
     trials: Vec<(SolidLoads, Vec<f64>)>,
@@ -73,7 +74,18 @@ impl<'a> Full<'a> {
         }
         let means = means_of(scene, (name, solid), meshes.each_ref());
         let initial_temperature = solid.initial_temperature;
-        Ok(Self { scene, initial_temperature, fem, meshes, columns, trials, take, means })
+        let drive_kinds = drives.list.iter().map(|drive| drive.kind).collect();
+        Ok(Self {
+            scene,
+            initial_temperature,
+            fem,
+            meshes,
+            drive_kinds,
+            columns,
+            trials,
+            take,
+            means,
+        })
     }
 
     /// The reduced model; `sizes` are those that drives start with.
@@ -99,6 +111,7 @@ impl<'a> Full<'a> {
             offsets.push(row.offset);
         }
         let kinds: Vec<Kind> = values.kinds().collect();
+        let experiment = Experiment { kinds: &kinds, drives: &self.drive_kinds, sizes };
         let tolerance = self.scene.fidelity.tolerance;
         let request = Request {
             clumped: &clumped,
@@ -108,12 +121,13 @@ impl<'a> Full<'a> {
             start: sizes,
             missed: &missed,
             horizon: self.scene.stop_time,
-            allowed: &|ranges| allowed(tolerance, &kinds, sizes, ranges),
+            allowed: &|ranges| experiment.allowed(tolerance, ranges),
         };
-        let system = ReducedSystem::new(&request)
+        let (system, ranges) = ReducedSystem::new(&request)
             .map_err(|error| BodyError::Reduction { message: error.to_string() })?;
+        let errors = experiment.errors(&system, &ranges);
         let brought = self.columns.iter().map(|loads| self.fem.brought_in_by(loads)).collect();
-        Ok(Reduction { system, offsets, brought, modes: clumped.modes() })
+        Ok(Reduction { system, offsets, errors, brought, modes: clumped.modes() })
     }
 
     /// For each drive what footprints that move miss at most between those that stand for them: heat over all time, and
@@ -207,19 +221,61 @@ struct Row {
     offset: f64,
 }
 
-/// For each output and drive the error that is allowed: together a part of the output's range over the default
-/// experiment; where a drive starts from nothing, of the range under a unit of it.
-fn allowed(tolerance: f64, kinds: &[Kind], sizes: &[f64], ranges: &Ranges) -> Vec<Vec<f64>> {
-    let at_least = |values: &dyn Fn(usize) -> f64, k: usize| {
-        let of_kind = (0..kinds.len()).filter(|&other| kinds[other] == kinds[k]);
-        let largest = of_kind.map(values).fold(0.0, f64::max);
-        let range = values(k).max(LEAST_RANGE * largest);
+/// What outputs and drives are measured in, and how large drives are as they start.
+struct Experiment<'a> {
+    kinds: &'a [Kind],
+    drives: &'a [DriveKind],
+    sizes: &'a [f64],
+}
+
+impl Experiment<'_> {
+    /// The range of an output that counts: its own, or a part of the largest of its kind; infinite where none has any.
+    fn range(&self, ranges: &[f64], k: usize) -> f64 {
+        let range = ranges[k].max(LEAST_RANGE * self.largest(ranges, k));
         if range > 0.0 { range } else { f64::INFINITY }
-    };
-    let active = sizes.iter().filter(|&&size| size != 0.0).count() as f64;
-    let of_pair = |k: usize, j: usize| match sizes[j] != 0.0 {
-        true => tolerance * at_least(&|k| ranges.together[k], k) / (active * sizes[j].abs()),
-        false => tolerance * at_least(&|k| ranges.single[k][j], k),
-    };
-    (0..kinds.len()).map(|k| (0..sizes.len()).map(|j| of_pair(k, j)).collect()).collect()
+    }
+
+    /// The same under a unit of one drive, where the largest is that under any drive of its kind: what one cell of many
+    /// hardly reaches another may.
+    fn range_under(&self, single: &[Vec<f64>], [k, j]: [usize; 2]) -> f64 {
+        let like = (0..self.drives.len()).filter(|&other| self.drives[other] == self.drives[j]);
+        let under = |j: usize| single.iter().map(|ranges| ranges[j]).collect::<Vec<f64>>();
+        let largest = like.map(|j| self.largest(&under(j), k)).fold(0.0, f64::max);
+        let range = single[k][j].max(LEAST_RANGE * largest);
+        if range > 0.0 { range } else { f64::INFINITY }
+    }
+
+    /// The largest range of any output of the kind of one.
+    fn largest(&self, ranges: &[f64], k: usize) -> f64 {
+        let of_kind = self.kinds.iter().zip(ranges).filter(|(kind, _)| **kind == self.kinds[k]);
+        of_kind.map(|(_, range)| *range).fold(0.0, f64::max)
+    }
+
+    /// For each output and drive the error that is allowed: together a part of the output's range over the default
+    /// experiment; where a drive starts from nothing, of the range under a unit of it.
+    fn allowed(&self, tolerance: f64, ranges: &Ranges) -> Vec<Vec<f64>> {
+        let Self { kinds, sizes, .. } = *self;
+        let active = sizes.iter().filter(|&&size| size != 0.0).count() as f64;
+        let of_pair = |k: usize, j: usize| match sizes[j] != 0.0 {
+            true => tolerance * self.range(&ranges.together, k) / (active * sizes[j].abs()),
+            false => tolerance * self.range_under(&ranges.single, [k, j]),
+        };
+        (0..kinds.len()).map(|k| (0..sizes.len()).map(|j| of_pair(k, j)).collect()).collect()
+    }
+
+    /// Of each output its bound over its range: over the default experiment, or under a drive alone that starts from
+    /// nothing, whichever is larger.
+    fn errors(&self, system: &ReducedSystem, ranges: &Ranges) -> Vec<f64> {
+        let Self { kinds, sizes, .. } = *self;
+        let start: Vec<f64> = sizes.iter().map(|size| size.abs()).collect();
+        let of_output = |k: usize| {
+            let together = system.bound(&start, k) / self.range(&ranges.together, k);
+            let idle = (0..sizes.len()).filter(|&j| sizes[j] == 0.0);
+            let alone = idle.map(|j| {
+                system.bounds[k * system.inputs + j] / self.range_under(&ranges.single, [k, j])
+            });
+            alone.fold(together, f64::max)
+        };
+        (0..kinds.len()).map(of_output).collect()
+    }
 }

@@ -17,9 +17,21 @@ pub struct Drives {
     pub fixed: Vec<(usize, f64, String)>,
 }
 
+/// What a drive is measured in: those of one kind compare.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DriveKind {
+    /// [W/m²]
+    Flux,
+    /// [Pa]
+    Traction,
+    /// [K]
+    Temperature,
+}
+
 /// A number that drives.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drive {
+    pub kind: DriveKind,
     /// Of the input.
     pub index: usize,
     /// What the input is where nothing is driven.
@@ -130,8 +142,11 @@ impl Drives {
         }
         let initial = scene.body[body].initial_temperature();
         for face in layout.faces.iter().filter(|face| face.body == body) {
-            let base = if face.kind == FaceInputKind::Flux { 0.0 } else { initial };
-            out.list.push(Drive { index: face.index, base, member: None });
+            let (kind, base) = match face.kind {
+                FaceInputKind::Flux => (DriveKind::Flux, 0.0),
+                _ => (DriveKind::Temperature, initial),
+            };
+            out.list.push(Drive { kind, index: face.index, base, member: None });
         }
         out
     }
@@ -166,10 +181,19 @@ impl Drives {
             &places.shear_y,
             &places.shear_r,
         ];
-        for index in amounts.into_iter().flatten().flat_map(Clone::clone) {
-            for member in 0..members {
-                let member = family.map(|family| (family, member));
-                self.list.push(Drive { index, base: 0.0, member });
+        let kinds = [
+            DriveKind::Flux,
+            DriveKind::Traction,
+            DriveKind::Traction,
+            DriveKind::Traction,
+            DriveKind::Traction,
+        ];
+        for (kind, amounts) in kinds.into_iter().zip(amounts) {
+            for index in amounts.iter().flat_map(|range| (*range).clone()) {
+                for member in 0..members {
+                    let member = family.map(|family| (family, member));
+                    self.list.push(Drive { kind, index, base: 0.0, member });
+                }
             }
         }
     }
@@ -246,7 +270,8 @@ mod tests {
             places: [Some(1), None, Some(2)],
             points: [points([-1.0, 2.0], 5), points([0.0; 2], 1), points([0.5, 1.0], 4)],
         };
-        let drive = |member| Drive { index: 0, base: 0.0, member: Some((0, member)) };
+        let kind = DriveKind::Flux;
+        let drive = |member| Drive { kind, index: 0, base: 0.0, member: Some((0, member)) };
         Drives { list: (0..20).map(drive).collect(), families: vec![family], fixed: Vec::new() }
     }
 

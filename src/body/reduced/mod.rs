@@ -1,15 +1,20 @@
 //! Solids reduced to some tens of unknowns, with a bound of the error.
 //!
-//! The full solid is built once, to be reduced (`build`); what is left are scalar equations, which advance exactly. The
-//! state holds their unknowns, the heat brought in, and how large each drive has been: the bound that is told belongs to
+//! The full solid is built once, to be reduced (`build`), unless what it comes to is known (`store`); what is left are
+//! scalar equations, which advance exactly. The state holds their unknowns, the heat brought in, and how large each drive has been: the bound that is told belongs to
 //! the inputs that there were.
 
 mod build;
 mod drives;
+mod forecast;
 mod linear;
+mod notes;
+mod store;
 mod totals;
 mod values;
 
+pub use forecast::forecast;
+pub use store::{KeptReduction, forget_unused_reductions, keep_reduction};
 pub use totals::offered_totals;
 
 use std::any::Any;
@@ -36,6 +41,8 @@ pub struct Reduction {
     pub system: ReducedSystem,
     /// Of each output, what it is where nothing drives and nothing was stored.
     pub offsets: Vec<f64>,
+    /// Of each output, its bound over its range in the default experiment.
+    pub errors: Vec<f64>,
     /// Heat that a unit of each drive brings in [W].
     pub brought: Vec<f64>,
     /// Modes of the full solid.
@@ -52,6 +59,8 @@ pub struct ReducedBody {
     reduction: Arc<Reduction>,
     /// Of drives as they start.
     start: Vec<f64>,
+    /// That the scene wants.
+    tolerance: f64,
 }
 
 /// The row of heat stored.
@@ -75,8 +84,11 @@ impl ReducedBody {
         let drives = Drives::of(scene, layout, name, footprints_along);
         let values = Values::of(scene, name);
         let sizes = drives.values(start);
-        let full = Full::new(scene, layout, (name, solid), start, &drives, threads)?;
-        let reduction = Arc::new(full.reduce(&values, &sizes)?);
+        let reduction = store::known(scene, name, || {
+            let full = Full::new(scene, layout, (name, solid), start, &drives, threads)?;
+            full.reduce(&values, &sizes)
+        })?;
+        reduction.fits(name, [drives.list.len(), values.list.len()])?;
         let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan(scene, name, solid));
         Ok(Self {
             name: name.into(),
@@ -86,6 +98,7 @@ impl ReducedBody {
             values,
             reduction,
             start: sizes,
+            tolerance: scene.fidelity.tolerance,
         })
     }
 
@@ -366,53 +379,14 @@ impl Body for ReducedBody {
     }
 
     fn notes(&self) -> Vec<String> {
-        let system = self.system();
-        let start: Vec<f64> = self.start.iter().map(|value| value.abs()).collect();
-        let mut notes = vec![format!(
-            "{}: reduced from {} modes to {} unknowns; it has its probes and fields alone, and no extremes of the body",
-            self.name,
-            self.reduction.modes,
-            system.order()
-        )];
-        let kinds = [
-            (Kind::Temperature, "temperatures", "K"),
-            (Kind::Stress, "stress components", "Pa"),
-            (Kind::Displacement, "displacements", "m"),
-            (Kind::Heat, "heat stored", "J"),
-        ];
-        for (kind, words, unit) in kinds.into_iter().filter(|kind| self.kinds.contains(&kind.0)) {
-            let bound = self.bound(&start, kind);
-            notes.push(if start.iter().all(|&size| size == 0.0) {
-                let part = self.relative_bound(kind);
-                format!(
-                    "{}: {words} err by at most {part:.1e} of their range under each input alone, by the reduction",
-                    self.name
-                )
-            } else {
-                format!(
-                    "{}: {words} err by at most {bound:.2e} {unit} under inputs no larger than at the start, by the \
-                     reduction",
-                    self.name
-                )
-            });
-        }
-        notes
+        self.own_notes()
     }
-}
 
-impl ReducedBody {
-    /// The largest bound of values of a kind over the largest of their answers to the same drive up to the end of the
-    /// experiment.
-    fn relative_bound(&self, kind: Kind) -> f64 {
-        let system = self.system();
-        let own = || (0..self.kinds.len()).filter(|&place| self.kinds[place] == kind);
-        let of_drive = |j: usize| {
-            let largest = |values: &[f64]| {
-                own().map(|place| values[place * system.inputs + j]).fold(0.0, f64::max)
-            };
-            let range = largest(&system.ranges);
-            if range > 0.0 { largest(&system.bounds) / range } else { 0.0 }
-        };
-        (0..system.inputs).map(of_drive).fold(0.0, f64::max)
+    fn beyond_tolerance(&self) -> Option<String> {
+        self.kind_beyond_tolerance()
+    }
+
+    fn reduction(&self) -> Option<KeptReduction> {
+        Some(self.kept())
     }
 }

@@ -29,6 +29,8 @@ pub struct BodyForecast {
     /// Time to build the model, and of a step whose stresses are read [s].
     pub build_time: f64,
     pub step_time: f64,
+    /// Set where the solid is reduced; its number of unknowns where that is known.
+    pub reduced: Option<Option<usize>>,
     /// What was chosen or left out, and why.
     pub notes: Vec<String>,
 }
@@ -126,6 +128,7 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         spacing,
         order: plan.mesh.order(),
         particles,
+        reduced: None,
         memory: nonlinear_memory
             + classes * (solver + rows_of_reading * memory_of_row(&plan.mesh))
             + 8.0 * (20.0 * unknowns[0] as f64 + modes + columns)

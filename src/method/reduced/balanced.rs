@@ -28,13 +28,11 @@ pub enum ReductionError {
 pub struct Balanced {
     inputs: usize,
     outputs: usize,
-    rank: usize,
     /// Hankel singular values, descending.
     pub singular: Vec<f64>,
-    left: Mat<f64>,
-    right: Mat<f64>,
-    /// `Lᵀ diag(M R) L` in blocks, `Lᵀ R` and `R L`.
-    shifted: Mat<f64>,
+    /// `Lᵀ diag(M R) L` in blocks, `Lᵀ R` and `R L`, between the singular vectors over the roots of their values: the
+    /// first of these make up the system of an order.
+    matrix: Mat<f64>,
     entering: Mat<f64>,
     leaving: Mat<f64>,
 }
@@ -85,13 +83,20 @@ impl Balanced {
         }
         let SingularValues { left, values: singular, right } =
             singular_values(&hankel).ok_or(ReductionError::Decomposition)?;
-        Ok(Self { inputs, outputs, rank, singular, left, right, shifted, entering, leaving })
+        let most = above_rounding(&singular);
+        let scaled = |vectors: &Mat<f64>| {
+            Mat::from_fn(vectors.nrows(), most, |i, r| vectors[(i, r)] / singular[r].sqrt())
+        };
+        let (left, right) = (scaled(&left), scaled(&right));
+        let matrix = left.transpose() * (&shifted * &right);
+        let entering = left.transpose() * &entering;
+        let leaving = &leaving * &right;
+        Ok(Self { inputs, outputs, singular, matrix, entering, leaving })
     }
 
     /// Highest order that singular values above rounding allow.
     pub fn most(&self) -> usize {
-        let largest = self.singular.first().copied().unwrap_or(0.0);
-        self.singular.iter().filter(|&&value| value > 1e-13 * largest).count()
+        above_rounding(&self.singular)
     }
 
     /// The system of an order; nothing where rounding makes it unstable.
@@ -103,14 +108,9 @@ impl Balanced {
                 outputs: vec![Vec::new(); self.outputs],
             });
         }
-        let root = |i: usize| self.singular[i].sqrt();
-        let left =
-            Mat::from_fn(self.outputs * self.rank, order, |i, r| self.left[(i, r)] / root(r));
-        let right =
-            Mat::from_fn(self.inputs * self.rank, order, |i, r| self.right[(i, r)] / root(r));
-        let matrix = left.transpose() * (&self.shifted * &right);
-        let entering = left.transpose() * &self.entering;
-        let leaving = &self.leaving * &right;
+        let matrix = self.matrix.submatrix(0, 0, order, order).to_owned();
+        let entering = self.entering.subrows(0, order).to_owned();
+        let leaving = self.leaving.subcols(0, order).to_owned();
         let modes = matrix.eigen().ok()?;
         let values = modes.S().column_vector();
         if !(0..order).all(|i| values[i].re > 0.0 && values[i].re.is_finite()) {
@@ -143,6 +143,12 @@ impl Balanced {
             found.poles.iter().map(|pole| if pole[1] > 0.0 { 2 } else { 1 }).sum();
         (unknowns == order && all.copied().all(f64::is_finite)).then_some(found)
     }
+}
+
+/// How many singular values are above rounding.
+fn above_rounding(singular: &[f64]) -> usize {
+    let largest = singular.first().copied().unwrap_or(0.0);
+    singular.iter().filter(|&&value| value > 1e-13 * largest).count()
 }
 
 /// Columns of the factor of a Cauchy matrix.

@@ -7,7 +7,10 @@
 //! `D⁶ e^{−x} = (x⁶ − 15x⁵ + 65x⁴ − 90x³ + 31x² − x) e^{−x}`, `x = αt`. What is before the first cell and behind the last
 //! one is bounded in closed form. No point of time is left out.
 
+use faer::Mat;
+
 use super::balanced::{Complex, Truncated};
+use crate::math::product::product;
 
 /// Half the length of a cell along ln t, of a bound and of an estimate.
 const HALF: f64 = 0.025;
@@ -15,6 +18,8 @@ const HALF_OF_ESTIMATE: f64 = 0.1;
 /// Where cells begin and end: over the fastest and the slowest rate.
 const BEGIN: f64 = 1e-6;
 const END: f64 = 45.0;
+/// Exponents beyond which nothing is left of a term.
+const GONE: f64 = 600.0;
 /// Order of the remainder.
 const ORDER: usize = 6;
 /// Rounding of a term, over it.
@@ -31,22 +36,8 @@ pub enum Wanted {
 struct Differences<'a> {
     rates: Vec<f64>,
     poles: &'a [Complex],
-    /// For each output and input.
-    weights: Vec<Weights>,
-}
-
-/// A weight for each rate, and one for each pole with its size.
-struct Weights {
-    of_rates: Vec<f64>,
-    of_poles: Vec<Complex>,
-    sizes: Vec<f64>,
-}
-
-impl Weights {
-    fn new(of_rates: Vec<f64>, of_poles: Vec<Complex>) -> Self {
-        let sizes = of_poles.iter().map(size).collect();
-        Self { of_rates, of_poles, sizes }
-    }
+    /// For each output and input, a weight for each rate, and one for each pole.
+    weights: Vec<(Vec<f64>, Vec<Complex>)>,
 }
 
 /// For each output and input `∫₀^∞ |h − ĥ| dt` of residues at points and a truncated system.
@@ -60,7 +51,7 @@ pub fn integrals(
     let weights = |(row, outputs): (&Vec<&[f64]>, &Vec<Complex>)| {
         let of_pair = |(values, inputs): (&&[f64], &Vec<Complex>)| {
             let own = inputs.iter().zip(outputs).map(|(b, c)| times(*b, *c).map(|part| -part));
-            Weights::new(values.to_vec(), own.collect())
+            (values.to_vec(), own.collect::<Vec<Complex>>())
         };
         row.iter().zip(&truncated.inputs).map(of_pair).collect::<Vec<_>>()
     };
@@ -76,7 +67,7 @@ pub fn integral(points: &[f64], values: &[f64]) -> f64 {
     let all = Differences {
         rates: points.to_vec(),
         poles: &[],
-        weights: vec![Weights::new(values.to_vec(), Vec::new())],
+        weights: vec![(values.to_vec(), Vec::new())],
     };
     all.integrals(Wanted::Estimate)[0]
 }
@@ -101,37 +92,80 @@ impl Differences<'_> {
         if most == 0.0 {
             return vec![0.0; self.weights.len()];
         }
-        let half = if wanted == Wanted::Estimate { HALF_OF_ESTIMATE } else { HALF };
         let (begin, end) = (BEGIN / most, END / least);
-        let cells = ((end / begin).ln() / (2.0 * half)).ceil();
-        let mut sums: Vec<f64> = self.weights.iter().map(|w| self.ends(w, begin, end)).collect();
-        for cell in 0..cells as usize {
-            let middle = begin * ((2.0 * cell as f64 + 1.0) * half).exp();
-            let length = 2.0 * middle * half.sinh();
-            let live = self.rates.iter().enumerate().filter(|(_, rate)| *rate * middle < 600.0);
-            let real: Vec<(usize, Terms)> =
-                live.map(|(i, rate)| (i, derivatives([rate * middle, 0.0], wanted))).collect();
-            let of_pole = |pole: &Complex| derivatives(pole.map(|part| part * middle), wanted);
-            let complex: Vec<Terms> = self.poles.iter().map(of_pole).collect();
-            for (sum, weights) in sums.iter_mut().zip(&self.weights) {
-                *sum += length * bound(&real, &complex, weights, wanted);
+        let half = if wanted == Wanted::Estimate { HALF_OF_ESTIMATE } else { HALF };
+        let cells = ((end / begin).ln() / (2.0 * half)).ceil() as usize;
+        let middle = |cell: usize| begin * ((2.0 * cell as f64 + 1.0) * half).exp();
+        let lengths: Vec<f64> = (0..cells).map(|cell| 2.0 * middle(cell) * half.sinh()).collect();
+        let heights = self.heights(&(0..cells).map(middle).collect::<Vec<_>>(), wanted);
+        let pairs = self.weights.iter().zip(heights.chunks(cells));
+        let sum = |(weights, heights): (&(Vec<f64>, Vec<Complex>), &[f64])| {
+            let parts = heights.iter().zip(&lengths).map(|(height, length)| height * length);
+            self.ends(weights, begin, end) + parts.sum::<f64>()
+        };
+        pairs.map(sum).collect()
+    }
+
+    /// Bounds of |f| over cells about these times, or estimates; all cells of one pair after those of another.
+    fn heights(&self, middles: &[f64], wanted: Wanted) -> Vec<f64> {
+        let (rates, poles) = (self.rates.len(), self.poles.len());
+        let (cells, pairs) = (middles.len(), self.weights.len());
+        let powers = if wanted == Wanted::Bound { ORDER } else { 1 };
+        // Of a pole both parts stand beside each other.
+        let mut terms = vec![Mat::<f64>::zeros(cells, rates + 2 * poles); powers];
+        let mut rests = Mat::<f64>::zeros(cells, rates + poles);
+        for (cell, middle) in middles.iter().enumerate() {
+            let of_rates = self.rates.iter().map(|rate| [rate * middle, 0.0]);
+            let of_poles = self.poles.iter().map(|pole| pole.map(|part| part * middle));
+            for (i, x) in of_rates.chain(of_poles).enumerate() {
+                if x[0] >= GONE {
+                    continue;
+                }
+                let (values, rest) = derivatives(x, wanted);
+                rests[(cell, i)] = rest;
+                for (terms, value) in terms.iter_mut().zip(values) {
+                    match i.checked_sub(rates) {
+                        None => terms[(cell, i)] = value[0],
+                        Some(pole) => {
+                            terms[(cell, rates + 2 * pole)] = value[0];
+                            terms[(cell, rates + 2 * pole + 1)] = -value[1];
+                        }
+                    }
+                }
             }
         }
-        sums
+        let weights = Mat::from_fn(rates + 2 * poles, pairs, |i, pair| {
+            let (of_rates, of_poles) = &self.weights[pair];
+            i.checked_sub(rates).map_or_else(|| of_rates[i], |at| of_poles[at / 2][at % 2])
+        });
+        let mut heights = vec![0.0; cells * pairs];
+        let mut sums = vec![0.0; cells * pairs];
+        for terms in &terms {
+            product(&mut sums, terms.as_ref(), weights.as_ref());
+            heights.iter_mut().zip(&sums).for_each(|(height, sum)| *height += sum.abs());
+        }
+        if wanted == Wanted::Bound {
+            let sizes = Mat::from_fn(rates + poles, pairs, |i, pair| {
+                let (of_rates, of_poles) = &self.weights[pair];
+                i.checked_sub(rates).map_or_else(|| of_rates[i].abs(), |at| size(&of_poles[at]))
+            });
+            product(&mut sums, rests.as_ref(), sizes.as_ref());
+            heights.iter_mut().zip(&sums).for_each(|(height, sum)| *height += sum);
+        }
+        heights
     }
 
     /// Before the first cell, where exponents are small, and behind the last one.
-    fn ends(&self, weights: &Weights, begin: f64, end: f64) -> f64 {
-        let Weights { of_rates, of_poles, sizes } = weights;
-        let value = of_rates.iter().chain(of_poles.iter().map(|weight| &weight[0])).sum::<f64>();
+    fn ends(&self, (real, complex): &(Vec<f64>, Vec<Complex>), begin: f64, end: f64) -> f64 {
+        let value = real.iter().sum::<f64>() + complex.iter().map(|weight| weight[0]).sum::<f64>();
         let (mut change, mut tail) = (0.0, 0.0);
         let mut add = |weight: f64, [least, most]: [f64; 2]| {
             change += weight * (most * begin + ROUNDING);
             tail += weight / least * (-least * end).exp();
         };
-        of_rates.iter().zip(&self.rates).for_each(|(weight, rate)| add(weight.abs(), [*rate; 2]));
-        let poles = sizes.iter().zip(self.poles);
-        poles.for_each(|(weight, pole)| add(*weight, [pole[0], size(pole)]));
+        real.iter().zip(&self.rates).for_each(|(weight, rate)| add(weight.abs(), [*rate; 2]));
+        let poles = complex.iter().zip(self.poles);
+        poles.for_each(|(weight, pole)| add(size(weight), [pole[0], size(pole)]));
         begin * (value.abs() + change) + tail
     }
 }
@@ -167,27 +201,6 @@ fn derivatives(x: Complex, wanted: Wanted) -> Terms {
     let sixth = y * (1.0 + y * (31.0 + y * (90.0 + y * (65.0 + y * (15.0 + y)))));
     let rest = scale * HALF / 6.0 * sixth * (-x[0] * (-HALF).exp()).exp();
     (out, rest + ROUNDING * size(&decay))
-}
-
-/// Bound of |f| over a cell; of terms without derivatives an estimate.
-fn bound(real: &[(usize, Terms)], complex: &[Terms], weights: &Weights, wanted: Wanted) -> f64 {
-    let poles = weights.of_poles.iter().zip(complex);
-    if wanted == Wanted::Estimate {
-        let own: f64 = real.iter().map(|(i, (terms, _))| weights.of_rates[*i] * terms[0][0]).sum();
-        let others: f64 = poles.map(|(weight, (terms, _))| times(*weight, terms[0])[0]).sum();
-        return (own + others).abs();
-    }
-    let (mut sums, mut rest) = ([0.0; ORDER], 0.0);
-    for (i, (terms, remainder)) in real {
-        let weight = weights.of_rates[*i];
-        sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += weight * term[0]);
-        rest += weight.abs() * remainder;
-    }
-    for ((weight, (terms, remainder)), size) in poles.zip(&weights.sizes) {
-        sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += times(*weight, *term)[0]);
-        rest += size * remainder;
-    }
-    rest + sums.iter().map(|sum| sum.abs()).sum::<f64>()
 }
 
 #[cfg(test)]

@@ -76,9 +76,9 @@ impl Clumped {
         self.modes
     }
 
-    /// Of the slowest mode [1/s].
+    /// Of the slowest mode [1/s]; one that conserves heat misses zero by rounding.
     pub fn slow_rate(&self) -> f64 {
-        self.rates[self.slowest]
+        self.rates[self.slowest].max(0.0)
     }
 
     /// `B` of the slowest mode.

@@ -62,8 +62,9 @@ const LOOKS: usize = 120;
 const FIRST_LOOK: f64 = 1e-9;
 
 impl ReducedSystem {
-    /// The smallest system whose bounds are within what is allowed; of the highest order if none is.
-    pub fn new(request: &Request) -> Result<Self, ReductionError> {
+    /// The smallest system whose bounds are within what is allowed; the one with the smallest excess if none is. With the
+    /// ranges that were looked at.
+    pub fn new(request: &Request) -> Result<(Self, Ranges), ReductionError> {
         let Request { clumped, residues, .. } = request;
         let ranges = request.ranges();
         let allowed = (request.allowed)(&ranges);
@@ -89,7 +90,7 @@ impl ReducedSystem {
             smallest(&balanced, 2.0 * ((rows.len() * scale.1.len()) as f64).sqrt(), excess_of)
                 .ok_or(ReductionError::Decomposition)?;
         let found = integrals(&clumped.points, &rows, &truncated, Wanted::Bound);
-        Ok(request.system(&truncated, &scale, &found, &ranges))
+        Ok((request.system(&truncated, &scale, &found, &ranges), ranges))
     }
 
     pub fn order(&self) -> usize {

@@ -7,6 +7,7 @@
 pub mod choice;
 pub mod estimate;
 pub mod experiment;
+mod levels;
 mod report;
 pub mod responses;
 pub mod twin;
@@ -17,6 +18,7 @@ use std::sync::Arc;
 use crate::math::shared_values::SharedValues;
 use crate::scene::{MeshFactors, Scene};
 use choice::{Choice, choose, is_chosen};
+pub use levels::{Levels, levels, stored_reductions};
 pub use report::{
     BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, percent,
     warnings,

@@ -7,7 +7,7 @@ use super::estimate::{Estimate, OutputError};
 use super::resolve;
 use super::twin::{Physics, Twin};
 use crate::body::{forecast, warnings_on_landing};
-use crate::scene::{HeatMethod, MeshFactors, Scene};
+use crate::scene::{HeatMethod, MeshFactors, Scene, SolidLevel};
 
 /// What the outputs of a body err by on its mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -210,10 +210,11 @@ pub fn percent(part: f64) -> String {
 }
 
 /// Begins what packing adds to the text of a scene, which the unit's GUID does not depend on.
-pub const PACKED: &str = "\n# Added when packed: how fine meshes are, and what outputs err by.\n";
+pub const PACKED: &str =
+    "\n# Added when packed: how fine meshes are, what outputs err by, and levels left open.\n";
 
-/// The text of a scene with the meshes and errors of the same scene when these are known, so that its unit neither
-/// chooses nor estimates anew.
+/// The text of a scene with the meshes, errors and levels of the same scene when these are known, so that its unit
+/// neither chooses nor estimates anew.
 pub fn packed_text(scene: &Scene, text: &str, known: &Scene) -> String {
     let mut packed = String::new();
     for (body, mesh) in
@@ -224,6 +225,15 @@ pub fn packed_text(scene: &Scene, text: &str, known: &Scene) -> String {
         if let Some(error) = estimated_error {
             let _ = writeln!(packed, "estimated_error = {error:e}");
         }
+    }
+    for (body, resolved) in
+        known.resolved.iter().filter(|(body, _)| !scene.resolved.contains_key(*body))
+    {
+        let level = match resolved.level {
+            SolidLevel::Full => "full",
+            SolidLevel::Reduced => "reduced",
+        };
+        let _ = write!(packed, "[resolved.{body}]\nlevel = \"{level}\"\n");
     }
     match packed.is_empty() {
         true => text.to_owned(),

@@ -50,6 +50,7 @@ impl Twin {
         twin.body.retain(|other, _| other == name);
         let own_factors = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
         twin.refinement.clear();
+        twin.resolved.clear();
         twin.coupling.clear();
         twin.wall.clear();
         twin.load =

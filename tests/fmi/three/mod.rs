@@ -7,7 +7,7 @@ mod exports;
 mod fuzz;
 mod instantiation;
 mod life_cycle;
-mod master;
+pub mod master;
 mod model_description;
 mod refusals;
 mod states;

@@ -4,11 +4,12 @@ use impinge::limits::keyword;
 use serde_json::Value;
 
 /// Headings of `docs/scene.md` with a table, and where in the schema the table that they describe stands.
-pub const SECTIONS: [(&str, &str); 30] = [
+pub const SECTIONS: [(&str, &str); 31] = [
     ("The whole", ""),
     ("`fidelity`", "/$defs/Fidelity"),
     ("`solver`", "/$defs/Solver"),
     ("`[refinement.BODY]`", "/$defs/MeshFactors"),
+    ("`[resolved.BODY]`", "/$defs/ResolvedLevel"),
     ("`[body.NAME]` of a solid", "/$defs/Body/oneOf/0"),
     ("`shape` of a solid", "/$defs/Shape"),
     ("`shape.disc`", "/$defs/Disc"),

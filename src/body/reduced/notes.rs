@@ -1,0 +1,73 @@
+//! What a reduced solid says of itself: its order, its bounds, and whether they keep the tolerance.
+
+use super::ReducedBody;
+use super::values::Kind;
+
+/// Kinds of values in words, and what they are measured in.
+const KINDS: [(Kind, &str, &str); 4] = [
+    (Kind::Temperature, "temperatures", "K"),
+    (Kind::Stress, "stress components", "Pa"),
+    (Kind::Displacement, "displacements", "m"),
+    (Kind::Heat, "amounts of heat stored", "J"),
+];
+
+impl ReducedBody {
+    pub(super) fn own_notes(&self) -> Vec<String> {
+        let system = self.system();
+        let start: Vec<f64> = self.start.iter().map(|value| value.abs()).collect();
+        let mut notes = vec![format!(
+            "{}: reduced from {} modes to {} unknowns; it has its probes and fields alone, and no extremes of the body",
+            self.name,
+            self.reduction.modes,
+            system.order()
+        )];
+        for (kind, words, unit) in KINDS.into_iter().filter(|kind| self.kinds.contains(&kind.0)) {
+            let bound = self.bound(&start, kind);
+            notes.push(if start.iter().all(|&size| size == 0.0) {
+                let part = self.relative_bound(kind);
+                format!(
+                    "{}: {words} err by at most {part:.1e} of their range under each input alone, by the reduction",
+                    self.name
+                )
+            } else {
+                format!(
+                    "{}: {words} err by at most {bound:.2e} {unit} under inputs no larger than at the start, by the \
+                     reduction",
+                    self.name
+                )
+            });
+        }
+        notes
+    }
+
+    /// The kind of values whose bound is furthest beyond the tolerance, in words; nothing where all keep it.
+    pub(super) fn kind_beyond_tolerance(&self) -> Option<String> {
+        let errors = self.kinds.iter().zip(&self.reduction.errors);
+        let (kind, error) = errors.max_by(|a, b| a.1.total_cmp(b.1))?;
+        // What is within is so by no less than rounding.
+        if *error <= self.tolerance * (1.0 + super::ROUNDING) {
+            return None;
+        }
+        let (_, words, _) = KINDS.into_iter().find(|own| own.0 == *kind)?;
+        Some(format!(
+            "{words} of a reduced model err by up to {error:.1e} of their range by its bound, more than the tolerance of \
+             {:e}",
+            self.tolerance
+        ))
+    }
+
+    /// The largest bound of values of a kind over the largest of their answers to the same drive up to the end of the
+    /// experiment.
+    fn relative_bound(&self, kind: Kind) -> f64 {
+        let system = self.system();
+        let own = || (0..self.kinds.len()).filter(|&place| self.kinds[place] == kind);
+        let of_drive = |j: usize| {
+            let largest = |values: &[f64]| {
+                own().map(|place| values[place * system.inputs + j]).fold(0.0, f64::max)
+            };
+            let range = largest(&system.ranges);
+            if range > 0.0 { largest(&system.bounds) / range } else { 0.0 }
+        };
+        (0..system.inputs).map(of_drive).fold(0.0, f64::max)
+    }
+}
