@@ -183,12 +183,14 @@ fn speeds(droplet: &Droplet) -> Vec<f64> {
     (0..SPEEDS_OF_FILM).map(|n| own * RANGE_OF_FILM.powf(exponent(n))).collect()
 }
 
-/// The drop that stands for all: alone, at the origin, just above the wall.
+/// The drop that stands for all: alone, at the origin, just above the wall. A quarter of it is computed, whatever is
+/// below: films of rings do not break up as those in space do, to which the drops that are repeated stand in for.
 fn computed(droplet: &Droplet, speed: f64) -> Droplet {
     Droplet {
         impact_velocity: speed,
         initial_temperature: WARM,
         symmetry: DropletSymmetry::Auto,
+        is_on_round: false,
         height: None,
         release: ReleaseBy::Arrivals,
         most: None,
