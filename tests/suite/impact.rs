@@ -214,8 +214,10 @@ fn a_disc_and_a_box_take_the_same_heat() {
         [off(on_box[0], on_disc[0]), (on_box[1] - on_disc[1]) / (on_disc[1] - 300.0)]
     });
     println!("heat and rise of a box off those of a disc: {apart:?}");
-    assert!(apart[0][0] < 0.02 && apart[2][0] < 0.003 && apart[2][1].abs() < 0.03, "{apart:?}");
-    assert!(apart[2][0] < 0.5 * apart[0][0], "{apart:?}");
+    assert!(apart[2][0] < 0.003 && apart[2][1].abs() < 0.01, "{apart:?}");
+    // Of first order at least: a cell is warmed as a whole where a wet edge crosses it.
+    let orders = [0, 1].map(|n| (apart[n][0] / apart[n + 1][0]).log2());
+    assert!(orders.iter().all(|order| *order > 0.9), "{orders:?}");
 }
 
 /// A coarse drop, whose particles are fifteen times as thick as the thermal layer, on plates into which

@@ -184,7 +184,8 @@ fn speeds(droplet: &Droplet) -> Vec<f64> {
 }
 
 /// The drop that stands for all: alone, at the origin, just above the wall. A quarter of it is computed, whatever is
-/// below: films of rings do not break up as those in space do, to which the drops that are repeated stand in for.
+/// below: rings take a fifth to an eighth of the time, and ink (Re 500, We 800) gives the same heat to 4 %, but mercury
+/// (4 m/s), which recoils, 6 % less of it after 6 D/U, and up to 38 % more impulse.
 fn computed(droplet: &Droplet, speed: f64) -> Droplet {
     Droplet {
         impact_velocity: speed,
