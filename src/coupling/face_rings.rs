@@ -349,7 +349,8 @@ mod tests {
                     continue;
                 }
                 let exact = x[i] * y[j];
-                assert!((found / exact - 1.0).abs() < 1e-7, "{place:?}: {found} {exact}");
+                // Circles through the mesh's corners lie between points.
+                assert!((found / exact - 1.0).abs() < 1e-4, "{place:?}: {found} {exact}");
             }
         }
     }
