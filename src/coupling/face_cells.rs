@@ -138,7 +138,7 @@ impl FaceCells {
 
 /// `∫ N_i h_j w dx / ∫ h_j w dx` for shape functions N and functions h that are linear between the ends of
 /// elements; every column sums to 1.
-fn consistent(axis: &Axis) -> Mat<f64> {
+pub(super) fn consistent(axis: &Axis) -> Mat<f64> {
     let n = axis.len();
     if n == 1 {
         return Mat::from_fn(1, 1, |_, _| 1.0);

@@ -61,10 +61,13 @@ pub struct Droplet {
     /// Part of the drop that is modelled.
     #[serde(default)]
     #[schemars(extend(
-        "otherwise" = "`auto`: a quarter where that is exact",
-        "condition" = "`quarter` and `axisymmetric` with all drops at x = 0, y = 0, straight down; `axisymmetric` above rings or a disc, in three dimensions"
+        "otherwise" = "`auto`: axisymmetric above rings or a disc, a quarter elsewhere, where that is exact",
+        "condition" = "`quarter` and `axisymmetric` with all drops at x = 0, y = 0, straight down; `axisymmetric` in three dimensions, not above tiles"
     ))]
     pub symmetry: DropletSymmetry,
+    /// Whether what lies below is modelled as round, a disc or a wall of rings: follows from the scene.
+    #[serde(skip)]
+    pub is_on_round: bool,
     /// Particles on a lattice or at random with a least distance.
     #[serde(default)]
     pub placement: Placement,
@@ -147,8 +150,8 @@ pub enum DropletMethod {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DropletSymmetry {
-    /// A quarter, or half of a plane model, where all drops arrive at the origin on a lattice; half where they come
-    /// at an angle along x or y.
+    /// Where all drops arrive at the origin on a lattice: above a disc or a wall of rings, straight down, the plane of
+    /// radius and height; elsewhere a quarter, or half of a plane model; half where they come at an angle along x or y.
     #[default]
     Auto,
     /// The whole of all drops.
@@ -156,7 +159,7 @@ pub enum DropletSymmetry {
     /// A quarter; drops must arrive at the origin, straight down.
     Quarter,
     /// The plane of radius and height, in which particles are rings about the axis: two dimensions instead of three.
-    /// Drops must arrive at the origin, straight down, on nothing or on what is round itself.
+    /// Drops must arrive at the origin, straight down. A box below takes and shows means over rings.
     Axisymmetric,
 }
 
@@ -535,9 +538,18 @@ impl Droplet {
         self.shifting.unwrap_or(inertia > INERTIAL * surface_tension || surface_tension == 0.0)
     }
 
-    /// Whether particles are rings about the axis.
+    /// Whether particles are rings about the axis. What is round lets inputs, too, release drops nowhere but straight
+    /// down the axis. Drops at random places would not be what they are asked to be.
     pub fn is_axisymmetric(&self) -> bool {
-        self.symmetry == DropletSymmetry::Axisymmetric
+        let has_axis = self.dimension == 3 && self.is_centred() && self.is_straight();
+        match self.symmetry {
+            DropletSymmetry::Axisymmetric => true,
+            DropletSymmetry::Auto => {
+                let is_computed = self.method == DropletMethod::Sph;
+                self.is_on_round && is_computed && has_axis && self.placement == Placement::Lattice
+            }
+            DropletSymmetry::None | DropletSymmetry::Quarter => false,
+        }
     }
 
     /// Number of particles of all drops that are computed, images at mirrors left out: of drops that are replayed, one.
@@ -567,6 +579,7 @@ impl Droplet {
     /// Along which of x and y the half of the model stands for the whole.
     pub fn mirrors(&self) -> [bool; 2] {
         let is_even = match self.symmetry {
+            DropletSymmetry::Auto if self.is_axisymmetric() => false,
             DropletSymmetry::Auto => {
                 self.is_centred() && !self.is_on_demand() && self.placement == Placement::Lattice
             }

@@ -116,6 +116,34 @@ impl Scene {
         self.coupling.iter().position(|coupling| coupling.from == droplet)
     }
 
+    /// Whether what lies below a droplet is modelled as round: a disc, or a wall of rings.
+    fn is_round_below(&self, droplet: &str) -> bool {
+        if let Some(wall) = self.wall_under(droplet) {
+            return matches!(self.wall[wall].footprint, Footprint::Rings { .. });
+        }
+        let below = self.coupling_from(droplet).and_then(|place| self.coupling[place].solid());
+        let solid = below.and_then(|name| self.solid(name));
+        solid.is_some_and(|solid| matches!(solid.shape, Shape::Disc(_)))
+    }
+
+    /// Tells each droplet what it stands on.
+    pub(super) fn tell_what_is_below(&mut self) {
+        let names: Vec<String> = self.droplets().map(|(name, _)| name.to_owned()).collect();
+        for name in names {
+            let is_round = self.is_round_below(&name);
+            if let Some(Body::Droplet(droplet)) = self.body.get_mut(&name) {
+                droplet.is_on_round = is_round;
+            }
+        }
+    }
+
+    /// Whether axisymmetric drops stand on a box, which meets them on rings.
+    pub fn meets_rings(&self, solid: &str) -> bool {
+        let is_box = self.solid(solid).is_some_and(|solid| matches!(solid.shape, Shape::Box(_)));
+        let mut drops = self.couplings_to(solid).filter_map(|place| self.droplet(&place.from));
+        is_box && drops.any(Droplet::is_axisymmetric)
+    }
+
     /// The couplings that act on a solid.
     pub fn couplings_to(&self, solid: &str) -> impl Iterator<Item = &Coupling> {
         self.coupling.iter().filter(move |coupling| coupling.solid() == Some(solid))

@@ -96,7 +96,8 @@ pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
 }
 
 fn parse_located(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
-    let scene = decode::decode(source, schema)?;
+    let mut scene = decode::decode(source, schema)?;
+    scene.tell_what_is_below();
     check::check(&scene, source, schema)?;
     Ok(scene)
 }

@@ -83,6 +83,33 @@ fn drops_on_demand_are_those_of_arrivals_to_the_bit() {
     }
 }
 
+/// What is round takes drops on its axis alone, which are rings then; on demand they are those of arrivals.
+#[test]
+fn drops_on_demand_on_what_is_round_are_rings() {
+    for below in [wall(RINGS), plate("disc = { radius = 3e-4, thickness = 2e-5 }")] {
+        let mut timed = Trial::new(&(drop("") + &below));
+        let mut asked = Trial::new(&(drop(ON_DEMAND) + &below));
+        ask(&mut asked, &[("release", 1.0)]);
+        for _ in 0..16 {
+            timed.step(STEP);
+            asked.step(STEP);
+        }
+        for key in ["heat", "impulse_z", "kinetic_energy", "spread_diameter", "particles"] {
+            let name = format!("drop.{key}");
+            let [one, other] = [&mut timed, &mut asked].map(|trial| trial.get(&name));
+            assert!(off(one, other) < 1e-9, "{name}: {one} {other}");
+        }
+        let rings = PI / 8.0 * (DIAMETER / 1e-5).powi(2);
+        assert!(off(asked.get("drop.particles"), rings) < 0.1);
+        let mass = PI / 6.0 * DENSITY * DIAMETER.powi(3);
+        assert!(off(asked.get("drop.mass"), mass) < 1e-12);
+        let momentum = asked.get("drop.momentum_z") + asked.get("drop.impulse_z");
+        assert!(off(momentum, -20.0 * mass) < 1e-6, "{momentum}");
+        let [given, kept] = ["heat", "heat_stored"].map(|key| asked.get(&format!("drop.{key}")));
+        assert!(given > 0.0 && off(given, -kept) < 1e-6, "{given} {kept}");
+    }
+}
+
 #[test]
 fn nothing_is_there_before_it_is_released() {
     let mut trial = Trial::new(&(drop(ON_DEMAND) + &wall(TILES)));

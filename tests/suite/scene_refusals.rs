@@ -152,13 +152,63 @@ fn droplets_may_be_alone_above_walls_or_on_solids() {
     assert!(accepted(IMPACT).asks_mechanics("plate"));
 }
 
+/// Whether particles are rings, and where the drop mirrors itself.
+#[test]
+fn part_of_a_droplet_is_modelled_where_that_is_exact() {
+    let keys = |scene: &str, keys: &str| edited(scene, "symmetry = \"auto\"", keys);
+    let tiles = edited(
+        DROP,
+        "rings = { count = 3, radius = 2e-4 }",
+        "tiles = { count = [2, 2], size = [4e-4, 4e-4] }",
+    );
+    let tiles = edited(&tiles, "[300.0, 301.0, 302.0]", "300.0");
+    let free = DROP.split("[[wall]]").next().unwrap();
+    let arrivals = "arrivals = [{ time = 0.0 }, { time = 1e-5 }]";
+    let on_demand = |scene: &str| edited(scene, arrivals, "release = \"input\"\nmost = 2");
+    let blue_noise = edited(DROP, "\"lattice\"", "\"blue_noise\"");
+    let plane = edited(&tiles, "dimension = 3", "dimension = 2");
+    let plane = edited(&plane, "[2, 2]", "[2, 1]");
+    let on_box = edited(IMPACT, "{ x = 2e-4, y = -1e-4 }", "{ time = 1e-6 }");
+    let on_disc =
+        edited(&on_box, "box = [1e-3, 1e-3, 2e-4]", "disc = { radius = 1e-3, thickness = 2e-4 }");
+    let at_angle = edited(&on_box, "spacing = 1e-5", "spacing = 1e-5\nimpact_angle = 0.5");
+    let round_on_box =
+        edited(&on_box, "spacing = 1e-5", "spacing = 1e-5\nsymmetry = \"axisymmetric\"");
+    let recorded = edited(DROP, "method = \"sph\"", "method = \"record\"");
+    let (none, both) = ([false; 2], [true; 2]);
+    for (name, scene, wanted) in [
+        ("above rings", DROP.to_owned(), (true, none)),
+        ("above rings, on demand", on_demand(DROP), (true, none)),
+        ("above rings, at random", blue_noise, (false, none)),
+        ("above rings, recorded", recorded, (false, both)),
+        ("above rings, a quarter", keys(DROP, "symmetry = \"quarter\""), (false, both)),
+        ("above rings, whole", keys(DROP, "symmetry = \"none\""), (false, none)),
+        ("above tiles", tiles.clone(), (false, both)),
+        ("above tiles, on demand", on_demand(&tiles), (false, none)),
+        ("above tiles, plane", plane, (false, [true, false])),
+        ("free", free.to_owned(), (false, both)),
+        ("free, round", keys(free, "symmetry = \"axisymmetric\""), (true, none)),
+        ("on a disc", on_disc, (true, none)),
+        ("on a box", on_box, (false, both)),
+        ("on a box, at an angle", at_angle, (false, [false, true])),
+        ("on a box, round", round_on_box, (true, none)),
+        ("on a box, aside", IMPACT.to_owned(), (false, none)),
+    ] {
+        let scene = accepted(&scene);
+        let drop = scene.droplet("drop").unwrap();
+        assert_eq!((drop.is_axisymmetric(), drop.mirrors()), wanted, "{name}");
+        // A scene that is written and read again is the same.
+        let again = accepted(&toml::to_string(&scene).unwrap());
+        assert_eq!(again, scene, "{name}");
+    }
+}
+
 #[test]
 fn what_a_droplet_leaves_out_is_chosen() {
     let scene = accepted(IMPACT);
     let drop = scene.droplet("drop").unwrap();
     assert_eq!((drop.gap(), drop.sound_speed()), (5e-6, 200.0));
     assert_eq!((drop.mirrors(), drop.is_centred()), ([false; 2], false));
-    assert_eq!(accepted(DROP).droplet("drop").unwrap().mirrors(), [true; 2]);
     assert_eq!((scene.wall_under("drop"), scene.coupling_from("drop")), (None, Some(0)));
     assert!(scene.droplet("plate").is_none() && scene.solid("drop").is_none());
     // A surface's own speed √(2σ/(ρΔx)) counts where it is the fastest.

@@ -239,9 +239,9 @@ fn reach(scene: &Scene, (name, droplet): (&str, &Droplet), farthest: f64) -> ([f
     let solid = below.and_then(|name| Some((name, scene.solid(name)?.shape)));
     let centred = |what: &str| ([0.0; 2], format!("{what} drops straight down at x = 0, y = 0"));
     match solid {
-        _ if droplet.even() != [false; 2] => centred("a model of a part of the drops needs"),
         _ if rings => centred("a wall of rings needs"),
         Some((_, Shape::Disc(_))) => centred("a disc, which is modelled axisymmetric, needs"),
+        _ if droplet.even() != [false; 2] => centred("a model of a part of the drops needs"),
         Some((name, shape)) => {
             let reach = lateral_extents(&shape).map(|extent| 0.5 * (extent - droplet.diameter));
             (reach, format!("that is beside `{name}`"))

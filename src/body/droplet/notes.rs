@@ -22,6 +22,7 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
         _ => "the whole drop is modelled: nothing makes it mirror itself, or the scene asks for it",
     }
     .to_owned()];
+    notes.extend(note_on_box(scene, name, droplet));
     notes.extend(note_on_sound(droplet));
     notes.extend(droplet.is_on_demand().then(|| note_on_demand(scene, name, droplet)));
     notes.extend(stands.then(|| note_on_first_blow(droplet)));
@@ -50,6 +51,17 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
         notes.extend(wall.and_then(|wall| note_on_held_wall(wall, droplet)));
     }
     notes
+}
+
+/// What axisymmetric drops see of a box.
+fn note_on_box(scene: &Scene, name: &str, droplet: &Droplet) -> Option<String> {
+    let solid = scene.coupling_from(name).and_then(|coupling| scene.coupling[coupling].solid())?;
+    (droplet.is_axisymmetric() && scene.meets_rings(solid)).then(|| {
+        format!(
+            "`{solid}` is a box, which meets the drop on rings: each is as warm as the box is on average along it, and \
+             what lies farther out than its nearest edge gives it nothing"
+        )
+    })
 }
 
 /// What is to be known of a scene's walls by who couples them: a sentence each.

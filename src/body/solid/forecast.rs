@@ -3,6 +3,7 @@
 use super::rows::Choice;
 use super::{is_large, plan};
 use crate::body::threads_for;
+use crate::coupling::FaceRings;
 use crate::math::chebyshev::products;
 use crate::method::enthalpy::EnthalpyHeat;
 use crate::method::fem::{
@@ -106,17 +107,20 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     let modes = plan.mesh.axes.iter().map(|axis| 3.0 * (axis.len() as f64).powi(2));
     let modes: f64 = if particles.is_none() { modes.sum() } else { 0.0 };
     let nodes = unknowns[0] as f64;
-    let (mut nonlinear_memory, mut nonlinear_time) = (0.0, 0.0);
+    let (mut further_memory, mut nonlinear_time) = (0.0, 0.0);
     if plan.newton.is_some() {
-        nonlinear_memory += EnthalpyHeat::expected_bytes(plan.mesh.sided_counts());
+        further_memory += EnthalpyHeat::expected_bytes(plan.mesh.sided_counts());
         nonlinear_time += NONLINEAR_HEAT * nodes;
     }
     if plan.inelastic.is_some() {
-        nonlinear_memory += YIELDING_MEMORY * nodes;
+        further_memory += YIELDING_MEMORY * nodes;
         if !is_yielding_box {
-            nonlinear_memory += factor_memory(geometry, unknowns[1]);
+            further_memory += factor_memory(geometry, unknowns[1]);
         }
         nonlinear_time += YIELDING * nodes / threads;
+    }
+    if scene.meets_rings(name) {
+        further_memory += FaceRings::expected_bytes(&plan.mesh);
     }
     let columns = classes * plan.entries_of_columns();
     let rows_of_reading = Choice::of(scene, (name, solid), &plan).rows as f64;
@@ -129,7 +133,7 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
         order: plan.mesh.order(),
         particles,
         reduced: None,
-        memory: nonlinear_memory
+        memory: further_memory
             + classes * (solver + rows_of_reading * memory_of_row(&plan.mesh))
             + 8.0 * (20.0 * unknowns[0] as f64 + modes + columns)
             + 12.0 * links,

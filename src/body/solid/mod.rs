@@ -89,7 +89,9 @@ impl SolidBody {
         let threads = threads(is_large(&plan));
         let fem = SolidFem::new(&plan, threads);
         let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan);
-        let ports = linked.iter().map(|&face| Port::new(face, &plan, &fem)).collect();
+        let rings = |face| face == FaceName::Top && scene.meets_rings(name);
+        let port = |&face: &FaceName| Port::new(face, &plan, &fem, rings(face));
+        let ports = linked.iter().map(port).collect();
         let yielding = Yielding::of(&plan, PART_OF_STRAIN * scene.fidelity.tolerance, threads)?;
         let heat_mesh = heat_mesh(&plan);
         let means = means_of(scene, (name, solid), [&heat_mesh, fem.mesh()]);

@@ -4,7 +4,7 @@ use super::SolidBody;
 use super::loads::add;
 use super::memo::SolidMemo;
 use crate::body::{Acts, BodyError, Conductor, Given, Memo};
-use crate::coupling::FaceCells;
+use crate::coupling::{FaceCells, FaceRings};
 use crate::inputs::InputPath;
 use crate::math::allowance::Allowance;
 use crate::method::fem::{Geometry, Plan, SolidFem, SolidLoads, Temperatures, heat_mesh};
@@ -14,22 +14,25 @@ use crate::scene::FaceName;
 /// How a face takes what comes through its cells, and how it answers.
 pub struct Port {
     pub face: FaceName,
-    cells: FaceCells,
+    cells: Cells,
     response: SurfaceResponse,
     initial_temperature: f64,
     geometry: Geometry,
 }
 
 impl Port {
-    /// Of the top or the bottom.
-    pub fn new(face: FaceName, plan: &Plan, solid: &SolidFem) -> Self {
+    /// Of the top or the bottom; `meets_rings` of a box on which axisymmetric drops stand.
+    pub fn new(face: FaceName, plan: &Plan, solid: &SolidFem, meets_rings: bool) -> Self {
         let high = face == FaceName::Top;
         // Each node has a volume of its own.
         let has_volumes = plan.sph.is_some() || plan.newton.is_some();
         let [rates, gains] = solid.end_modes(high);
         Self {
             face,
-            cells: FaceCells::of(&heat_mesh(plan), high, has_volumes),
+            cells: match meets_rings {
+                true => Cells::Rings(FaceRings::of(&heat_mesh(plan), high, has_volumes)),
+                false => Cells::Face(FaceCells::of(&heat_mesh(plan), high, has_volumes)),
+            },
             response: SurfaceResponse { rates, gains },
             initial_temperature: plan.initial_temperature,
             geometry: plan.mesh.geometry,
@@ -80,9 +83,11 @@ impl Port {
         if given.impulse.is_empty() {
             return;
         }
-        for (component, axis, flips) in self.directions() {
-            let force: Vec<f64> = given.impulse.iter().map(|p| p[axis] * rate).collect();
-            for (class, vector) in self.parts_of(&force, flips, given) {
+        let along = |axis: usize| -> Vec<f64> {
+            given.impulse.iter().map(|impulse| impulse[axis] * rate).collect()
+        };
+        for (component, vectors) in self.cells.forces(along, self.geometry, given.symmetric) {
+            for (class, vector) in vectors.into_iter().enumerate() {
                 add(&mut loads.force[class][side][component], &vector, 1.0);
             }
         }
@@ -95,7 +100,7 @@ impl Port {
         }
         self.add_heat(&mut derivatives[0], given);
         let (slope, side) = (-2.0 / given.duration, self.side());
-        for (class, vector) in self.parts_of(&given.falling, [false; 2], given) {
+        for (class, vector) in self.heat_of(&given.falling, given) {
             add(&mut derivatives[0].heat[class][side], &vector, 1.0);
             add(&mut derivatives[1].heat[class][side], &vector, slope);
         }
@@ -104,32 +109,86 @@ impl Port {
     fn add_heat(&self, loads: &mut SolidLoads, given: &Given) {
         let (rate, side) = (1.0 / given.duration, self.side());
         let heat: Vec<f64> = given.heat.iter().map(|heat| heat * rate).collect();
-        for (class, vector) in self.parts_of(&heat, [false; 2], given) {
+        for (class, vector) in self.heat_of(&heat, given) {
             add(&mut loads.heat[class][side], &vector, 1.0);
         }
     }
 
-    /// Nodal vectors of an amount at each cell, one a symmetry class; nothing of no amounts.
-    fn parts_of(
+    /// Nodal vectors of heat at each cell, one a symmetry class; nothing of no amounts.
+    fn heat_of(
         &self,
         amounts: &[f64],
-        flips: [bool; 2],
         given: &Given,
     ) -> impl Iterator<Item = (usize, Vec<f64>)> + use<> {
         let vectors = match amounts.is_empty() {
             true => Vec::new(),
-            false => self.cells.nodal(amounts, flips, given.symmetric),
+            false => self.cells.heat(amounts, given.symmetric),
         };
         vectors.into_iter().enumerate()
     }
+}
 
-    /// Displacement component of the solid, component of the impulse, and where mirrors turn it.
-    fn directions(&self) -> Vec<(usize, usize, [bool; 2])> {
-        match self.geometry {
-            Geometry::Box => {
-                vec![(0, 0, [true, false]), (1, 1, [false, true]), (2, 2, [false; 2])]
+/// Cells of a face: its own, or rings about the middle of a box.
+enum Cells {
+    Face(FaceCells),
+    Rings(FaceRings),
+}
+
+impl Cells {
+    fn as_wall(&self) -> WallCells {
+        match self {
+            Cells::Face(face) => face.cells(),
+            Cells::Rings(rings) => rings.cells(),
+        }
+    }
+
+    /// Temperature above the initial one at each cell [K].
+    fn rise(&self, temperatures: &Temperatures) -> Vec<f64> {
+        match self {
+            Cells::Face(face) => face.rise(temperatures),
+            Cells::Rings(rings) => rings.rise(temperatures),
+        }
+    }
+
+    /// Parts of the temperature at each cell [K] from `count` layers of nodes, class by class.
+    fn parts(&self, layers: &[Vec<f64>], count: usize) -> Vec<f64> {
+        match self {
+            Cells::Face(face) => face.parts(layers, count),
+            Cells::Rings(rings) => rings.parts(layers, count),
+        }
+    }
+
+    /// Nodal vectors of heat at each cell, one a symmetry class.
+    fn heat(&self, amounts: &[f64], symmetric: [bool; 2]) -> Vec<Vec<f64>> {
+        match self {
+            Cells::Face(face) => face.nodal(amounts, [false; 2], symmetric),
+            Cells::Rings(rings) => rings.nodal(amounts),
+        }
+    }
+
+    /// The same of forces, of which a component `along` each axis is given (that along x is radial for rings): each with
+    /// the displacement component of the solid that it acts on.
+    fn forces(
+        &self,
+        along: impl Fn(usize) -> Vec<f64>,
+        geometry: Geometry,
+        symmetric: [bool; 2],
+    ) -> Vec<(usize, Vec<Vec<f64>>)> {
+        match (self, geometry) {
+            (Cells::Rings(rings), _) => {
+                let outward = along(0);
+                let aside = [0, 1].map(|axis| (axis, rings.nodal_outward(&outward, axis)));
+                aside.into_iter().chain([(2, rings.nodal(&along(2)))]).collect()
             }
-            Geometry::Axisymmetric => vec![(0, 0, [true, false]), (1, 2, [false; 2])],
+            (Cells::Face(face), Geometry::Box) => {
+                let flips = [[true, false], [false, true], [false; 2]];
+                let nodal = |axis| (axis, face.nodal(&along(axis), flips[axis], symmetric));
+                (0..3).map(nodal).collect()
+            }
+            (Cells::Face(face), Geometry::Axisymmetric) => {
+                let radial = face.nodal(&along(0), [true, false], symmetric);
+                vec![(0, radial), (1, face.nodal(&along(2), [false; 2], symmetric))]
+            }
         }
     }
 }
@@ -172,7 +231,7 @@ impl Conductor for SolidBody {
     }
 
     fn cells(&self, face: FaceName) -> Option<WallCells> {
-        Some(self.port(face).cells.cells())
+        Some(self.port(face).cells.as_wall())
     }
 
     fn surfaces(

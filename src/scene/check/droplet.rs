@@ -1,7 +1,9 @@
 //! Size, fluid, particles and arrivals of each droplet.
 
 use super::{Checker, fits, number, replayed};
-use crate::scene::droplet::{Arrival, Droplet, DropletSymmetry, LEAST_SOUND_OVER_FLOW};
+use crate::scene::droplet::{
+    Arrival, Droplet, DropletMethod, DropletSymmetry, LEAST_SOUND_OVER_FLOW,
+};
 use crate::scene::locate::Path;
 use crate::scene::types::{Footprint, Shape};
 
@@ -167,12 +169,12 @@ fn symmetry(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
     checker.require(droplet.is_centred(), path, message, "auto, none");
     let message = format!("{part} needs all drops to come straight down");
     checker.require(droplet.is_straight(), path, message, "auto, none, or impact_angle = 0.0");
-    if droplet.is_axisymmetric() {
+    if droplet.symmetry == DropletSymmetry::Axisymmetric {
         round(checker, path, name, droplet);
     }
 }
 
-/// What is round needs three dimensions, and what is round below it.
+/// What is round needs three dimensions, and below it what is round or can meet rings.
 fn round(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
     let message = "a plane model has no axis";
     checker.require(droplet.dimension == 3, path, message, "auto, none, or dimension = 3");
@@ -183,9 +185,24 @@ fn round(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
         checker.require(is_round, path, message, "auto, none, quarter, or a wall of `rings`");
     }
     let below = scene.coupling_from(name).and_then(|coupling| scene.coupling[coupling].solid());
-    if let Some((body, solid)) = below.and_then(|body| Some((body, scene.solid(body)?))) {
-        let is_round = matches!(solid.shape, Shape::Disc(_));
-        let message = format!("`{body}` is a box, which is not round");
-        checker.require(is_round, path, message, "auto, none, quarter, or a `disc` below");
+    let below = below.and_then(|body| Some((body, scene.solid(body)?)));
+    if let Some((body, _)) = below.filter(|(_, solid)| matches!(solid.shape, Shape::Box(_))) {
+        on_box(checker, path, body, droplet);
+    }
+}
+
+/// A box meets all of its drops on the same rings.
+fn on_box(checker: &mut Checker, path: &Path, body: &str, droplet: &Droplet) {
+    let message = format!("drops that are repeated give nothing to rings of `{body}`, a box");
+    let is_computed = droplet.method == DropletMethod::Sph;
+    checker.require(is_computed, path, message, "auto, or method = \"sph\"");
+    let scene = checker.scene;
+    let is_other = |name: &&str| scene.droplet(name).is_some_and(|other| !other.is_axisymmetric());
+    let names = scene.couplings_to(body).map(|coupling| coupling.from.as_str());
+    if let Some(other) = names.into_iter().find(is_other) {
+        let message = format!(
+            "`{other}` falls on `{body}`, a box, too, which meets all drops on rings or none"
+        );
+        checker.refuse(path, message, "auto, none, quarter, or all drops there axisymmetric");
     }
 }

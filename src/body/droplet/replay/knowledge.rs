@@ -183,12 +183,15 @@ fn speeds(droplet: &Droplet) -> Vec<f64> {
     (0..SPEEDS_OF_FILM).map(|n| own * RANGE_OF_FILM.powf(exponent(n))).collect()
 }
 
-/// The drop that stands for all: alone, at the origin, just above the wall.
+/// The drop that stands for all: alone, at the origin, just above the wall. A quarter of it is computed, whatever is
+/// below: rings take a fifth to an eighth of the time, and ink (Re 500, We 800) gives the same heat to 4 %, but mercury
+/// (4 m/s), which recoils, 6 % less of it after 6 D/U, and up to 38 % more impulse.
 fn computed(droplet: &Droplet, speed: f64) -> Droplet {
     Droplet {
         impact_velocity: speed,
         initial_temperature: WARM,
         symmetry: DropletSymmetry::Auto,
+        is_on_round: false,
         height: None,
         release: ReleaseBy::Arrivals,
         most: None,
