@@ -376,8 +376,11 @@ impl Model {
     /// Of each reduced body its name and what it was reduced to; others that need the same find it as long as this is
     /// held.
     pub fn reductions(&self) -> Vec<(String, KeptReduction)> {
-        let named = |body: &Box<dyn Body>| Some((body.name().to_owned(), body.reduction()?));
-        self.bodies.iter().filter_map(named).collect()
+        let reduced = self.bodies.iter().filter_map(|body| {
+            let reduction = body.reduction()?;
+            Some((body.name().to_owned(), reduction))
+        });
+        reduced.collect()
     }
 
     /// What was chosen or left out, and why: a sentence each.

@@ -2,68 +2,15 @@
 
 use std::f64::consts::PI;
 
-use impinge::kernel::Kernel;
+use crate::falling_drop::{COLD, DIAMETER, HOT, RINGS, SPEED, WATER, falling_drop, run};
 use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
     WallCells,
 };
 
-const DIAMETER: f64 = 1e-4;
-const SPEED: f64 = 50.0;
-const HOT: f64 = 373.15;
-const COLD: f64 = 293.15;
-const RINGS: usize = 30;
-
-const WATER: Fluid = Fluid {
-    density: 1000.0,
-    viscosity: 3e-4,
-    specific_heat: 4000.0,
-    conductivity: 0.6,
-    surface_tension: 0.0,
-    sound_speed: 500.0,
-};
-
 /// A drop of some particles over its diameter that is about to hit a wall.
-fn impact(resolution: f64) -> DropletPlan {
-    let spacing = DIAMETER / resolution;
-    DropletPlan {
-        dimension: 3,
-        axisymmetric: false,
-        spacing,
-        support: 3.0,
-        kernel: Kernel::WendlandC2,
-        fluid: WATER,
-        placement: Placement::Lattice,
-        precision: Precision::Single,
-        density_diffusion: 0.1,
-        corrected_diffusion: true,
-        shifting: true,
-        gravity: [0.0; 3],
-        mirrors: [true; 2],
-        extents: [Extent::Open; 3],
-        demand: None,
-        releases: vec![Release {
-            time: 0.0,
-            centre: [0.0, 0.0, 0.5 * (DIAMETER + spacing)],
-            diameter: DIAMETER,
-            velocity: [0.0, 0.0, -SPEED],
-            temperature: HOT,
-        }],
-        wall: Some(Wall {
-            cells: WallCells::Rings { count: RINGS, radius: 1.5e-4 },
-            contact_angle: 0.5 * PI,
-            effusivity: None,
-        }),
-    }
-}
-
-/// A state after some steps of 0.25 µs, under a cold wall.
-fn run(drop: &DropletSph, steps: usize) -> Vec<f64> {
-    let mut state = drop.initial_state();
-    for _ in 0..steps {
-        drop.advance(&mut state, &[COLD; RINGS], 0.25e-6).unwrap();
-    }
-    state
+fn impact(across: f64) -> DropletPlan {
+    falling_drop(across, WATER)
 }
 
 #[test]

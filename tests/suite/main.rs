@@ -7,6 +7,8 @@ mod capillary;
 mod classical_flows;
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../common/falling_drop.rs"]
+mod falling_drop;
 
 mod architecture;
 mod cli;
