@@ -38,7 +38,7 @@ use crate::math::thread::aside;
 use crate::method::fem::ElasticProblem;
 pub use crate::method::fem::NodalFields;
 pub use crate::method::sph::ParticleFields;
-use crate::scene::{Scene, Shape};
+use crate::scene::{FidelityLevel, Scene, Shape};
 use crate::variables::{Output, Registry, Slot};
 use memory::threads_that_fit;
 use schedule::Group;
@@ -366,21 +366,19 @@ impl Model {
     pub fn reduction_warnings(&self) -> impl Iterator<Item = String> {
         self.bodies.iter().filter_map(|body| {
             let beyond = body.beyond_tolerance()?;
-            Some(format!(
-                "{}: {beyond}; `fidelity.level = \"full\"` keeps it, as \"auto\" does, which then takes the full model",
-                body.name()
-            ))
+            let remedy = match self.scene.fidelity.level {
+                FidelityLevel::Auto => "packed with these parameters, it takes the full model",
+                _ => "`fidelity.level = \"full\"` keeps it, and \"auto\" takes that where it must",
+            };
+            Some(format!("{}: {beyond}; {remedy}", body.name()))
         })
     }
 
     /// Of each reduced body its name and what it was reduced to; others that need the same find it as long as this is
     /// held.
     pub fn reductions(&self) -> Vec<(String, KeptReduction)> {
-        let reduced = self.bodies.iter().filter_map(|body| {
-            let reduction = body.reduction()?;
-            Some((body.name().to_owned(), reduction))
-        });
-        reduced.collect()
+        let bodies = self.bodies.iter();
+        bodies.filter_map(|body| Some((body.name().to_owned(), body.reduction()?))).collect()
     }
 
     /// What was chosen or left out, and why: a sentence each.

@@ -248,13 +248,13 @@ mod tests {
     fn arrays_are_one_row_and_texts_are_escaped() {
         let mut scene = impinge::scene::parse(SCENE, "scene.toml").unwrap();
         scene.description = "hot & <fast>".into();
-        let html = page(&scene, Version::Two);
+        let html = page(&scene, Version::Two, &[]);
         assert!(html.contains("<code>surface.temperature[1,1] … [4,4]</code>"), "{html}");
         assert!(!html.contains("surface.temperature[2,2]"));
         assert!(html.contains("temperature at point i, j of the grid on plate.top"));
         assert!(html.contains("<p>hot &amp; &lt;fast&gt;</p>"));
         scene.naming = impinge::scene::Naming::Flat;
-        let html = page(&scene, Version::Two);
+        let html = page(&scene, Version::Two, &[]);
         assert!(html.contains("surface_temperature_1_1 … surface_temperature_4_4</code>"));
         assert!(!html.contains("surface_temperature_2_2"));
     }
@@ -262,7 +262,7 @@ mod tests {
     #[test]
     fn the_page_of_fmi_3_names_whole_arrays() {
         let scene = impinge::scene::parse(SCENE, "scene.toml").unwrap();
-        let html = page(&scene, Version::Three);
+        let html = page(&scene, Version::Three, &[]);
         assert!(html.contains("<code>surface.temperature (4 × 4)</code>"), "{html}");
         assert!(html.contains("imports FMI 3.0") && html.contains("terminalsAndIcons/icon.png"));
         assert!(!html.contains("[1,1]"));

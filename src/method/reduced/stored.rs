@@ -101,7 +101,8 @@ mod tests {
 
     #[test]
     fn numbers_that_no_reduction_leads_to_are_refused() {
-        let edits: [(&str, fn(&mut ReducedSystem)); 6] = [
+        type Edit = fn(&mut ReducedSystem);
+        let edits: [(&str, Edit); 6] = [
             ("NaN is no finite number", |system| system.leaving[3] = f64::NAN),
             ("inf is no finite number", |system| system.bounds[0] = f64::INFINITY),
             ("-1 as a rate of decay", |system| system.rates[3] = -1.0),

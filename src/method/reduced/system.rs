@@ -5,6 +5,7 @@ use super::balanced::{Balanced, ReductionError, Truncated};
 use super::certificate::{Wanted, integrals};
 use super::clumped::{Clumped, Residues};
 use crate::math::exponential;
+use crate::math::separable::dot;
 
 /// Rates, matrices by rows, and bounds.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -198,11 +199,6 @@ fn parts_of(turn: f64) -> usize {
 
 fn times(a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
     [a[0] * b[0] - a[1] * b[1], a[0] * b[1] + a[1] * b[0]]
-}
-
-/// In the order of their places, so that it is the same to the bit wherever it is made.
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 impl Request<'_> {
