@@ -9,8 +9,7 @@ use crate::capillary::{
 };
 use crate::falling_drop::{COLD, DIAMETER, HOT, RINGS, SPEED, WATER, falling_drop, run};
 use impinge::method::sph::{
-    Domain, DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release,
-    Wall, WallCells,
+    Domain, DropletPlan, DropletSph, Fluid, ParticleFields, Placement, Wall, WallCells,
 };
 
 /// A quarter of a drop with surface tension that is about to hit a wall.
