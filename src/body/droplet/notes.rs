@@ -134,7 +134,7 @@ fn note_on_first_blow(droplet: &Droplet) -> String {
 /// Errors of the largest spread over Δx/D, lowest and highest: at We 30, Re 500 beside finer particles and at Re 27 beside
 /// volumes of fluid (`tests/verification/README.md`).
 const SPREAD: [f64; 2] = [0.7, 2.4];
-/// Of forces as means over that window, at D/Δx 24 to 48, and of heat of contact, at any.
+/// Of forces as means over that window, at D/Δx 24 to 48, and of heat while films are resolved.
 const FORCE_AND_HEAT: f64 = 0.01;
 
 /// What so many particles over the diameter err by, as measured.
@@ -153,7 +153,8 @@ fn note_on_resolution(droplet: &Droplet, tolerance: f64) -> String {
     format!(
         "at D/Δx {particles:.0} the largest spread errs by about {low:.1} to {high:.1} % (in proportion to Δx/D, measured \
          at D/Δx 16 to 64 and Re 27 to 500; by far more where the film gets thinner than two particles), means of force \
-         over {WINDOW} D/U and heat of contact by about {:.0} % at any D/Δx from 24 on; {wanted}",
+         over {WINDOW} D/U by about {:.0} % at any D/Δx from 24 on, heat by as much while films are thicker than two \
+         particles, by tens of per cent where they are not; {wanted}",
         100.0 * FORCE_AND_HEAT
     )
 }

@@ -1,12 +1,13 @@
 //! How what is read of a reduced solid changes: a system of scalar equations tells it exactly.
 
 use super::totals::{Total, total};
-use super::{Measured, ReducedBody, ReducedMemo, STORED, drives_of};
+use super::{Measured, ReducedBody, ReducedMemo, STORED, drives_of, reduced};
 use crate::body::{BodyError, Linear, Memo, Reading};
 
 impl Linear for ReducedBody {
     fn change(&self, inputs: &[f64], rates: &[f64]) -> Memo {
-        Box::new(ReducedMemo(self.drives.changes(inputs, rates)))
+        let moves_what_is_held = self.drives.fixed.iter().any(|(index, ..)| rates[*index] != 0.0);
+        Box::new(ReducedMemo { drives: self.drives.changes(inputs, rates), moves_what_is_held })
     }
 
     fn rates(&self, state: &[f64], memo: &Memo, change: &Memo) -> Vec<f64> {
@@ -25,6 +26,9 @@ impl Linear for ReducedBody {
         (rates, change): (&[f64], &mut Memo),
         reading: &Reading,
     ) -> Result<f64, BodyError> {
+        if reduced(change).moves_what_is_held {
+            return Err(BodyError::NoRate);
+        }
         let (drives, changes) = (drives_of(memo), drives_of(change));
         let system = self.system();
         let rate = |place: usize| system.output(self.unknowns(rates), changes, place);

@@ -71,7 +71,11 @@ const SLACK: f64 = 1e-6;
 const ROUNDING: f64 = 1e-9;
 
 /// What drives a model, or how that changes.
-struct ReducedMemo(Vec<f64>);
+struct ReducedMemo {
+    drives: Vec<f64>,
+    /// Whether a place changes that the model holds.
+    moves_what_is_held: bool,
+}
 
 impl ReducedBody {
     pub fn new(
@@ -255,9 +259,12 @@ fn note_sizes(sizes: &mut [f64], drives: &[f64]) {
 }
 
 fn drives_of(memo: &Memo) -> &[f64] {
+    &reduced(memo).drives
+}
+
+fn reduced(memo: &Memo) -> &ReducedMemo {
     let memo: &(dyn Any + Send + Sync) = memo.as_ref();
-    let ReducedMemo(drives) = memo.downcast_ref().expect("a memo is that of the body that made it");
-    drives
+    memo.downcast_ref().expect("a memo is that of the body that made it")
 }
 
 impl Body for ReducedBody {
@@ -323,7 +330,7 @@ impl Body for ReducedBody {
     }
 
     fn memo(&self, inputs: &[f64], _: &[Received]) -> Memo {
-        Box::new(ReducedMemo(self.drives.values(inputs)))
+        Box::new(ReducedMemo { drives: self.drives.values(inputs), moves_what_is_held: false })
     }
 
     fn advance(

@@ -51,7 +51,8 @@ impl ReducedBody {
         let (_, words, _) = KINDS.into_iter().find(|own| own.0 == *kind)?;
         Some(format!(
             "{words} of a reduced model err by up to {error:.1e} of their range by its bound, more than the tolerance of \
-             {:e}",
+             {:e}, under start values or under one unit of an input that starts at rest (none whose `role` is \
+             `parameter`)",
             self.tolerance
         ))
     }

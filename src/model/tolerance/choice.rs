@@ -14,10 +14,14 @@ use crate::scene::{HeatMethod, Scene, Shape, Solid, takes_newton};
 /// before, level 0 the usual ones.
 pub type Levels = [i32; 2];
 
-/// Most nodes, times experiments, of meshes that are tried.
+/// Most nodes, times experiments, of meshes that are tried: of heat, and where stresses are solved for in sections, in
+/// boxes of one material, and in boxes of layers, whose stress takes many times as long.
 const MOST_NODES: f64 = 2.5e5;
-/// The same where stresses are solved for: in sections, and in boxes.
-const MOST_NODES_OF_STRESS: [f64; 2] = [3e4, 8e4];
+const MOST_NODES_OF_SECTIONS: f64 = 3e4;
+const MOST_NODES_OF_BOXES: f64 = 5e4;
+const MOST_NODES_OF_LAYERS: f64 = 1.2e4;
+/// Part of these that meshes may have that are far finer than the one to be judged: they tell of coarse ones.
+const FEW: f64 = 0.15;
 /// Most nodes along any axis: all modes along it are found, which takes the cube of their number.
 const MOST_ALONG: usize = 1000;
 /// Nodes of meshes for stress that are taken without a trial, at most, and levels beyond the last trial.
@@ -25,8 +29,12 @@ const MOST_NODES_UNTRIED: f64 = 1.5e5;
 const BEYOND: i32 = 4;
 /// Finest level.
 const FINEST: i32 = 10;
-/// Levels beyond a mesh of those that tell what it errs by where coarser ones do not.
-const FINER: [i32; 3] = [2, 4, 8];
+/// Levels beyond a mesh of those that tell what it errs by, and the error over the difference to them: of an order of
+/// about 1.6 along edges, where slopes have no limit.
+const TWICE: (i32, f64) = (2, 1.5);
+const FAR_FINER: [(i32, f64); 2] = [(4, 1.1), (8, 1.0)];
+/// The same where twice as fine is too large.
+const BARELY: (i32, f64) = (1, 2.4);
 /// Coarsest level of which what a finer mesh errs by is told.
 pub const COARSEST_TRIED: i32 = -8;
 /// Meshes tried after the first.
@@ -121,14 +129,17 @@ fn order_of_law(scene: &Scene, name: &str, solid: &Solid) -> Option<f64> {
         let of = |place: &str| place.rsplit_once('.').is_some_and(|(body, _)| body == name);
         of(&coupling.from) || of(&coupling.to)
     });
-    let is_layered_box = solid.strata().len() > 1 && matches!(solid.shape, Shape::Box(_));
     if is_nonlinear {
         Some(ORDER_OF_NONLINEAR)
-    } else if touches || is_layered_box {
+    } else if touches || is_layered_box(solid) {
         Some(ORDER)
     } else {
         None
     }
+}
+
+fn is_layered_box(solid: &Solid) -> bool {
+    solid.strata().len() > 1 && matches!(solid.shape, Shape::Box(_))
 }
 
 /// Experiments with a body on meshes of several levels, each made once.
@@ -142,10 +153,13 @@ pub struct Trials<'a> {
 impl<'a> Trials<'a> {
     pub fn new(twin: &'a Twin, physics: Physics) -> Self {
         let is_mechanical = physics == Physics::Deformation;
-        let is_box = twin.scene().solids().any(|(_, solid)| matches!(solid.shape, Shape::Box(_)));
-        let most_nodes = match physics {
-            Physics::Heat => MOST_NODES,
-            Physics::Deformation => MOST_NODES_OF_STRESS[usize::from(is_box)],
+        let is_box = |solid: &Solid| matches!(solid.shape, Shape::Box(_));
+        let most_nodes = match (physics, twin.scene().solids().map(|(_, solid)| solid).next()) {
+            (Physics::Heat, Some(solid)) if is_layered_box(solid) => FEW * MOST_NODES,
+            (Physics::Heat, _) => MOST_NODES,
+            (_, Some(solid)) if is_layered_box(solid) => MOST_NODES_OF_LAYERS,
+            (_, Some(solid)) if is_box(solid) => MOST_NODES_OF_BOXES,
+            _ => MOST_NODES_OF_SECTIONS,
         };
         let mut watched = watched(twin.scene(), is_mechanical);
         let is_extreme = |one: &Watched| matches!(one.output.reading, Reading::Total(_));
@@ -184,21 +198,35 @@ impl<'a> Trials<'a> {
         Ok(differences(&self.solved[&levels], &self.solved[&other], &self.watched))
     }
 
-    /// What outputs differ by from those on meshes that are finer along the surface or through the thickness: one may be
-    /// too coarse by far itself, which one finer again tells. Only of meshes that are not too large.
-    fn beside_finer(&mut self, levels: Levels, way: usize) -> Result<Vec<f64>, ModelError> {
-        let mut errors: Vec<f64> = vec![0.0; self.watched.len()];
-        let own = self.nodes(levels);
-        for more in FINER {
+    /// What outputs err by as those on meshes tell that are finer along the surface or through the thickness: one may be
+    /// too coarse by far itself, which one finer again tells. Nothing where all of these are too large.
+    fn beside_finer(&mut self, levels: Levels, way: usize) -> Result<Option<Vec<f64>>, ModelError> {
+        let finer = |more: i32| {
             let mut finer = levels;
             finer[way] += more;
-            if self.nodes(finer) == own || self.is_too_large(finer) {
+            finer
+        };
+        if self.nodes(finer(TWICE.0)) == self.nodes(levels) {
+            return Ok(Some(vec![0.0; self.watched.len()]));
+        }
+        let of = |(more, factor): (i32, f64), trials: &mut Self| {
+            let found = trials.beside(levels, finer(more))?;
+            Ok::<_, ModelError>(found.into_iter().map(|part| factor * part).collect::<Vec<f64>>())
+        };
+        if self.is_too_large(finer(TWICE.0)) {
+            let is_too_large = self.is_too_large(finer(BARELY.0));
+            return if is_too_large { Ok(None) } else { of(BARELY, self).map(Some) };
+        }
+        let mut errors = of(TWICE, self)?;
+        for far in FAR_FINER {
+            let mesh = finer(far.0);
+            if self.is_too_large(mesh) || self.nodes(mesh) > FEW * self.most_nodes {
                 break;
             }
-            let found = self.beside(levels, finer)?;
+            let found = of(far, self)?;
             errors.iter_mut().zip(found).for_each(|(error, found)| *error = error.max(found));
         }
-        Ok(errors)
+        Ok(Some(errors))
     }
 
     fn solve(&mut self, levels: Levels) -> Result<(), ModelError> {
@@ -211,46 +239,58 @@ impl<'a> Trials<'a> {
         Ok(())
     }
 
-    /// What outputs err by on a mesh, from what they differ by on coarser ones, or on finer ones where it is so coarse
-    /// that it does not get coarser.
+    /// What outputs err by on a mesh, from what they differ by on coarser ones; on finer ones where it is so coarse that
+    /// it does not get coarser.
     pub fn estimate(&mut self, levels: Levels) -> Result<Estimate, ModelError> {
-        let [i, j] = levels;
+        let parts = [self.part(levels, 0)?, self.part(levels, 1)?];
+        Ok(self.joined(parts))
+    }
+
+    /// The same from finer ones, as far as these are not too large: a mesh may be so coarse that it and all coarser ones
+    /// are wrong alike, or right where those are not.
+    pub fn judge(&mut self, levels: Levels) -> Result<Estimate, ModelError> {
         self.solve(levels)?;
-        let along = match self.is_coarsest(levels, [i - 2, j]) {
-            true => self.beside_finer(levels, 0)?,
-            false => joined(&self.beside(levels, [i - 1, j])?, &self.beside(levels, [i - 2, j])?),
+        let mut parts = [Vec::new(), Vec::new()];
+        for (way, part) in parts.iter_mut().enumerate() {
+            *part = match self.beside_finer(levels, way)? {
+                Some(found) => found,
+                None => self.part(levels, way)?,
+            };
+        }
+        Ok(self.joined(parts))
+    }
+
+    /// What outputs err by along the surface (0) or through the thickness (1), from coarser meshes.
+    fn part(&mut self, levels: Levels, way: usize) -> Result<Vec<f64>, ModelError> {
+        let coarser = |less: i32| {
+            let mut coarser = levels;
+            coarser[way] -= less;
+            coarser
         };
-        let through = match self.is_coarsest(levels, [i, j - 2]) {
-            true => self.beside_finer(levels, 1)?,
-            false => smooth(&self.beside(levels, [i, j - 1])?, &self.beside(levels, [i, j - 2])?),
-        };
+        self.solve(levels)?;
+        if self.is_coarsest(levels, coarser(2))
+            && let Some(found) = self.beside_finer(levels, way)?
+        {
+            return Ok(found);
+        }
+        let [first, second] = [self.beside(levels, coarser(1))?, self.beside(levels, coarser(2))?];
+        Ok(if way == 0 { uneven(&first, &second) } else { smooth(&first, &second) })
+    }
+
+    fn joined(&self, [along, through]: [Vec<f64>; 2]) -> Estimate {
         let outputs = self.watched.iter().zip(along.into_iter().zip(through));
         let error = |(one, (along, through)): (&Watched, (f64, f64))| OutputError {
             name: one.name.clone(),
             along,
             through,
         };
-        Ok(Estimate { outputs: outputs.map(error).collect() })
-    }
-
-    /// The same of a mesh that the scene asks for along the surface or through the thickness: it may be so coarse that it
-    /// and all coarser ones are wrong alike, which finer ones tell.
-    pub fn judge(&mut self, levels: Levels, given: [bool; 2]) -> Result<Estimate, ModelError> {
-        let mut estimate = self.estimate(levels)?;
-        for way in (0..2).filter(|&way| given[way]) {
-            let found = self.beside_finer(levels, way)?;
-            for (own, found) in estimate.outputs.iter_mut().zip(found) {
-                let part = if way == 0 { &mut own.along } else { &mut own.through };
-                *part = part.max(found);
-            }
-        }
-        Ok(estimate)
+        Estimate { outputs: outputs.map(error).collect() }
     }
 }
 
 /// The error on a mesh from differences to one √2 and one twice as coarse along the surface, where edges of loads make it
 /// uneven: of an error of second order the first difference is equal to it, the second three times as large.
-fn joined(first: &[f64], second: &[f64]) -> Vec<f64> {
+fn uneven(first: &[f64], second: &[f64]) -> Vec<f64> {
     first.iter().zip(second).map(|(a, b)| a.max(b / 3.0)).collect()
 }
 

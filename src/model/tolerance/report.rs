@@ -89,9 +89,7 @@ fn of_physics(twin: &Twin, physics: Physics, found: &mut BodyEstimate) {
     }
     // A mesh too large to be tried is judged by coarser ones.
     let down = (0..=-COARSEST_TRIED).find(|&down| !trials.is_too_large([-down; 2]));
-    let solid = twin.scene().solids().map(|(_, solid)| solid).next();
-    let given = solid.map_or([false; 2], |solid| open(solid).map(|is_open| !is_open));
-    let estimate = down.and_then(|down| Some((down, trials.judge([-down; 2], given).ok()?)));
+    let estimate = down.and_then(|down| Some((down, trials.judge([-down; 2]).ok()?)));
     let Some((down, estimate)) = estimate else {
         found.notes.push(format!("no estimate of {what}: the mesh is too large to be tried"));
         return;
@@ -127,9 +125,13 @@ pub fn finer_mesh(scene: &Scene, estimate: &BodyEstimate) -> Option<[f64; 2]> {
             return Some(factors(levels));
         }
     }
-    // As errors of second order fall.
-    let by_order = [0, 1].map(|way| (estimate.worst_of(way) / (0.5 * tolerance)).sqrt().max(1.0));
+    let by_order = by_order(estimate, tolerance);
     (by_order[0].max(by_order[1]) <= FARTHEST).then_some(by_order)
+}
+
+/// Numbers of elements over those of a mesh that would keep a tolerance, as errors of second order fall.
+fn by_order(estimate: &BodyEstimate, tolerance: f64) -> [f64; 2] {
+    [0, 1].map(|way| (estimate.worst_of(way) / (0.5 * tolerance)).sqrt().max(1.0))
 }
 
 /// Numbers of elements over those of a mesh beyond which nothing is told of it by the order alone.
@@ -169,11 +171,7 @@ pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
         );
         let keys = &solid.mesh;
         if open(solid) == [true; 2] {
-            return Some(format!(
-                "{over}; finer meshes are not tried here: `[refinement.{name}]` with larger factors than these makes it finer: \
-                 {}",
-                factors_of(scene, name)
-            ));
+            return Some(format!("{over}; {}", finer_factors(scene, estimate)));
         }
         let Some([along, through]) = finer_mesh(scene, estimate) else {
             return Some(format!(
@@ -191,10 +189,17 @@ pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
     estimates.iter().filter_map(warning).chain(warnings_on_landing(scene)).collect()
 }
 
-/// The factors of the mesh that a body has.
-fn factors_of(scene: &Scene, name: &str) -> String {
+/// Factors of the mesh of a body that would keep the tolerance, as errors of second order fall.
+fn finer_factors(scene: &Scene, estimate: &BodyEstimate) -> String {
+    let name = &estimate.body;
     let [along, through] = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
-    format!("along = {along:.2}, through = {through:.2}")
+    let more = by_order(estimate, scene.fidelity.tolerance);
+    format!(
+        "its mesh has along = {along:.2}, through = {through:.2}, and finer ones are not tried here: about \
+         `[refinement.{name}]` with along = {:.2}, through = {:.2} would keep it",
+        along * more[0],
+        through * more[1]
+    )
 }
 
 /// A part of something as a percentage.
