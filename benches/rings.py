@@ -1,8 +1,8 @@
-"""Axisymmetric droplets beside the quarter of three dimensions: error, cost, and what they converge to.
+"""Axisymmetric droplets beside the quarter of three dimensions: error, cost, and their limits.
 
-The drop of `examples/droplet_impact` on a disc of the same material, or on its own box. Each run is one call of
-`impinge run`; times are processor times of these on one thread, taken in turn, the median of several. Orders and limits
-follow from three resolutions in a constant ratio (Richardson).
+The drop of `examples/droplet_impact` on a disc of the same material, or on its own box. Each run is
+one call of `impinge run`; times are processor times of these on one thread, taken in turn, the
+median of several. Orders and limits follow from three resolutions in a constant ratio (Richardson).
 """
 
 import argparse
@@ -36,7 +36,10 @@ def scene(symmetry, across, radial, depth, stop, on_box):
     ]
     for old, new in ([] if on_box else to_disc) + [
         ("spacing = 2.5e-6 ", f'symmetry = "{symmetry}"\nspacing = {1e-4 / across!r} '),
-        ("spacing = 7.5e-6, depth_spacing = 0.3e-6", f"spacing = {radial!r}, depth_spacing = {depth!r}"),
+        (
+            "spacing = 7.5e-6, depth_spacing = 0.3e-6",
+            f"spacing = {radial!r}, depth_spacing = {depth!r}",
+        ),
         ("stop_time = 3.5e-6", f"stop_time = {stop!r}"),
         (", young = 300e9, poisson = 0.21, expansion = 8.1e-6", ""),
         ('"temperature", "stress", "max_principal", "displacement"', '"temperature"'),
@@ -60,7 +63,9 @@ def run(program, text):
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         (table,) = Path(folder, "out").glob("*.csv")
         with open(table) as file:
-            rows = [{k.split(" ")[0]: float(v) for k, v in row.items()} for row in csv.DictReader(file)]
+            rows = [
+                {k.split(" ")[0]: float(v) for k, v in row.items()} for row in csv.DictReader(file)
+            ]
     seconds = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
     return rows, seconds
 
@@ -84,10 +89,14 @@ def main():
     parser.add_argument("--depth", type=float, default=0.1e-6)
     parser.add_argument("--stop", type=float, default=3.5e-6)
     parser.add_argument("--box", action="store_true", help="on the example's box instead of a disc")
-    parser.add_argument("--repeat", type=int, default=1, help="runs of each, of which times are medians")
+    parser.add_argument(
+        "--repeat", type=int, default=1, help="runs of each, of which times are medians"
+    )
     options = parser.parse_args()
     found, times = {}, {}
-    cases = [("axisymmetric", n) for n in options.rings] + [("quarter", n) for n in options.quarters]
+    cases = [("axisymmetric", n) for n in options.rings] + [
+        ("quarter", n) for n in options.quarters
+    ]
     for _ in range(options.repeat):
         for symmetry, across in cases:
             text = scene(symmetry, across, options.radial, options.depth, options.stop, options.box)
@@ -98,21 +107,32 @@ def main():
         print(f"\n{symmetry} D/Δx {across:g}: {seconds:.1f} s of processor time")
         for part in (0.5, 1.0, 1.5):
             time = part * D_OVER_U
-            values = ", ".join(f"{words} {at(rows, time, name):.5g}" for name, words in READ.items())
+            values = ", ".join(
+                f"{words} {at(rows, time, name):.5g}" for name, words in READ.items()
+            )
             temperature = mean(rows, time - 1e-7, time + 1e-7, "centre.temperature")
-            print(f"  {part} D/U: {values}; centre's mean over 0.1 D/U {temperature:.2f} K", flush=True)
-    for a, b, c in zip(options.rings, options.rings[1:], options.rings[2:]):
+            print(
+                f"  {part} D/U: {values}; centre's mean over 0.1 D/U {temperature:.2f} K",
+                flush=True,
+            )
+    for a, b, c in zip(options.rings, options.rings[1:], options.rings[2:], strict=False):
         print(f"\nRings at D/Δx {a:g}, {b:g}, {c:g}: order and limit")
         for part in (0.5, 1.0, 1.5):
             for name, words in READ.items():
                 time = part * D_OVER_U
-                x, y, z = (mean(found["axisymmetric", n], time - 1e-7, time + 1e-7, name) for n in (a, b, c))
+                x, y, z = (
+                    mean(found["axisymmetric", n], time - 1e-7, time + 1e-7, name)
+                    for n in (a, b, c)
+                )
                 if (x - y) * (y - z) <= 0 or abs(y - z) >= abs(x - y):
                     print(f"  {part} D/U {words}: {x:.5g}, {y:.5g}, {z:.5g}: no order")
                     continue
                 order = math.log((x - y) / (y - z)) / math.log(c / b)
                 limit = z + (z - y) / ((x - y) / (y - z) - 1)
-                print(f"  {part} D/U {words}: {x:.5g}, {y:.5g}, {z:.5g}: order {order:.2f}, limit {limit:.5g}")
+                print(
+                    f"  {part} D/U {words}: {x:.5g}, {y:.5g}, {z:.5g}: order {order:.2f}, "
+                    f"limit {limit:.5g}"
+                )
 
 
 if __name__ == "__main__":

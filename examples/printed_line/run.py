@@ -1,4 +1,4 @@
-"""A printer lays a line of wax drops at 1 kHz on a warm plate, which becomes as warm as they make it."""
+"""A printer lays a line of wax drops at 1 kHz on a warm plate, which they make warmer."""
 
 import sys
 import time

@@ -205,6 +205,9 @@ impl Reader<'_> {
             }
             parameter.set(&mut scene, value);
         }
+        if scene != *packed {
+            scene.forget_estimates();
+        }
         let experiment =
             Experiment { start: self.number()?, stop: self.numbers()?.first().copied() };
         let time = self.number()?;

@@ -475,8 +475,7 @@ impl Unit {
         self.state.bodies.clear();
         self.state.peaks.clear();
         self.scene = scene;
-        // What was estimated was so with other parameters.
-        self.scene.refinement.values_mut().for_each(|mesh| mesh.estimated_error = None);
+        self.scene.forget_estimates();
     }
 
     /// Drops the model and what follows from the state, but for its stiffness and its reductions.

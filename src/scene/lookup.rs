@@ -62,6 +62,11 @@ impl Body {
 }
 
 impl Scene {
+    /// Forgets what outputs err by, which was estimated with other parameters.
+    pub fn forget_estimates(&mut self) {
+        self.refinement.values_mut().for_each(|mesh| mesh.estimated_error = None);
+    }
+
     /// The bodies that have no extent, each in words.
     pub fn lumps(&self) -> impl Iterator<Item = (&str, String)> {
         self.body.iter().filter_map(|(name, body)| Some((name.as_str(), body.lump()?)))

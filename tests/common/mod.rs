@@ -73,16 +73,24 @@ impl Trial {
     /// Time derivatives of outputs.
     pub fn rates(&mut self, names: &[String]) -> Vec<f64> {
         let tangent = self.model.time_tangent(&self.state, &mut self.cache).unwrap();
-        self.follow(tangent, names)
+        self.follow(tangent, names).unwrap()
     }
 
     /// Changes of outputs when inputs change.
     pub fn changes(&mut self, names: &[String], inputs: &[(&str, f64)]) -> Vec<f64> {
+        self.try_changes(names, inputs).unwrap()
+    }
+
+    pub fn try_changes(
+        &mut self,
+        names: &[String],
+        inputs: &[(&str, f64)],
+    ) -> Result<Vec<f64>, ModelError> {
         let mut direction = vec![0.0; self.state.inputs.len()];
         for (name, change) in inputs {
             direction[self.input(name)] = *change;
         }
-        let tangent = self.model.input_tangent(&self.state, &direction).unwrap();
+        let tangent = self.model.input_tangent(&self.state, &direction)?;
         self.follow(tangent, names)
     }
 
@@ -100,11 +108,10 @@ impl Trial {
         }
     }
 
-    fn follow(&mut self, mut tangent: Tangent, names: &[String]) -> Vec<f64> {
+    fn follow(&mut self, mut tangent: Tangent, names: &[String]) -> Result<Vec<f64>, ModelError> {
         let mut rate = |name: &String| {
             let output = self.output(name);
-            let rate = self.model.output_rate(&self.state, &mut self.cache, &mut tangent, &output);
-            rate.unwrap()
+            self.model.output_rate(&self.state, &mut self.cache, &mut tangent, &output)
         };
         names.iter().map(&mut rate).collect()
     }

@@ -279,6 +279,10 @@ fn footprints_move_within_their_range() {
         assert!((wanted - found).abs() <= bound, "{n}: {wanted} {found}, {bound:e}");
         assert!(bound < 10.0, "{bound}");
     }
+    // Nor is there a rate by a place that is held.
+    let names = ["a.temperature".to_owned()];
+    assert!(reduced.try_changes(&names, &[("spot.x", 1.0)]).is_ok());
+    assert!(reduced.try_changes(&names, &[("spot.y", 1.0)]).is_err());
     let place = reduced.input("spot.y");
     reduced.state.inputs[place] += 1e-5;
     let refused = reduced.try_step(1e-4).unwrap_err().to_string();
