@@ -100,7 +100,7 @@ def asked_over_found(axes, chart: Chart, known):
     axes.set_xlabel("error asked for [1]")
     axes.set_ylabel("error found [1]")
     axes.grid(True, which="major", color="0.92")
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=7, loc="lower right")
     return drawn
 
 
