@@ -11,7 +11,7 @@ RELEASE := target/release
 PY_FILES := $(wildcard python build-fmu/*.py tests/conftest.py tests/fmpy tests/python tests/verification benches examples)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo units examples test rust-test python-test fuzz verify bench charts bench-droplet bench-reduced build clean
+.PHONY: help demo units examples test rust-test python-test fuzz verify bench charts maps bench-droplet bench-reduced build clean
 
 help: ## say what there is
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
@@ -78,8 +78,11 @@ bench: build $(VENV)/ready-verify ## time against an independent finite-element 
 	$(BIN)/python benches/plans.py
 	cargo bench --bench elastic_iterations
 
-charts: build $(VENV)/ready ## chart errors over time, level beside level; goes on where it was stopped
+charts: build $(VENV)/ready-verify $(PEERS)/ready ## chart errors over time, level beside level; goes on where it was stopped
 	OMP_NUM_THREADS=1 $(BIN)/python benches/charts/run.py
+
+maps: build $(VENV)/ready ## map where methods fail over two settings each, beside theory; goes on where it was stopped
+	OMP_NUM_THREADS=1 $(BIN)/python benches/maps/run.py
 
 bench-droplet: $(PEERS)/ready ## time droplets against two other particle codes (needs g++ and OpenGL's libraries)
 	$(PEERS)/bin/python benches/droplet_peers.py

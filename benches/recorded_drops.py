@@ -1,6 +1,7 @@
 """Drops that are repeated, beside the same drops of particles: error of heat, surface temperature
-and spread on a single drop, on a warmer plate, on neighbours, on a train, and for six fluids; then
-many drops along a path on a heated bed.
+and spread on a single drop, on a warmer plate, on neighbours, on a train, for six fluids, and on
+solids that conduct less than the drop; rings beside the quarter that is recorded; then many drops
+along a path on a heated bed.
 
 `python benches/recorded_drops.py [--impinge PATH] [--across N] [--drops N] [WHAT …]` prints one
 table each; N particles lie across a drop, and times are those of the processor."""
@@ -27,6 +28,12 @@ INK = {
     "surface_tension": 0.05,
 }
 ALUMINA = "density = 3950.0, specific_heat = 900.0, conductivity = 10.0"
+# Effusivities of 1.5, 0.14 and 0.05 times that of mercury.
+INSULATORS = {
+    "alumina": ALUMINA,
+    "PMMA": "density = 1180.0, specific_heat = 1450.0, conductivity = 0.19",
+    "cork": "density = 240.0, specific_heat = 1900.0, conductivity = 0.085",
+}
 GRID, PATCHES = 40, 10
 
 
@@ -77,7 +84,7 @@ fluid = {{ {fluid_keys} }}
 [body.plate]
 kind = "solid"
 shape = {{ box = [{length!r}, 5e-4, 1e-4] }}
-material = {{ model = "thermoelastic", {ALUMINA} }}
+material = {{ model = "thermoelastic", {options.get("material", ALUMINA)} }}
 initial_temperature = {options.get("plate", COLD)!r}
 mesh = {{ spacing = 1e-5, depth_spacing = 1e-6, growth = 1.4, order = 1 }}
 [[coupling]]
@@ -227,6 +234,28 @@ def fluids(runs):
             row(name, method, *figures(result))
 
 
+def insulators(runs):
+    table("mercury on", *HEADS)
+    ink, speed = FLUIDS["mercury"]
+    for name, material in INSULATORS.items():
+        stop = 4 * DIAMETER / speed
+        row(name, *figures(runs.both("record", stop, ink=(ink, speed), material=material)))
+
+
+def rings(runs):
+    """The same drop as rings about its axis and as a quarter, on the same box."""
+    table("fluid", "heat, last", "impulse, last", "rings", "quarter")
+    for name, (ink, speed) in {"ink": (INK, SPEED), "mercury": FLUIDS["mercury"]}.items():
+        of = {}
+        for symmetry in ("axisymmetric", "quarter"):
+            keys = f'symmetry = "{symmetry}"'
+            text = runs.scene("sph", 6 * DIAMETER / speed, ink=(ink, speed), keys=keys)
+            of[symmetry] = runs.run(text)
+        (one, quick), (other, slow) = of.values()
+        parts = (one[key][-1] / other[key][-1] - 1 for key in ("drop.heat", "drop.impulse_z"))
+        row(name, *map(percent, parts), f"{quick:.1f} s", f"{slow:.1f} s")
+
+
 def bed(runs, count):
     """Lines of drops at 2 kHz on a bed that a heater holds warm, one communication step a drop."""
     side, pitch, period = 4e-3, 1e-4, 5e-4
@@ -301,9 +330,11 @@ carries = ["heat_flux"]
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument(
-        "what", nargs="*", default=["single", "neighbours", "train", "fluids", "bed"]
-    )
+    tables = {
+        function.__name__: function
+        for function in (single, neighbours, train, fluids, insulators, rings)
+    }
+    parser.add_argument("what", nargs="*", default=[*tables, "bed"])
     parser.add_argument("--impinge", type=Path, default=ROOT / "target/release/impinge")
     parser.add_argument("--across", type=float, default=20.0)
     parser.add_argument("--drops", type=int, default=10_000)
@@ -314,9 +345,7 @@ def main():
             if what == "bed":
                 bed(runs, chosen.drops)
             else:
-                {"single": single, "neighbours": neighbours, "train": train, "fluids": fluids}[
-                    what
-                ](runs)
+                tables[what](runs)
 
 
 if __name__ == "__main__":

@@ -31,6 +31,19 @@ class UnitRun:
 
 
 @dataclass(frozen=True)
+class ProgramRun:
+    """A program of `programs/`, such as another code on the same work, in a process of its own.
+
+    It gets its arguments as JSON and prints as its last line what `measure.drive` returns: values
+    by quantity, seconds to start and of steps, and bytes of memory."""
+
+    program: str
+    arguments: dict
+    environment: str = ".venv"
+    """The virtual environment whose Python runs it."""
+
+
+@dataclass(frozen=True)
 class Formula:
     """Something that is evaluated: a function of nothing that gives values by quantity."""
 
@@ -40,7 +53,7 @@ class Formula:
 @dataclass(frozen=True)
 class Point:
     setting: str
-    work: UnitRun | Formula
+    work: UnitRun | ProgramRun | Formula
     asked: float | None = None
     """The relative error that was asked for, where one can ask."""
 

@@ -9,7 +9,7 @@ from statistics import median
 from tempfile import TemporaryDirectory
 
 import tomli_w
-from chart import Formula, Outcome, Point, UnitRun
+from chart import Formula, Outcome, Point, ProgramRun, UnitRun
 
 ROOT = Path(__file__).resolve().parents[2]
 LIMIT = 900.0  # s, for one repetition
@@ -64,16 +64,31 @@ def run_unit(work: UnitRun, repetitions: int) -> Outcome:
     told = {"inputs": work.inputs, "outputs": work.outputs, "steps": work.steps}
     with TemporaryDirectory() as folder:
         unit, packing = pack(work.scene, Path(folder))
-        runs = []
-        for _ in range(repetitions):
-            command = [sys.executable, __file__, unit, json.dumps(told)]
-            ran = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT)
-            if ran.returncode:
-                raise RuntimeError((ran.stderr.strip() or "no message").splitlines()[-1])
-            runs.append(json.loads(ran.stdout.splitlines()[-1]))
+        runs = repeated([sys.executable, __file__, unit, json.dumps(told)], repetitions)
         size = unit.stat().st_size
-    parts = {key: median(run[key] for run in runs) for key in ("start", "steps", "memory")}
-    return Outcome(values=runs[0]["values"], pack=packing, size=size, **parts)
+    return Outcome(values=runs[0]["values"], pack=packing, size=size, **medians(runs))
+
+
+def run_program(work: ProgramRun, repetitions: int) -> Outcome:
+    python = ROOT / work.environment / "bin/python"
+    program = Path(__file__).parent / "programs" / work.program
+    runs = repeated([python, program, json.dumps(work.arguments)], repetitions)
+    return Outcome(values=runs[0]["values"], pack=0.0, size=0, **medians(runs))
+
+
+def repeated(command: list, repetitions: int) -> list[dict]:
+    """The last lines of the command's output, read as JSON."""
+    runs = []
+    for _ in range(repetitions):
+        ran = subprocess.run(command, capture_output=True, text=True, timeout=LIMIT)
+        if ran.returncode:
+            raise RuntimeError((ran.stderr.strip() or "no message").splitlines()[-1])
+        runs.append(json.loads(ran.stdout.splitlines()[-1]))
+    return runs
+
+
+def medians(runs: list[dict]) -> dict[str, float]:
+    return {key: median(run[key] for run in runs) for key in ("start", "steps", "memory")}
 
 
 def run_formula(work: Formula) -> Outcome:
@@ -90,6 +105,8 @@ def measure(point: Point, repetitions: int) -> Outcome:
         match point.work:
             case UnitRun() as work:
                 return run_unit(work, repetitions)
+            case ProgramRun() as work:
+                return run_program(work, repetitions)
             case Formula() as work:
                 return run_formula(work)
     except (RuntimeError, subprocess.TimeoutExpired) as failure:

@@ -1,5 +1,5 @@
 """The charts, by name."""
 
-from cases.spot import spot
+from cases import coupling, fluids, solids
 
-CHARTS = {"spot": spot}
+CHARTS = solids.CHARTS | fluids.CHARTS | coupling.CHARTS

@@ -1,0 +1,3 @@
+"""The charts of coupling, by name."""
+
+CHARTS = {}

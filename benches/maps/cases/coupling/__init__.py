@@ -1,0 +1,3 @@
+"""The maps of coupling, by name."""
+
+MAPS = {}

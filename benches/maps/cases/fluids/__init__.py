@@ -1,0 +1,3 @@
+"""The maps of fluids, by name."""
+
+MAPS = {}

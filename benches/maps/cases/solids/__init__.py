@@ -1,0 +1,3 @@
+"""The maps of solids, by name."""
+
+MAPS = {}

@@ -1,0 +1,148 @@
+"""Draws a map: outcomes coloured, where they turn bad, where theory and the product see that."""
+
+from math import log10
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from boundary import crossings, silent
+from matplotlib.colors import LogNorm, Normalize
+from matplotlib.lines import Line2D
+from plan import Axis, Map
+from table import Known
+
+STYLE = {
+    "font.size": 10,
+    "axes.titlelocation": "left",
+    "axes.titleweight": "bold",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "legend.frameon": False,
+}
+THEORY = ["#b0303c", "#20306b", "#2a8a7f"]
+DASHES = [(0, (5, 3)), (0, (1, 2)), (0, (7, 2, 1, 2))]
+
+
+def edges(axis: Axis) -> np.ndarray:
+    """Of the cells around an axis's values."""
+    at = np.log(axis.values) if axis.is_logarithmic else np.array(axis.values, float)
+    middle = 0.5 * (at[1:] + at[:-1])
+    ends = np.concatenate([[at[0] - (middle[0] - at[0])], middle, [at[-1] + (at[-1] - middle[-1])]])
+    return np.exp(ends) if axis.is_logarithmic else ends
+
+
+def coloured(axes, of: Map, known: Known):
+    """Outcomes as colours; what was refused is grey."""
+    grid = np.full((len(of.y.values), len(of.x.values)), np.nan)
+    for row, y in enumerate(of.y.values):
+        for column, x in enumerate(of.x.values):
+            if cell := known.get((x, y)):
+                grid[row, column] = cell.outcome
+    seen = np.abs(grid[np.isfinite(grid)])
+    seen = seen[seen > 0]
+    low, high = of.colours or (seen.min(initial=1e-3), seen.max(initial=1.0))
+    wide = low > 0 and high / low > 20
+    norm = LogNorm(low, high, clip=True) if wide else Normalize(low, high, clip=True)
+    if wide:
+        grid = np.where(grid <= 0, low, grid)
+    palette = plt.get_cmap("YlGnBu").copy()
+    palette.set_bad("0.88")
+    shown = np.ma.masked_invalid(np.where(np.isposinf(grid), high, grid))
+    return axes.pcolormesh(edges(of.x), edges(of.y), shown, cmap=palette, norm=norm)
+
+
+def marks(axes, of: Map, known: Known) -> list[Line2D]:
+    """Dots where the product warns, crosses where it refuses, rings where it fails in silence."""
+    groups = [
+        ("warned", ".", {"color": "#e08214", "markersize": 5}, lambda c: c.said == "warned"),
+        ("refused", "x", {"color": "0.35", "markersize": 5}, lambda c: c.said == "refused"),
+    ]
+    handles = []
+    for label, marker, style, chosen in groups:
+        cells = [c for c in known.values() if not c.is_search and chosen(c)]
+        if cells:
+            (line,) = axes.plot(
+                [c.x for c in cells], [c.y for c in cells], marker, linestyle="none", **style
+            )
+            line.set_label(label)
+            handles.append(line)
+    quiet = silent(of, known)
+    if quiet and of.must_speak:
+        (line,) = axes.plot(
+            [c.x for c in quiet],
+            [c.y for c in quiet],
+            "o",
+            color="#b0303c",
+            fillstyle="none",
+            markersize=9,
+            label="bad, and nothing said",
+        )
+        handles.append(line)
+    return handles
+
+
+def lines(axes, of: Map, known: Known) -> list[Line2D]:
+    """The measured boundary and those of theory."""
+    handles = []
+    found = crossings(of, known)
+    if found:
+        handles += axes.plot(
+            [c.x for c in found],
+            [c.middle(of) for c in found],
+            color="black",
+            linewidth=1.8,
+            marker="o",
+            markersize=3,
+            label=f"measured: {of.outcome} {of.bad:g}",
+        )
+    ends = of.x.values[0], of.x.values[-1]
+    fine = np.geomspace(*ends, 200) if of.x.is_logarithmic else np.linspace(*ends, 200)
+    for place, theory in enumerate(of.theory):
+        handles += axes.plot(
+            fine,
+            [theory.y(float(x)) for x in fine],
+            color=THEORY[place % len(THEORY)],
+            linestyle=DASHES[place % len(DASHES)],
+            linewidth=1.6,
+            label=f"{theory.name} ({theory.source})",
+        )
+    return handles
+
+
+def label(axis: Axis) -> str:
+    return f"{axis.name} [{axis.unit}]"
+
+
+def prepare(axes, of: Map) -> None:
+    for axis, scale, limits, ticks in (
+        (of.x, axes.set_xscale, axes.set_xlim, axes.set_xticks),
+        (of.y, axes.set_yscale, axes.set_ylim, axes.set_yticks),
+    ):
+        scale("log" if axis.is_logarithmic else "linear")
+        limits(edges(axis)[0], edges(axis)[-1])
+        if axis.labels:
+            ticks(axis.values, axis.labels)
+            (axes.minorticks_off)()
+        elif axis.is_logarithmic and log10(axis.values[-1] / axis.values[0]) < 1.2:
+            ticks(axis.values, [f"{value:g}" for value in axis.values])
+            (axes.minorticks_off)()
+    axes.set_xlabel(label(of.x))
+    axes.set_ylabel(label(of.y))
+    axes.set_title(of.title)
+
+
+def draw(of: Map, known: Known, folder: Path) -> None:
+    plt.rcParams.update(STYLE | {"svg.hashsalt": of.name})
+    figure, axes = plt.subplots(figsize=(7.4, 6.0), layout="constrained")
+    mesh = coloured(axes, of, known)
+    prepare(axes, of)
+    handles = lines(axes, of, known) + marks(axes, of, known)
+    figure.colorbar(mesh, ax=axes, label=f"{of.outcome} [{of.unit}]", shrink=0.9)
+    if handles:
+        figure.legend(handles=handles, loc="outside lower left", ncols=2, fontsize=8)
+    figure.savefig(folder / f"{of.name}.png", dpi=120)
+    figure.savefig(folder / f"{of.name}.svg", metadata={"Date": None})
+    plt.close(figure)
