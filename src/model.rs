@@ -392,6 +392,24 @@ impl Model {
         bodies.filter_map(|(body, unknowns)| body.warning(unknowns)).collect()
     }
 
+    /// Of a step of `dt` [s] that is much shorter than those that the meshes were chosen for: what is told just after a
+    /// jump is wrong.
+    pub fn warning_on_step(&self, dt: f64) -> Option<String> {
+        let asked = self.scene.step;
+        // What is left over of a run is as short as rounding.
+        if dt >= SHORT * asked || dt < ROUNDING * asked {
+            return None;
+        }
+        let body = self.bodies.iter().find(|body| dt < SHORT * body.resolved_from())?;
+        Some(format!(
+            "{}: a step of {dt:.1e} s is shorter than the {:.1e} s after which its mesh tells heated surfaces: until then \
+             their rises are too low and heat of prescribed temperatures and of droplets is too high, by several times at \
+             first; a scene whose `step` ({asked:e} s) is as short has a mesh for it",
+            body.name(),
+            body.resolved_from()
+        ))
+    }
+
     /// What a user should know of the state at the end of a run: a sentence each.
     pub fn closing_warnings(&self, state: &State) -> Vec<String> {
         let bodies = self.bodies.iter().zip(&state.bodies);
@@ -404,6 +422,10 @@ impl Model {
     }
 }
 
+/// Part of the time that a mesh resolves, and of the step that it was chosen for, below which a step is too short.
+const SHORT: f64 = 0.5;
+/// Part of the scene's step that rounding leaves over.
+const ROUNDING: f64 = 1e-9;
 /// What stands for an error that is not estimated.
 const NO_ESTIMATE: f64 = -1.0;
 

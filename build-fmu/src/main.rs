@@ -19,7 +19,7 @@ use std::process::{self, ExitCode};
 use archive::Entries;
 use clap::Parser;
 use impinge::machine::available_memory;
-use impinge::model::{Model, check_memory, notes_on_walls, records, to_be_recorded, tolerance};
+use impinge::model::{Model, notes_on_walls, records, to_be_recorded, tolerance};
 use impinge::scene::{self, Scene};
 use version::Version;
 
@@ -135,7 +135,8 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     let text = tolerance::packed_text(&scene, &text, &known);
     let scene = known;
     // Held, so that nothing of it is made twice.
-    let reduced = reduced(&scene)?;
+    let reduced = tolerance::reduced_model(&scene, available_memory());
+    let reduced = reduced.map_err(|error| error.to_string())?;
     for warning in reduced.iter().flat_map(Model::reduction_warnings) {
         complain(&format!("warning: {warning}"));
     }
@@ -144,7 +145,8 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     } else {
         Entries::new()
     };
-    let unit = unit(&scene, &text, library, arguments.fmi, reference)?;
+    let notes = reduced.as_ref().map_or(Vec::new(), Model::notes);
+    let unit = unit((&scene, &text), &notes, library, arguments.fmi, reference)?;
     write(&target, &unit)
 }
 
@@ -195,20 +197,10 @@ fn is_same_file(_a: &Path, _b: &Path) -> bool {
     false
 }
 
-/// The model of a scene with solids that are reduced: only that tells their orders and bounds.
-fn reduced(scene: &Scene) -> Result<Option<Model>, String> {
-    if !scene.solids().any(|(name, _)| scene.is_reduced(name)) {
-        return Ok(None);
-    }
-    check_memory(scene, available_memory()).map_err(|error| error.to_string())?;
-    let model = Model::build(scene, scene.solver.threads);
-    model.map(Some).map_err(|error| error.to_string())
-}
-
-/// The bytes of the unit; `entries` come from the options.
+/// The bytes of the unit; `notes` are on its reductions, `entries` come from the options.
 fn unit(
-    scene: &Scene,
-    text: &str,
+    (scene, text): (&Scene, &str),
+    notes: &[String],
     library: Vec<u8>,
     fmi: Version,
     mut entries: Entries,
@@ -217,8 +209,7 @@ fn unit(
     entries.insert("modelDescription.xml".into(), fmi.model_description(scene, text).into());
     entries.insert("resources/scene.toml".into(), text.into());
     entries.insert("resources/cells.json".into(), cells::json(scene).into());
-    let notes = reduced(scene)?.map_or(Vec::new(), |model| model.notes());
-    let page = documentation::page(scene, fmi, &notes);
+    let page = documentation::page(scene, fmi, notes);
     entries.insert("documentation/index.html".into(), page.into());
     let icon = picture::png(scene)?;
     entries.append(&mut terminals::entries(scene, fmi, &icon)?);

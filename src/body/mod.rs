@@ -152,6 +152,11 @@ pub trait Body: Send + Sync {
         None
     }
 
+    /// From when on after a jump of what acts the temperatures of heated faces can be told [s].
+    fn resolved_from(&self) -> f64 {
+        0.0
+    }
+
     /// What a user should know of a state, quickly found.
     fn warning(&self, _state: &[f64]) -> Option<String> {
         None

@@ -37,7 +37,11 @@ impl Check {
         for warning in tolerance::warnings(&scene, &estimates) {
             super::print_message("warning", &warning);
         }
-        let reduced = reduced_model(&scene)?;
+        let reduced =
+            tolerance::reduced_model(&scene, available_memory()).map_err(CliError::Model)?;
+        for warning in reduced.iter().flat_map(Model::reduction_warnings) {
+            super::print_message("warning", &warning);
+        }
         let sections = [
             ("Bodies", bodies(&scene)),
             ("Bodies without extent", lumps(&scene)),
@@ -159,18 +163,6 @@ fn errors(estimates: &[BodyEstimate]) -> String {
         }
     }
     text
-}
-
-/// The model of a scene with solids that are reduced: only building it tells their orders and bounds.
-fn reduced_model(scene: &Scene) -> Result<Option<Model>, CliError> {
-    if !scene.solids().any(|(name, _)| scene.is_reduced(name)) {
-        return Ok(None);
-    }
-    let model = Model::build(scene, scene.solver.threads).map_err(CliError::Model)?;
-    for warning in model.reduction_warnings() {
-        super::print_message("warning", &warning);
-    }
-    Ok(Some(model))
 }
 
 /// Orders and bounds of solids that are reduced, and what levels that were left open came to.

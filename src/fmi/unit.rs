@@ -154,6 +154,8 @@ fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
     Ok(packed)
 }
 
+/// The subject of warnings of steps that are too short.
+const SHORT_STEPS: &str = "short steps";
 /// Folders among a unit's resources, which not every unit has: of recorded drops, and of reduced solids.
 const RECORDS: &str = "records";
 const REDUCTIONS: &str = "reduced";
@@ -303,7 +305,11 @@ impl Unit {
         run.tangent = None;
         run.checked &= !has_set;
         let warnings = run.model.warnings(state);
+        let on_step = run.model.warning_on_step(step);
         self.warn_once(warnings);
+        if let Some(message) = on_step {
+            self.warn_once_of(SHORT_STEPS, &message);
+        }
         self.has_set_derivatives = false;
         Ok(self.write_fields())
     }
@@ -431,9 +437,9 @@ impl Unit {
         expect_room(self.run.as_ref().map_or(0, room))
     }
 
-    /// Warns of a variable unless there was a warning of it before.
-    pub(super) fn warn_once_of(&mut self, variable: &str, message: &str) {
-        if self.said.insert(format!("input {variable}")) {
+    /// Warns of a subject unless there was a warning of it before.
+    pub(super) fn warn_once_of(&mut self, subject: &str, message: &str) {
+        if self.said.insert(subject.to_owned()) {
             self.log.send(Status::Warning, message);
         }
     }

@@ -133,7 +133,7 @@ impl Unit {
     fn warn_of_implausible(&mut self, variables: &[&Variable], values: &[f64]) {
         for (variable, &value) in variables.iter().zip(values) {
             if let Some(message) = variable.implausible(&self.scene, value) {
-                self.warn_once_of(variable.family(), &message);
+                self.warn_once_of(&format!("input {}", variable.family()), &message);
             }
         }
     }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::lookup::BodyInput;
 use super::recording::Recording;
 use super::types::{CellValues, Footprint, IDENTIFIER};
+use crate::closed_form::DropImpact;
 use crate::kernel::Kernel;
 use crate::limits::{above_zero, length, own_temperature, plausible, whole, within};
 use crate::quantity::Quantity;
@@ -538,70 +539,21 @@ impl Droplet {
         self.shifting.unwrap_or(inertia > INERTIAL * surface_tension || surface_tension == 0.0)
     }
 
-    /// Whether particles are rings about the axis. What is round lets inputs, too, release drops nowhere but straight
-    /// down the axis. Drops at random places would not be what they are asked to be.
-    pub fn is_axisymmetric(&self) -> bool {
-        let has_axis = self.dimension == 3 && self.is_centred() && self.is_straight();
-        match self.symmetry {
-            DropletSymmetry::Axisymmetric => true,
-            DropletSymmetry::Auto => {
-                let is_computed = self.method == DropletMethod::Sph;
-                self.is_on_round && is_computed && has_axis && self.placement == Placement::Lattice
-            }
-            DropletSymmetry::None | DropletSymmetry::Quarter => false,
+    /// The impact of a drop as closed forms know it.
+    pub fn impact(&self) -> DropImpact {
+        let Fluid { density, viscosity, surface_tension, contact_angle, .. } = self.fluid;
+        DropImpact {
+            diameter: self.diameter,
+            speed: self.normal_speed(),
+            density,
+            viscosity,
+            surface_tension,
+            contact_angle,
         }
     }
 
-    /// Number of particles of all drops that are computed, images at mirrors left out: of drops that are replayed, one.
-    pub fn particles(&self) -> f64 {
-        let across = self.diameter / self.spacing;
-        let copies: f64 =
-            self.mirrors().map(|mirrored| if mirrored { 2.0 } else { 1.0 }).iter().product();
-        let whole = match (self.is_axisymmetric(), self.dimension) {
-            (true, _) => PI / 8.0 * across.powi(2),
-            (_, 2) => PI / 4.0 * across.powi(2),
-            _ => PI / 6.0 * across.powi(3),
-        };
-        let drops = if self.is_replayed() { 1.0 } else { self.drops() as f64 };
-        whole * drops / copies
-    }
-
-    /// Axes in which particles stand.
-    pub fn axes(&self) -> usize {
-        if self.is_axisymmetric() { 2 } else { self.dimension }
-    }
-
-    /// Along which of x and y what the drops do is symmetric.
-    pub fn even(&self) -> [bool; 2] {
-        self.mirrors().map(|mirrored| mirrored || self.is_axisymmetric())
-    }
-
-    /// Along which of x and y the half of the model stands for the whole.
-    pub fn mirrors(&self) -> [bool; 2] {
-        let is_even = match self.symmetry {
-            DropletSymmetry::Auto if self.is_axisymmetric() => false,
-            DropletSymmetry::Auto => {
-                self.is_centred() && !self.is_on_demand() && self.placement == Placement::Lattice
-            }
-            symmetry => symmetry == DropletSymmetry::Quarter,
-        };
-        // A drop that comes at an angle mirrors itself in the plane that it moves in, if in any.
-        let [u, v, _] = self.velocity();
-        [is_even && u == 0.0, is_even && v == 0.0 && self.dimension == 3]
-    }
-
-    /// Diameter over which a drop spreads at most [m], the drop's own where it does not fall.
-    ///
-    /// D_max/D = 0.87 Re^(1/5) − 0.40 Re^(2/5) We^(−1/2) with Re = ρUD/µ and We = ρU²D/σ
-    /// (I. V. Roisman, Phys. Fluids 21 (2009) 052104, doi 10.1063/1.3129283), a fit for impacts
-    /// much faster than their waves.
+    /// Diameter over which a drop spreads at most [m].
     pub fn spread_diameter(&self) -> f64 {
-        let Fluid { density, viscosity, surface_tension, .. } = self.fluid;
-        let speed = self.normal_speed();
-        let reynolds = density * speed * self.diameter / viscosity;
-        let weber = density * speed.powi(2) * self.diameter / surface_tension;
-        let ratio = 0.87 * reynolds.powf(0.2) - 0.40 * reynolds.powf(0.4) / weber.sqrt();
-        // Of a drop at rest the fit makes NaN, of which `max` takes the 1, too.
-        ratio.max(1.0) * self.diameter
+        self.impact().largest_spread() * self.diameter
     }
 }

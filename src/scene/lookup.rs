@@ -101,6 +101,20 @@ impl Scene {
         self.body.keys().filter_map(|name| Some((name.as_str(), self.solid(name)?)))
     }
 
+    /// The scene of one solid that nothing touches, with what loads and reads it, and how fine its mesh is.
+    pub fn alone(&self, name: &str) -> Self {
+        let mut own = self.clone();
+        own.body.retain(|other, _| other == name);
+        own.load.retain(|load| load.body_and_face().0 == name);
+        own.probe.retain(|probe| probe.body == name);
+        own.field.retain(|field| field.body_and_place().0 == name);
+        own.refinement.retain(|other, _| other == name);
+        own.wall.clear();
+        own.coupling.clear();
+        own.resolved.clear();
+        own
+    }
+
     /// The droplets, in the order of their names.
     pub fn droplets(&self) -> impl Iterator<Item = (&str, &Droplet)> {
         self.body.keys().filter_map(|name| Some((name.as_str(), self.droplet(name)?)))

@@ -7,6 +7,7 @@ mod cells;
 mod check;
 mod decode;
 mod droplet;
+mod droplet_symmetry;
 mod error;
 mod footprint;
 mod grid;

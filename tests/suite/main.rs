@@ -10,6 +10,7 @@ mod common;
 #[path = "../common/falling_drop.rs"]
 mod falling_drop;
 
+mod adversarial;
 mod architecture;
 mod cli;
 mod contact;

@@ -76,6 +76,32 @@ fn a_single_drop_gives_what_its_particles_give() {
     assert!(off(heats[2], heats[0]) < 0.2, "{heats:?}");
 }
 
+/// Mercury at We 5.6, which spreads to 1.8 D where fits for fast impacts have less than D, on what conducts better and
+/// far less than it does.
+#[test]
+fn slow_drops_give_what_their_particles_give_to_conductors_and_insulators() {
+    for material in [
+        "density = 3950.0, specific_heat = 900.0, conductivity = 10.0",
+        "density = 240.0, specific_heat = 1900.0, conductivity = 0.085",
+    ] {
+        let heat = |method: &str| {
+            let text = format!(
+                "name = \"Mercury\"\nstop_time = 2e-4\nstep = 1e-5\n[body.drop]\nkind = \"droplet\"\nmethod = \
+                 \"{method}\"\nsymmetry = \"quarter\"\ndiameter = 2e-4\nimpact_velocity = 1.0\ninitial_temperature = \
+                 360.0\nspacing = 1.7e-5\nfluid = {{ density = 13500.0, viscosity = 1.5e-3, specific_heat = 140.0, \
+                 conductivity = 8.5, surface_tension = 0.485 }}\n[body.plate]\nkind = \"solid\"\nshape = {{ disc = {{ \
+                 radius = 8e-4, thickness = 2e-4 }} }}\nmaterial = {{ model = \"thermoelastic\", {material} \
+                 }}\ninitial_temperature = 310.0\n[[coupling]]\nfrom = \"drop\"\nto = \"plate.top\"\n"
+            );
+            let mut trial = Trial::new(&text);
+            (0..20).for_each(|_| trial.step(1e-5));
+            trial.get("drop.heat")
+        };
+        let [particles, repeated] = ["sph", "record"].map(heat);
+        assert!(off(repeated, particles) < 0.06, "{material}: {repeated} J beside {particles} J");
+    }
+}
+
 /// The flow does not depend on temperatures, and conduction is linear.
 #[test]
 fn heat_is_in_proportion_to_the_difference_of_temperatures() {
@@ -399,17 +425,6 @@ fn warned(method: &str, conductivity: f64, drop_keys: &str, radius: &str) -> Vec
         .replace("conductivity = 10.0", &format!("conductivity = {conductivity:?}"))
         .replace("radius = 1.5e-4", radius);
     warnings(&scene::parse(&text, "scene").unwrap(), &[])
-}
-
-#[test]
-fn records_on_insulators_are_warned_of() {
-    // √(kρc) of the fluid is 1580 W √s/(m² K), of plates 1890 √k.
-    for (conductivity, is_doubtful) in [(10.0, false), (3.0, false), (2.5, true), (0.02, true)] {
-        let found = warned("record", conductivity, "", "radius = 1.5e-4");
-        assert_eq!(!found.is_empty(), is_doubtful, "{conductivity}: {found:?}");
-        assert!(warned("sph", conductivity, "", "radius = 1.5e-4").is_empty());
-    }
-    assert!(warned("record", 0.02, "", "radius = 1.5e-4")[0].contains("sph"));
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! What a user should know of a droplet before it runs.
 
 use super::plan::fine_radius;
-use super::replay;
 use crate::scene::{Coupling, Droplet, Governing, Scene, Wall};
 
 /// What was chosen or left out, and why: a sentence each.
@@ -88,8 +87,7 @@ pub fn warnings_on_landing(scene: &Scene) -> Vec<String> {
             )
         })
     };
-    let landing = scene.coupling.iter().filter_map(warning);
-    landing.chain(replay::warnings(scene)).collect()
+    scene.coupling.iter().filter_map(warning).collect()
 }
 
 /// What drops that inputs release wait for, and what is said of them ahead.

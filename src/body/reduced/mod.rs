@@ -61,6 +61,8 @@ pub struct ReducedBody {
     start: Vec<f64>,
     /// That the scene wants.
     tolerance: f64,
+    /// Of the full solid [s].
+    resolved_from: f64,
 }
 
 /// The row of heat stored.
@@ -93,7 +95,8 @@ impl ReducedBody {
             full.reduce(&values, &sizes)
         })?;
         reduction.fits(name, [drives.list.len(), values.list.len()])?;
-        let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan(scene, name, solid));
+        let plan = plan(scene, name, solid);
+        let loads = BodyLoads::of(scene, layout, (name, solid.shape), &plan);
         Ok(Self {
             name: name.into(),
             loads,
@@ -103,6 +106,7 @@ impl ReducedBody {
             reduction,
             start: sizes,
             tolerance: scene.fidelity.tolerance,
+            resolved_from: plan.resolved_from,
         })
     }
 
@@ -387,6 +391,10 @@ impl Body for ReducedBody {
 
     fn notes(&self) -> Vec<String> {
         self.own_notes()
+    }
+
+    fn resolved_from(&self) -> f64 {
+        self.resolved_from
     }
 
     fn beyond_tolerance(&self) -> Option<String> {

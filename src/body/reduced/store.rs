@@ -76,18 +76,11 @@ fn key(scene: &Scene, name: &str) -> String {
         naming: Naming::default(),
         // Solids hold copies of what they are made of.
         material: BTreeMap::new(),
-        wall: Vec::new(),
-        coupling: Vec::new(),
-        resolved: BTreeMap::new(),
         refinement: [(name.to_owned(), mesh)].into(),
         solver: Solver { method: scene.solver.method, ..Solver::default() },
-        ..scene.clone()
+        ..scene.alone(name)
     };
     own.fidelity.level = FidelityLevel::Reduced;
-    own.body.retain(|other, _| other == name);
-    own.load.retain(|load| load.body_and_face().0 == name);
-    own.probe.retain(|probe| probe.body == name);
-    own.field.retain(|field| field.body_and_place().0 == name);
     serde_json::to_string(&(VERSION, own)).unwrap_or_default()
 }
 

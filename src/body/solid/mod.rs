@@ -166,6 +166,10 @@ impl Body for SolidBody {
         &self.name
     }
 
+    fn resolved_from(&self) -> f64 {
+        self.plan.resolved_from
+    }
+
     fn initial_state(&self) -> Vec<f64> {
         let (nodes, start) = (self.solid.mesh().nodes(), self.solid.initial_temperature());
         let mechanics = self.yielding.as_ref().map(|yielding| yielding.initial_state(nodes, start));

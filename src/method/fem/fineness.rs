@@ -4,7 +4,7 @@ mod layers;
 
 use super::grading::{Fine, graded_ends};
 use super::plan::Refinement;
-use crate::method::mesh::Layering;
+use crate::method::mesh::{Layering, Mesh};
 use crate::scene::{Face, FaceName, HeatMethod, Mesh as MeshKeys, Shape, Solid, Stratum};
 
 /// Nodes across a feature of a load, where the scene names no spacing.
@@ -75,9 +75,7 @@ impl<'a> Fineness<'a> {
         let width = lateral_extents(&solid.shape).into_iter().fold(f64::INFINITY, f64::min);
         let feature = refinements.iter().map(|r| r.feature).fold(width, f64::min);
         let lateral = given.spacing.unwrap_or(feature / NODES_PER_FEATURE);
-        // Of layers, the one that heat goes slowest in.
-        let diffusivities = strata.iter().map(|layer| layer.constants.diffusivity());
-        let diffusivity = diffusivities.fold(f64::INFINITY, f64::min);
+        let diffusivity = slowest(strata);
         let reach = (diffusivity * shortest).sqrt();
         let finest = FINEST * solid.shape.thickness();
         let layer = lateral.min(reach / NODES_PER_DIFFUSION_LENGTH).max(finest);
@@ -288,6 +286,27 @@ impl<'a> Fineness<'a> {
         !self.refinements.is_empty() || faces.any(|face| is_side(face) && self.is_heated(*face))
     }
 
+    /// From when on after a jump nodes below all heated faces tell their temperature [s]; zero where none is heated.
+    pub fn resolved_from(&self, mesh: &Mesh) -> f64 {
+        let heated = self.solid.shape.faces().iter().filter(|face| self.is_heated(**face));
+        let time = |face: &FaceName| {
+            let (axis, layer) = match face {
+                FaceName::Top => (2, self.strata.last()),
+                FaceName::Bottom => (2, self.strata.first()),
+                FaceName::Front | FaceName::Back => (1, None),
+                _ => (0, None),
+            };
+            let diffusivity = match layer {
+                Some(layer) => layer.constants.diffusivity(),
+                None => slowest(self.strata),
+            };
+            let distance =
+                mesh.axes[axis].end_distance(is_high(*face) && *face != FaceName::Bottom);
+            RESOLVED * distance.powi(2) / diffusivity
+        };
+        heated.map(time).fold(0.0, f64::max)
+    }
+
     /// Whether heat passes a face, by a condition or a load.
     fn is_heated(&self, face: FaceName) -> bool {
         let Face { temperature, flux, convection, .. } = self.solid.face(face);
@@ -353,6 +372,11 @@ fn finer(fine: &[Fine], factor: f64) -> Vec<Fine> {
 }
 
 /// Whether a side lies at the high end of its axis.
+/// The diffusivity of the layer that heat goes slowest in [m²/s].
+fn slowest(strata: &[Stratum]) -> f64 {
+    strata.iter().map(|layer| layer.constants.diffusivity()).fold(f64::INFINITY, f64::min)
+}
+
 fn is_high(face: FaceName) -> bool {
     !matches!(face, FaceName::Left | FaceName::Front)
 }

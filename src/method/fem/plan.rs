@@ -25,6 +25,8 @@ pub struct Plan {
     /// The law of deformation of each layer, from the lowest on; none where mechanics is not modelled.
     pub law: Option<Vec<Thermoelastic>>,
     pub initial_temperature: f64,
+    /// From when on after a jump the mesh tells the temperatures of heated faces [s].
+    pub resolved_from: f64,
     /// How particles conduct the heat; `None` where finite elements do.
     pub sph: Option<SphSettings>,
     /// Conditions other than insulation.
@@ -126,6 +128,7 @@ impl Plan {
         let resolution = Resolution { refinements, shortest, factors, is_column };
         let fineness = Fineness::choose(solid, &strata, resolution, &mut notes);
         let mesh = build_mesh(&solid.shape, mirrored, &fineness);
+        let resolved_from = fineness.resolved_from(&mesh);
         notes.extend((strata.len() > 1).then(|| note_on_layers(&mesh, newton.is_none())));
         notes.extend(mechanics.note().map(str::to_owned));
         notes.extend(law.as_ref().and_then(|law| note_on_solver(&mesh, law)));
@@ -146,6 +149,7 @@ impl Plan {
             constants,
             law,
             initial_temperature,
+            resolved_from,
             sph: solid.sph(),
             thermal_faces,
             face_sources,

@@ -51,6 +51,13 @@ impl ShapeAt {
 }
 
 impl Axis {
+    /// Distance of the last two nodes, or of the first two [m]; none where there is but one.
+    pub fn end_distance(&self, at_high_end: bool) -> f64 {
+        let count = self.nodes.len();
+        let first = if at_high_end { count.saturating_sub(2) } else { 0 };
+        self.nodes.get(first + 1).map_or(0.0, |next| next - self.nodes[first])
+    }
+
     /// An axis with elements between `ends`, which ascend.
     pub fn from_element_ends(ends: &[f64], order: usize, weight: Weight) -> Self {
         let mut nodes = vec![ends[0]];

@@ -31,12 +31,9 @@ const PRANDTL: [f64; 2] = [1e-6, 1e4];
 const CIRCLES: usize = 8;
 
 impl Film {
-    /// Largest radius of the footprint [m]: Roisman's where inertia rules, that of the energies where it falls below
-    /// (slow drops), Scheller and Bousfield's where viscosity stops the drop first, and no less than that of the drop.
+    /// Largest radius of the footprint [m].
     pub fn largest_radius(impact: &DropImpact) -> f64 {
-        let inertial = impact.spread_by_inertia().max(impact.spread_by_energy());
-        let spread = inertial.min(impact.spread_by_viscosity());
-        0.5 * impact.diameter * spread.max(1.0)
+        0.5 * impact.diameter * impact.largest_spread()
     }
 
     /// Part of its heat that the film at a place has given so long after this was wetted [s].

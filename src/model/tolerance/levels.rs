@@ -56,16 +56,14 @@ fn obstacle(
 
 /// One solid of a scene, reduced, which nothing touches.
 fn alone(scene: &Scene, name: &str) -> Scene {
-    let mut own = scene.clone();
-    own.body.retain(|other, _| other == name);
-    own.load.retain(|load| load.body_and_face().0 == name);
-    own.probe.retain(|probe| probe.body == name);
-    own.field.retain(|field| field.body_and_place().0 == name);
-    own.refinement.retain(|other, _| other == name);
-    own.wall.clear();
-    own.coupling.clear();
-    own.resolved = [(name.to_owned(), ResolvedLevel { level: SolidLevel::Reduced })].into();
-    own
+    let resolved = ResolvedLevel { level: SolidLevel::Reduced };
+    Scene { resolved: [(name.to_owned(), resolved)].into(), ..scene.alone(name) }
+}
+
+/// The model of a scene with solids that are reduced: only that tells their orders and bounds.
+pub fn reduced_model(scene: &Scene, available: f64) -> Result<Option<Model>, ModelError> {
+    let has_any = scene.solids().any(|(name, _)| scene.is_reduced(name));
+    has_any.then(|| model(scene, available)).transpose()
 }
 
 fn model(scene: &Scene, available: f64) -> Result<Model, ModelError> {

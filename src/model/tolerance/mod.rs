@@ -18,7 +18,7 @@ use std::sync::Arc;
 use crate::math::shared_values::SharedValues;
 use crate::scene::{MeshFactors, Scene};
 use choice::{Choice, choose, is_chosen};
-pub use levels::{Levels, levels, stored_reductions};
+pub use levels::{Levels, levels, reduced_model, stored_reductions};
 pub use report::{
     BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, percent,
     warnings,

@@ -46,20 +46,14 @@ impl Twin {
             };
             gives.iter().filter(wanted).copied().collect()
         };
-        let mut twin = scene.clone();
-        twin.body.retain(|other, _| other == name);
+        let mut twin = scene.alone(name);
         let own_factors = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
         twin.refinement.clear();
-        twin.resolved.clear();
-        twin.coupling.clear();
-        twin.wall.clear();
         twin.load =
             scene.loads_on(name).filter_map(|load| part_of_load(load, is_mechanical)).collect();
         twin.load.extend(drops(scene, name));
-        twin.probe.retain(|probe| probe.body == name);
         twin.probe.iter_mut().for_each(|probe| probe.gives = own(&probe.gives));
         twin.probe.retain(|probe| !probe.gives.is_empty());
-        twin.field.retain(|field| field.body_and_place().0 == name);
         twin.field.iter_mut().for_each(|field| field.gives = own(&field.gives));
         twin.field.retain(|field| !field.gives.is_empty());
         twin.solver.threads = 1;

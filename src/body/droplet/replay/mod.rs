@@ -7,7 +7,7 @@ mod totals;
 
 pub use forecast::{forecast, to_be_recorded};
 pub use knowledge::{Kept, forget_unused_records, keep_record, records};
-pub use notes::{notes, warnings};
+pub use notes::notes;
 pub use totals::offered_totals;
 
 use super::demand::DropInputs;

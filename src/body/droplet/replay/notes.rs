@@ -2,7 +2,7 @@
 
 use super::knowledge;
 use crate::method::record::Course;
-use crate::scene::{Body, Droplet, DropletMethod, Scene};
+use crate::scene::{Droplet, DropletMethod, Scene};
 
 /// What was chosen or left out, and why: a sentence each.
 pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {
@@ -56,32 +56,6 @@ fn note_on_depth(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Option<Str
              of a drop was found on a half space of its material"
         )
     })
-}
-
-/// Effusivity of a solid over that of the fluid below which a record misses heat: a drop of mercury gave 10 % too little
-/// at 1.5, 34 % at 0.14 and 45 % at 0.05.
-const LEAST_EFFUSIVITY: f64 = 2.0;
-
-/// Of recorded drops on solids that conduct less than they do.
-pub fn warnings(scene: &Scene) -> Vec<String> {
-    let warning = |(name, droplet): (&String, &Droplet)| {
-        let fluid = &droplet.fluid;
-        let own = (fluid.conductivity * fluid.density * fluid.specific_heat).sqrt();
-        let ratio = knowledge::effusivity(scene, name)? / own;
-        let is_doubtful = droplet.method == DropletMethod::Record && ratio < LEAST_EFFUSIVITY;
-        is_doubtful.then(|| {
-            format!(
-                "{name}: recorded drops give too little heat to what conducts it no better than they do: by a tenth where \
-                 effusivities are alike, up to a half on insulators (here {ratio:.1e} of the fluid's); `method = \"sph\"` \
-                 does not"
-            )
-        })
-    };
-    let droplets = scene.body.iter().filter_map(|(name, body)| match body {
-        Body::Droplet(droplet) => Some((name, droplet)),
-        _ => None,
-    });
-    droplets.filter_map(warning).collect()
 }
 
 /// Over which speeds and how long drops are known.
