@@ -22,7 +22,6 @@ ALL = (
     locking.thin_linear,
     locking.thin_quadratic,
     footprints.small_spots,
-    footprints.small_spots_heat,
     footprints.edge_spots,
     footprints.moved_spots,
     inputs_in_time.held_inputs,

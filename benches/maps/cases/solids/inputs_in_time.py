@@ -63,13 +63,18 @@ def response(omega: float) -> complex:
 
 
 def error(answer: Answer, beat: float, rotation: float) -> float:
-    """The largest over the last cycle, of the swing's amplitude."""
+    """The amplitude of what is off over the last cycle, of the swing's.
+
+    A shift that stays is left out: it is that of the heat which the first step brings too much."""
     omega = beat * RATE
     found = np.array(answer.values["top.temperature"]) - START
     times = np.arange(len(found)) * rotation / omega
     last = times > times[-1] - 2.0 * math.pi / omega
-    off = np.abs(found[last] - exact_rise(omega, times[last]))
-    return float(off.max() / (FLUX * abs(response(omega))))
+    off = found[last] - exact_rise(omega, times[last])
+    phases = omega * times[last]
+    basis = np.stack([np.ones_like(phases), np.cos(phases), np.sin(phases)], axis=1)
+    _, cosine, sine = np.linalg.lstsq(basis, off, rcond=None)[0]
+    return math.hypot(cosine, sine) / (FLUX * abs(response(omega)))
 
 
 @cache
