@@ -30,7 +30,9 @@ fn main() {
             println!("{{\"growth\": {:e}}}", growth(&problem, number(4), number(5) as usize));
         }
         Some("operator") => clouds([number(1), number(2), number(3)], number(4) as u64),
-        _ => println!("euler SIDE SUPPORT OPERATOR STEP COUNT | operator SUPPORT DISORDER DISTANCE COUNT"),
+        _ => println!(
+            "euler SIDE SUPPORT OPERATOR STEP COUNT | operator SUPPORT DISORDER DISTANCE COUNT"
+        ),
     }
 }
 

@@ -206,3 +206,20 @@ gives = ["temperature"]
         assert!(coarse.abs() < 0.05 && fine.abs() < 0.5 * coarse.abs(), "{shape}: {coarse} {fine}");
     }
 }
+
+#[test]
+fn particles_that_are_not_to_be_trusted_warn() {
+    let warned = |mesh: &str, sph: &str| {
+        let mut trial = Trial::new(&block(BOX, mesh, sph, MIXED, SPOT));
+        trial.step(0.1);
+        trial.model.warnings(&trial.state)
+    };
+    assert_eq!(warned(EQUAL, ""), [""; 0]);
+    let few = warned(EQUAL, "support = 1.2");
+    assert!(
+        few[0].contains("too few neighbours") && few[0].contains("`sph.support` of 2"),
+        "{few:?}"
+    );
+    let steep = warned("spacing = 0.15, depth_spacing = 0.02, growth = 2.0", "");
+    assert!(steep[0].contains("made or lost") && steep[0].contains("`mesh.growth`"), "{steep:?}");
+}
