@@ -1,7 +1,7 @@
 """Meridian sections of round plates in scikit-fem: quadratic quadrilaterals, PARDISO for all systems.
 
 Heat advances by the L-stable, diagonally implicit Runge–Kutta method of second order (Alexander
-1977, doi 10.1137/0714068); stress is projected onto the shape functions.
+1977, doi 10.1137/0714068); elastic stress is projected onto the shape functions.
 """
 
 import json
@@ -99,13 +99,12 @@ class Section:
         return run
 
     def elastic(self):
-        """A function of nodal rises and a pressure on the spot that gives displacements."""
+        """A function of a pressure on the spot that gives displacements."""
         young, poisson = self.case["young"], self.case["poisson"]
         lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
         shear = young / (2 * (1 + poisson))
-        thermal = (3 * lame + 2 * shear) * self.case.get("expansion", 0.0)
         vectors = Basis(self.mesh, ElementVector(ElementQuad2()), intorder=5)
-        self.vectors, self.moduli = vectors, (lame, shear, thermal)
+        self.vectors, self.moduli = vectors, (lame, shear)
 
         @BilinearForm
         def stiff(u, v, w):
@@ -117,48 +116,34 @@ class Section:
             volumes = (a[0, 0] + a[1, 1] + u[0] / r) * (b[0, 0] + b[1, 1] + v[0] / r)
             return 2.0 * np.pi * r * (2.0 * shear * inner + lame * volumes)
 
-        @LinearForm
-        def warmed(v, w):
-            r = w.x[0]
-            b = grad(v)
-            return 2.0 * np.pi * r * thermal * w["rise"] * (b[0, 0] + b[1, 1] + v[0] / r)
-
         matrix = stiff.assemble(vectors)
-        places_of = vectors.doflocs
-        held = [vectors.get_dofs(lambda x: np.isclose(x[0], 0.0)).all("u^1")]
-        rim = vectors.get_dofs(lambda x: np.isclose(x[0], self.case["half"]))
-        held.append(rim.all() if self.case["clamped"] else rim.all("u^1"))
-        if not self.case["clamped"]:
-            floor = lambda x: np.isclose(x[1], -self.case["thickness"])  # noqa: E731
-            held.append(vectors.get_dofs(floor).all("u^2"))
-        fixed = np.unique(np.concatenate(held))
-        assert len(places_of[0]) == matrix.shape[0]
-        reduced, _, _, free = condense(matrix, np.zeros(matrix.shape[0]), D=fixed)
+        fixed = np.concatenate(
+            [
+                vectors.get_dofs(lambda x: np.isclose(x[0], 0.0)).all("u^1"),
+                vectors.get_dofs(lambda x: np.isclose(x[0], self.case["half"])).all("u^1"),
+                vectors.get_dofs(lambda x: np.isclose(x[1], -self.case["thickness"])).all("u^2"),
+            ]
+        )
+        reduced, _, _, free = condense(matrix, np.zeros(matrix.shape[0]), D=np.unique(fixed))
         factor = Factor(reduced.tocsr())
 
-        def solve(rise: np.ndarray | None, pressure: float) -> np.ndarray:
+        def solve(pressure: float) -> np.ndarray:
             force = -pressure * self.loaded(ElementVector(ElementQuad2()), 1)
-            if rise is not None:
-                force = force + warmed.assemble(vectors, rise=self.basis.interpolate(rise))
             moved = np.zeros(matrix.shape[0])
             moved[free] = factor.solve(force[free])
             return moved
 
         return solve
 
-    def stress(self, moved: np.ndarray, rise: np.ndarray | None, depth: float) -> np.ndarray:
-        """rr, tt, zz and rz on the axis [Pa], projected onto the shape functions.
+    def stress(self, moved: np.ndarray, depth: float) -> np.ndarray:
+        """rr, tt and zz on the axis [Pa], projected onto the shape functions.
 
         Without the weight r, which would leave the axis to chance."""
-        lame, shear, thermal = self.moduli
+        lame, shear = self.moduli
         u = self.vectors.interpolate(moved)
-        r = self.vectors.global_coordinates()[0]
-        slopes, hoop = u.grad, u[0] / r
-        warm = 0.0 if rise is None else thermal * self.basis.interpolate(rise)
-        pressure = lame * (slopes[0, 0] + slopes[1, 1] + hoop) - warm
-        parts = [slopes[0, 0], hoop, slopes[1, 1]]
-        fields = [np.asarray(pressure + 2.0 * shear * part) for part in parts]
-        fields.append(np.asarray(shear * (slopes[0, 1] + slopes[1, 0])))
+        slopes, hoop = u.grad, u[0] / self.vectors.global_coordinates()[0]
+        pressure = lame * (slopes[0, 0] + slopes[1, 1] + hoop)
+        fields = [pressure + 2.0 * shear * part for part in (slopes[0, 0], hoop, slopes[1, 1])]
 
         @BilinearForm
         def mass(a, b, w):
@@ -170,14 +155,8 @@ class Section:
 
         factor = Factor(mass.assemble(self.basis).tocsr())
         probe = self.basis.probes(np.array([[1e-9 * self.case["half"]], [-depth]]))
-        projected = (factor.solve(of_field.assemble(self.basis, field=f)) for f in fields)
-        return np.array([float((probe @ nodal)[0]) for nodal in projected])
-
-
-def von_mises(stress: np.ndarray) -> float:
-    rr, tt, zz, rz = stress
-    squares = (rr - tt) ** 2 + (tt - zz) ** 2 + (zz - rr) ** 2
-    return float(np.sqrt(0.5 * squares + 3.0 * rz**2))
+        loads = (of_field.assemble(self.basis, field=np.asarray(field)) for field in fields)
+        return np.array([float((probe @ factor.solve(load))[0]) for load in loads])
 
 
 def peak() -> int:

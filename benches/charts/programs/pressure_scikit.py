@@ -8,7 +8,7 @@ def prepare(case: dict):
     solve = section.elastic()
 
     def run() -> dict:
-        stress = section.stress(solve(None, case["pressure"]), None, case["below"])
+        stress = section.stress(solve(case["pressure"]), case["below"])
         return {"axial stress": float(stress[2]), "side stress": float(stress[0])}
 
     return run

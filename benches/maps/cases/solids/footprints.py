@@ -95,8 +95,6 @@ def edge_spots() -> Map:
     )
 
 
-
-
 WIDE = 4e-3  # m
 
 

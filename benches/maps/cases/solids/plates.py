@@ -52,6 +52,4 @@ def disc_flux_rise(flux: float, radius: float, depth: float, time: float) -> flo
 
 def geometric(low: float, high: float, count: int) -> list[float]:
     """Values in a constant ratio, in three digits, so that tables name them."""
-    return [
-        float(f"{low * (high / low) ** (place / (count - 1)):.3g}") for place in range(count)
-    ]
+    return [float(f"{low * (high / low) ** (place / (count - 1)):.3g}") for place in range(count)]
