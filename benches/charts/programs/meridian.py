@@ -1,4 +1,4 @@
-"""Meridian sections of round plates in scikit-fem: quadratic quadrilaterals, PARDISO for all systems.
+"""Meridian sections of round plates in scikit-fem: quadratic quadrilaterals, PARDISO throughout.
 
 Heat advances by the L-stable, diagonally implicit Runge–Kutta method of second order (Alexander
 1977, doi 10.1137/0714068); elastic stress is projected onto the shape functions.

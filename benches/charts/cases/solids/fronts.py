@@ -1,4 +1,4 @@
-"""Slabs with closed forms that vary along their depth alone: one of two layers, and one that melts."""
+"""Slabs that vary along their depth alone, with closed forms: two layers, and one that melts."""
 
 import cmath
 import math
@@ -101,7 +101,9 @@ DEPTH = "depth of the front"
 
 
 def front() -> float:
-    """Neumann's one-phase front `s = 2λ√(at)`, `√π λ e^{λ²} erf λ = c ΔT/L`: Carslaw & Jaeger § 11.2."""
+    """Neumann's one-phase front [m] (Carslaw & Jaeger 1959, § 11.2).
+
+    `s = 2λ√(at)`, `√π λ e^{λ²} erf λ = c ΔT/L`."""
     stefan = STEEL["specific_heat"] * (HOT - MELTING) / LATENT
     low, high = 0.0, 5.0
     for _ in range(100):

@@ -2,9 +2,10 @@
 
 import math
 
-from cases.solids.plates import DIFFUSIVITY, START, disc_flux_rise, load, probe, scene
 from plan import Answer, Axis, Map, Work
 from unit_run import equal_steps, run_unit, unit_work
+
+from cases.solids.plates import DIFFUSIVITY, START, disc_flux_rise, load, probe, scene
 
 SPACING, HALF, FLUX = 10e-6, 0.2e-3, 1e7  # m, m, W/m²
 OFFSETS = [0.0, 0.1, 0.25, 0.5, 0.75, 1.0]

@@ -2,10 +2,11 @@
 
 import math
 
-from cases.solids.plates import ALUMINA, ELASTIC, START, geometric, probe, scene
 from plan import Answer, Axis, Boundary, Map, Work
 from scipy.optimize import brentq
 from unit_run import equal_steps, run_unit, unit_work
+
+from cases.solids.plates import ALUMINA, ELASTIC, geometric, probe, scene
 
 MELTING, LATENT, DEEP = 1000.0, 2.0e5, 1e-3  # K, J/kg, m
 WIDE = 0.2e-3

@@ -1,8 +1,9 @@
 """Elements that hardly change their volume, and thin plates of few elements."""
 
-from cases.solids.plates import ALUMINA, ELASTIC, load, probe, scene
 from plan import Answer, Axis, Map, Work
 from unit_run import equal_steps, run_unit, unit_work
+
+from cases.solids.plates import ALUMINA, ELASTIC, load, probe, scene
 
 RADIUS, PRESSURE, STOP = 50e-6, 25e6, 1e-6  # m, Pa, s
 WIDE = 12.0 * RADIUS

@@ -1,9 +1,10 @@
 """The corrected operator on disordered particles beside a face, and on the meshes users reach."""
 
-from cases.solids.built import printed
-from cases.solids.plates import DIFFUSIVITY, START, disc_flux_rise, load, probe, scene
 from plan import Answer, Axis, Map, Work
 from unit_run import equal_steps, run_unit, unit_work
+
+from cases.solids.built import printed
+from cases.solids.plates import DIFFUSIVITY, START, disc_flux_rise, load, probe, scene
 
 CLOUDS = 60
 DISORDERS = [0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5]

@@ -4,10 +4,11 @@ import itertools
 import math
 
 import numpy as np
-from cases.solids.built import printed
-from cases.solids.plates import DIFFUSIVITY, START, probe, scene, slab_surface_rise
 from plan import Answer, Axis, Boundary, Map, Work
 from unit_run import equal_steps, run_unit, unit_work
+
+from cases.solids.built import printed
+from cases.solids.plates import DIFFUSIVITY, START, probe, scene, slab_surface_rise
 
 SIDE, COUNT = 8, 600
 """Particles along an edge of the cube, and Euler steps."""
