@@ -27,6 +27,8 @@ class Crossing:
 
 
 def is_bad(of: Map, cell: Cell) -> bool:
+    if of.refusal_is_edge and cell.said == "refused":
+        return True
     return cell.said == "crashed" or (not isnan(cell.outcome) and cell.outcome > of.bad)
 
 
@@ -35,7 +37,8 @@ def crossings(of: Map, known: Known) -> list[Crossing]:
     found = []
     for x in of.x.values:
         column = sorted((y, cell) for (at, y), cell in known.items() if at == x)
-        column = [(y, is_bad(of, cell)) for y, cell in column if cell.said != "refused"]
+        counts = of.refusal_is_edge
+        column = [(y, is_bad(of, cell)) for y, cell in column if counts or cell.said != "refused"]
         for (low, low_is_bad), (high, high_is_bad) in zip(column, column[1:], strict=False):
             if low_is_bad != high_is_bad:
                 good, bad = (high, low) if low_is_bad else (low, high)

@@ -62,6 +62,8 @@ class Map:
     guards: str = "what the product warns of or refuses"
     must_speak: bool = True
     """Whether failures should be told of: not where the map is of a variant no user can reach."""
+    refusal_is_edge: bool = False
+    """Whether what is refused counts as the far side of the boundary, as beyond a limit load."""
     refine: float | None = None
     """Ratio to which the boundary is searched between the values of y."""
     colours: tuple[float, float] | None = None

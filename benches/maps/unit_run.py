@@ -11,9 +11,18 @@ from plan import Answer, Work
 logging.getLogger("impinge").setLevel(logging.ERROR)
 
 
-def unit_work(scene: dict, outputs: list[str], steps: list[float], inputs: dict | None = None):
-    """Work of `run_unit`: lengths of steps [s]; an input is a number, or a list with one a step."""
-    return {"scene": scene, "outputs": outputs, "steps": steps, "inputs": inputs or {}}
+def unit_work(
+    scene: dict,
+    outputs: list[str],
+    steps: list[float],
+    inputs: dict | None = None,
+    slopes: dict | None = None,
+) -> Work:
+    """Work of `run_unit`: lengths of steps [s]; an input is a number, or a list with one a step.
+
+    `slopes` are time derivatives of inputs at the beginning of each step."""
+    work = {"scene": scene, "outputs": outputs, "steps": steps, "inputs": inputs or {}}
+    return work | ({"slopes": slopes} if slopes else {})
 
 
 def run_unit(work: Work) -> Answer:
@@ -37,6 +46,10 @@ def run_unit(work: Work) -> Answer:
                 for place, length in enumerate(work["steps"]):
                     for name, path_of in work["inputs"].items():
                         unit[name] = path_of[place] if isinstance(path_of, list) else path_of
+                    if slopes := work.get("slopes"):
+                        unit.set_input_derivatives(
+                            {name: [path_of[place]] for name, path_of in slopes.items()}
+                        )
                     unit.step(length)
                     note(unit, work, values)
     except (UnitError, RuntimeError) as refusal:

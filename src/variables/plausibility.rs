@@ -1,7 +1,7 @@
 //! Plausibility of the values of inputs.
 
 use super::{Quantity, Slot, Variable};
-use crate::scene::{Measure, Scene, implausible_input};
+use crate::scene::{Measure, Scene, implausible_input, implausible_place};
 
 impl Variable {
     /// The warning of a value that is implausible for an input, in the words that a scene's constants get.
@@ -13,6 +13,7 @@ impl Variable {
             Quantity::HeatTransferCoefficient => Measure::HeatTransfer,
             Quantity::HeatFlux => Measure::HeatFlux,
             Quantity::Stress => Measure::Traction,
+            Quantity::Length => return implausible_place(scene, &self.name, value),
             _ => return None,
         };
         implausible_input(scene, &self.name, measure, value)

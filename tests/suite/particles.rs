@@ -206,3 +206,21 @@ gives = ["temperature"]
         assert!(coarse.abs() < 0.05 && fine.abs() < 0.5 * coarse.abs(), "{shape}: {coarse} {fine}");
     }
 }
+
+#[test]
+fn particles_that_are_not_to_be_trusted_warn() {
+    let spot = SPOT.replace(", x = 0.3, y = -0.2", "");
+    let warned = |growth: f64, sph: &str| {
+        let mesh = format!("spacing = 0.02, depth_spacing = 0.01, growth = {growth:?}");
+        let shape = "disc = { radius = 1.0, thickness = 1.0 }";
+        let mut trial = Trial::new(&block(shape, &mesh, sph, "", &spot));
+        trial.step(0.1);
+        trial.model.warnings(&trial.state)
+    };
+    assert_eq!(warned(1.1, ""), [""; 0]);
+    let few = warned(1.0, "support = 1.2");
+    let says = |found: &[String], what: &str| found.iter().any(|warning| warning.contains(what));
+    assert!(says(&few, "too few neighbours") && says(&few, "`sph.support` of 2"), "{few:?}");
+    let steep = warned(2.0, "support = 2.0");
+    assert!(says(&steep, "made or lost") && says(&steep, "`mesh.growth` nearer 1"), "{steep:?}");
+}

@@ -1,7 +1,7 @@
 //! Warnings of what is implausible: no real material causes one, unit mistakes and forgotten parts do,
 //! with file, line, key and value.
 
-use impinge::scene::{Warning, parse_with_warnings};
+use impinge::scene::{Warning, implausible_place, parse, parse_with_warnings};
 
 fn warnings(text: &str) -> Vec<String> {
     let (_, found) =
@@ -361,4 +361,37 @@ fn layers_are_warned_of_as_single_materials_are_and_named_ones_once() {
         contact.len() == 1 && contact[0].contains("layers[1].contact_resistance"),
         "{contact:?}"
     );
+}
+
+#[test]
+fn particles_farther_apart_than_heat_goes_are_warned_of() {
+    let text = edited(&plate(ALUMINA), "kind = \"solid\"", "kind = \"solid\"\nheat = \"sph\"");
+    let told = |text: &str| warnings(text).iter().any(|w| w.contains("√(at)"));
+    let apart = |spacing: &str| edited(&text, "spacing = 5e-6", &format!("spacing = {spacing}"));
+    // √(at) = 5.3 µm.
+    assert!(told(&apart("1e-5")) && !told(&apart("5e-6")));
+    let elements = edited(&plate(ALUMINA), "spacing = 5e-6", "spacing = 1e-5");
+    assert!(!told(&elements), "finite elements have estimates");
+}
+
+#[test]
+fn a_load_that_an_input_moves_off_the_fine_mesh_is_warned_of() {
+    let told = |text: &str, x: f64| {
+        let scene = parse(text, "scene.toml").unwrap_or_else(|e| panic!("{e}"));
+        implausible_place(&scene, "spot.x", x)
+    };
+    let text = edited(&plate(ALUMINA), "disc = { radius = 30e-6 }", "disc = { radius = 10e-6 }");
+    let text = edited(&text, "spacing = 5e-6", "spacing = 2e-6");
+    for near in [0.0, 1e-5, -2e-5] {
+        assert_eq!(told(&text, near), None, "{near}");
+    }
+    let message = told(&text, -5e-4).unwrap();
+    assert!(
+        message.contains("spot.x = -5e-4") && message.contains("range = { x = […] }"),
+        "{message}"
+    );
+    let wide = edited(&text, "start = { heat", "range = { x = [-6e-4, 6e-4] }\nstart = { heat");
+    assert_eq!(told(&wide, -5e-4), None);
+    let even = edited(&text, "spacing = 2e-6", "growth = 1.0, spacing = 2e-6");
+    assert_eq!(told(&even, -5e-4), None);
 }

@@ -1,6 +1,7 @@
 //! Solids: heat that is linear and exact in time, thermo-elasticity at every moment.
 
 mod advance;
+mod doubts;
 mod forecast;
 mod linear;
 mod loads;
@@ -320,6 +321,10 @@ impl Body for SolidBody {
         });
         let notes = self.plan.notes.iter().cloned().chain(fallback);
         notes.map(|note| format!("{}: {note}", self.name)).collect()
+    }
+
+    fn warning(&self, state: &[f64]) -> Option<String> {
+        doubts::of_particles(self, state)
     }
 
     fn stiffness(&self) -> Option<Arc<ElasticProblem>> {

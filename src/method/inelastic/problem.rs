@@ -26,7 +26,8 @@ pub enum InelasticError {
     Constants { layer: usize, temperature: f64 },
     #[error(
         "{iterations} iterations found no equilibrium: {residual:e} of the forces are left, where {tolerance:e} \
-         is wanted"
+         is wanted; the loads may be more than the body bears when it yields (allowed: smaller loads, hardening \
+         above 0, or shorter communication steps)"
     )]
     NoEquilibrium { iterations: usize, residual: f64, tolerance: f64 },
     #[error(

@@ -9,7 +9,7 @@ use crate::scene::locate::Path;
 use crate::scene::types::{Footprint, Load, Mesh, Solid};
 
 /// Fewest distances of nodes over the radius of a spot or half the size of tiles.
-const NODES_PER_RADIUS: f64 = 2.0;
+pub const NODES_PER_RADIUS: f64 = 2.0;
 
 pub fn review(reviewer: &mut Reviewer) {
     let (scene, root) = (reviewer.scene, Path::default());

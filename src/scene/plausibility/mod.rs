@@ -2,6 +2,7 @@
 //! that were forgotten. Nothing here is refused; each finding is a [`Warning`].
 
 mod arrangement;
+mod moved;
 mod relations;
 mod values;
 
@@ -13,6 +14,8 @@ use super::locate::{Path, Source};
 use super::schema::Schema;
 use super::types::Scene;
 use crate::limits::plausible::{self, Range};
+
+pub use moved::implausible_place;
 
 /// Something that a scene says, and that is hardly meant.
 #[derive(Debug, Clone, PartialEq, Eq)]

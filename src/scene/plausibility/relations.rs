@@ -8,7 +8,7 @@ use crate::material::Constants;
 use crate::scene::check::number;
 use crate::scene::droplet::Fluid;
 use crate::scene::locate::Path;
-use crate::scene::types::{CellValues, Solid};
+use crate::scene::types::{CellValues, HeatMethod, Mesh, Solid};
 
 /// Foams and aerogels are lighter [kg/m³] and conduct less [W/(m K)] than this.
 const LIGHT: f64 = 30.0;
@@ -21,6 +21,10 @@ const FASTEST_SOUND: f64 = 22_000.0;
 const THIN: f64 = 0.1;
 const WATERY: f64 = 3900.0;
 const METALLIC: f64 = 7.0;
+/// Distances of particles below heated faces over √(at) up to which their temperatures are right to some per cent.
+const COARSEST_PARTICLES: f64 = 1.5;
+/// Those that would do.
+const FINE_PARTICLES: f64 = 0.3;
 /// Rise of the surface that nothing solid bears [K].
 const HOTTEST_RISE: f64 = 1e4;
 
@@ -38,6 +42,7 @@ pub fn review(reviewer: &mut Reviewer) {
             }
         }
         fluxes(reviewer, (&path, name), body);
+        particles(reviewer, &path, body);
     }
     for (name, body) in reviewer.scene.droplets() {
         fluid(reviewer, &root.key("body").key(name).key("fluid"), &body.fluid);
@@ -84,6 +89,30 @@ fn fluid(reviewer: &mut Reviewer, path: &Path, fluid: &Fluid) {
             format!("no liquid that {kind} is this viscous; did you mean {meant} ({given} mPa s)?");
         reviewer.warn(&path.key("viscosity"), message);
     }
+}
+
+/// Warns of particles that are farther apart below the faces than heat goes by the stop time.
+fn particles(reviewer: &mut Reviewer, path: &Path, solid: &Solid) {
+    let Mesh { spacing, depth_spacing, .. } = solid.mesh;
+    let (HeatMethod::Sph, Some(apart)) = (solid.heat, depth_spacing.or(spacing)) else { return };
+    let diffusivity = solid.strata().iter().fold(0.0, |a: f64, s| a.max(s.constants.diffusivity()));
+    let depth = (diffusivity * reviewer.scene.stop_time).sqrt();
+    if apart > COARSEST_PARTICLES * depth {
+        let key = if depth_spacing.is_some() { "depth_spacing" } else { "spacing" };
+        let message = format!(
+            "by the stop time heat goes √(at) = {} m deep, and particles are {} m apart: rises of heated faces are \
+             wrong by tens of per cent; did you mean a `mesh.depth_spacing` of {} m or less?",
+            rounded(depth),
+            number(apart),
+            rounded(FINE_PARTICLES * depth)
+        );
+        reviewer.warn(&path.key("mesh").key(key), message);
+    }
+}
+
+/// In two digits.
+fn rounded(value: f64) -> String {
+    format!("{value:.1e}")
 }
 
 /// What the fluxes of loads and faces come to by the stop time.

@@ -6,7 +6,7 @@ quarter, whole box, elements and particles at equal distances.
 
 from math import erfc, exp, pi, sqrt
 
-from chart import Chart, Formula, Method, Point, Quantity, UnitRun
+from chart import Chart, Formula, Method, Point, ProgramRun, Quantity, UnitRun
 
 FLUX, RADIUS, STOP, STEPS = 5e8, 50e-6, 10e-6, 10  # W/m², m, s
 HALF, THICKNESS, DEPTH = 0.25e-3, 0.25e-3, 5e-6  # m
@@ -118,6 +118,34 @@ def column() -> list[Point]:
     return points
 
 
+def plain(spacings: list[float]) -> list[Point]:
+    """Particles that exchange heat pair by pair."""
+    points = []
+    for spacing in spacings:
+        body = {"heat": "sph", "sph": {"operator": "plain"}}
+        told = scene(BOX, {"spacing": spacing, "growth": 1.0, "order": 1}, body=body)
+        points.append(Point(f"{1e6 * spacing:g} µm", UnitRun(told, OUTPUTS, steps=STEPS)))
+    return points
+
+
+def peer() -> list[Point]:
+    """scikit-fem on a meridian section: elements over the radius, depth of the first, steps."""
+    case = {"spot": RADIUS, "half": HALF, "thickness": THICKNESS}
+    case |= {"capacity": DENSITY * CAPACITY, "conductivity": CONDUCTIVITY, "flux": FLUX}
+    case |= {"stop": STOP, "initial": START}
+    points = []
+    for elements, depth, growth, steps in (
+        (3, 5e-6, 1.5, 10),
+        (5, 2.5e-6, 1.3, 20),
+        (8, 1.5e-6, 1.2, 40),
+        (12, 1e-6, 1.15, 80),
+    ):
+        mesh = {"radial": RADIUS / elements, "depth": depth, "growth": growth, "steps": steps}
+        work = ProgramRun("spot_scikit.py", case | mesh)
+        points.append(Point(f"R/{2 * elements}, {steps} steps", work))
+    return points
+
+
 def spot() -> Chart:
     rise = closed_form()[TEMPERATURE] - START
     quantities = [
@@ -136,5 +164,7 @@ def spot() -> Chart:
         Method("whole box", asked(BOX, symmetry="none")),
         Method("uniform finite elements", spaced(BOX, [*coarse, 6.25e-6, 5e-6], {"order": 1})),
         Method("uniform particles, corrected", spaced(BOX, coarse, {"order": 1}, "sph")),
+        Method("uniform particles, plain", plain(coarse)),
+        Method("scikit-fem, PARDISO", peer()),
     ]
     return Chart("spot", "A hot spot on alumina for 10 µs", quantities, methods)

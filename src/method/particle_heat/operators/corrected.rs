@@ -1,4 +1,4 @@
-use super::{Neighbour, Tensor, dot, renormalisation, square, times};
+use super::{Neighbour, Renormalisation, Tensor, dot, renormalisation, square, times};
 use crate::math::small_inverse::inverse;
 
 /// Largest κ₁ of the systems for B and L, in coordinates of the order of the distances between
@@ -19,21 +19,8 @@ pub const CONDITION_LIMIT: f64 = 1e3;
 /// Source: Fatehi & Manzari (2011), Comput. Math. Appl. 61, 482–498, doi 10.1016/j.camwa.2010.12.028.
 pub fn corrected(neighbours: &[Neighbour], dimension: usize, tensor: &Tensor) -> Option<Vec<f64>> {
     let b = renormalisation(neighbours, dimension).filter(|b| b.condition < CONDITION_LIMIT)?;
-    let third = third_moment(neighbours);
     let pairs = pairs(dimension);
-    let mut system = [[0.0; 6]; 6];
-    for n in neighbours {
-        let bent = times(&b.matrix, n.offset);
-        let squared = square(n.offset);
-        for (row, &(p, q)) in pairs.iter().enumerate() {
-            let defect = n.offset[p] * n.offset[q] - dot(bent, [0, 1, 2].map(|a| third[a][p][q]));
-            for (column, &(s, t)) in pairs.iter().enumerate() {
-                let twice = if s == t { 1.0 } else { 2.0 };
-                system[row][column] +=
-                    n.weight * twice * n.offset[s] * n.offset[t] / squared * defect;
-            }
-        }
-    }
+    let system = system(neighbours, pairs, &b);
     let found = inverse(&system, pairs.len()).filter(|s| s.condition < CONDITION_LIMIT)?;
     let mut l = [[0.0; 3]; 3];
     for (column, &(s, t)) in pairs.iter().enumerate() {
@@ -54,6 +41,40 @@ pub fn corrected(neighbours: &[Neighbour], dimension: usize, tensor: &Tensor) ->
     }
     let taken = b.derivative(neighbours, sum);
     Some(shares.iter().zip(taken).map(|(share, taken)| share - taken).collect())
+}
+
+/// The larger κ₁ of the systems for B and L, by which [`corrected`] decides; infinite where one is singular.
+pub fn condition(neighbours: &[Neighbour], dimension: usize) -> f64 {
+    let largest = || {
+        let b = renormalisation(neighbours, dimension)?;
+        let pairs = pairs(dimension);
+        let of_l = inverse(&system(neighbours, pairs, &b), pairs.len())?;
+        Some(b.condition.max(of_l.condition))
+    };
+    largest().unwrap_or(f64::INFINITY)
+}
+
+/// The system for L: `Σ_j w (L : e⊗e) (r⊗r − r·B·A)`, an equation and an unknown for each pair of axes.
+fn system(
+    neighbours: &[Neighbour],
+    pairs: &[(usize, usize)],
+    b: &Renormalisation,
+) -> [[f64; 6]; 6] {
+    let third = third_moment(neighbours);
+    let mut system = [[0.0; 6]; 6];
+    for n in neighbours {
+        let bent = times(&b.matrix, n.offset);
+        let squared = square(n.offset);
+        for (row, &(p, q)) in pairs.iter().enumerate() {
+            let defect = n.offset[p] * n.offset[q] - dot(bent, [0, 1, 2].map(|a| third[a][p][q]));
+            for (column, &(s, t)) in pairs.iter().enumerate() {
+                let twice = if s == t { 1.0 } else { 2.0 };
+                system[row][column] +=
+                    n.weight * twice * n.offset[s] * n.offset[t] / squared * defect;
+            }
+        }
+    }
+    system
 }
 
 /// Pairs of axes: 1, 3 or 6.

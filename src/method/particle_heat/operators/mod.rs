@@ -11,7 +11,7 @@ mod plain;
 
 use crate::kernel::Kernel;
 
-pub use corrected::{CONDITION_LIMIT, corrected};
+pub use corrected::{CONDITION_LIMIT, condition, corrected};
 pub use gradient::{Renormalisation, renormalisation};
 pub use plain::plain;
 

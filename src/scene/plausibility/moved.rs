@@ -1,0 +1,72 @@
+//! Footprints that an input moves to where the mesh does not see them.
+
+use super::arrangement::NODES_PER_RADIUS;
+use crate::scene::check::number;
+use crate::scene::grid::lateral_extents;
+use crate::scene::types::{Load, Mesh, MeshFactors, Scene, Solid};
+
+/// Growth of elements away from loads, where the scene names none.
+const GROWTH: f64 = 1.2;
+/// Nodes over the least feature of a load, where the scene names no spacing.
+const NODES_PER_FEATURE: f64 = 10.0;
+
+/// What to say of a value [m] of the input `LOAD.x` or `LOAD.y` that puts the footprint where nodes are too far apart.
+///
+/// Certain rather than complete: nodes stand as densely as all loads of the body and its symmetry let them.
+pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<String> {
+    let mut loads = scene.load.iter();
+    let (load, axis) = loads.find_map(|load| Some((load, axis(load, name)?)))?;
+    let body = load.body_and_face().0;
+    let solid = scene.solid(body)?;
+    let growth = solid.mesh.growth.unwrap_or(GROWTH);
+    if growth == 1.0 || scene.couplings_to(body).next().is_some() {
+        return None;
+    }
+    let on_body = || scene.load.iter().filter(|other| other.body_and_face().0 == body);
+    let way = on_body().map(|other| way_from(other, axis, value)).fold(f64::INFINITY, f64::min);
+    let finest = on_body().map(|other| spacing(solid, other)).fold(f64::INFINITY, f64::min);
+    let order = solid.mesh.order.unwrap_or(if solid.sph().is_some() { 1 } else { 2 }) as f64;
+    let widest = lateral_extents(&solid.shape).into_iter().fold(0.0, f64::max);
+    let coarsest = 0.5 * widest / (Mesh::LATERAL_ELEMENTS * order);
+    let along = scene.refinement.get(body).map_or(1.0, |factors: &MeshFactors| factors.along);
+    let apart = (finest + (growth - 1.0) * way / order).min(coarsest.max(finest)) / along;
+    let size = load.footprint.half_width(load.start.radius);
+    let key = ["x", "y"][axis];
+    (size < NODES_PER_RADIUS * apart).then(|| {
+        format!(
+            "{name} = {}: the mesh does not see a load this small here: nodes are about {:.1e} m apart, as it is fine \
+             where loads start; did you mean `range = {{ {key} = […] }}` for `{}`, or `mesh.growth = 1`?",
+            number(value),
+            apart,
+            load.name
+        )
+    })
+}
+
+/// Which place of a load a variable is, in either way of naming.
+fn axis(load: &Load, name: &str) -> Option<usize> {
+    match name.strip_prefix(load.name.as_str())? {
+        ".x" | "_x" => Some(0),
+        ".y" | "_y" => Some(1),
+        _ => None,
+    }
+}
+
+/// How far a place is from where the mesh is fine for a load, or from the image of that [m].
+fn way_from(load: &Load, axis: usize, value: f64) -> f64 {
+    let (start, range) = match axis {
+        0 => (load.start.x, load.range.x),
+        _ => (load.start.y, load.range.y),
+    };
+    let reach = load.footprint.half_width(load.start.radius);
+    let start = start.unwrap_or(0.0);
+    let [from, to] = range.unwrap_or([start; 2]);
+    let beyond = |at: f64| (from - at).max(at - to).max(0.0);
+    (beyond(value).min(beyond(-value)) - reach).max(0.0)
+}
+
+/// Distance of nodes at a load [m].
+fn spacing(solid: &Solid, load: &Load) -> f64 {
+    let feature = load.footprint.half_width(load.start.radius);
+    solid.mesh.spacing.unwrap_or(feature / NODES_PER_FEATURE)
+}
