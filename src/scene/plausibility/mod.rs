@@ -2,6 +2,7 @@
 //! that were forgotten. Nothing here is refused; each finding is a [`Warning`].
 
 mod arrangement;
+mod particles;
 mod relations;
 mod values;
 
@@ -47,6 +48,7 @@ pub(super) fn warnings(scene: &Scene, source: &Source, schema: &Schema) -> Vec<W
     values::review(&mut reviewer, schema);
     relations::review(&mut reviewer);
     arrangement::review(&mut reviewer);
+    particles::review(&mut reviewer);
     reviewer.found.sort_by_key(|warning| warning.problem.line);
     reviewer.found
 }
