@@ -142,6 +142,11 @@ impl Kernel {
         integral(dimension, 1.0, square)
     }
 
+    /// −∫ F dV times H², with ∇W = F r.
+    pub fn mean_slope(self, dimension: usize) -> f64 {
+        -integral(dimension, 1.0, |q| self.gradient_factor(q, 1.0, dimension))
+    }
+
     /// σ_d / H^d [1/m^d].
     pub fn scale(self, support: f64, dimension: usize) -> f64 {
         with_kernel_shape!(self, S => S::NORMALISATION[dimension - 1] / support.powi(dimension as i32))

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use crate::falling_drop::{COLD, DIAMETER, HOT, RINGS, SPEED, WATER, falling_drop, run};
 use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
-    WallCells,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release,
+    StepShares, Wall, WallCells,
 };
 
 /// A drop of some particles over its diameter that is about to hit a wall.
@@ -262,4 +262,22 @@ fn contact_heat_is_that_of_a_half_space_at_any_spacing() {
     let errors = [4e-6, 2e-6, 1e-6].map(|spacing| contact_heat(spacing) - 1.0);
     println!("relative errors of the contact heat: {errors:?}");
     assert!(errors.iter().all(|error| error.abs() < 0.01), "{errors:?}");
+}
+
+/// Waves of density grow where Euler's method diffuses them in steps beyond its limit, which those of sound are at δ = 1.
+#[test]
+fn steps_are_short_enough_for_density_diffusion() {
+    let plan = DropletPlan { density_diffusion: 1.0, ..impact(12.0) };
+    let after = |shares: StepShares| {
+        let drop = DropletSph::with_shares(plan.clone(), 1, shares);
+        let mut state = drop.initial_state();
+        let advanced = drop.advance(&mut state, &[COLD; RINGS], 1e-6);
+        advanced.map(|()| drop.totals(&state).impulse_to_wall[2])
+    };
+    let unbounded = StepShares { diffusive: f64::INFINITY, ..StepShares::default() };
+    assert!(after(unbounded).is_err());
+    let usual = run(&DropletSph::new(impact(12.0), 1), 4);
+    let usual = DropletSph::new(impact(12.0), 1).totals(&usual).impulse_to_wall[2];
+    let found = after(StepShares::default()).unwrap();
+    assert!((found / usual - 1.0).abs() < 0.1, "{found} {usual}");
 }

@@ -328,6 +328,34 @@ fn cells_narrower_than_particles_are_warned_of() {
     }
 }
 
+/// By the fit of its largest spread the film gets 58 µm thin.
+#[test]
+fn films_thinner_than_particles_are_warned_of() {
+    let long = edited(&drop(WATER), "stop_time = 1e-5", "stop_time = 5e-3");
+    let said = warnings(&long);
+    assert!(said.len() == 1, "{said:?}");
+    let wanted =
+        "body.drop.spacing = 5e-5: the film is expected to get 1.2 distances of particles thin";
+    assert!(said[0].contains(wanted), "{said:?}");
+    let finer = said[0].split("`spacing` of ").nth(1).and_then(|rest| rest.split(' ').next());
+    let finer = format!("spacing = {}\n", finer.unwrap());
+    let fine = edited(&long, "spacing = 5e-5\n", &finer);
+    assert_eq!(warnings(&fine), [""; 0], "{finer}");
+}
+
+#[test]
+fn kernels_whose_particles_form_pairs_are_warned_of() {
+    let kernel = |kernel: &str, support: f64| {
+        let keys = format!("spacing = 5e-5\nkernel = \"{kernel}\"\nsupport = {support:?}\n");
+        warnings(&edited(&drop(WATER), "spacing = 5e-5\n", &keys))
+    };
+    let said = kernel("cubic_spline", 3.0);
+    assert!(said.len() == 1 && said[0].contains("form pairs beyond a support of 2.35"), "{said:?}");
+    for (name, support) in [("cubic_spline", 2.35), ("wendland_c2", 6.0), ("quintic_spline", 3.0)] {
+        assert_eq!(kernel(name, support), [""; 0]);
+    }
+}
+
 #[test]
 fn layers_are_warned_of_as_single_materials_are_and_named_ones_once() {
     let row = |(_, density, specific_heat, conductivity, young, poisson, expansion): SolidRow| {

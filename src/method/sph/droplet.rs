@@ -13,7 +13,7 @@ use super::cloud::{
 use super::failure::Failure;
 use super::images::copies;
 use super::loops::PART;
-use super::method::Method;
+use super::method::{Method, StepShares};
 use super::placement::{place, rings};
 use super::plan::{DropletPlan, Release};
 use super::stepper::Stepper;
@@ -64,7 +64,12 @@ impl DropletSph {
     /// # Panics
     /// If the plan's planes and periods do not go together, see [`Extent`](super::Extent).
     pub fn new(plan: DropletPlan, threads: usize) -> Self {
-        let method = Method::of(&plan);
+        Self::with_shares(plan, threads, StepShares::default())
+    }
+
+    /// With other time steps than those of scenes, to see where they fail.
+    pub fn with_shares(plan: DropletPlan, threads: usize, shares: StepShares) -> Self {
+        let method = Method::with_shares(&plan, shares);
         let below = response_below(&plan, &method);
         Self { plan, method, threads, below, released: OnceLock::new() }
     }

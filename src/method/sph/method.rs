@@ -47,21 +47,46 @@ pub struct Method {
     /// Points of the wall, and how they take heat; nothing without wall, and without heat.
     pub points: PointLattice,
     pub wall_heat: Option<WallHeat>,
+    shares: StepShares,
+    /// Largest stable step of density diffusion, over H/c₀.
+    diffusive_step: f64,
 }
 
 /// Where the wall gets an impulse [m], [N s].
 pub type Push = ([f64; 2], [f64; 3]);
 
-/// Share of H/c₀ that a step may take.
-const COURANT: f64 = 0.2;
-/// Share of the largest step at which viscosity cannot make a flow grow, see [`Method::viscous_step`].
-const VISCOUS: f64 = 0.85;
-/// Shares of H²/κ, √(H/a) and of √(ρλ³/16πσ), with which the shortest capillary wave passes half its
-/// length λ (Brackbill, Kothe & Zemach 1992, J. Comput. Phys. 100, 335–354, doi
-/// 10.1016/0021-9991(92)90240-Y).
-const CONDUCTIVE: f64 = 0.02;
-const FORCED: f64 = 0.18;
-const CAPILLARY: f64 = 0.25;
+/// Shares of what bounds a time step that it may take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StepShares {
+    /// Of H/c₀.
+    pub courant: f64,
+    /// Of the largest step at which viscosity cannot make a flow grow.
+    pub viscous: f64,
+    /// Of the largest step at which density diffusion cannot make waves grow.
+    pub diffusive: f64,
+    /// Of H²/κ.
+    pub conductive: f64,
+    /// Of √(H/a).
+    pub forced: f64,
+    /// Of √(ρλ³/16πσ), in which the shortest capillary wave passes half its length λ (Brackbill, Kothe & Zemach 1992,
+    /// J. Comput. Phys. 100, 335–354, doi 10.1016/0021-9991(92)90240-Y).
+    pub capillary: f64,
+}
+
+impl Default for StepShares {
+    /// Those of every scene.
+    fn default() -> Self {
+        Self {
+            courant: 0.2,
+            viscous: 0.85,
+            diffusive: 0.85,
+            conductive: 0.02,
+            forced: 0.18,
+            capillary: 0.25,
+        }
+    }
+}
+
 /// Most steps that surface tension acts for at once, as it changes slowly beside sound: impulses between
 /// steps keep its energy (reversible reference system propagator, Tuckerman, Berne & Martyna 1992,
 /// J. Chem. Phys. 97, 1990–2001, doi 10.1063/1.463137).
@@ -69,6 +94,10 @@ const TURN: f64 = 10.0;
 
 impl Method {
     pub fn of(plan: &DropletPlan) -> Self {
+        Self::with_shares(plan, StepShares::default())
+    }
+
+    pub fn with_shares(plan: &DropletPlan, shares: StepShares) -> Self {
         let units = Units::of(plan);
         let fluid = &plan.fluid;
         let (h, c) = (units.length, units.speed);
@@ -102,6 +131,8 @@ impl Method {
             wall: plan.wall.as_ref().map(|wall| wall.cells.clone()),
             wall_heat: WallHeat::of(plan, &units, points.area),
             points,
+            shares,
+            diffusive_step: diffusive_step(plan),
         }
     }
 
@@ -163,10 +194,11 @@ impl Method {
     /// Largest stable step, over H/c₀.
     pub fn stable_step(&self, fastest: f64, most_accelerated: f64) -> f64 {
         [
-            COURANT / (1.0 + fastest),
+            self.shares.courant / (1.0 + fastest),
             self.viscous_step(),
-            CONDUCTIVE / self.conduction,
-            FORCED / most_accelerated.sqrt(),
+            self.shares.diffusive * self.diffusive_step,
+            self.shares.conductive / self.conduction,
+            self.shares.forced / most_accelerated.sqrt(),
             self.capillary_step(),
         ]
         .into_iter()
@@ -176,13 +208,13 @@ impl Method {
     /// The sums of viscosity have no rate above twice their diagonal, `(4d/m) ν`, m the kernel's second moment; the
     /// steps, whose accelerations are those for velocities ahead, grow nothing whose rate times the step is below 1.
     fn viscous_step(&self) -> f64 {
-        VISCOUS / (2.0 * self.pair_viscosity)
+        self.shares.viscous / (2.0 * self.pair_viscosity)
     }
 
     /// For the shortest wave that surface tension, smoothed over h, still drives.
     fn capillary_step(&self) -> f64 {
         let Some(Setting { energy, .. }) = &self.surface else { return f64::INFINITY };
-        CAPILLARY * (energy.smoothing.reach.powi(3) / (16.0 * PI * self.tension)).sqrt()
+        self.shares.capillary * (energy.smoothing.reach.powi(3) / (16.0 * PI * self.tension)).sqrt()
     }
 
     /// Number of steps that surface tension may act for at once.
@@ -192,4 +224,10 @@ impl Method {
         }
         (self.capillary_step() / dt).floor().clamp(1.0, TURN)
     }
+}
+
+/// The sums of density diffusion have no rate above twice their diagonal, `δ ∫ −F dV`, and their steps are those of
+/// Euler's method: nothing grows whose rate times the step is below 2.
+fn diffusive_step(plan: &DropletPlan) -> f64 {
+    1.0 / (plan.density_diffusion * plan.kernel.mean_slope(plan.dimension))
 }

@@ -51,6 +51,7 @@ pub use cover::Cover;
 pub use droplet::{DropletSph, DropletTotals, ParticleFields};
 pub use effort::{Effort, RunSettings};
 pub use failure::Failure;
+pub use method::StepShares;
 pub use plan::{Demand, DropletPlan, Extent, Fluid, Placement, Release, Wall};
 pub use surface::{Surface, SurfaceResponse};
 pub use wall::{Domain, WallCells, WallExchange};

@@ -2,7 +2,11 @@
 //! that were forgotten. Nothing here is refused; each finding is a [`Warning`].
 
 mod arrangement;
+<<<<<<< HEAD
 mod moved;
+=======
+mod particles;
+>>>>>>> fluids/main
 mod relations;
 mod values;
 
@@ -50,6 +54,7 @@ pub(super) fn warnings(scene: &Scene, source: &Source, schema: &Schema) -> Vec<W
     values::review(&mut reviewer, schema);
     relations::review(&mut reviewer);
     arrangement::review(&mut reviewer);
+    particles::review(&mut reviewer);
     reviewer.found.sort_by_key(|warning| warning.problem.line);
     reviewer.found
 }

@@ -1,3 +1,5 @@
 """The maps of fluids, by name."""
 
-MAPS = {}
+from cases.fluids import impacts, pairs, steps
+
+MAPS = steps.MAPS | pairs.MAPS | impacts.MAPS

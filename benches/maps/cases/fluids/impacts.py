@@ -1,0 +1,224 @@
+"""What comes of impacts at a scene's own settings, and how that depends on particles and on sound."""
+
+from functools import partial
+
+from cases.fluids.drops import (
+    DIAMETER,
+    HEMISPHERE,
+    film,
+    impact,
+    impact_work,
+    largest_spread,
+    liquid,
+    ohnesorge_of,
+    speed_of,
+)
+from plan import Answer, Axis, Boundary, Map
+from unit_run import run_unit
+
+QUANTITIES = ["impulse_z", "spread_diameter", "height", "heat"]
+LABELS = ["impulse", "spread", "height", "heat"]
+THINNEST = 1.5
+"""Particles over the film below which scenes are warned of (`src/scene/plausibility/particles.rs`)."""
+
+
+def case(weber: float, reynolds: float, across: float, stop: float, **body) -> dict:
+    fluid = liquid(ohnesorge_of(weber, reynolds)) | body.pop("fluid", {})
+    return impact(across, speed_of(weber), fluid, stop, **body)
+
+
+def largest(answer: Answer, name: str) -> float:
+    return max(answer.values[f"drop.{name}"])
+
+
+def last(answer: Answer, name: str) -> float:
+    return answer.values[f"drop.{name}"][-1]
+
+
+def off(references: dict[str, float], answer: Answer, x: float, y: float) -> float:
+    """One of the quantities beside its reference."""
+    name = QUANTITIES[round(y)]
+    return abs(last(answer, name) / references[name] - 1.0)
+
+
+def of_quantities() -> Axis:
+    return Axis("quantity", "", list(range(len(QUANTITIES))), False, LABELS)
+
+
+def spreads() -> Map:
+    """Largest spread beside a fit of measurements."""
+    across, stop = 20.0, 4.0
+
+    def work(weber: float, ohnesorge: float) -> dict:
+        scene = case(weber, weber**0.5 / ohnesorge, across, stop, reach=10.0)
+        return impact_work(scene, ["spread_diameter"])
+
+    def beside(answer: Answer, weber: float, ohnesorge: float) -> float:
+        expected = largest_spread(weber, weber**0.5 / ohnesorge, HEMISPHERE)
+        return abs(largest(answer, "spread_diameter") / DIAMETER / expected - 1.0)
+
+    return Map(
+        name="spreads",
+        title=f"Spread of whole impacts, {across:g} particles across",
+        x=Axis("Weber number", "1", [3, 10, 30, 100, 300, 1000, 3000]),
+        y=Axis("Ohnesorge number", "1", [0.003, 0.01, 0.03, 0.1, 0.3]),
+        outcome="largest spread off a fit of measurements",
+        unit="1",
+        bad=0.3,
+        work=work,
+        run=run_unit,
+        judge=beside,
+        colours=(0.0, 0.6),
+    )
+
+
+WEBER, REYNOLDS, STOP = 300.0, 1000.0, 2.0
+
+
+def sound_speed() -> Map:
+    """What users read over the speed of sound that a scene asks for."""
+
+    def work(x: float, y: float) -> dict:
+        sound = {"sound_speed": x * speed_of(WEBER)}
+        scene = case(WEBER, REYNOLDS, 24.0, STOP, fluid=sound)
+        return impact_work(scene, [QUANTITIES[round(y)]], 20)
+
+    return Map(
+        name="sound_speed",
+        title="Speed of sound that a scene asks for",
+        x=Axis("speed of sound over that of the drop", "1", [3.0, 4.0, 5.0, 7.0, 10.0, 14.0, 20.0]),
+        y=of_quantities(),
+        outcome="off that at thirty times the drop's speed",
+        unit="1",
+        bad=0.25,
+        work=work,
+        run=run_unit,
+        judge=partial(off, BY_SOUND),
+        colours=(0.0, 0.4),
+    )
+
+
+def kernels() -> Map:
+    """Heat over the support of each kernel."""
+    names = ["wendland_c2", "wendland_c4", "cubic_spline", "quintic_spline"]
+
+    def work(x: float, y: float) -> dict:
+        scene = case(WEBER, REYNOLDS, 24.0, STOP, kernel=names[round(y)], support=x)
+        return impact_work(scene, ["heat"], 20)
+
+    return Map(
+        name="kernels",
+        title="Heat of an impact by kernel and support",
+        x=Axis("support H over the distance of particles Δx", "1", [2, 2.25, 2.5, 3, 3.5, 4, 5, 6]),
+        y=Axis("kernel", "", list(range(len(names))), False, names),
+        outcome="heat off that of 64 particles across",
+        unit="1",
+        bad=0.3,
+        work=work,
+        run=run_unit,
+        judge=lambda answer, x, y: abs(last(answer, "heat") / FINE["heat"] - 1.0),
+        colours=(0.0, 0.5),
+    )
+
+
+def diffusion() -> Map:
+    """What users read over the density diffusion that a scene asks for."""
+
+    def work(x: float, y: float) -> dict:
+        scene = case(WEBER, REYNOLDS, 24.0, STOP, density_diffusion=x)
+        return impact_work(scene, [QUANTITIES[round(y)]], 20)
+
+    return Map(
+        name="diffusion",
+        title="Density diffusion that a scene asks for",
+        x=Axis("density diffusion δ", "1", [0.0, 0.01, 0.03, 0.1, 0.2, 0.4, 0.7, 1.0], False),
+        y=of_quantities(),
+        outcome="off that of 64 particles across",
+        unit="1",
+        bad=0.3,
+        work=work,
+        run=run_unit,
+        judge=partial(off, FINE),
+        colours=(0.0, 0.5),
+    )
+
+
+def resolution() -> Map:
+    """Everything that users read over the particles across."""
+
+    def work(x: float, y: float) -> dict:
+        return impact_work(case(WEBER, REYNOLDS, x, STOP), [QUANTITIES[round(y)]], 20)
+
+    return Map(
+        name="resolution",
+        title="Particles across a drop and what is read of it",
+        x=Axis("particles across D/Δx", "1", [3, 6, 8, 10, 12, 16, 20, 24, 32, 40]),
+        y=of_quantities(),
+        outcome="off that of 64 particles across",
+        unit="1",
+        bad=0.25,
+        work=work,
+        run=run_unit,
+        judge=partial(off, FINE),
+        colours=(0.0, 0.5),
+    )
+
+
+FILMS = [(10.0, 100.0), (30.0, 100.0), (30.0, 1000.0), (100.0, 1000.0), (300.0, 1000.0)]
+"""Weber and Reynolds numbers."""
+FILM_STOP = 3.0
+
+
+def films() -> Map:
+    """Heat over particles and the thickness of films."""
+
+    def work(x: float, y: float) -> dict:
+        return impact_work(case(*FILMS[round(y)], x, FILM_STOP), ["heat"], 20)
+
+    def beside(answer: Answer, x: float, y: float) -> float:
+        return abs(last(answer, "heat") / FILM_HEAT[round(y)] - 1.0)
+
+    return Map(
+        name="films",
+        title="Heat of films by their particles",
+        x=Axis("particles across D/Δx", "1", [6, 8, 10, 12, 16, 20, 24, 32]),
+        y=Axis(
+            "We, Re",
+            "",
+            list(range(len(FILMS))),
+            False,
+            [f"{weber:g}, {reynolds:g}" for weber, reynolds in FILMS],
+        ),
+        outcome="heat off that of 48 particles across",
+        unit="1",
+        bad=0.3,
+        work=work,
+        run=run_unit,
+        judge=beside,
+        colours=(0.0, 0.5),
+    )
+
+
+BY_SOUND = dict(zip(QUANTITIES, (-7.6573e-9, 3.1042e-4, 6.947e-6, 2.2138e-5), strict=True))
+FINE = dict(zip(QUANTITIES, (-7.6551e-9, 3.2422e-4, 8.058e-6, 2.2725e-5), strict=True))
+FILM_HEAT = [1.9260e-5, 2.0957e-5, 3.7730e-5, 4.0217e-5, 3.6241e-5]
+"""References, by `references` below: 30 U at 24 particles across; 64 across; 48 across."""
+
+
+def references() -> None:
+    """Prints what the numbers above come from."""
+    sound = {"sound_speed": 30.0 * speed_of(WEBER)}
+    for across, body in ((24.0, {"fluid": sound}), (64.0, {})):
+        scene = case(WEBER, REYNOLDS, across, STOP, **body)
+        answer = run_unit(impact_work(scene, QUANTITIES, 20))
+        print([last(answer, name) for name in QUANTITIES], flush=True)
+    heats = []
+    for weber, reynolds in FILMS:
+        scene = case(weber, reynolds, 48.0, FILM_STOP)
+        heats.append(last(run_unit(impact_work(scene, ["heat"], 20)), "heat"))
+        print(heats, flush=True)
+
+
+MAPS = {
+    of.__name__: of for of in (spreads, sound_speed, kernels, diffusion, resolution, films)
+}
