@@ -160,6 +160,8 @@ class Engine:
             values = participant.read()
             for link in participant.links_out:
                 new = link.transfer(values[participant.sources[link.source]])
+                if not (component.iterates or np.isfinite(new).all()):
+                    raise NoConvergence(f"values of {link.connection.source} are not finite")
                 self.true[link.place] = new
                 if link not in component.guessed:
                     self.guess[link.place] = new
@@ -252,21 +254,37 @@ class Engine:
 
     def error(self, end: float, size: float) -> float:
         """The largest error in time of the last step's paths, in shares of scales."""
-        nodes = [*self.history.nodes, (end, self.true)]
         worst = 0.0
-        time = end - size
         for link in self.links:
             if link.is_mean or not link.is_real or self._stale[link.place].any():
                 continue
-            if self._extrapolated[link.place].any():
-                own = [(at, v[link.place]) for at, v in self.history.last(self.extrapolation + 1)]
-                guess = waveform.path(own, end)[0]
-                error = np.abs(self.true[link.place] - guess)
-            else:
-                own = [(at, values[link.place]) for at, values in nodes]
-                error = waveform.interpolation_error(own, self.order, time, size)
+            error = self._path_error(link, end, size)
             worst = max(worst, float(error.max()) / link.scale(self.true))
         return worst
+
+    def _path_error(self, link: Link, end: float, size: float) -> np.ndarray:
+        if self._extrapolated[link.place].any():
+            return self._extrapolation_error(link, end)
+        nodes = [*self.history.nodes, (end, self.true)]
+        own = [(at, values[link.place]) for at, values in nodes]
+        return waveform.interpolation_error(own, self.order, end - size, size)
+
+    def _extrapolation_error(self, link: Link, end: float) -> np.ndarray:
+        own = [(at, v[link.place]) for at, v in self.history.last(self.extrapolation + 1)]
+        return np.abs(self.true[link.place] - waveform.path(own, end)[0])
+
+    def mean_error(self, link: Link, end: float, size: float) -> np.ndarray | None:
+        """By how much the path that a link's target followed over the last step was off, nearly; of
+        extrapolated ones half of what they are off by at the end. None where it is not known."""
+        if self._stale[link.place].any():
+            return None
+        if self._extrapolated[link.place].any():
+            return self._extrapolation_error(link, end) * (1.0 if link.is_mean else 0.5)
+        if link.is_mean or len(self.history.nodes) <= self.order:
+            return None
+        if not self.order:
+            return 0.5 * np.abs(self.true[link.place] - self.history.nodes[-1][1][link.place])
+        return self._path_error(link, end, size)
 
     def given(self, end: float, size: float) -> np.ndarray:
         """Means over the last step of what outputs say: of the polynomials through their values,

@@ -32,6 +32,7 @@ from impinge.master.graph import best_order, unit_components
 from impinge.master.participant import Participant
 from impinge.master.record import Record
 from impinge.master.stepping import Graded, Schedule
+from impinge.master.watch import Watch
 from impinge.unit import Unit
 
 
@@ -121,6 +122,7 @@ class Master:
                 max_iterations,
             )
             self._exchange = Exchange(self.participants, self.links, self.units)
+            self._watch = Watch(self.units, self.links, scheme)
             self._balances = [Balance(bond(each), self.links, self.units) for each in energy]
             sources = [link.connection.source for link in self.links]
             self._record = Record(self.units, [*sources, *outputs])
@@ -266,6 +268,7 @@ class Master:
                     bar.n = self.time
                     bar.set_postfix_str(f"{self.steps} steps", refresh=False)
                     bar.update(0)
+        self._judge()
         return self._record.dataset(self._balances, self._attributes())
 
     def _begin(self, stop: float = np.inf) -> None:
@@ -292,6 +295,7 @@ class Master:
                     " it does not declare to follow no input at once"
                 )
         engine.begin(self.time)
+        self._watch.begin(engine.inputs)
         for balance in self._balances:
             balance.begin()
         self._record.add(self.time, self._balances)
@@ -366,6 +370,7 @@ class Master:
         engine.inputs[:] = new
         self._exchange(engine.inputs, self._iteration_tolerance)
         engine.begin(self.time)
+        self._watch.jump()
         if self.adaptive or self._schedule.graded:
             self._schedule.restart(self.time)
 
@@ -416,6 +421,11 @@ class Master:
             given = engine.given(end, size)
             for balance in self._balances:
                 balance.add(size, engine.arrived, given)
+        before = engine.history.nodes[-1][1]
+        for course in self._watch.courses:
+            place = course.link.place
+            error = engine.mean_error(course.link, end, size)
+            course.add(before[place], engine.true[place], error)
         engine.accept(end)
         self.time = end
         self.steps += 1
@@ -427,8 +437,19 @@ class Master:
             engine.history.nodes[-1] = (end, engine.inputs.copy())
         if is_jump:
             engine.begin(end)
+            self._watch.jump()
             self._schedule.restart(end)
         self._record.add(end, self._balances)
+
+    def _judge(self) -> None:
+        """Warns, once, of steps that are too long for what rings of units pass on."""
+        if self.adaptive or "steps" in self._warned:
+            return
+        guessed = any(c.guessed and not c.iterates for c in self.components)
+        order = self.extrapolation if guessed else self.order
+        if text := self._watch.warning(self._schedule.step, order):
+            self._warned.add("steps")
+            self._note(text)
 
     def _attributes(self) -> dict[str, Any]:
         import impinge
@@ -446,6 +467,7 @@ class Master:
             "iterations": self._engine.iterations,
             "most_iterations": self.most_iterations,
             "unconverged": self.unconverged,
+            "path_error": worst.error if (worst := self._watch.worst) else 0.0,
             "held_inputs": " ".join(self.held),
             "notes": "; ".join(self.notes),
             "impinge": impinge.__version__,

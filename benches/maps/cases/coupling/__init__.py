@@ -1,3 +1,9 @@
 """The maps of coupling, by name."""
 
-MAPS = {}
+from cases.coupling.lumps import gauss_seidel, iterate, jacobi
+
+MAPS = {
+    "coupling_jacobi": jacobi,
+    "coupling_gauss_seidel": gauss_seidel,
+    "coupling_iterate": iterate,
+}
