@@ -280,7 +280,7 @@ class Engine:
             return None
         if self._extrapolated[link.place].any():
             return self._extrapolation_error(link, end) * (1.0 if link.is_mean else 0.5)
-        if link.is_mean or len(self.history.nodes) <= self.order:
+        if link.is_mean:
             return None
         if not self.order:
             return 0.5 * np.abs(self.true[link.place] - self.history.nodes[-1][1][link.place])

@@ -122,7 +122,6 @@ class Master:
                 max_iterations,
             )
             self._exchange = Exchange(self.participants, self.links, self.units)
-            self._watch = Watch(self.units, self.links, scheme)
             self._balances = [Balance(bond(each), self.links, self.units) for each in energy]
             sources = [link.connection.source for link in self.links]
             self._record = Record(self.units, [*sources, *outputs])
@@ -134,6 +133,9 @@ class Master:
         least = step * 1e-9 if least_step is None else least_step
         self._schedule = Schedule(step, graded, jumps, self.adaptive, least, largest_step)
         self._iteration_tolerance = self.tolerance * (0.1 if self.adaptive else 1.0)
+        self._watch = Watch(
+            self.units, self.links, self._exchange.loops, scheme, self._iteration_tolerance
+        )
         self.steps = self.rejected = self.most_iterations = self.unconverged = 0
         self._has_begun = False
 

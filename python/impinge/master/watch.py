@@ -13,7 +13,8 @@ from impinge.unit import Unit
 
 MOST = 0.1  # of a link's range: the mean error of paths above which a run is warned of
 _FEWEST = 3  # steps that say something
-_NOISE = 1e-9  # of magnitudes: what rings at rest show
+_NOISE = 1e-9  # of magnitudes: what rings at rest show; or iterations leave, times their tolerance
+_LEFT = 10
 _SETTLED = (0.1, 1e-3)  # factors of what is at rest after one iterated step: held paths, others
 _CALM = 1 / 3  # change of a step that is known to be within `MOST`, of what is left of a change
 
@@ -37,6 +38,7 @@ class Course:
     change: np.ndarray | None = None
     like: float = 0.0
     square: float = 0.0
+    noise: float = _NOISE
 
     @property
     def range(self) -> float:
@@ -44,7 +46,7 @@ class Course:
 
     @property
     def is_at_rest(self) -> bool:
-        return self.range <= _NOISE * self.link.largest
+        return self.range <= self.noise * self.link.largest
 
     @property
     def error(self) -> float:
@@ -78,22 +80,34 @@ class Course:
 class Watch:
     """The courses of all links within rings of units; others cannot feed back what they err by."""
 
-    def __init__(self, units: Mapping[str, Unit], links: Sequence[Link], scheme: str):
+    def __init__(
+        self,
+        units: Mapping[str, Unit],
+        links: Sequence[Link],
+        loops: Sequence[Sequence[Link]],
+        scheme: str,
+        tolerance: float,
+    ):
+        """`loops` are algebraic: what these pass on is solved for at the ends of steps."""
         place = {name: i for i, g in enumerate(unit_components(units, links)) for name in g}
+        solved = {id(link) for loop in loops for link in loop}
         self._links = [
             link
             for link in links
-            if link.is_real and place[link.source_unit] == place[link.target_unit]
+            if link.is_real
+            and place[link.source_unit] == place[link.target_unit]
+            and id(link) not in solved
         ]
         self._ring = place
         self._scheme = scheme
+        self._noise = max(_NOISE, _LEFT * tolerance if scheme == "iterate" else 0.0)
         self.courses: list[Course] = []
 
     def begin(self, inputs: np.ndarray) -> None:
         """Called at the start of the run."""
         for link in self._links:
             values = inputs[link.place]
-            self.courses.append(Course(link, values.copy(), values.copy()))
+            self.courses.append(Course(link, values.copy(), values.copy(), noise=self._noise))
 
     def jump(self) -> None:
         """Called where inputs jump."""
