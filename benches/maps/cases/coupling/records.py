@@ -1,5 +1,5 @@
-"""Two drops of ink on alumina, repeated from a record of one, beside both computed of particles: how
-far apart, in place and in time, do they have to be?
+"""Two drops of ink on alumina, repeated from a record of one, beside both computed of particles:
+how far apart, in place and in time, do they have to be?
 """
 
 from plan import Answer, Axis, Map, Work

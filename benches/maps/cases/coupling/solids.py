@@ -1,5 +1,5 @@
-"""Two thick solids of different temperature that touch through a conductance: how short do exchanges
-have to be for the heat that passes?
+"""Two thick solids of different temperature that touch through a conductance: how short do
+exchanges have to be for the heat that passes?
 
 Half spaces of effusivities e₁, e₂ whose faces pass `q = h ΔT` (H. S. Carslaw, J. C. Jaeger 1959,
 § 2.7, for both): with `H = h (1/e₁ + 1/e₂)`, `q = h ΔT e^(H²t) erfc(H√t)` and
