@@ -423,11 +423,7 @@ class Master:
             given = engine.given(end, size)
             for balance in self._balances:
                 balance.add(size, engine.arrived, given)
-        before = engine.history.nodes[-1][1]
-        for course in self._watch.courses:
-            place = course.link.place
-            error = engine.mean_error(course.link, end, size)
-            course.add(before[place], engine.true[place], error)
+        earlier, is_stale = list(engine.history.nodes), engine.is_stale
         engine.accept(end)
         self.time = end
         self.steps += 1
@@ -437,9 +433,14 @@ class Master:
         if is_jump or any(c.guessed and not c.iterates for c in self.components):
             self._exchange(engine.inputs, self._iteration_tolerance)
             engine.history.nodes[-1] = (end, engine.inputs.copy())
+        if is_jump or is_stale:
+            self._watch.jump()
+        else:
+            for course in self._watch.courses:
+                error = engine.mean_error(course.link, earlier, end, size)
+                course.add(earlier[-1][1], engine.inputs, error)
         if is_jump:
             engine.begin(end)
-            self._watch.jump()
             self._schedule.restart(end)
         self._record.add(end, self._balances)
 

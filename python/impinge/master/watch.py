@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from math import floor, log10
 
 import numpy as np
 
@@ -63,18 +64,20 @@ class Course:
         self.change = None
 
     def add(self, before: np.ndarray, after: np.ndarray, error: np.ndarray | None) -> None:
-        """A step that was accepted: the link's values at its ends, and how far paths were off."""
+        """A step that was accepted: all inputs at its ends, and how far the link's path was off."""
+        before, after = before[self.link.place], after[self.link.place]
         self.low = np.minimum(self.low, after)
         self.high = np.maximum(self.high, after)
         change = after - before
-        if self.change is not None:
-            self.like += float(change @ self.change)
-            self.square += float(self.change @ self.change)
+        with np.errstate(over="ignore"):  # what grows without end has said what it has to
+            if self.change is not None:
+                self.like += float(change @ self.change)
+                self.square += float(self.change @ self.change)
+            if error is not None:
+                self.first += float(error.sum())
+                self.second += float(error @ error)
+                self.steps += 1
         self.change = change
-        if error is not None:
-            self.first += float(error.sum())
-            self.second += float(error @ error)
-            self.steps += 1
 
 
 class Watch:
@@ -141,12 +144,13 @@ class Watch:
             shown = "values jump to and fro from step to step"
         else:
             shown = f"a change shrinks to {factor:.2g} of itself in every step"
-        wanted = f"a step of {step * share:.1g} s"
+        digit = 10.0 ** floor(log10(step * share))
+        wanted = f"steps of {floor(step * share / digit) * digit:.1g} s or less"
         if self._scheme != "iterate":
-            wanted += ', or scheme="iterate" with one between,'
+            wanted += ', or scheme="iterate" with some between,'
         link = worst.link.connection
         return (
             f"{link.source} -> {link.target}: what is passed on over steps of {step:.6g} s is off"
             f" by {100 * worst.error:.0f} % of its range, above {100 * MOST:.0f} %; {shown};"
-            f" {wanted} would do"
+            f" {wanted} are needed"
         )
