@@ -328,6 +328,24 @@ fn cells_narrower_than_particles_are_warned_of() {
     }
 }
 
+/// Under cells of three particles the middle of a polymer is off by a sixth of its rise (`docs/maps/coupling.md`).
+#[test]
+fn cells_too_wide_for_solids_that_conduct_less_than_the_fluid_are_warned_of() {
+    let text = drop(WATER);
+    for (effusivity, width, is_told) in
+        [(600.0, 1.5e-4, true), (600.0, 1e-4, false), (600.0, 5e-5, false), (6000.0, 1.5e-4, false)]
+    {
+        let cells = format!("radius = {:?} }} }}\neffusivity = {effusivity:?}", 10.0 * width);
+        let said = warnings(&edited(&text, "radius = 3e-3 } }", &cells));
+        assert_eq!(said.len(), usize::from(is_told), "{effusivity} {width}: {said:?}");
+        if is_told {
+            let wanted = "cells of 1.5e-4 m are too wide for a solid that conducts less";
+            assert!(said[0].contains(wanted), "{said:?}");
+            assert!(said[0].contains("did you mean cells of 5e-5 m"), "{said:?}");
+        }
+    }
+}
+
 #[test]
 fn layers_are_warned_of_as_single_materials_are_and_named_ones_once() {
     let row = |(_, density, specific_heat, conductivity, young, poisson, expansion): SolidRow| {

@@ -1,8 +1,8 @@
 """A layer of fluid and a thick plate of different temperature: how far are the heat that passes and
-the temperature of contact from those of two half spaces, and does anything leave their range?
+the temperature of contact from those of two half spaces?
 
-`benches/contact.rs` joins particles and elements as a scene's exchanges do; closed form after H. S.
-Carslaw, J. C. Jaeger (1959), § 2.8.
+`benches/contact.rs` joins particles and elements in turns, as a master does; closed form after H.
+S. Carslaw, J. C. Jaeger (1959), § 2.8.
 """
 
 import json
@@ -13,8 +13,8 @@ from pathlib import Path
 from plan import Answer, Axis, Map, Work
 
 ROOT = Path(__file__).resolve().parents[4]
-RATIOS = [1e-4, 1e-2, 0.1, 0.3, 1.0, 3.0, 10.0, 1e2, 1e4]
-SPACINGS = [0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 8.0]
+RATIOS = [1e-4, 1e-2, 0.1, 1.0, 10.0, 1e2, 1e4]
+SPACINGS = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0]
 PRANDTL = [1e-2, 1e-1, 1.0, 10.0, 1e2, 1e3]
 EXCHANGES = [3, 7, 20, 70, 200, 700]
 USUAL = {"spacing": 1.0, "ratio": 0.26, "prandtl": 2.0, "exchanges": 70, "shear": 0.0}
@@ -42,8 +42,8 @@ def run(of: Work) -> Answer:
 
 
 def error(answer: Answer, x: float, y: float) -> float:
-    """The largest of heat, temperature at the end and what lies beyond the range, each relative."""
-    return max(abs(answer.values[key]) for key in ("heat", "rise", "beyond"))
+    """Of the heat or the rise at the end, whichever is larger, relative."""
+    return max(abs(answer.values[key]) for key in ("heat", "rise"))
 
 
 def layer(name: str, title: str, x: Axis, y: Axis, of) -> Map:
