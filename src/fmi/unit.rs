@@ -250,9 +250,21 @@ impl Unit {
     }
 
     pub fn terminate(&mut self) -> Answer {
+        self.warn_at_end();
         self.series = None;
         self.phase = Phase::Terminated;
         Ok(Status::Ok)
+    }
+
+    /// Warns of what is known of drops only as a run ends, where there is room to look.
+    fn warn_at_end(&mut self) {
+        let Some(model) = self.run.as_ref().map(|run| Arc::clone(&run.model)) else { return };
+        if self.scene.droplets().next().is_none() || self.expect_room().is_err() {
+            return;
+        }
+        let state = &self.state;
+        let warnings = aside(|| model.closing_warnings(state));
+        self.warn_once(warnings);
     }
 
     /// Back to the start values, as after fmi2Instantiate; log settings and saved states stay.

@@ -231,3 +231,66 @@ def test_what_is_no_power_has_no_energy_to_balance(pack, folder):
     with Master(units, links, step=1e-5, energy=good) as master:
         result = master.run(3e-5)
     assert result.attrs["energy_residual.law.y"] < 1e-6
+
+
+def stores(folder, ratio):
+    """Two bodies of 1 and `ratio` J/K and a conductance of 1 W/K between them, 1 K apart."""
+    rate = 1.0 / ratio
+    a = make(folder, "store", [0.0], [1.0], [1.0], x=[1.0])
+    return {"a": a, "b": make(folder, "bath", [-rate], [rate], [1.0], d=-1.0, x=[0.0])}
+
+
+PAIR = [("a.y", "b.u"), ("b.y", "a.u")]
+
+
+@pytest.mark.parametrize("scheme", ["jacobi", "gauss-seidel", "iterate"])
+@pytest.mark.parametrize("ratio", [0.1, 1.0, 10.0])
+def test_steps_that_are_too_long_are_warned_of(folder, scheme, ratio):
+    """From the length on at which temperatures at ends of steps are off by an eighth of their way;
+    a step is named that is shorter."""
+
+    def off(step):
+        with Master(stores(folder, ratio), PAIR, scheme=scheme, step=step) as master:
+            result = master.run(40 * step)
+        share = ratio / (1 + ratio)
+        exact = 1 - share * -np.expm1(-result.time.values / share)
+        return float(np.abs(result["a.y"].values - exact).max() / share), master.notes
+
+    for step in np.geomspace(0.01, 30.0, 12):
+        error, notes = off(step)
+        assert notes or error < 0.125, (step, error)
+        if notes:
+            (note,) = notes
+            assert f"what is passed on over steps of {step:.6g} s is off by" in note
+            named = float(note.split("; steps of ")[1].split(" s")[0])
+            assert named < step
+    calm, notes = off(0.02 * min(ratio, 1.0))
+    assert calm < 0.05 and notes == []
+
+
+def test_steps_that_are_not_stable_are_told_to_be(folder):
+    """|λ| = |e^(−GH/C₂) − GH/C₁| = 1.63 at GH = 2."""
+    with pytest.warns(
+        MasterWarning, match="change 1.[0-9]* times as much in every step: this is not"
+    ):
+        with Master(stores(folder, 1.0), PAIR, scheme="jacobi", step=2.0) as master:
+            master.run(40.0)
+
+
+def test_rings_at_rest_and_what_goes_one_way_are_not_warned_of(folder):
+    a = make(folder, "still", [0.0], [1.0], [1.0], x=[300.0])
+    b = make(folder, "calm", [-1.0], [1.0], [1.0], d=-1.0, x=[300.0], u=300.0)
+    with Master({"a": a, "b": b}, PAIR, scheme="jacobi", step=2.0) as master:
+        master.run(40.0)
+    assert master.notes == []
+    gauge = make(folder, "gauge", [-1.0], [1.0], [1.0])
+    source = make(folder, "source", [-1.0], [0.0], [1.0], x=[300.0])
+    with Master({"s": source, "g": gauge}, [("s.y", "g.u")], scheme="jacobi", step=2.0) as master:
+        master.run(40.0)
+    assert master.notes == []
+
+
+def test_values_that_are_not_finite_end_a_run(folder):
+    with Master(stores(folder, 10.0), PAIR, scheme="jacobi", step=1e3) as master:
+        with pytest.raises(MasterError, match="are not finite"):
+            master.run(3e5)

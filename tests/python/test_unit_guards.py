@@ -159,3 +159,49 @@ def test_saved_states_that_are_damaged_are_refused(pack, folder, fmi):
             assert unit.time == 2e-5
             unit.load(whole)
             assert unit.time == 1e-5
+
+
+DROPS = """
+name = "Drops"
+stop_time = 2e-5
+step = 5e-6
+[body.drop]
+kind = "droplet"
+method = "film"
+diameter = 1e-4
+impact_velocity = 10.0
+initial_temperature = 350.0
+height = 1e-5
+arrivals = [{ x = -APART }, { time = 1e-6, x = APART }]
+[body.drop.fluid]
+density = 1000.0
+viscosity = 4e-3
+specific_heat = 4180.0
+conductivity = 0.6
+surface_tension = 0.05
+[body.plate]
+kind = "solid"
+shape = { box = [1.6e-3, 8e-4, 1e-4] }
+material = { model = "thermoelastic", density = 3950.0, specific_heat = 900.0, conductivity = 10.0 }
+initial_temperature = 300.0
+mesh = { spacing = 4e-5, depth_spacing = 4e-6, growth = 1.4, order = 1 }
+[[coupling]]
+from = "drop"
+to = "plate.top"
+traction = false
+radius = 1.6e-4
+"""
+
+
+@pytest.mark.parametrize(("apart", "is_told"), [("2e-5", True), ("4e-4", False)])
+def test_drops_on_the_film_of_others_are_told_of_as_a_run_ends(folder, apart, is_told):
+    """Records and films know nothing of each other: what they give is not what such drops would."""
+    path = folder / f"drops{apart}.toml"
+    path.write_text(DROPS.replace("APART", apart))
+    heard = []
+    with Unit(path, logger=lambda *told: heard.append(told)) as unit:
+        for _ in range(4):
+            unit.step(5e-6)
+        assert (unit["drop.overlapping"] > 0) == is_told
+    told = [text for status, _, text in heard if "came down on the film of another" in text]
+    assert len(told) == is_told

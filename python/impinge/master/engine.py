@@ -89,6 +89,11 @@ class Engine:
         late = [p.name for p in self.participants if p.answers_late]
         self._stale = self._mask([k for k in self.links if k.source_unit in late])
 
+    @property
+    def is_stale(self) -> bool:
+        """Whether what some outputs said as the step began was no answer to the inputs then."""
+        return bool(self._stale.any())
+
     def drive_after(self, inputs: np.ndarray, time: float, size: float) -> None:
         """Puts the values of functions of time in as a step of `size` begins."""
         for place, function in self.drives:
@@ -160,6 +165,8 @@ class Engine:
             values = participant.read()
             for link in participant.links_out:
                 new = link.transfer(values[participant.sources[link.source]])
+                if not (component.iterates or np.isfinite(new).all()):
+                    raise NoConvergence(f"values of {link.connection.source} are not finite")
                 self.true[link.place] = new
                 if link not in component.guessed:
                     self.guess[link.place] = new
@@ -252,21 +259,40 @@ class Engine:
 
     def error(self, end: float, size: float) -> float:
         """The largest error in time of the last step's paths, in shares of scales."""
-        nodes = [*self.history.nodes, (end, self.true)]
         worst = 0.0
-        time = end - size
         for link in self.links:
             if link.is_mean or not link.is_real or self._stale[link.place].any():
                 continue
-            if self._extrapolated[link.place].any():
-                own = [(at, v[link.place]) for at, v in self.history.last(self.extrapolation + 1)]
-                guess = waveform.path(own, end)[0]
-                error = np.abs(self.true[link.place] - guess)
-            else:
-                own = [(at, values[link.place]) for at, values in nodes]
-                error = waveform.interpolation_error(own, self.order, time, size)
+            error = self._path_error(link, end, size)
             worst = max(worst, float(error.max()) / link.scale(self.true))
         return worst
+
+    def _path_error(self, link: Link, end: float, size: float) -> np.ndarray:
+        nodes = [(at, values[link.place]) for at, values in self.history.nodes]
+        true = self.true[link.place]
+        if self._extrapolated[link.place].any():
+            return np.abs(true - waveform.path(nodes[-self.extrapolation - 1 :], end)[0])
+        nodes.append((end, true))
+        return waveform.interpolation_error(nodes, self.order, end - size, size)
+
+    def mean_error(
+        self, link: Link, earlier: waveform.Nodes, end: float, size: float
+    ) -> np.ndarray | None:
+        """By how much the path that a link's target followed over the last step was off, nearly; of
+        extrapolated ones half of what they are off by at the end. None where it is not known.
+
+        earlier: all inputs at the nodes before the step, where the last step has been accepted.
+        """
+        nodes = [(at, values[link.place]) for at, values in earlier]
+        now = self.history.nodes[-1][1][link.place]
+        if self._extrapolated[link.place].any():
+            error = np.abs(now - waveform.path(nodes[-self.extrapolation - 1 :], end)[0])
+            return error * (1.0 if link.is_mean else 0.5)
+        if link.is_mean:
+            return None
+        if not self.order:
+            return 0.5 * np.abs(now - nodes[-1][1])
+        return waveform.interpolation_error([*nodes, (end, now)], self.order, end - size, size)
 
     def given(self, end: float, size: float) -> np.ndarray:
         """Means over the last step of what outputs say: of the polynomials through their values,

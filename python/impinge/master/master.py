@@ -32,6 +32,7 @@ from impinge.master.graph import best_order, unit_components
 from impinge.master.participant import Participant
 from impinge.master.record import Record
 from impinge.master.stepping import Graded, Schedule
+from impinge.master.watch import Watch
 from impinge.unit import Unit
 
 
@@ -132,6 +133,9 @@ class Master:
         least = step * 1e-9 if least_step is None else least_step
         self._schedule = Schedule(step, graded, jumps, self.adaptive, least, largest_step)
         self._iteration_tolerance = self.tolerance * (0.1 if self.adaptive else 1.0)
+        self._watch = Watch(
+            self.units, self.links, self._exchange.loops, scheme, self._iteration_tolerance
+        )
         self.steps = self.rejected = self.most_iterations = self.unconverged = 0
         self._has_begun = False
 
@@ -266,6 +270,7 @@ class Master:
                     bar.n = self.time
                     bar.set_postfix_str(f"{self.steps} steps", refresh=False)
                     bar.update(0)
+        self._judge()
         return self._record.dataset(self._balances, self._attributes())
 
     def _begin(self, stop: float = np.inf) -> None:
@@ -292,6 +297,7 @@ class Master:
                     " it does not declare to follow no input at once"
                 )
         engine.begin(self.time)
+        self._watch.begin(engine.inputs)
         for balance in self._balances:
             balance.begin()
         self._record.add(self.time, self._balances)
@@ -366,6 +372,7 @@ class Master:
         engine.inputs[:] = new
         self._exchange(engine.inputs, self._iteration_tolerance)
         engine.begin(self.time)
+        self._watch.jump()
         if self.adaptive or self._schedule.graded:
             self._schedule.restart(self.time)
 
@@ -416,6 +423,7 @@ class Master:
             given = engine.given(end, size)
             for balance in self._balances:
                 balance.add(size, engine.arrived, given)
+        earlier, is_stale = list(engine.history.nodes), engine.is_stale
         engine.accept(end)
         self.time = end
         self.steps += 1
@@ -425,10 +433,26 @@ class Master:
         if is_jump or any(c.guessed and not c.iterates for c in self.components):
             self._exchange(engine.inputs, self._iteration_tolerance)
             engine.history.nodes[-1] = (end, engine.inputs.copy())
+        if is_jump or is_stale:
+            self._watch.jump()
+        else:
+            for course in self._watch.courses:
+                error = engine.mean_error(course.link, earlier, end, size)
+                course.add(earlier[-1][1], engine.inputs, error)
         if is_jump:
             engine.begin(end)
             self._schedule.restart(end)
         self._record.add(end, self._balances)
+
+    def _judge(self) -> None:
+        """Warns, once, of steps that are too long for what rings of units pass on."""
+        if self.adaptive or "steps" in self._warned:
+            return
+        guessed = any(c.guessed and not c.iterates for c in self.components)
+        order = self.extrapolation if guessed else self.order
+        if text := self._watch.warning(self._schedule.step, order):
+            self._warned.add("steps")
+            self._note(text)
 
     def _attributes(self) -> dict[str, Any]:
         import impinge
@@ -446,6 +470,7 @@ class Master:
             "iterations": self._engine.iterations,
             "most_iterations": self.most_iterations,
             "unconverged": self.unconverged,
+            "path_error": worst.error if (worst := self._watch.worst) else 0.0,
             "held_inputs": " ".join(self.held),
             "notes": "; ".join(self.notes),
             "impinge": impinge.__version__,

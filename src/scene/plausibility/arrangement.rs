@@ -130,7 +130,12 @@ fn apart(
     }
 }
 
-/// Warns of cells that are narrower than particles, which then tell one cell from the next by chance alone.
+/// Widest cells over the distance of particles that tell a solid apart that the fluid's heat warms by more than half of
+/// what there is: beyond, its middle is off by more than a tenth of its rise.
+const WIDEST_ON_POOR: f64 = 2.0;
+
+/// Warns of cells that are narrower than particles, which then tell one cell from the next by chance alone, and of wide
+/// ones on solids that conduct less than the fluid: within these, flux and temperature differ.
 fn resolved(reviewer: &mut Reviewer, path: &Path, wall: &Wall, droplet: &Droplet) {
     let (key, widths) = match wall.footprint {
         Footprint::Rings { count, radius } => ("rings", vec![radius / count as f64]),
@@ -140,7 +145,8 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, wall: &Wall, droplet: &Droplet
         }
         _ => return,
     };
-    let narrowest = widths.into_iter().fold(f64::INFINITY, f64::min);
+    let narrowest = widths.iter().copied().fold(f64::INFINITY, f64::min);
+    let widest = widths.into_iter().fold(0.0, f64::max);
     if !fits(droplet.spacing, narrowest) {
         let message = format!(
             "cells of {} m are narrower than the film can resolve: particles of `{}` are {} m apart, so that fluxes of \
@@ -149,6 +155,21 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, wall: &Wall, droplet: &Droplet
             wall.under,
             number(droplet.spacing),
             number(2.0 * droplet.spacing)
+        );
+        reviewer.warn(&path.key(key).key("count"), message);
+    }
+    let fluid = &droplet.fluid;
+    let effusivity = (fluid.density * fluid.specific_heat * fluid.conductivity).sqrt();
+    if wall.effusivity.is_some_and(|solid| solid < effusivity)
+        && widest > WIDEST_ON_POOR * droplet.spacing * (1.0 + 1e-9)
+    {
+        let message = format!(
+            "cells of {} m are too wide for a solid that conducts less than the fluid, whose temperature differs within \
+             them: its middle is off by more than 10 % of its rise; did you mean cells of {} m, the distance of particles \
+             of `{}`?",
+            number(widest),
+            number(droplet.spacing),
+            wall.under
         );
         reviewer.warn(&path.key(key).key("count"), message);
     }

@@ -1,3 +1,5 @@
 """The charts of coupling, by name."""
 
-CHARTS = {}
+from cases.coupling.masters import masters
+
+CHARTS = {"masters": masters}

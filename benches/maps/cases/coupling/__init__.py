@@ -1,3 +1,25 @@
 """The maps of coupling, by name."""
 
-MAPS = {}
+from cases.coupling.contact import contact_exchanges, contact_prandtl, contact_spacing
+from cases.coupling.lengths import lengths
+from cases.coupling.lumps import gauss_seidel, iterate, jacobi
+from cases.coupling.records import records
+from cases.coupling.reductions import reductions
+from cases.coupling.rings import rings
+from cases.coupling.slabs import slabs
+from cases.coupling.solids import touching_solids
+
+MAPS = {
+    "coupling_jacobi": jacobi,
+    "coupling_gauss_seidel": gauss_seidel,
+    "coupling_iterate": iterate,
+    "coupling_slabs": slabs,
+    "coupling_rings": rings,
+    "coupling_contact": contact_spacing,
+    "coupling_prandtl": contact_prandtl,
+    "coupling_exchanges": contact_exchanges,
+    "coupling_solids": touching_solids,
+    "coupling_reductions": reductions,
+    "coupling_lengths": lengths,
+    "coupling_records": records,
+}

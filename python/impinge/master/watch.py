@@ -1,0 +1,156 @@
+"""How well rings of units are resolved by steps, judged by what came of these."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import floor, log10
+
+import numpy as np
+
+from impinge.master.connection import Link
+from impinge.master.graph import unit_components
+from impinge.unit import Unit
+
+MOST = 0.1  # of a link's range: the mean error of paths above which a run is warned of
+_FEWEST = 3  # steps that say something
+_NOISE = 1e-9  # of magnitudes: what rings at rest show; or iterations leave, times their tolerance
+_LEFT = 10
+_SETTLED = (0.1, 1e-3)  # factors of what is at rest after one iterated step: held paths, others
+_CALM = 1 / 3  # change of a step that is known to be within `MOST`, of what is left of a change
+
+
+@dataclass
+class Course:
+    """What one link has passed on so far.
+
+    `error` is the mean error of its paths over steps, each weighted by itself, as a share of the
+    range of its values: `Σ e² / (r Σ e)`. A mode that changes by the factor λ a step, held over
+    steps, has `e = |1 − λ| |λ|ⁿ / 2` and so `error = (1 − λ)/(1 + λ)/2` where it decays and
+    `1/(1 + |λ|)/2` where it jumps to and fro; `factor` is the λ that consecutive changes show.
+    """
+
+    link: Link
+    low: np.ndarray
+    high: np.ndarray
+    first: float = 0.0
+    second: float = 0.0
+    steps: int = 0
+    change: np.ndarray | None = None
+    like: float = 0.0
+    square: float = 0.0
+    noise: float = _NOISE
+
+    @property
+    def range(self) -> float:
+        return float((self.high - self.low).max())
+
+    @property
+    def is_at_rest(self) -> bool:
+        return self.range <= self.noise * self.link.largest
+
+    @property
+    def error(self) -> float:
+        if self.steps < _FEWEST or self.is_at_rest or not self.first:
+            return 0.0
+        return self.second / self.first / self.range
+
+    @property
+    def factor(self) -> float:
+        return self.like / self.square if self.square else 0.0
+
+    def forget_change(self) -> None:
+        """Called after a jump: changes across it say nothing of the ring."""
+        self.change = None
+
+    def add(self, before: np.ndarray, after: np.ndarray, error: np.ndarray | None) -> None:
+        """A step that was accepted: all inputs at its ends, and how far the link's path was off."""
+        before, after = before[self.link.place], after[self.link.place]
+        self.low = np.minimum(self.low, after)
+        self.high = np.maximum(self.high, after)
+        change = after - before
+        with np.errstate(over="ignore"):  # what grows without end has said what it has to
+            if self.change is not None:
+                self.like += float(change @ self.change)
+                self.square += float(self.change @ self.change)
+            if error is not None:
+                self.first += float(error.sum())
+                self.second += float(error @ error)
+                self.steps += 1
+        self.change = change
+
+
+class Watch:
+    """The courses of all links within rings of units; others cannot feed back what they err by."""
+
+    def __init__(
+        self,
+        units: Mapping[str, Unit],
+        links: Sequence[Link],
+        loops: Sequence[Sequence[Link]],
+        scheme: str,
+        tolerance: float,
+    ):
+        """`loops` are algebraic: what these pass on is solved for at the ends of steps."""
+        place = {name: i for i, g in enumerate(unit_components(units, links)) for name in g}
+        solved = {id(link) for loop in loops for link in loop}
+        self._links = [
+            link
+            for link in links
+            if link.is_real
+            and place[link.source_unit] == place[link.target_unit]
+            and id(link) not in solved
+        ]
+        self._ring = place
+        self._scheme = scheme
+        self._noise = max(_NOISE, _LEFT * tolerance if scheme == "iterate" else 0.0)
+        self.courses: list[Course] = []
+
+    def begin(self, inputs: np.ndarray) -> None:
+        """Called at the start of the run."""
+        for link in self._links:
+            values = inputs[link.place]
+            self.courses.append(Course(link, values.copy(), values.copy(), noise=self._noise))
+
+    def jump(self) -> None:
+        """Called where inputs jump."""
+        for course in self.courses:
+            course.forget_change()
+
+    @property
+    def worst(self) -> Course | None:
+        """The course whose paths were off most; none where what is passed on is at rest."""
+        still = {self._ring[c.link.source_unit] for c in self.courses if c.is_at_rest}
+        moving = [c for c in self.courses if self._ring[c.link.source_unit] not in still]
+        return max(moving, key=lambda course: course.error, default=None)
+
+    def warning(self, step: float, order: int) -> str:
+        """What to say of steps that are too long, with one that would do; nothing if they are not.
+
+        order: degree of the paths, whose error grows as its successor.
+        """
+        worst = self.worst
+        if worst is None or worst.error <= MOST:
+            return ""
+        factor = worst.factor
+        if self._scheme == "iterate" and abs(factor) < _SETTLED[order > 0]:
+            return ""
+        share = min((MOST / worst.error) ** (1 / (order + 1)), _CALM / max(1 - factor, _CALM))
+        if abs(factor) > 1:
+            shown = (
+                f"values change {abs(factor):.2g} times as much in every step: this is not stable"
+            )
+        elif factor < 0:
+            shown = "values jump to and fro from step to step"
+        else:
+            shown = f"a change shrinks to {factor:.2g} of itself in every step"
+        digit = 10.0 ** floor(log10(step * share))
+        wanted = f"steps of {floor(step * share / digit) * digit:.1g} s or less"
+        if self._scheme != "iterate":
+            wanted += ', or scheme="iterate" with some between,'
+        link = worst.link.connection
+        return (
+            f"{link.source} -> {link.target}: what is passed on over steps of {step:.6g} s is off"
+            f" by {100 * worst.error:.0f} % of its range, above {100 * MOST:.0f} %; {shown};"
+            f" {wanted} are needed"
+        )
