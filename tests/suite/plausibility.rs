@@ -328,7 +328,6 @@ fn cells_narrower_than_particles_are_warned_of() {
     }
 }
 
-<<<<<<< HEAD
 /// By the fit of its largest spread the film gets 58 µm thin.
 #[test]
 fn films_thinner_than_particles_are_warned_of() {
@@ -354,7 +353,9 @@ fn kernels_whose_particles_form_pairs_are_warned_of() {
     assert!(said.len() == 1 && said[0].contains("form pairs beyond a support of 2.35"), "{said:?}");
     for (name, support) in [("cubic_spline", 2.35), ("wendland_c2", 6.0), ("quintic_spline", 3.0)] {
         assert_eq!(kernel(name, support), [""; 0]);
-=======
+    }
+}
+
 /// Under cells of three particles the middle of a polymer is off by a sixth of its rise (`docs/maps/coupling.md`).
 #[test]
 fn cells_too_wide_for_solids_that_conduct_less_than_the_fluid_are_warned_of() {
@@ -370,7 +371,6 @@ fn cells_too_wide_for_solids_that_conduct_less_than_the_fluid_are_warned_of() {
             assert!(said[0].contains(wanted), "{said:?}");
             assert!(said[0].contains("did you mean cells of 5e-5 m"), "{said:?}");
         }
->>>>>>> coupling/main
     }
 }
 

@@ -2,11 +2,8 @@
 //! that were forgotten. Nothing here is refused; each finding is a [`Warning`].
 
 mod arrangement;
-<<<<<<< HEAD
 mod moved;
-=======
 mod particles;
->>>>>>> fluids/main
 mod relations;
 mod values;
 
