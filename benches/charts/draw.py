@@ -10,7 +10,8 @@ from chart import Chart, Outcome
 from table import error, key
 
 COLOURS = ["#20306b", "#b0303c", "#e08214", "#2a8a7f", "#7b7b7b", "#8e5ea2", "#3b8bc4", "#a0752d"]
-MARKERS = "osD^vPX*"
+COLOURS += ["#d65f9e", "#111111", "#6b8e23", "#c9a400"]
+MARKERS = "osD^vPX*<>ph"
 SMALLEST = 1e-9
 """Errors are not drawn below: rounding, and the references' own."""
 

@@ -441,3 +441,15 @@ fn a_load_that_an_input_moves_off_the_fine_mesh_is_warned_of() {
     let even = edited(&text, "spacing = 2e-6", "growth = 1.0, spacing = 2e-6");
     assert_eq!(told(&even, -5e-4), None);
 }
+
+#[test]
+fn plates_too_slender_to_bend_are_warned_of() {
+    let read = "\n[[probe]]\nname = \"p\"\nin = \"plate\"\nat = [0.0, 0.0, 0.0]\ngives = [\"displacement\"]\n";
+    let wide = edited(&plate(ALUMINA), "box = [2e-3, 2e-3,", "box = [2.0, 2e-3,");
+    let told = |text: &str| warnings(text).iter().any(|w| w.contains("times as wide as thick"));
+    assert!(told(&format!("{wide}{read}")));
+    assert!(!told(&wide), "nothing asks for a displacement");
+    assert!(!told(&format!("{}{read}", plate(ALUMINA))));
+    let flat = edited(&wide, "bottom = {", "bottom = { roller = true,");
+    assert!(!told(&format!("{flat}{read}")), "it does not bend");
+}

@@ -47,9 +47,9 @@ def run_euler(work: Work) -> Answer:
 
 def particle_euler() -> Map:
     limit = Boundary(
-        "2/λ of the fastest wave on a lattice",
+        "2/λ of the fastest wave",
         lambda support: 2.0 / fastest_decay(support),
-        "von Neumann's analysis, own symbol",
+        "von Neumann",
     )
     return Map(
         name="particle_euler",

@@ -3,21 +3,21 @@
 from plan import Answer, Axis, Map, Work
 from unit_run import run_unit, unit_work
 
-from cases.solids.plates import DIFFUSIVITY, START, geometric, probe, scene
+from cases.solids.plates import DIFFUSIVITY, START, probe, scene
 
 SPACING, LAYERS, WARMER, FLUX = 10e-6, 16, 100.0, 1e7  # m, 1, K, W/m²
 KINDS = [
-    ("linear elements, flux", {"order": 1}, "fem", {"flux": FLUX}),
-    ("quadratic elements, flux", {"order": 2}, "fem", {"flux": FLUX}),
-    ("particles, flux", {}, "sph", {"flux": FLUX}),
-    ("linear elements, held", {"order": 1}, "fem", {"temperature": START + WARMER}),
-    ("quadratic elements, held", {"order": 2}, "fem", {"temperature": START + WARMER}),
-    ("particles, held", {}, "sph", {"temperature": START + WARMER}),
+    ("linear,\nflux", {"order": 1}, "fem", {"flux": FLUX}),
+    ("quadratic,\nflux", {"order": 2}, "fem", {"flux": FLUX}),
+    ("particles,\nflux", {}, "sph", {"flux": FLUX}),
+    ("linear,\nheld", {"order": 1}, "fem", {"temperature": START + WARMER}),
+    ("quadratic,\nheld", {"order": 2}, "fem", {"temperature": START + WARMER}),
+    ("particles,\nheld", {}, "sph", {"temperature": START + WARMER}),
 ]
 DEPTHS = [0.25 * SPACING * place for place in range(25)]
 
 
-def slab(reach: float, kind: float) -> Work:
+def slab(kind: float, reach: float) -> Work:
     """One step of such a length that √(aΔt) is so many distances of nodes."""
     _, mesh, heat, face = KINDS[int(kind)]
     step = (reach * SPACING) ** 2 / DIFFUSIVITY
@@ -42,14 +42,14 @@ def sudden_heat() -> Map:
     return Map(
         name="sudden_heat",
         title="Cold beside sudden heat",
-        x=Axis("√(aΔt) over the distance of nodes", "1", geometric(0.03, 3.0, 11)),
-        y=Axis(
-            "method and face",
-            "1",
+        x=Axis(
+            "elements or particles, and the face",
+            "",
             [float(place) for place in range(len(KINDS))],
             is_logarithmic=False,
             labels=[kind[0] for kind in KINDS],
         ),
+        y=Axis("√(aΔt) over the distance of nodes", "1", [0.03, 0.0754, 0.189, 0.475, 1.19, 3.0]),
         outcome="undershoot below the start, over the rise",
         unit="1",
         bad=0.01,
