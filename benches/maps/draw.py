@@ -113,7 +113,7 @@ def lines(axes, of: Map, known: Known) -> list[Line2D]:
 
 
 def label(axis: Axis) -> str:
-    return f"{axis.name} [{axis.unit}]"
+    return f"{axis.name} [{axis.unit}]" if axis.unit else axis.name
 
 
 def prepare(axes, of: Map) -> None:

@@ -60,7 +60,7 @@ def spreads() -> Map:
     return Map(
         name="spreads",
         title=f"Spread of whole impacts, {across:g} particles across",
-        x=Axis("Weber number", "1", [3, 10, 30, 100, 300, 1000, 3000]),
+        x=Axis("Weber number", "1", [3, 10, 30, 100, 300, 1000]),
         y=Axis("Ohnesorge number", "1", [0.003, 0.01, 0.03, 0.1, 0.3]),
         outcome="largest spread off a fit of measurements",
         unit="1",
@@ -86,7 +86,7 @@ def sound_speed() -> Map:
     return Map(
         name="sound_speed",
         title="Speed of sound that a scene asks for",
-        x=Axis("speed of sound over that of the drop", "1", [3.0, 4.0, 5.0, 7.0, 10.0, 14.0, 20.0]),
+        x=Axis("speed of sound over that of the drop", "1", [4.0, 5.0, 7.0, 10.0, 14.0, 20.0]),
         y=of_quantities(),
         outcome="off that at thirty times the drop's speed",
         unit="1",
@@ -131,7 +131,7 @@ def diffusion() -> Map:
     return Map(
         name="diffusion",
         title="Density diffusion that a scene asks for",
-        x=Axis("density diffusion δ", "1", [0.0, 0.01, 0.03, 0.1, 0.2, 0.4, 0.7, 1.0], False),
+        x=Axis("density diffusion δ", "1", [0.0, 0.03, 0.1, 0.3, 0.6, 1.0], False),
         y=of_quantities(),
         outcome="off that of 64 particles across",
         unit="1",
@@ -152,11 +152,11 @@ def resolution() -> Map:
     return Map(
         name="resolution",
         title="Particles across a drop and what is read of it",
-        x=Axis("particles across D/Δx", "1", [3, 6, 8, 10, 12, 16, 20, 24, 32, 40]),
+        x=Axis("particles across D/Δx", "1", [3, 6, 8, 10, 12, 16, 20, 24, 32]),
         y=of_quantities(),
         outcome="off that of 64 particles across",
         unit="1",
-        bad=0.25,
+        bad=0.3,
         work=work,
         run=run_unit,
         judge=partial(off, FINE),
@@ -181,7 +181,7 @@ def films() -> Map:
     return Map(
         name="films",
         title="Heat of films by their particles",
-        x=Axis("particles across D/Δx", "1", [6, 8, 10, 12, 16, 20, 24, 32]),
+        x=Axis("particles across D/Δx", "1", [6, 8, 10, 12, 16, 20, 24]),
         y=Axis(
             "We, Re",
             "",
@@ -219,6 +219,4 @@ def references() -> None:
         print(heats, flush=True)
 
 
-MAPS = {
-    of.__name__: of for of in (spreads, sound_speed, kernels, diffusion, resolution, films)
-}
+MAPS = {of.__name__: of for of in (spreads, sound_speed, kernels, diffusion, resolution, films)}

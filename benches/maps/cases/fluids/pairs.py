@@ -35,7 +35,7 @@ def pairing() -> Map:
             shifting=shifting,
             pressure=PRESSURE,
             cells="hexagonal",
-            steps=4000,
+            steps=3000,
             across=14,
         )
 
@@ -45,7 +45,7 @@ def pairing() -> Map:
         x=Axis(
             "support H over the distance of particles Δx",
             "1",
-            [2.0, 2.25, 2.5, 3.0, 3.5, 4.0, 5.0],
+            [2.0, 2.25, 2.5, 3.0, 4.0, 5.0],
             False,
         ),
         y=Axis("kernel", "", list(range(len(rows))), False, labels),
