@@ -1,4 +1,4 @@
-"""Taylor and Green's vortices at Re 100: how right are velocities and decay, beside another code?"""
+"""Taylor and Green's vortices at Re 100: how right are velocities and decay, beside PySPH?"""
 
 from chart import Chart, Method, Point, ProgramRun, Quantity
 

@@ -1,11 +1,13 @@
-"""What comes of impacts at a scene's own settings, and how that depends on particles and on sound."""
+"""What comes of impacts in scenes, and how that depends on particles, kernels and sound."""
 
 from functools import partial
+
+from plan import Answer, Axis, Map
+from unit_run import run_unit
 
 from cases.fluids.drops import (
     DIAMETER,
     HEMISPHERE,
-    film,
     impact,
     impact_work,
     largest_spread,
@@ -13,13 +15,9 @@ from cases.fluids.drops import (
     ohnesorge_of,
     speed_of,
 )
-from plan import Answer, Axis, Boundary, Map
-from unit_run import run_unit
 
 QUANTITIES = ["impulse_z", "spread_diameter", "height", "heat"]
 LABELS = ["impulse", "spread", "height", "heat"]
-THINNEST = 1.5
-"""Particles over the film below which scenes are warned of (`src/scene/plausibility/particles.rs`)."""
 
 
 def case(weber: float, reynolds: float, across: float, stop: float, **body) -> dict:

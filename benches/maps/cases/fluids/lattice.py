@@ -1,9 +1,10 @@
-"""Small waves of smoothed particles on a lattice: what one time step of the droplet method makes of them.
+"""Small waves of smoothed particles on a lattice: what a time step of droplets makes of them.
 
-The method linearised about fluid at rest under a pressure p₀, for a wave e^(ik·x) (von Neumann's analysis; of smoothed
-particles Morris 1996, Publ. Astron. Soc. Aust. 13, 97–102; Dehnen & Aly 2012, Mon. Not. R. Astron. Soc. 425, 1068–1082,
-doi 10.1111/j.1365-2966.2012.21439.x). Lengths are over the support radius H, speeds over that of sound c₀, densities
-over ρ₀. With F = w′(q)/q, sums over the neighbours j, x from these to the particle:
+The method linearised about fluid at rest under a pressure p₀, for a wave e^(ik·x) (von Neumann's
+analysis; of smoothed particles Morris 1996, Publ. Astron. Soc. Aust. 13, 97–102; Dehnen & Aly 2012,
+Mon. Not. R. Astron. Soc. 425, 1068–1082, doi 10.1111/j.1365-2966.2012.21439.x). Lengths are over
+the support radius H, speeds over that of sound c₀, densities over ρ₀. With F = w′(q)/q, sums over
+the neighbours j, x from these to the particle:
 
     s = Σ V F x sin k·x,  D = −Σ V F (1 − cos k·x),  N = −η Σ V F x⊗x (1 − cos k·x),
     K = 2p₀ Σ V ∇∇W (1 − cos k·x),  m = −Σ V F x⊗x,
@@ -70,7 +71,7 @@ class Lattice:
     support: float = 3.0
     """H over the distance of particles."""
     cells: str = "square"
-    """`square`, `hexagonal` or `cubic`; the distance is that of a square or cube of equal volume."""
+    """`square`, `hexagonal` or `cubic`; the distance is that of a square or cube as large."""
 
     @property
     def dimension(self) -> int:
@@ -161,7 +162,7 @@ def growth(
     pressure: float = 0.0,
     count: int = 12,
 ) -> float:
-    """The factor by which the fastest of all waves grows in a time step of dt c₀/H, for ν/(c₀H) and p₀/(ρ₀c₀²)."""
+    """Growth of the fastest wave in a time step of dt c₀/H, for ν/(c₀H) and p₀/(ρ₀c₀²)."""
     d, w = of.dimension, sums(of, count)
     compressed = (1.0 + GAMMA * pressure) ** (1.0 / GAMMA)
     stiff = compressed ** (GAMMA - 1.0) - 2.0 * pressure / compressed

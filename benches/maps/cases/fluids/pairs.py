@@ -1,8 +1,9 @@
 """Where particles form pairs under pressure and clump under tension."""
 
+from plan import Axis, Map
+
 from cases.fluids.flow_limits import run_flow
 from cases.fluids.small_waves import COURANT, KERNELS, map_of_pressures, work
-from plan import Axis, Map
 
 PRESSURE = 0.05
 

@@ -5,9 +5,10 @@ from functools import cache
 from math import exp, inf, log
 
 import numpy as np
+from plan import Answer, Axis, Boundary, Map
+
 from cases.fluids.flow_limits import run_flow
 from cases.fluids.lattice import SHAPES, Lattice, growth, largest, mean_slope, second_moment
-from plan import Answer, Axis, Boundary, Map
 
 ACROSS, STEPS, GROWN = 24, 300, 100.0
 """Particles along a side, time steps, and growth of noise that counts as one."""

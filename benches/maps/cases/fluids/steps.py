@@ -1,7 +1,8 @@
 """How long a time step may be: sound over the support, density diffusion, viscosity."""
 
-from cases.fluids.small_waves import KERNELS, map_of_steps, own_step
 from plan import Axis, Map
+
+from cases.fluids.small_waves import KERNELS, map_of_steps, own_step
 
 STEP = "time step Δt c₀/H"
 
