@@ -107,7 +107,11 @@ def kernels() -> Map:
     return Map(
         name="kernels",
         title="Heat of an impact by kernel and support",
-        x=Axis("support H over the distance of particles Δx", "1", [2, 2.25, 2.5, 3, 3.5, 4, 5, 6]),
+        x=Axis(
+            "support H over the distance of particles Δx",
+            "1",
+            [2.0, 2.25, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0],
+        ),
         y=Axis("kernel", "", list(range(len(names))), False, names),
         outcome="heat off that of 64 particles across",
         unit="1",

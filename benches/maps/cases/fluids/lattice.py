@@ -152,7 +152,7 @@ def mean_slope(kernel: str, dimension: int) -> float:
     return float(-sphere * np.mean(slope(q) * q ** (dimension - 1)))
 
 
-def growth(
+def amplification(
     of: Lattice,
     step: float,
     *,
@@ -161,8 +161,8 @@ def growth(
     viscosity: float = 0.0,
     pressure: float = 0.0,
     count: int = 12,
-) -> float:
-    """Growth of the fastest wave in a time step of dt c₀/H, for ν/(c₀H) and p₀/(ρ₀c₀²)."""
+) -> np.ndarray:
+    """What a time step of dt c₀/H makes of each wave, for ν/(c₀H) and p₀/(ρ₀c₀²)."""
     d, w = of.dimension, sums(of, count)
     compressed = (1.0 + GAMMA * pressure) ** (1.0 / GAMMA)
     stiff = compressed ** (GAMMA - 1.0) - 2.0 * pressure / compressed
@@ -203,7 +203,19 @@ def growth(
 
     for change in (kick, drift, dense, accelerate, kick):
         then(change)
-    return float(np.abs(np.linalg.eigvals(whole)).max())
+    return whole
+
+
+def growth(of: Lattice, step: float, **settings) -> float:
+    """Of the fastest wave in a time step."""
+    return float(np.abs(np.linalg.eigvals(amplification(of, step, **settings))).max())
+
+
+def noise(of: Lattice, step: float, steps: int, **settings) -> float:
+    """Growth of random velocities, which all waves have the same share of, in so many steps."""
+    waves = np.linalg.matrix_power(amplification(of, step, **settings), steps)
+    velocities = waves[:, : of.dimension, : of.dimension]
+    return float(np.sqrt(np.mean(np.sum(np.abs(velocities) ** 2, axis=(1, 2))) / of.dimension))
 
 
 def largest(is_stable: Callable, low: float, high: float, ratio: float = 1.002) -> float:
