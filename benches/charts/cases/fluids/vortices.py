@@ -45,7 +45,6 @@ def vortices() -> Chart:
         Method("H = 4Δx, double precision", ours(sides, support=4.0, precision="double")),
         Method("Wendland C4, H = 4Δx", ours(sides, support=4.0, kernel="wendland_c4")),
         Method("H = 3Δx, not shifted", ours(sides, shifting=False)),
-        Method("PySPH, transport velocity", theirs("tvf", [12, 18, 25, 36, 50])),
         Method("PySPH, entropically damped", theirs("edac", [12, 18, 25, 36, 50])),
         Method("PySPH, weakly compressible", theirs("wcsph", [12, 18, 25, 36, 50])),
     ]
