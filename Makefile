@@ -79,9 +79,11 @@ bench: build $(VENV)/ready-verify ## time against an independent finite-element 
 	cargo bench --bench elastic_iterations
 
 charts: build $(VENV)/ready-verify $(PEERS)/ready ## chart errors over time, level beside level; goes on where it was stopped
+	cargo build --release --bench flow_limits
 	OMP_NUM_THREADS=1 $(BIN)/python benches/charts/run.py
 
 maps: build $(VENV)/ready ## map where methods fail over two settings each, beside theory; goes on where it was stopped
+	cargo build --release --bench flow_limits
 	OMP_NUM_THREADS=1 $(BIN)/python benches/maps/run.py
 
 bench-droplet: $(PEERS)/ready ## time droplets against two other particle codes (needs g++ and OpenGL's libraries)

@@ -331,7 +331,7 @@ impl Run {
         Ok(flow)
     }
 
-    /// Frequency and decay of a swing, in Rayleigh periods, and what has come off.
+    /// Frequency and decay of a swing over those of the normal mode, and what has come off.
     fn swing(&self, values: &mut Values) -> Result<Flow, Failure> {
         let viscosity = capillary::viscosity(self.ohnesorge);
         let mut plan = DropletPlan {
@@ -367,10 +367,8 @@ impl Run {
         if self.stop > 1.0 {
             let exact = exact.map(|rate| rate * capillary::period());
             let [decay, frequency] = capillary::fitted(&rows, exact);
-            values.keep("decay", decay);
-            values.keep("frequency", frequency);
-            values.keep("exact_decay", exact[0]);
-            values.keep("exact_frequency", exact[1]);
+            values.keep("decay", decay / exact[0]);
+            values.keep("frequency", frequency / exact[1]);
         }
         Ok(flow)
     }

@@ -351,7 +351,8 @@ fn kernels_whose_particles_form_pairs_are_warned_of() {
     };
     let said = kernel("cubic_spline", 3.0);
     assert!(said.len() == 1 && said[0].contains("form pairs beyond a support of 2.35"), "{said:?}");
-    for (name, support) in [("cubic_spline", 2.35), ("wendland_c2", 6.0), ("quintic_spline", 3.0)] {
+    assert_eq!(kernel("quintic_spline", 4.0).len(), 1);
+    for (name, support) in [("cubic_spline", 2.35), ("wendland_c2", 6.0), ("quintic_spline", 3.5)] {
         assert_eq!(kernel(name, support), [""; 0]);
     }
 }

@@ -6,10 +6,6 @@ use crate::scene::check::number;
 use crate::scene::droplet::Droplet;
 use crate::scene::locate::Path;
 
-/// Widest support of the cubic spline, in distances of particles, at which no pairs form under pressure: a waves' analysis
-/// finds 2.3 for particles in closest packing and 2.4 in a plane; 55 neighbours by W. Dehnen & H. Aly (2012, Mon. Not. R.
-/// Astron. Soc. 425, 1068–1082, doi 10.1111/j.1365-2966.2012.21439.x), who find none for Wendland's kernels.
-const WIDEST_CUBIC: f64 = 2.35;
 /// Distances of particles over the thickness of a film below which its heat is too low by more than a fifth.
 const THINNEST: f64 = 1.5;
 /// What is proposed instead: a tenth too low.
@@ -26,14 +22,26 @@ pub fn review(reviewer: &mut Reviewer) {
     }
 }
 
+/// Widest support of a spline, in distances of particles, at which no pairs form under pressure: that of 55 neighbours
+/// and of 180 (W. Dehnen & H. Aly 2012, Mon. Not. R. Astron. Soc. 425, 1068–1082, doi
+/// 10.1111/j.1365-2966.2012.21439.x). Under Wendland's kernels none form.
+fn widest_support(kernel: Kernel) -> Option<(&'static str, f64)> {
+    match kernel {
+        Kernel::CubicSpline => Some(("cubic", 2.35)),
+        Kernel::QuinticSpline => Some(("quintic", 3.5)),
+        Kernel::WendlandC2 | Kernel::WendlandC4 => None,
+    }
+}
+
 /// Warns of a kernel under which particles form pairs.
 fn pairs(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
-    if droplet.kernel != Kernel::CubicSpline || droplet.support <= WIDEST_CUBIC {
+    let Some((spline, widest)) = widest_support(droplet.kernel) else { return };
+    if droplet.support <= widest {
         return;
     }
     let message = format!(
-        "under pressure, particles of the cubic spline form pairs beyond a support of {WIDEST_CUBIC} distances ({} here), \
-         and tell as little as half as many; did you mean `kernel = \"wendland_c2\"`, or `support = {WIDEST_CUBIC}`?",
+        "under pressure, particles of the {spline} spline form pairs beyond a support of {widest} distances ({} here), \
+         and tell as little as half as many; did you mean `kernel = \"wendland_c2\"`, or `support = {widest}`?",
         number(droplet.support)
     );
     reviewer.warn(&path.key("kernel"), message);

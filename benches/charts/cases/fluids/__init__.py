@@ -1,3 +1,6 @@
 """The charts of fluids, by name."""
 
-CHARTS = {}
+from cases.fluids.swing import swing
+from cases.fluids.vortices import vortices
+
+CHARTS = {of.__name__: of for of in (vortices, swing)}

@@ -1,6 +1,6 @@
 """Drops that hit a wall of rings, as scenes, and what is known of them."""
 
-from math import pi, sqrt
+from math import sqrt
 
 from unit_run import equal_steps, unit_work
 
@@ -72,23 +72,13 @@ def impact_work(scene: dict, outputs: list[str], steps: int = 40) -> dict:
 
 
 def largest_spread(weber: float, reynolds: float, at_rest: float) -> float:
-    """D_max/D, between measurements (Lee et al. 2016, J. Fluid Mech. 786, R4, doi 10.1017/jfm.2015.620).
+    """D_max/D by a fit of measurements.
 
-    `√(β² − β₀²) = Re^(1/5) √We/(7.6 + √We)` with β₀ of a drop at rest."""
+    `√(β² − β₀²) = Re^(1/5) √We/(7.6 + √We)` with β₀ of a drop at rest (Lee et al.
+    2016, J. Fluid Mech. 786, R4, doi 10.1017/jfm.2015.620)."""
     root = sqrt(weber)
     return sqrt(at_rest**2 + (reynolds**0.2 * root / (7.6 + root)) ** 2)
 
 
 HEMISPHERE = 2.0 ** (1.0 / 3.0)
 """Diameter over D of a drop at rest that meets the wall at 90°."""
-
-
-def film(spread: float) -> float:
-    """Mean thickness over D of the disc of fluid: the drop's volume over its area."""
-    return 2.0 / 3.0 / spread**2
-
-
-def heat_of_half_space(fluid: dict, time: float, area: float) -> float:
-    """What a half space of the fluid gives to a wall that is held at a temperature: `2 e ΔT A √(t/π)`."""
-    effusivity = sqrt(fluid["density"] * fluid["specific_heat"] * fluid["conductivity"])
-    return 2.0 * effusivity * (HOT - COLD) * area * sqrt(time / pi)

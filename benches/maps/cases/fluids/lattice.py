@@ -1,9 +1,10 @@
-"""Small waves of smoothed particles on a lattice: what one time step of the droplet method makes of them.
+"""Small waves of smoothed particles on a lattice: what a time step of droplets makes of them.
 
-The method linearised about fluid at rest under a pressure p₀, for a wave e^(ik·x) (von Neumann's analysis; of smoothed
-particles Morris 1996, Publ. Astron. Soc. Aust. 13, 97–102; Dehnen & Aly 2012, Mon. Not. R. Astron. Soc. 425, 1068–1082,
-doi 10.1111/j.1365-2966.2012.21439.x). Lengths are over the support radius H, speeds over that of sound c₀, densities
-over ρ₀. With F = w′(q)/q, sums over the neighbours j, x from these to the particle:
+The method linearised about fluid at rest under a pressure p₀, for a wave e^(ik·x) (von Neumann's
+analysis; of smoothed particles Morris 1996, Publ. Astron. Soc. Aust. 13, 97–102; Dehnen & Aly 2012,
+Mon. Not. R. Astron. Soc. 425, 1068–1082, doi 10.1111/j.1365-2966.2012.21439.x). Lengths are over
+the support radius H, speeds over that of sound c₀, densities over ρ₀. With F = w′(q)/q, sums over
+the neighbours j, x from these to the particle:
 
     s = Σ V F x sin k·x,  D = −Σ V F (1 − cos k·x),  N = −η Σ V F x⊗x (1 − cos k·x),
     K = 2p₀ Σ V ∇∇W (1 − cos k·x),  m = −Σ V F x⊗x,
@@ -70,7 +71,7 @@ class Lattice:
     support: float = 3.0
     """H over the distance of particles."""
     cells: str = "square"
-    """`square`, `hexagonal` or `cubic`; the distance is that of a square or cube of equal volume."""
+    """`square`, `hexagonal` or `cubic`; the distance is that of a square or cube as large."""
 
     @property
     def dimension(self) -> int:
@@ -151,7 +152,7 @@ def mean_slope(kernel: str, dimension: int) -> float:
     return float(-sphere * np.mean(slope(q) * q ** (dimension - 1)))
 
 
-def growth(
+def amplification(
     of: Lattice,
     step: float,
     *,
@@ -160,8 +161,8 @@ def growth(
     viscosity: float = 0.0,
     pressure: float = 0.0,
     count: int = 12,
-) -> float:
-    """The factor by which the fastest of all waves grows in a time step of dt c₀/H, for ν/(c₀H) and p₀/(ρ₀c₀²)."""
+) -> np.ndarray:
+    """What a time step of dt c₀/H makes of each wave, for ν/(c₀H) and p₀/(ρ₀c₀²)."""
     d, w = of.dimension, sums(of, count)
     compressed = (1.0 + GAMMA * pressure) ** (1.0 / GAMMA)
     stiff = compressed ** (GAMMA - 1.0) - 2.0 * pressure / compressed
@@ -202,7 +203,19 @@ def growth(
 
     for change in (kick, drift, dense, accelerate, kick):
         then(change)
-    return float(np.abs(np.linalg.eigvals(whole)).max())
+    return whole
+
+
+def growth(of: Lattice, step: float, **settings) -> float:
+    """Of the fastest wave in a time step."""
+    return float(np.abs(np.linalg.eigvals(amplification(of, step, **settings))).max())
+
+
+def noise(of: Lattice, step: float, steps: int, **settings) -> float:
+    """Growth of random velocities, which all waves have the same share of, in so many steps."""
+    waves = np.linalg.matrix_power(amplification(of, step, **settings), steps)
+    velocities = waves[:, : of.dimension, : of.dimension]
+    return float(np.sqrt(np.mean(np.sum(np.abs(velocities) ** 2, axis=(1, 2))) / of.dimension))
 
 
 def largest(is_stable: Callable, low: float, high: float, ratio: float = 1.002) -> float:

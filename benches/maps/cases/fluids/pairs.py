@@ -1,8 +1,9 @@
 """Where particles form pairs under pressure and clump under tension."""
 
+from plan import Axis, Map
+
 from cases.fluids.flow_limits import run_flow
 from cases.fluids.small_waves import COURANT, KERNELS, map_of_pressures, work
-from plan import Axis, Map
 
 PRESSURE = 0.05
 
@@ -35,7 +36,7 @@ def pairing() -> Map:
             shifting=shifting,
             pressure=PRESSURE,
             cells="hexagonal",
-            steps=4000,
+            steps=3000,
             across=14,
         )
 
@@ -45,7 +46,7 @@ def pairing() -> Map:
         x=Axis(
             "support H over the distance of particles Δx",
             "1",
-            [2.0, 2.25, 2.5, 3.0, 3.5, 4.0, 5.0],
+            [2.0, 2.25, 2.5, 3.0, 4.0, 5.0],
             False,
         ),
         y=Axis("kernel", "", list(range(len(rows))), False, labels),

@@ -5,9 +5,10 @@ from functools import cache
 from math import exp, inf, log
 
 import numpy as np
-from cases.fluids.flow_limits import run_flow
-from cases.fluids.lattice import SHAPES, Lattice, growth, largest, mean_slope, second_moment
 from plan import Answer, Axis, Boundary, Map
+
+from cases.fluids.flow_limits import run_flow
+from cases.fluids.lattice import SHAPES, Lattice, growth, largest, mean_slope, noise, second_moment
 
 ACROSS, STEPS, GROWN = 24, 300, 100.0
 """Particles along a side, time steps, and growth of noise that counts as one."""
@@ -96,7 +97,9 @@ def map_of_pressures(name: str, title: str, kernel: str, sign: float, cells: str
     def onset(support: float) -> float:
         of = Lattice(kernel, support, cells)
         return largest(
-            lambda p: is_stable(of, COURANT, pressure=sign * p), 1e-5, 1.0 if sign > 0 else 0.1
+            lambda p: noise(of, COURANT, STEPS, pressure=sign * p) < GROWN,
+            1e-5,
+            1.0 if sign > 0 else 0.1,
         )
 
     return Map(

@@ -1,7 +1,8 @@
 """How long a time step may be: sound over the support, density diffusion, viscosity."""
 
-from cases.fluids.small_waves import KERNELS, map_of_steps, own_step
 from plan import Axis, Map
+
+from cases.fluids.small_waves import KERNELS, map_of_steps, own_step
 
 STEP = "time step Δt c₀/H"
 
@@ -10,7 +11,12 @@ def sound_step() -> Map:
     return map_of_steps(
         "sound_step",
         "Time step of sound",
-        Axis("support H over the distance of particles Δx", "1", [2, 2.5, 3, 3.5, 4, 5, 6], False),
+        Axis(
+            "support H over the distance of particles Δx",
+            "1",
+            [2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0],
+            False,
+        ),
         Axis(STEP, "1", [0.1, 0.2, 0.3, 0.45, 0.6, 0.8, 1.0, 1.3]),
         lambda x: {"support": x},
         lambda x: own_step("wendland_c2"),

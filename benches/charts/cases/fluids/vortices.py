@@ -1,0 +1,53 @@
+"""Taylor and Green's vortices at Re 100: how right are velocities and decay, beside PySPH?"""
+
+from chart import Chart, Method, Point, ProgramRun, Quantity
+
+REYNOLDS, STOP = 100.0, 0.5
+ERROR, DECAY = "error of velocities", "rate of decay"
+NAMES = {"velocity_error": ERROR, "decay": DECAY}
+
+
+def ours(sides: list[int], **settings) -> list[Point]:
+    """So many particles along the side, on a tilted lattice of 5 m² particles."""
+    points = []
+    for m in sides:
+        work = {
+            "flow": "vortices",
+            "across": m,
+            "reynolds": REYNOLDS,
+            "stop": STOP,
+            "shifting": True,
+            "names": NAMES,
+        }
+        across = f"{5**0.5 * m:.0f}"
+        points.append(Point(across, ProgramRun("flow_limits.py", work | settings)))
+    return points
+
+
+def theirs(scheme: str, sides: list[int]) -> list[Point]:
+    work = {"scheme": scheme, "reynolds": REYNOLDS, "stop": STOP}
+    return [
+        Point(
+            str(side),
+            ProgramRun("pysph_vortices.py", work | {"side": side}, environment=".venv-peers"),
+        )
+        for side in sides
+    ]
+
+
+def vortices() -> Chart:
+    source = "closed form, Taylor & Green 1937, doi 10.1098/rspa.1937.0036"
+    quantities = [Quantity(ERROR, "1", 0.0, 1.0, source), Quantity(DECAY, "1", 1.0, 1.0, source)]
+    sides = [5, 7, 10, 14, 20]
+    methods = [
+        Method("H = 3Δx, single precision", ours(sides)),
+        Method("H = 4Δx, single precision", ours(sides, support=4.0)),
+        Method("H = 4Δx, double precision", ours(sides, support=4.0, precision="double")),
+        Method("Wendland C4, H = 4Δx", ours(sides, support=4.0, kernel="wendland_c4")),
+        Method("H = 3Δx, not shifted", ours(sides, shifting=False)),
+        Method("PySPH, entropically damped", theirs("edac", [12, 18, 25, 36, 50])),
+        Method("PySPH, weakly compressible", theirs("wcsph", [12, 18, 25, 36, 50])),
+    ]
+    return Chart(
+        "vortices", "Taylor and Green's vortices, Re 100, after half a turn", quantities, methods
+    )
