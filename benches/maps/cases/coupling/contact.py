@@ -58,7 +58,7 @@ def layer(name: str, title: str, x: Axis, y: Axis, of) -> Map:
         work=of,
         run=run,
         judge=error,
-        colours=(1e-3, 0.3),
+        colours=(1e-4, 0.05),
     )
 
 
