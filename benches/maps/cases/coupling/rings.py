@@ -34,6 +34,7 @@ def work(width: float, across: float) -> Work:
     """One scene, and its halves."""
     spacing = DIAMETER / across
     general = {"name": "Halves", "stop_time": STOP, "step": STOP / STEPS}
+    general["fidelity"] = {"tolerance": 0.9}
     drop = {
         "kind": "droplet",
         "diameter": DIAMETER,
