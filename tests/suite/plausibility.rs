@@ -334,7 +334,7 @@ fn cells_too_wide_for_solids_that_conduct_less_than_the_fluid_are_warned_of() {
     let text = drop(WATER);
     for (effusivity, width, is_told) in [
         (600.0, 1.5e-4, true),
-        (600.0, 7.5e-5, false),
+        (600.0, 6e-5, false),
         (600.0, 5e-5, false),
         (6000.0, 1.5e-4, false),
     ] {
