@@ -332,12 +332,9 @@ fn cells_narrower_than_particles_are_warned_of() {
 #[test]
 fn cells_too_wide_for_solids_that_conduct_less_than_the_fluid_are_warned_of() {
     let text = drop(WATER);
-    for (effusivity, width, is_told) in [
-        (600.0, 1.5e-4, true),
-        (600.0, 6e-5, false),
-        (600.0, 5e-5, false),
-        (6000.0, 1.5e-4, false),
-    ] {
+    for (effusivity, width, is_told) in
+        [(600.0, 1.5e-4, true), (600.0, 6e-5, false), (600.0, 5e-5, false), (6000.0, 1.5e-4, false)]
+    {
         let cells = format!("radius = {:?} }} }}\neffusivity = {effusivity:?}", 10.0 * width);
         let said = warnings(&edited(&text, "radius = 3e-3 } }", &cells));
         assert_eq!(said.len(), usize::from(is_told), "{effusivity} {width}: {said:?}");
