@@ -362,7 +362,7 @@ fn kernels_whose_particles_form_pairs_are_warned_of() {
 fn cells_too_wide_for_solids_that_conduct_less_than_the_fluid_are_warned_of() {
     let text = drop(WATER);
     for (effusivity, width, is_told) in
-        [(600.0, 1.5e-4, true), (600.0, 1e-4, false), (600.0, 5e-5, false), (6000.0, 1.5e-4, false)]
+        [(600.0, 1.5e-4, true), (600.0, 6e-5, false), (600.0, 5e-5, false), (6000.0, 1.5e-4, false)]
     {
         let cells = format!("radius = {:?} }} }}\neffusivity = {effusivity:?}", 10.0 * width);
         let said = warnings(&edited(&text, "radius = 3e-3 } }", &cells));

@@ -65,6 +65,9 @@ class Master:
     parameters: of units that are made here, by unit.
     strict: whether iterations without end are an error; else a warning, and the run goes on.
 
+    Steps of one length whose paths are off by more than a tenth of what rings of units pass on are
+    warned of at the end of a run.
+
     Raises `MasterError` for what does not fit together, `UnitError` for what units refuse.
     """
 

@@ -92,16 +92,10 @@ class Watch:
         tolerance: float,
     ):
         """`loops` are algebraic: what these pass on is solved for at the ends of steps."""
-        place = {name: i for i, g in enumerate(unit_components(units, links)) for name in g}
         solved = {id(link) for loop in loops for link in loop}
-        self._links = [
-            link
-            for link in links
-            if link.is_real
-            and place[link.source_unit] == place[link.target_unit]
-            and id(link) not in solved
-        ]
-        self._ring = place
+        inner = [link for link in links if link.is_real and id(link) not in solved]
+        self._units = units
+        self._links = _in_rings(units, inner)
         self._scheme = scheme
         self._noise = max(_NOISE, _LEFT * tolerance if scheme == "iterate" else 0.0)
         self.courses: list[Course] = []
@@ -119,10 +113,11 @@ class Watch:
 
     @property
     def worst(self) -> Course | None:
-        """The course whose paths were off most; none where what is passed on is at rest."""
-        still = {self._ring[c.link.source_unit] for c in self.courses if c.is_at_rest}
-        moving = [c for c in self.courses if self._ring[c.link.source_unit] not in still]
-        return max(moving, key=lambda course: course.error, default=None)
+        """The course whose paths were off most, of rings in which all that is passed on moves."""
+        moving = {id(c.link): c for c in self.courses if not c.is_at_rest}
+        links = [course.link for course in moving.values()]
+        rings = [moving[id(link)] for link in _in_rings(self._units, links)]
+        return max(rings, key=lambda course: course.error, default=None)
 
     def warning(self, step: float, order: int) -> str:
         """What to say of steps that are too long, with one that would do; nothing if they are not.
@@ -154,3 +149,9 @@ class Watch:
             f" by {100 * worst.error:.0f} % of its range, above {100 * MOST:.0f} %; {shown};"
             f" {wanted} are needed"
         )
+
+
+def _in_rings(units: Mapping[str, Unit], links: Sequence[Link]) -> list[Link]:
+    """Those of the links that lead back to where they come from, by way of the others."""
+    place = {name: i for i, group in enumerate(unit_components(units, links)) for name in group}
+    return [link for link in links if place[link.source_unit] == place[link.target_unit]]

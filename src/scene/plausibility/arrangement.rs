@@ -132,7 +132,7 @@ fn apart(
 
 /// Widest cells over the distance of particles that tell a solid apart that the fluid's heat warms by more than half of
 /// what there is: beyond, its middle is off by more than a tenth of its rise.
-const WIDEST_ON_POOR: f64 = 2.0;
+const WIDEST_ON_POOR: f64 = 1.2;
 
 /// Warns of cells that are narrower than particles, which then tell one cell from the next by chance alone, and of wide
 /// ones on solids that conduct less than the fluid: within these, flux and temperature differ.

@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[4]
 RATIOS = [1e-4, 1e-2, 0.1, 1.0, 10.0, 1e2, 1e4]
 SPACINGS = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0]
 PRANDTL = [1e-2, 1e-1, 1.0, 10.0, 1e2, 1e3]
-EXCHANGES = [3, 7, 20, 70, 200, 700]
+EXCHANGES = [3.0, 7.0, 20.0, 70.0, 200.0, 700.0]
 USUAL = {"spacing": 1.0, "ratio": 0.26, "prandtl": 2.0, "exchanges": 70, "shear": 0.0}
 
 
@@ -58,7 +58,7 @@ def layer(name: str, title: str, x: Axis, y: Axis, of) -> Map:
         work=of,
         run=run,
         judge=error,
-        colours=(1e-3, 0.3),
+        colours=(1e-4, 0.05),
     )
 
 

@@ -19,7 +19,7 @@ DIAMETER, SPEED = 1e-4, 20.0
 STOP, STEPS, REACH = 3e-6, 60, 2e-4
 HOT, COLD = 373.15, 293.15
 SOLID = {"density": 1200.0, "specific_heat": 1500.0, "conductivity": 0.2}
-WIDTHS = [0.5, 1.0, 2.0, 3.0, 5.0]
+WIDTHS = [1.0, 1.5, 2.0, 3.0, 5.0]
 ACROSS = [8.0, 12.0, 16.0]
 FLUID = {
     "density": 1000.0,
@@ -34,6 +34,7 @@ def work(width: float, across: float) -> Work:
     """One scene, and its halves."""
     spacing = DIAMETER / across
     general = {"name": "Halves", "stop_time": STOP, "step": STOP / STEPS}
+    general["fidelity"] = {"tolerance": 0.9}
     drop = {
         "kind": "droplet",
         "diameter": DIAMETER,
