@@ -273,7 +273,8 @@ mod tests {
     fn the_same_scene_makes_the_same_bytes() {
         let scene = scene::parse(SCENE, "scene.toml").unwrap();
         for version in [Version::Two, Version::Three] {
-            let make = || unit(&scene, SCENE, vec![1, 2, 3], version, Entries::new()).unwrap();
+            let make =
+                || unit((&scene, SCENE), &[], vec![1, 2, 3], version, Entries::new()).unwrap();
             assert_eq!(make(), make());
         }
     }
