@@ -328,6 +328,28 @@ fn cells_narrower_than_particles_are_warned_of() {
     }
 }
 
+#[test]
+fn particles_too_few_undamped_or_in_line_are_warned_of() {
+    let with = |keys: &str| warnings(&edited(&drop(WATER), "spacing = 5e-5\n", keys));
+    for (keys, words) in [
+        ("spacing = 1.6e-4\n", ["body.drop.spacing", "6.2 particles across", "8.3e-5 m"]),
+        ("spacing = 5e-5\ndensity_diffusion = 0.0\n", ["density_diffusion = 0.0", "ring", "0.1"]),
+    ] {
+        let said = with(keys);
+        assert!(said.len() == 1 && words.iter().all(|word| said[0].contains(word)), "{said:?}");
+    }
+    for keys in ["spacing = 1.25e-4\n", "spacing = 5e-5\ndensity_diffusion = 0.02\n"] {
+        assert_eq!(with(keys), [""; 0], "{keys}");
+    }
+    // Tension rules this drop, at 20 m/s inertia does.
+    let still = "spacing = 5e-5\nshifting = false\n";
+    assert_eq!(with(still), [""; 0]);
+    let fast = edited(&drop(WATER), "impact_velocity = 2.0", "impact_velocity = 20.0");
+    let said = warnings(&edited(&fast, "spacing = 5e-5\n", still));
+    assert!(said.iter().any(|said| said.contains("`shifting`")), "{said:?}");
+    assert!(!warnings(&fast).iter().any(|said| said.contains("shifting")));
+}
+
 /// By the fit of its largest spread the film gets 58 µm thin.
 #[test]
 fn films_thinner_than_particles_are_warned_of() {
