@@ -350,14 +350,14 @@ fn particles_too_few_undamped_or_in_line_are_warned_of() {
     assert!(!warnings(&fast).iter().any(|said| said.contains("shifting")));
 }
 
-/// By the fit of its largest spread the film gets 58 µm thin.
+/// By the fit of its largest spread the film gets 55 µm thin.
 #[test]
 fn films_thinner_than_particles_are_warned_of() {
     let long = edited(&drop(WATER), "stop_time = 1e-5", "stop_time = 5e-3");
     let said = warnings(&long);
     assert!(said.len() == 1, "{said:?}");
     let wanted =
-        "body.drop.spacing = 5e-5: the film is expected to get 1.2 distances of particles thin";
+        "body.drop.spacing = 5e-5: the film is expected to get 1.1 distances of particles thin";
     assert!(said[0].contains(wanted), "{said:?}");
     let finer = said[0].split("`spacing` of ").nth(1).and_then(|rest| rest.split(' ').next());
     let finer = format!("spacing = {}\n", finer.unwrap());

@@ -24,6 +24,10 @@ pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<String
     }
     let on_body = || scene.load.iter().filter(|other| other.body_and_face().0 == body);
     let way = on_body().map(|other| way_from(other, axis, value)).fold(f64::INFINITY, f64::min);
+    if way == 0.0 {
+        // Where the mesh is as fine as anywhere, `check` tells of a load too small for it.
+        return None;
+    }
     let finest = on_body().map(|other| spacing(solid, other)).fold(f64::INFINITY, f64::min);
     let order = solid.mesh.order.unwrap_or(if solid.sph().is_some() { 1 } else { 2 }) as f64;
     let widest = lateral_extents(&solid.shape).into_iter().fold(0.0, f64::max);
