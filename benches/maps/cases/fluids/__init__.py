@@ -1,5 +1,5 @@
 """The maps of fluids, by name."""
 
-from cases.fluids import impacts, pairs, steps
+from cases.fluids import impacts, pairs, steps, surfaces
 
-MAPS = steps.MAPS | pairs.MAPS | impacts.MAPS
+MAPS = steps.MAPS | surfaces.MAPS | pairs.MAPS | impacts.MAPS
