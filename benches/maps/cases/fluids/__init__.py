@@ -1,5 +1,5 @@
 """The maps of fluids, by name."""
 
-from cases.fluids import impacts, pairs, steps, surfaces
+from cases.fluids import capillary_waves, impacts, pairs, steps
 
-MAPS = steps.MAPS | surfaces.MAPS | pairs.MAPS | impacts.MAPS
+MAPS = steps.MAPS | capillary_waves.MAPS | pairs.MAPS | impacts.MAPS
