@@ -5,12 +5,25 @@ stays unless its scene has changed or `--again` asks for it.
 """
 
 import argparse
+import sys
 from pathlib import Path
 
 import table
 from cases import CHARTS
 from draw import draw
 from measure import ROOT, measure
+
+
+def missing(folder: Path) -> list[str]:
+    """Points that are not measured as they are declared now."""
+    told = []
+    for name, build in CHARTS.items():
+        chart = build()
+        known = table.read(folder / f"{name}.csv", chart)
+        points = [(method.name, point) for method in chart.methods for point in method.points]
+        lacking = [(what, p.setting) for what, p in points if (what, table.key(p)) not in known]
+        told += [f"{name} lacks {what}, {setting}" for what, setting in lacking]
+    return told
 
 
 def main() -> None:
@@ -21,9 +34,12 @@ def main() -> None:
     parser.add_argument("--again", action="store_true", help="measure what is known, too")
     parser.add_argument("--draw", action="store_true", help="only draw what is known")
     parser.add_argument("--methods", nargs="*", help="measure these alone")
+    parser.add_argument("--check", action="store_true", help="only say what is not known")
     options = parser.parse_args()
     if unknown := set(options.charts) - set(CHARTS):
         parser.error(f"no such chart: {', '.join(sorted(unknown))}; there are {', '.join(CHARTS)}")
+    if options.check:
+        sys.exit("\n".join(missing(options.out)) or None)
     options.out.mkdir(parents=True, exist_ok=True)
     for name in options.charts or CHARTS:
         chart = CHARTS[name]()

@@ -9,6 +9,7 @@ import argparse
 import csv
 import multiprocessing
 import os
+import sys
 import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
@@ -114,6 +115,17 @@ def summary(of: Map, known: table.Known) -> list[str]:
 HEADS = ["map", "cells", "told of", "bad and silent", "edges", "off theory [%]", "at most [%]"]
 
 
+def missing(folder: Path) -> list[str]:
+    """Cells that are not measured as they are declared now."""
+    told = []
+    for name, build in MAPS.items():
+        of = build()
+        known = table.read(folder / f"{name}.csv", of)
+        lacking = [(x, y) for x in of.x.values for y in of.y.values if (x, y) not in known]
+        told += [f"{name} lacks x = {x:g}, y = {y:g}" for x, y in lacking]
+    return told
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("maps", nargs="*", help=f"of {', '.join(MAPS)} [default: all]")
@@ -121,9 +133,12 @@ def main() -> None:
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--again", action="store_true", help="measure what is known, too")
     parser.add_argument("--draw", action="store_true", help="only draw what is known")
+    parser.add_argument("--check", action="store_true", help="only say what is not known")
     options = parser.parse_args()
     if unknown := set(options.maps) - set(MAPS):
         parser.error(f"no such map: {', '.join(sorted(unknown))}; there are {', '.join(MAPS)}")
+    if options.check:
+        sys.exit("\n".join(missing(options.out)) or None)
     options.out.mkdir(parents=True, exist_ok=True)
     for name in options.maps or MAPS:
         surveyor = Surveyor(MAPS[name](), options.out / f"{name}.csv", options.jobs)
