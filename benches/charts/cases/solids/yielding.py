@@ -118,8 +118,8 @@ def yielding() -> Chart:
         )
     ]
     for order, name in ((1, "linear"), (2, "quadratic")):
-        points = [Point(f"T/{n}", run(STEPS, equal(n, order))) for n in (8, 16, 32, 64, 128)]
+        points = [Point(f"1/{n}", run(STEPS, equal(n, order))) for n in (8, 16, 32, 64, 128)]
         methods.append(Method(f"{name} elements, {STEPS} steps", points))
-    points = [Point(f"{n} steps", run(n, equal(PARTS, 2))) for n in (2, 4, 8, 16, 64, 128)]
-    methods.append(Method(f"quadratic elements, T/{PARTS}", points))
+    points = [Point(f"{n}", run(n, equal(PARTS, 2))) for n in (2, 4, 8, 16, 64, 128)]
+    methods.append(Method(f"quadratic elements of 1/{PARTS}, by steps", points))
     return Chart("yielding", "Steel that yields under a pulse of heat", quantities, methods)
