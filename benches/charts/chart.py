@@ -17,6 +17,8 @@ class Quantity:
     """What an error is divided by, in the same unit."""
     source: str
     """Where the reference comes from."""
+    has_panel: bool = True
+    """Else it stands in the table, and beside what was asked for, alone."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +37,8 @@ class ProgramRun:
     """A program of `programs/`, such as another code on the same work, in a process of its own.
 
     It gets its arguments as JSON and prints as its last line what `measure.drive` returns: values
-    by quantity, seconds to start and of steps, and bytes of memory."""
+    by quantity, seconds to start and of steps, and bytes of memory; seconds of packing and bytes of
+    what that leaves, where there are such."""
 
     program: str
     arguments: dict

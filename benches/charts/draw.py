@@ -118,17 +118,23 @@ def draw(chart: Chart, known: dict[tuple[str, str], Outcome], folder: Path):
         }
     )
     can_ask = any(p.asked is not None for m in chart.methods for p in m.points)
-    count = len(chart.quantities) + can_ask
+    drawn = [quantity for quantity in chart.quantities if quantity.has_panel]
+    panels, count = len(drawn), len(drawn) + can_ask
     figure, axes = plt.subplots(1, count, figsize=(5.4 * count, 5.6), layout="constrained")
     axes = [axes] if count == 1 else list(axes)
-    for place, quantity in enumerate(chart.quantities):
+    for place, quantity in enumerate(drawn):
         panel(axes[place], chart, quantity, known)
     if can_ask:
         asked_over_found(axes[-1], chart, known)
-    handles, labels = axes[0].get_legend_handles_labels()
+    lines = {line.get_label(): line for place in axes[:panels] for line in place.get_lines()}
+    labels = [method.name for method in chart.methods if method.name in lines]
     figure.suptitle(chart.title, x=0.01, ha="left", fontsize=13)
     figure.legend(
-        handles, labels, loc="outside lower center", ncols=min(5, len(labels)), fontsize=9
+        [lines[label] for label in labels],
+        labels,
+        loc="outside lower center",
+        ncols=min(5, len(labels)),
+        fontsize=9,
     )
     figure.savefig(folder / f"{chart.name}.png", dpi=130)
     figure.savefig(folder / f"{chart.name}.svg", metadata={"Date": None})

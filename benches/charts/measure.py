@@ -73,7 +73,9 @@ def run_program(work: ProgramRun, repetitions: int) -> Outcome:
     python = ROOT / work.environment / "bin/python"
     program = Path(__file__).parent / "programs" / work.program
     runs = repeated([python, program, json.dumps(work.arguments)], repetitions)
-    return Outcome(values=runs[0]["values"], pack=0.0, size=0, **medians(runs))
+    packing = median(run.get("pack", 0.0) for run in runs)
+    size = runs[0].get("size", 0)
+    return Outcome(values=runs[0]["values"], pack=packing, size=size, **medians(runs))
 
 
 def repeated(command: list, repetitions: int) -> list[dict]:

@@ -1,5 +1,6 @@
 """The charts of coupling, by name."""
 
 from cases.coupling.masters import masters
+from cases.coupling.reduced import reduced
 
-CHARTS = {"masters": masters}
+CHARTS = {"masters": masters, "reduced": reduced}

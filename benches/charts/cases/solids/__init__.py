@@ -1,7 +1,9 @@
 """The charts of solids, by name."""
 
+from cases.solids.contact import contact
 from cases.solids.fronts import layers, melting
 from cases.solids.pressure import pressure
 from cases.solids.spot import spot
+from cases.solids.yielding import yielding
 
-CHARTS = {"spot": spot, "pressure": pressure, "layers": layers, "melting": melting}
+CHARTS = {of.__name__: of for of in (spot, pressure, layers, melting, contact, yielding)}
