@@ -7,6 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from chart import Chart, Outcome
+from matplotlib.ticker import LogFormatterSciNotation
 from table import error, key
 
 COLOURS = ["#20306b", "#b0303c", "#e08214", "#2a8a7f", "#7b7b7b", "#8e5ea2", "#3b8bc4", "#a0752d"]
@@ -69,6 +70,7 @@ def panel(axes, chart: Chart, quantity, known):
         )
     axes.set_title(quantity.name)
     axes.set_xlabel("time that a host waits: start, steps and readings [s]")
+    axes.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(1, -1)))
     axes.set_ylabel("relative error [1]")
     axes.grid(True, which="major", color="0.92")
 
