@@ -12,7 +12,7 @@ HEAT, IMPULSE = "heat given", "momentum given"
 OUTPUTS = {HEAT: "drop.heat", IMPULSE: "drop.impulse_z"}
 BROUGHT = -pi / 6.0 * DENSITY * DIAMETER**3 * SPEED
 """Momentum of the drop, which the plate gets where no fluid rises [N s]."""
-HEATS = {14: 1.8203653e-5, 20: 2.2355984e-5, 28: 2.3430958e-5, 40: 2.4e-5}
+HEATS = {14: 1.8203653e-5, 20: 2.2355984e-5, 28: 2.3430958e-5, 40: 2.3064485e-5}
 """Of drops of particles, by how many of them lie across [J]."""
 FINEST = max(HEATS)
 PLATE = {
@@ -76,7 +76,7 @@ def beside_particles(across: int, durations: list[float]) -> Method:
         )
         for d in durations
     ]
-    name = f"record, beside particles of D/{across}"
+    name = f"record of D/{across} beside its particles"
     return Method(name, points, references={HEAT: HEATS[across]})
 
 

@@ -47,15 +47,15 @@ def vortices() -> Chart:
     quantities = [Quantity(ERROR, "1", 0.0, 1.0, source), Quantity(DECAY, "1", 1.0, 1.0, source)]
     sides = [5, 7, 10, 14, 20]
     methods = [
-        Method("H = 3Δx, single precision", ours(sides)),
-        Method("H = 4Δx, single precision", ours(sides, support=4.0)),
-        Method("H = 4Δx, double precision", ours(sides, support=4.0, precision="double")),
+        Method("H = 3Δx", ours(sides)),
+        Method("H = 4Δx", ours(sides, support=4.0)),
+        Method("H = 4Δx, double", ours(sides, support=4.0, precision="double")),
         Method("Wendland C4, H = 4Δx", ours(sides, support=4.0, kernel="wendland_c4")),
         Method("H = 3Δx, not shifted", ours(sides, shifting=False)),
-        Method("PySPH, entropically damped", theirs("edac", [12, 18, 25, 36])),
-        Method("the same, scattered", theirs("edac", [12, 18, 25, 36], SCATTER)),
-        Method("PySPH, transport velocity, scattered", theirs("tvf", [18, 25], SCATTER)),
-        Method("PySPH, weakly compressible, scattered", theirs("wcsph", [18, 25], SCATTER)),
+        Method("PySPH, damped", theirs("edac", [12, 18, 25, 36])),
+        Method("PySPH, damped, scattered", theirs("edac", [12, 18, 25, 36], SCATTER)),
+        Method("PySPH, transport, scattered", theirs("tvf", [18, 25], SCATTER)),
+        Method("PySPH, compressible, scattered", theirs("wcsph", [18, 25], SCATTER)),
     ]
     return Chart(
         "vortices", "Taylor and Green's vortices, Re 100, after half a turn", quantities, methods
