@@ -7,7 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from chart import Chart, Outcome
-from matplotlib.ticker import LogFormatterSciNotation
+from matplotlib.ticker import FuncFormatter, NullFormatter
 from table import error, key
 
 COLOURS = ["#20306b", "#b0303c", "#e08214", "#2a8a7f", "#7b7b7b", "#8e5ea2", "#3b8bc4", "#a0752d"]
@@ -36,6 +36,13 @@ def curve(chart: Chart, quantity, method, known: dict[tuple[str, str], Outcome])
             err = max(error(quantity, method, outcome), SMALLEST)
             found.append((outcome.seconds, err, point.setting, point.asked))
     return found
+
+
+def between(low: float, high: float):
+    """Tells 2 and 5 between powers of ten where few of these are on the axis."""
+    if high / low > 100.0:
+        return NullFormatter()
+    return FuncFormatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "25" else "")
 
 
 def panel(axes, chart: Chart, quantity, known):
@@ -70,7 +77,7 @@ def panel(axes, chart: Chart, quantity, known):
         )
     axes.set_title(quantity.name)
     axes.set_xlabel("time that a host waits: start, steps and readings [s]")
-    axes.xaxis.set_minor_formatter(LogFormatterSciNotation(minor_thresholds=(1, -1)))
+    axes.xaxis.set_minor_formatter(between(*axes.get_xlim()))
     axes.set_ylabel("relative error [1]")
     axes.grid(True, which="major", color="0.92")
 
@@ -127,10 +134,17 @@ def draw(chart: Chart, known: dict[tuple[str, str], Outcome], folder: Path):
         panel(axes[place], chart, quantity, known)
     if can_ask:
         asked_over_found(axes[-1], chart, known)
-    handles, labels = axes[0].get_legend_handles_labels()
+    drawn = [
+        zip(*a.get_legend_handles_labels(), strict=True) for a in axes[: len(chart.quantities)]
+    ]
+    methods = {label: handle for pairs in drawn for handle, label in pairs}
     figure.suptitle(chart.title, x=0.01, ha="left", fontsize=13)
     figure.legend(
-        handles, labels, loc="outside lower center", ncols=min(5, len(labels)), fontsize=9
+        methods.values(),
+        methods.keys(),
+        loc="outside lower center",
+        ncols=min(5, len(methods)),
+        fontsize=9,
     )
     figure.savefig(folder / f"{chart.name}.png", dpi=130)
     figure.savefig(folder / f"{chart.name}.svg", metadata={"Date": None})
