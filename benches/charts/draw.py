@@ -7,6 +7,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from chart import Chart, Outcome
+from matplotlib.ticker import FuncFormatter, NullFormatter
 from table import error, key
 
 COLOURS = ["#20306b", "#b0303c", "#e08214", "#2a8a7f", "#7b7b7b", "#8e5ea2", "#3b8bc4", "#a0752d"]
@@ -35,6 +36,13 @@ def curve(chart: Chart, quantity, method, known: dict[tuple[str, str], Outcome])
             err = max(error(quantity, method, outcome), SMALLEST)
             found.append((outcome.seconds, err, point.setting, point.asked))
     return found
+
+
+def between(low: float, high: float):
+    """Tells 2 and 5 between powers of ten where few of these are on the axis."""
+    if high / low > 100.0:
+        return NullFormatter()
+    return FuncFormatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "25" else "")
 
 
 def panel(axes, chart: Chart, quantity, known):
@@ -69,6 +77,7 @@ def panel(axes, chart: Chart, quantity, known):
         )
     axes.set_title(quantity.name)
     axes.set_xlabel("time that a host waits: start, steps and readings [s]")
+    axes.xaxis.set_minor_formatter(between(*axes.get_xlim()))
     axes.set_ylabel("relative error [1]")
     axes.grid(True, which="major", color="0.92")
 

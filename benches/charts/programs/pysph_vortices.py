@@ -1,6 +1,7 @@
 """Taylor and Green's vortices by PySPH (doi 10.1145/3460773), its own example on one thread.
 
-`pysph_vortices.py '{"scheme": "tvf", "side": 50, "reynolds": 100, "stop": 0.5}'`, double precision.
+`pysph_vortices.py '{"scheme": "edac", "side": 25, "scatter": 0.2, "reynolds": 100, "stop": 0.5}'`:
+double precision; particles are moved by up to `scatter` of their distance along each axis first.
 """
 
 import json
@@ -22,6 +23,7 @@ def main() -> None:
         command = [sys.executable, "-m", "pysph.examples.taylor_green"]
         command += ["--nx", str(asked["side"]), "--re", str(asked["reynolds"])]
         command += ["--tf", str(asked["stop"]), "--scheme", asked["scheme"]]
+        command += ["--perturb", str(asked["scatter"])]
         command += ["--pfreq", "1000000", "--directory", folder]
         ran = subprocess.run(command, check=True, capture_output=True, text=True)
         values = errors(sorted(Path(folder).glob("taylor_green_*"), key=number), asked)

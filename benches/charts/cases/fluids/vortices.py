@@ -5,6 +5,8 @@ from chart import Chart, Method, Point, ProgramRun, Quantity
 REYNOLDS, STOP = 100.0, 0.5
 ERROR, DECAY = "error of velocities", "rate of decay"
 NAMES = {"velocity_error": ERROR, "decay": DECAY}
+SCATTER = 0.2
+"""Share of their distance by which particles are moved off a lattice that would line them up."""
 
 
 def ours(sides: list[int], **settings) -> list[Point]:
@@ -24,15 +26,20 @@ def ours(sides: list[int], **settings) -> list[Point]:
     return points
 
 
-def theirs(scheme: str, sides: list[int]) -> list[Point]:
-    work = {"scheme": scheme, "reynolds": REYNOLDS, "stop": STOP}
-    return [
-        Point(
-            str(side),
-            ProgramRun("pysph_vortices.py", work | {"side": side}, environment=".venv-peers"),
-        )
-        for side in sides
-    ]
+def theirs(scheme: str, sides: list[int], scatter: float = 0.0) -> list[Point]:
+    """So many particles along the side, on a square lattice or a little off it."""
+    points = []
+    for side in sides:
+        work = {
+            "scheme": scheme,
+            "side": side,
+            "scatter": scatter,
+            "reynolds": REYNOLDS,
+            "stop": STOP,
+        }
+        run = ProgramRun("pysph_vortices.py", work, environment=".venv-peers")
+        points.append(Point(str(side), run))
+    return points
 
 
 def vortices() -> Chart:
@@ -40,13 +47,15 @@ def vortices() -> Chart:
     quantities = [Quantity(ERROR, "1", 0.0, 1.0, source), Quantity(DECAY, "1", 1.0, 1.0, source)]
     sides = [5, 7, 10, 14, 20]
     methods = [
-        Method("H = 3Δx, single precision", ours(sides)),
-        Method("H = 4Δx, single precision", ours(sides, support=4.0)),
-        Method("H = 4Δx, double precision", ours(sides, support=4.0, precision="double")),
+        Method("H = 3Δx", ours(sides)),
+        Method("H = 4Δx", ours(sides, support=4.0)),
+        Method("H = 4Δx, double", ours(sides, support=4.0, precision="double")),
         Method("Wendland C4, H = 4Δx", ours(sides, support=4.0, kernel="wendland_c4")),
         Method("H = 3Δx, not shifted", ours(sides, shifting=False)),
-        Method("PySPH, entropically damped", theirs("edac", [12, 18, 25, 36, 50])),
-        Method("PySPH, weakly compressible", theirs("wcsph", [12, 18, 25, 36, 50])),
+        Method("PySPH, damped", theirs("edac", [12, 18, 25, 36])),
+        Method("PySPH, damped, scattered", theirs("edac", [12, 18, 25, 36], SCATTER)),
+        Method("PySPH, transport, scattered", theirs("tvf", [18, 25], SCATTER)),
+        Method("PySPH, compressible, scattered", theirs("wcsph", [18, 25], SCATTER)),
     ]
     return Chart(
         "vortices", "Taylor and Green's vortices, Re 100, after half a turn", quantities, methods
