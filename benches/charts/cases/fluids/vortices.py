@@ -52,10 +52,10 @@ def vortices() -> Chart:
         Method("H = 4Δx, double", ours(sides, support=4.0, precision="double")),
         Method("Wendland C4, H = 4Δx", ours(sides, support=4.0, kernel="wendland_c4")),
         Method("H = 3Δx, not shifted", ours(sides, shifting=False)),
-        Method("PySPH, damped", theirs("edac", [12, 18, 25, 36])),
+        Method("PySPH, damped", theirs("edac", [18, 25])),
         Method("PySPH, damped, scattered", theirs("edac", [12, 18, 25, 36], SCATTER)),
-        Method("PySPH, transport, scattered", theirs("tvf", [18, 25], SCATTER)),
-        Method("PySPH, compressible, scattered", theirs("wcsph", [18, 25], SCATTER)),
+        Method("PySPH, transport, scattered", theirs("tvf", [25], SCATTER)),
+        Method("PySPH, compressible, scattered", theirs("wcsph", [25], SCATTER)),
     ]
     return Chart(
         "vortices", "Taylor and Green's vortices, Re 100, after half a turn", quantities, methods
