@@ -465,6 +465,26 @@ fn a_load_that_an_input_moves_off_the_fine_mesh_is_warned_of() {
     assert_eq!(told(&even, -5e-4), None);
 }
 
+/// A spot of a welder that an input makes smaller than the mesh sees was 10 % to 50 % off.
+#[test]
+fn a_load_that_an_input_makes_too_small_is_warned_of() {
+    let text =
+        edited(&plate(ALUMINA), "disc = { radius = 30e-6 }", "gaussian = { radius = 30e-6 }");
+    let told = |text: &str, radius: f64| {
+        let scene = parse(text, "scene.toml").unwrap_or_else(|e| panic!("{e}"));
+        implausible_place(&scene, "spot.radius", radius)
+    };
+    for seen in [60e-6, 30e-6, 10e-6] {
+        assert_eq!(told(&text, seen), None, "{seen}");
+    }
+    let message = told(&text, 4e-6).unwrap();
+    for words in
+        ["spot.radius = 4e-6", "about 5.0e-6 m apart", "range = { radius = […] }", "2e-6 m"]
+    {
+        assert!(message.contains(words), "{words} is not in {message}");
+    }
+}
+
 #[test]
 fn plates_too_slender_to_bend_are_warned_of() {
     let read = "\n[[probe]]\nname = \"p\"\nin = \"plate\"\nat = [0.0, 0.0, 0.0]\ngives = [\"displacement\"]\n";

@@ -1,4 +1,4 @@
-//! Footprints that an input moves to where the mesh does not see them.
+//! Footprints that an input moves to where the mesh does not see them, or makes too small for it.
 
 use super::arrangement::NODES_PER_RADIUS;
 use crate::scene::check::number;
@@ -14,6 +14,9 @@ const NODES_PER_FEATURE: f64 = 10.0;
 ///
 /// Certain rather than complete: nodes stand as densely as all loads of the body and its symmetry let them.
 pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<String> {
+    if let Some(load) = scene.load.iter().find(|load| is_radius(load, name)) {
+        return implausible_radius(scene, load, (name, value));
+    }
     let mut loads = scene.load.iter();
     let (load, axis) = loads.find_map(|load| Some((load, axis(load, name)?)))?;
     let body = load.body_and_face().0;
@@ -32,8 +35,8 @@ pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<String
     let order = solid.mesh.order.unwrap_or(if solid.sph().is_some() { 1 } else { 2 }) as f64;
     let widest = lateral_extents(&solid.shape).into_iter().fold(0.0, f64::max);
     let coarsest = 0.5 * widest / (Mesh::LATERAL_ELEMENTS * order);
-    let along = scene.refinement.get(body).map_or(1.0, |factors: &MeshFactors| factors.along);
-    let apart = (finest + (growth - 1.0) * way / order).min(coarsest.max(finest)) / along;
+    let apart =
+        (finest + (growth - 1.0) * way / order).min(coarsest.max(finest)) / along(scene, body);
     let size = load.footprint.half_width(load.start.radius);
     let key = ["x", "y"][axis];
     (size < NODES_PER_RADIUS * apart).then(|| {
@@ -45,6 +48,30 @@ pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<String
             load.name
         )
     })
+}
+
+/// What to say of a radius [m] of fewer nodes than tell its middle, where nodes are as dense as anywhere.
+fn implausible_radius(scene: &Scene, load: &Load, (name, value): (&str, f64)) -> Option<String> {
+    let body = load.body_and_face().0;
+    let apart = spacing(scene.solid(body)?, load) / along(scene, body);
+    (value < NODES_PER_RADIUS * apart).then(|| {
+        format!(
+            "{name} = {}: the mesh does not see a load this small: nodes are about {apart:.1e} m apart; did you mean \
+             `range = {{ radius = […] }}` for `{}`, or a `mesh.spacing` of {} m or less?",
+            number(value),
+            load.name,
+            number(value / NODES_PER_RADIUS)
+        )
+    })
+}
+
+fn is_radius(load: &Load, name: &str) -> bool {
+    name.strip_prefix(load.name.as_str()).is_some_and(|rest| matches!(rest, ".radius" | "_radius"))
+}
+
+/// How many times as many elements as usual a body has along the surface.
+fn along(scene: &Scene, body: &str) -> f64 {
+    scene.refinement.get(body).map_or(1.0, |factors: &MeshFactors| factors.along)
 }
 
 /// Which place of a load a variable is, in either way of naming.
@@ -71,6 +98,7 @@ fn way_from(load: &Load, axis: usize, value: f64) -> f64 {
 
 /// Distance of nodes at a load [m].
 fn spacing(solid: &Solid, load: &Load) -> f64 {
-    let feature = load.footprint.half_width(load.start.radius);
+    let least = load.range.radius.map(|[least, _]| least).or(load.start.radius);
+    let feature = load.footprint.half_width(least);
     solid.mesh.spacing.unwrap_or(feature / NODES_PER_FEATURE)
 }
