@@ -9,17 +9,19 @@ use std::env;
 use std::f64::consts::PI;
 
 use impinge::closed_form::{Conductor, Contact};
-use impinge::kernel::Kernel;
 use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
-    WallCells,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Wall, WallCells,
 };
 use impinge::model::{Cache, Model};
 use impinge::scene;
 use impinge::variables::{Registry, Slot};
 
-const HOT: f64 = 373.15;
-const COLD: f64 = 293.15;
+#[allow(dead_code, reason = "one of several files with set-ups of flows")]
+#[path = "../tests/common/falling_drop.rs"]
+mod falling_drop;
+
+use falling_drop::{COLD, DIAMETER, HOT, falling_drop};
+
 const TIME: f64 = 3.5e-6;
 const DENSITY: f64 = 1000.0;
 const DIFFUSIVITY: f64 = 1.5e-7;
@@ -52,36 +54,19 @@ fn layer(fluid: Fluid, spacing: f64, shear: f64) -> (DropletSph, Vec<f64>, f64) 
     let rows = (8.0 * thickness / spacing).ceil().max(4.0) as usize;
     let columns = 6;
     let period = columns as f64 * spacing;
-    let plan = DropletPlan {
-        dimension: 3,
-        axisymmetric: false,
-        spacing,
-        support: 3.0,
-        kernel: Kernel::WendlandC2,
-        fluid,
-        placement: Placement::Lattice,
-        precision: Precision::Single,
-        density_diffusion: 0.1,
-        corrected_diffusion: true,
-        shifting: true,
-        gravity: [0.0; 3],
+    let tiles = WallCells::Tiles { count: [1, 1], size: [4.0 * period; 2] };
+    let mut plan = DropletPlan {
         mirrors: [false; 2],
         extents: [Extent::Periodic(period), Extent::Periodic(period), Extent::Open],
-        demand: None,
-        // Tells the temperature before contact.
-        releases: vec![Release {
-            time: 1.0,
-            centre: [0.0; 3],
-            diameter: 0.0,
-            velocity: [0.0; 3],
-            temperature: HOT,
-        }],
         wall: Some(Wall {
-            cells: WallCells::Tiles { count: [1, 1], size: [4.0 * period; 2] },
+            cells: tiles,
             contact_angle: 0.5 * PI,
             effusivity: Some(SOLID.effusivity()),
         }),
+        ..falling_drop(DIAMETER / spacing, fluid)
     };
+    // What is released tells the temperature before contact, and never comes.
+    plan.releases[0].time = 1.0;
     let mut particles = ParticleFields::default();
     for n in 0..columns * columns * rows {
         let place = [n % columns, n / columns % columns, n / (columns * columns)];

@@ -296,6 +296,7 @@ impl Unit {
         self.check_step(point, step)?;
         let registry = Arc::clone(&self.registry);
         let has_set = self.has_set_derivatives;
+        let is_told = self.said.contains(SHORT_STEPS);
         let (interrupt, control) = (self.interrupt.clone(), Rc::clone(&self.control));
         let (run, state) = self.run()?;
         let past = if has_set { None } else { Some(std::mem::take(&mut state.derivatives)) };
@@ -317,7 +318,7 @@ impl Unit {
         run.tangent = None;
         run.checked &= !has_set;
         let warnings = run.model.warnings(state);
-        let on_step = run.model.warning_on_step(step);
+        let on_step = if is_told { None } else { run.model.warning_on_step(step) };
         self.warn_once(warnings);
         if let Some(message) = on_step {
             self.warn_once_of(SHORT_STEPS, &message);
