@@ -1,6 +1,7 @@
 """Charts and maps are measured as they are declared, explained, and silent about no failure."""
 
 import csv
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -34,3 +35,19 @@ def test_every_picture_is_explained(kind):
     pictures = [path.name for path in folder.glob("*.png")]
     assert pictures
     assert [name for name in pictures if f"]({name})" not in text] == []
+
+
+def test_guards_name_tests_that_exist():
+    folders = [(ROOT / "tests", "*.*"), (ROOT / "src", "*.rs"), (ROOT / "build-fmu", "*.rs")]
+    paths = [path for folder, files in folders for path in folder.rglob(files)]
+    sources = [path.read_text() for path in paths if path.suffix in (".rs", ".py", ".toml")]
+    tests = re.findall(r'^\s*(?:fn |def |what = ")([^("]+)', "\n".join(sources), re.MULTILINE)
+    guards = re.compile(r"^\| limit .*\| test \|\n\|-.*\n((?:\|.*\n)+)", re.MULTILINE)
+    named = set()
+    for page in (ROOT / "docs/maps").glob("*.md"):
+        for row in "".join(guards.findall(page.read_text())).splitlines():
+            cell = row.strip("|").split("|")[-1].strip()
+            assert cell == "the same" or "`" in cell, row
+            named.update(re.findall("`([^`]+)`", cell))
+    assert len(named) > 20
+    assert named - set(tests) == set()
