@@ -4,6 +4,7 @@ import csv
 import hashlib
 import json
 from dataclasses import asdict
+from math import isfinite
 from pathlib import Path
 
 from chart import Chart, Formula, Method, Outcome, Point, Quantity
@@ -54,22 +55,31 @@ def read(path: Path, chart: Chart) -> dict[tuple[str, str], Outcome]:
     known = {}
     with path.open(newline="") as file:
         lines = csv.reader(file)
-        if next(lines, None) != columns(chart):
-            return {}
-        for line in lines:
-            cells = dict(zip(columns(chart), line, strict=True))
-            values = {
-                q.name: float(text)
-                for q in chart.quantities
-                if (text := cells[f"value of {q.name} [{q.unit}]"])
-            }
-            first = columns(chart).index("pack [s]")
-            numbers = dict(zip(NUMBERS, map(float, line[first : first + 5]), strict=True))
-            numbers["size"] = int(numbers["size"])
-            known[cells["method"], cells["key"]] = Outcome(
-                values, **numbers, failure=cells["failure"]
-            )
+        try:
+            if next(lines, None) != columns(chart):
+                return {}
+            for line in lines:
+                name, point, outcome = parsed(line, chart)
+                known[name, point] = outcome
+        except ValueError as error:
+            raise SystemExit(
+                f"{path}:{lines.line_num}: {error}; allowed: the row as it was measured, or none of"
+                " that point, which is measured anew"
+            ) from None
     return known
+
+
+def parsed(line: list[str], chart: Chart) -> tuple[str, str, Outcome]:
+    """Method, key and outcome of a row. Raises ValueError where it is damaged."""
+    cells = dict(zip(columns(chart), line, strict=True))
+    texts = {q.name: cells[f"value of {q.name} [{q.unit}]"] for q in chart.quantities}
+    values = {name: float(text) for name, text in texts.items() if text}
+    first = columns(chart).index("pack [s]")
+    numbers = dict(zip(NUMBERS, map(float, line[first : first + 5]), strict=True))
+    if not all(map(isfinite, values.values())):
+        raise ValueError("a value that is not finite")
+    numbers["size"] = int(numbers["size"])
+    return cells["method"], cells["key"], Outcome(values, **numbers, failure=cells["failure"])
 
 
 def write(path: Path, chart: Chart, known: dict[tuple[str, str], Outcome]):

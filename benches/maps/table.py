@@ -4,6 +4,7 @@ import csv
 import hashlib
 import json
 from dataclasses import astuple, fields
+from math import isfinite
 from pathlib import Path
 
 from plan import Cell, Map
@@ -24,13 +25,30 @@ def read(path: Path, of: Map) -> Known:
         return {}
     known = {}
     with path.open(newline="") as file:
-        for line in csv.DictReader(file):
-            x, y = float(line["x"]), float(line["y"])
-            if line["key"] != key(of, x, y):
-                continue
-            numbers = float(line["outcome"]), line["said"], line["message"], float(line["seconds"])
-            known[x, y] = Cell(x, y, *numbers, line["is_search"] == "True")
+        lines = csv.reader(file)
+        try:
+            if next(lines, None) != COLUMNS:
+                return {}
+            for line in lines:
+                cell, point = parsed(line)
+                if point == key(of, cell.x, cell.y):
+                    known[cell.x, cell.y] = cell
+        except ValueError as error:
+            raise SystemExit(
+                f"{path}:{lines.line_num}: {error}; allowed: the row as it was measured, or none of"
+                " that pair, which is measured anew"
+            ) from None
     return known
+
+
+def parsed(row: list[str]) -> tuple[Cell, str]:
+    """Cell and key of a row. Raises ValueError where it is damaged."""
+    line = dict(zip(COLUMNS, row, strict=True))
+    x, y = float(line["x"]), float(line["y"])
+    if not (isfinite(x) and isfinite(y)):
+        raise ValueError("a setting that is not finite")
+    numbers = float(line["outcome"]), line["said"], line["message"], float(line["seconds"])
+    return Cell(x, y, *numbers, line["is_search"] == "True"), line["key"]
 
 
 def write(path: Path, of: Map, known: Known) -> None:

@@ -34,6 +34,8 @@ pub enum CliError {
         folder.display()
     )]
     Taken { folder: PathBuf },
+    #[error("{} is not a folder; allowed: a folder, or a name that is free (--out)", path.display())]
+    NoFolder { path: PathBuf },
     #[error("{} could be one of the files of the run; allowed: another folder (--out)", file.display())]
     ReadInFolder { file: PathBuf },
     #[error("cannot print: {0}")]

@@ -45,6 +45,10 @@ pub enum TableError {
     Unreadable { path: PathBuf, reason: csv::Error },
     #[error("cannot read {}: {reason}", path.display())]
     Unopened { path: PathBuf, reason: io::Error },
+    #[error("{}:{line}: this is no text; allowed: UTF-8", path.display())]
+    NotText { path: PathBuf, line: usize },
+    #[error("{}:{line}: {cells} cells under a header of {titles}; allowed: {titles}", path.display())]
+    Cells { path: PathBuf, line: u64, cells: usize, titles: usize },
     #[error("{} has more than {most} bytes; allowed: fewer rows, as inputs change linearly between them", path.display())]
     TooLarge { path: PathBuf, most: u64 },
     #[error("{}: no first column `time`; allowed: `time` or `time [s]`, then names of inputs", path.display())]
@@ -62,8 +66,11 @@ impl InputTable {
     pub fn read(path: &Path, between: Between, scene: &Scene) -> Result<Self, TableError> {
         let unreadable = |reason| TableError::Unreadable { path: path.to_owned(), reason };
         let text = text_of(path)?;
-        let mut reader =
-            csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_slice());
+        check_text(path, &text)?;
+        let mut reader = csv::ReaderBuilder::new()
+            .trim(csv::Trim::All)
+            .flexible(true)
+            .from_reader(text.as_slice());
         let header = reader.headers().map_err(unreadable)?.clone();
         let registry = Registry::of(scene);
         let columns = columns(path, &header, &registry)?;
@@ -77,6 +84,10 @@ impl InputTable {
         for record in reader.records() {
             let record = record.map_err(unreadable)?;
             let line = record.position().map_or(0, csv::Position::line);
+            let (cells, titles) = (record.len(), header.len());
+            if cells != titles {
+                return Err(TableError::Cells { path: path.to_owned(), line, cells, titles });
+            }
             let refuse = |column: usize, reason: String| TableError::Value {
                 path: path.to_owned(),
                 line,
@@ -113,6 +124,23 @@ impl InputTable {
             ));
         }
         Ok(time)
+    }
+
+    /// A warning of rows that a run to `stop` [s] never comes to, or a note of values that it keeps after the last.
+    pub fn remark(&self, path: &Path, stop: f64) -> Option<(&'static str, String)> {
+        let (first, last) = (*self.times.first()?, *self.times.last()?);
+        let file = path.display();
+        if first >= stop {
+            let message = format!(
+                "{file}: the run ends at {stop:e} s, before the first row at {first:e} s, whose values hold throughout \
+                 (are these seconds?)"
+            );
+            return Some(("warning", message));
+        }
+        let ends_early = self.between == Between::Linear && 0.0 < last && last < NEARLY * stop;
+        ends_early.then(|| {
+            ("note", format!("{file}: the values of the last row hold from {last:e} s to {stop:e} s"))
+        })
     }
 
     /// Places of the inputs that the table gives.
@@ -169,6 +197,16 @@ impl InputTable {
         }
         state.derivatives = if later.is_some() { vec![rates] } else { Vec::new() };
     }
+}
+
+/// Part of a run that the rows of a table reach over before nothing is said.
+const NEARLY: f64 = 0.999;
+
+/// Refuses bytes that are no text, by the line of the first.
+fn check_text(path: &Path, text: &[u8]) -> Result<(), TableError> {
+    let Err(error) = std::str::from_utf8(text) else { return Ok(()) };
+    let breaks = text[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
+    Err(TableError::NotText { path: path.to_owned(), line: breaks + 1 })
 }
 
 /// Bytes of a table, at most: some million rows.

@@ -24,6 +24,9 @@ const SNAPSHOTS: usize = 50;
 /// Rows of inputs per step from which on a run says that they make it longer.
 const ROWS_PER_STEP: usize = 10;
 
+/// Name of the file of variables over time.
+const TABLE: &str = "outputs.csv";
+
 /// Extensions of files that runs write.
 const WRITTEN: [&str; 5] = ["csv", "pvd", "vtp", "vtr", "vtu"];
 
@@ -71,6 +74,9 @@ impl Run {
     pub fn execute(&self) -> Result<String, CliError> {
         let started = Instant::now();
         let (scene, inputs) = self.asked_scene()?;
+        // What is wrong with files is told before meshes are judged, which takes its time.
+        let table = self.input_table(&scene, &inputs)?;
+        self.check_folder(&self.folder(&scene))?;
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
         for note in to_be_recorded(&scene) {
             super::print_message("note", &note);
@@ -89,7 +95,6 @@ impl Run {
             super::print_message("warning", &warning);
         }
         let timeline = Timeline::new(scene.step, scene.stop_time);
-        let table = self.input_table(&scene, &inputs)?;
         let rows = table.as_ref().map_or(0, |table| table.rows_until(scene.stop_time));
         if rows > ROWS_PER_STEP * timeline.count {
             let steps = timeline.count;
@@ -146,6 +151,9 @@ impl Run {
         for warning in set::implausible(scene, &table.extremes()) {
             super::print_message("warning", &warning);
         }
+        if let Some((kind, message)) = table.remark(path, scene.stop_time) {
+            super::print_message(kind, &message);
+        }
         let twice = table.given().find(|place| set.iter().any(|(other, _)| other == place));
         match twice {
             Some(place) => Err(CliError::GivenTwice { name: input_name(scene, place) }),
@@ -168,17 +176,31 @@ impl Run {
         }
     }
 
+    /// Where files of the run go.
+    fn folder(&self, scene: &Scene) -> PathBuf {
+        self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name))
+    }
+
+    /// Refuses a folder of another run, of what is read, and what is no folder.
+    fn check_folder(&self, folder: &Path) -> Result<(), CliError> {
+        if folder.join(TABLE).exists() && !self.overwrite {
+            return Err(CliError::Taken { folder: folder.to_owned() });
+        }
+        if folder.exists() && !folder.is_dir() {
+            return Err(CliError::NoFolder { path: folder.to_owned() });
+        }
+        self.keep_what_is_read(folder)
+    }
+
     /// Opens the files of the run.
     fn record(&self, run: &Running) -> Result<Record, CliError> {
-        let scene = run.model.scene();
-        let folder = self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name));
+        let folder = self.folder(run.model.scene());
         let lock = FolderLock::take(&folder)?;
-        let table = folder.join("outputs.csv");
-        let is_taken = table.exists() || FieldSeries::is_in(&folder, run.model);
-        if is_taken && !self.overwrite {
+        self.check_folder(&folder)?;
+        if FieldSeries::is_in(&folder, run.model) && !self.overwrite {
             return Err(CliError::Taken { folder });
         }
-        self.keep_what_is_read(&folder)?;
+        let table = folder.join(TABLE);
         let every = self.fields_every.unwrap_or(run.timeline.count.div_ceil(SNAPSHOTS));
         let table = CsvTable::create(&table, run.model)?;
         let fields = match every {

@@ -45,6 +45,8 @@ pub enum SetError {
     Output { name: String },
     #[error("cannot set {name}: --out says where a run's files go")]
     Directory { name: String },
+    #[error("cannot set {name}: it is set twice; allowed: one --set {name}=VALUE")]
+    Twice { name: String },
     #[error("cannot set {name} = {value}: expected {expected}")]
     Value { name: String, value: String, expected: String },
 }
@@ -57,7 +59,11 @@ pub fn apply(scene: &mut Scene, assignments: &[Assignment]) -> Result<Vec<InputV
     let registry = Registry::of(scene);
     let mut inputs = Vec::new();
     let mut errors = Vec::new();
+    let mut known = BTreeSet::new();
     for assignment in assignments {
+        if !known.insert(&assignment.name) {
+            errors.push(SetError::Twice { name: assignment.name.clone() });
+        }
         match targets(&registry, &assignment.name) {
             Ok(variables) => {
                 let results =

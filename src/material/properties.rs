@@ -29,8 +29,8 @@ pub struct Properties {
     pub young: Option<Property>,
     /// Poisson's ratio ν [1].
     #[schemars(transform = within(-1.0 + POISSON_MARGIN, 0.5 - POISSON_MARGIN, "1", "")
-        .low("Poisson's ratio must stay above minus one", "-1 < poisson < 0.5")
-        .high("Poisson's ratio must stay below one half", "-1 < poisson < 0.5")
+        .low("Poisson's ratio must stay above minus one", "-0.999999999 to 0.499999999")
+        .high("Poisson's ratio must stay below one half", "-0.999999999 to 0.499999999")
         .condition("without these ends")
         .otherwise(NO_STRESS))]
     pub poisson: Option<Property>,

@@ -14,7 +14,7 @@ use crate::variables::{Registry, Slot, Variable};
 pub struct CsvTable {
     path: PathBuf,
     file: File,
-    columns: Vec<Slot>,
+    columns: Vec<(String, Slot)>,
 }
 
 impl CsvTable {
@@ -33,7 +33,7 @@ impl CsvTable {
         for variable in Registry::of(model.scene()).variables {
             if matches!(variable.slot, Slot::Input(_) | Slot::Output(_)) {
                 header.push(quoted(&title(&variable)).into_owned());
-                columns.push(variable.slot);
+                columns.push((variable.name, variable.slot));
             }
         }
         let mut table = Self { path: path.to_owned(), file, columns };
@@ -58,10 +58,13 @@ impl CsvTable {
     ) -> Result<(), OutputError> {
         let mut row = vec![number(state.time)];
         let mut reader = model.reader(state, cache)?;
-        for column in &self.columns {
+        for (name, column) in &self.columns {
             match column {
                 Slot::Input(at) => row.push(number(state.inputs[*at])),
-                Slot::Output(output) => row.push(number(reader.value(output)?)),
+                Slot::Output(output) => {
+                    let failed = |reason| OutputError::Value { name: name.clone(), reason };
+                    row.push(number(reader.value(output).map_err(failed)?));
+                }
                 Slot::Parameter(_) | Slot::Threads | Slot::OutputDirectory => {}
             }
         }

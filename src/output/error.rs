@@ -20,6 +20,8 @@ pub enum OutputError {
     /// The value that was to be written could not be computed.
     #[error(transparent)]
     Model(#[from] ModelError),
+    #[error("{name}: {reason}")]
+    Value { name: String, reason: ModelError },
 }
 
 impl OutputError {

@@ -136,6 +136,10 @@ pub fn check(scene: &Scene) -> Result<(), SceneError> {
     check::check(scene, &Source::parse(&text, file)?, &Schema::of_scenes()).map_err(|mut error| {
         for problem in &mut error.problems {
             problem.line = None;
+            // As TOML writes them, extremes have hundreds of digits.
+            if let Ok(value) = problem.value.parse() {
+                problem.value = check::number(value);
+            }
         }
         error
     })

@@ -448,6 +448,12 @@ def test_what_does_not_fit_is_refused(folder, wrong, told):
     assert told in str(refused.value)
 
 
+def test_a_run_of_steps_without_end_is_refused(folder):
+    with Master(lumps(folder, 1.0, 1.0), RING, step=1e-300) as master:
+        with pytest.raises(MasterError, match="allowed: 3e-15 s or more, for at most 1e.09 steps"):
+            master.run(3e-6)
+
+
 def test_units_of_measurement_and_shapes_must_agree(pack, folder):
     hot = make(folder, "hot", d=1.0, y_unit="K")
     flux = make(folder, "taker", d=1.0, u_unit="W/m2")

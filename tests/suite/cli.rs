@@ -296,6 +296,14 @@ fn inputs_and_parameters_can_be_set() {
 }
 
 #[test]
+fn settings_that_cannot_be_are_refused_by_name() {
+    let place = Workplace::new();
+    let twice = ["--set", "spot.heat_flux=1", "--set", "spot.heat_flux=2"];
+    place.run(&twice).fails(1, &["spot.heat_flux: it is set twice"]);
+    place.run(&["--set", "spot.heat_flux=1e308"]).fails(1, &["centre.", "far too large"]);
+}
+
+#[test]
 fn an_array_is_set_by_its_name_or_an_element_by_its_index() {
     let place = Workplace::new();
     let rings = SCENE.replace("disc = { radius", "rings = { count = 3, radius");

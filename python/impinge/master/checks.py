@@ -11,6 +11,8 @@ from typing import Any
 from impinge.master.errors import MasterError
 from impinge.unit import Unit
 
+# More would take weeks of the quickest units.
+MOST_STEPS = 1e9
 SCHEMES = ("jacobi", "gauss-seidel", "iterate")
 
 
@@ -54,6 +56,15 @@ def check_stop(stop: Any, time: float) -> None:
         raise MasterError(f"run: {stop!r} is no time in s to stop at")
     if stop < time:
         raise MasterError(f"run: {stop!r} s is before {time!r} s, where the run stands")
+
+
+def check_count(step: float | None, left: float) -> None:
+    """How many steps a run takes, where these are of one length [s]."""
+    if step is not None and left > MOST_STEPS * step:
+        raise MasterError(
+            f"run: {left / step:.3g} steps of {step:g} s; allowed: {left / MOST_STEPS:.3g} s or"
+            f" more, for at most {MOST_STEPS:.0e} steps"
+        )
 
 
 def check_units(

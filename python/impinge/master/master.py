@@ -16,6 +16,7 @@ from impinge.jumps import Watched
 from impinge.master.acceleration import acceleration as make_acceleration
 from impinge.master.checks import (
     check_choices,
+    check_count,
     check_input,
     check_jumps,
     check_lengths,
@@ -256,6 +257,7 @@ class Master:
         progress: whether a bar is shown; only in runs of more than two seconds if left out.
         """
         check_stop(stop, self.time)
+        check_count(None if self.adaptive else self._schedule.step, stop - self.time)
         if not self._has_begun:
             self._begin(stop)
         bar = tqdm(

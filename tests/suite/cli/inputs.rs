@@ -87,16 +87,31 @@ fn what_is_wrong_with_a_table_is_said_with_line_and_column() {
         ("time,spot.radius\n0,-1\n", &["table.csv:2", "spot.radius", "at least 0"]),
         ("time,spot.heat_flux\n1,1\n0,1\n", &["table.csv:3", "column `time`", "ascend"]),
         ("time,spot.heat_flux\n0,1\n0,1\n0,1\n", &["table.csv:4", "third row"]),
-        ("time,spot.heat_flux\n0,1\n1\n", &["table.csv", "line: 3"]),
+        ("time,spot.heat_flux\n0,1\n1\n", &["table.csv:3", "1 cells", "allowed: 2"]),
     ] {
         run_with(&place, table, &[]).fails(1, words);
     }
     let set = ["--set", "spot.heat_flux=1"];
     run_with(&place, "time,spot.heat_flux\n0,1\n", &set).fails(1, &["spot.heat_flux is set"]);
+    fs::write(place.path("latin.csv"), b"time,spot.heat_flux\n0,\xe9\n").unwrap();
+    place.run(&["--inputs", "latin.csv"]).fails(1, &["latin.csv:2", "UTF-8"]);
     place.run(&["--inputs", "nowhere.csv"]).fails(1, &["nowhere.csv"]);
     place.run(&["--between", "held"]).fails(2, &["--inputs"]);
     place.run(&["--rows-every", "0"]).fails(2, &["rows-every"]);
     assert!(!place.path("out").exists());
+}
+
+#[test]
+fn what_a_run_does_before_and_after_its_table_is_said() {
+    let place = Workplace::new();
+    for (rows, words) in [
+        ("1,5e7\n", "before the first row at 1e0 s, whose values hold throughout (are these seconds?)"),
+        ("0,5e7\n2e-7,6e7\n", "the values of the last row hold from 2e-7 s to 1e-6 s"),
+    ] {
+        let table = format!("time,spot.heat_flux\n{rows}");
+        let said = run_with(&place, &table, &["--overwrite"]).succeeds().stderr();
+        assert!(said.contains(words), "{said}");
+    }
 }
 
 #[test]
