@@ -12,6 +12,7 @@ import table
 from cases import CHARTS
 from draw import draw
 from measure import ROOT, measure
+from references import resolved
 
 
 def missing(folder: Path) -> list[str]:
@@ -52,10 +53,12 @@ def main() -> None:
                 place = method.name, table.key(point)
                 if place in known and not options.again:
                     continue
-                known[place] = measure(point, options.repetitions)
-                table.write(path, chart, known)
+                known[place] = measure(point, 1 if method.is_reference else options.repetitions)
+                table.write(path, resolved(chart, known), known)
                 said = known[place].failure or f"{known[place].seconds:.4g} s"
                 print(f"{name}: {method.name}, {point.setting}: {said}", flush=True)
+        chart = resolved(chart, known)
+        table.write(path, chart, known)
         draw(chart, known, options.out)
 
 
