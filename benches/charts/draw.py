@@ -1,6 +1,7 @@
 """Draws error over time, both logarithmic, with the front of what nothing else beats."""
 
 from dataclasses import replace
+from math import isnan
 from pathlib import Path
 
 import matplotlib
@@ -34,8 +35,10 @@ def curve(chart: Chart, quantity, method, known: dict[tuple[str, str], Outcome])
     for point in method.points:
         outcome = known.get((method.name, key(point)))
         if outcome and not outcome.failure and quantity.name in outcome.values:
-            err = max(error(quantity, method, outcome), SMALLEST)
-            found.append((outcome.seconds, err, point.setting, point.asked))
+            err = error(quantity, method, outcome)
+            # Its reference may not be measured yet.
+            if not isnan(err):
+                found.append((outcome.seconds, max(err, SMALLEST), point.setting, point.asked))
     return found
 
 
@@ -111,8 +114,16 @@ def asked_over_found(axes, chart: Chart, known):
     axes.set_xlabel("error asked for [1]")
     axes.set_ylabel("error found [1]")
     axes.grid(True, which="major", color="0.92")
+    make_room(axes, len(axes.get_legend_handles_labels()[0]))
     axes.legend(fontsize=7, loc="lower right")
     return drawn
+
+
+def make_room(axes, entries: int):
+    """Leaves the lower part of the panel to a legend of so many entries."""
+    share = 0.038 * entries + 0.03
+    low, high = axes.get_ylim()
+    axes.set_ylim(high * (low / high) ** (1.0 / (1.0 - share)), high)
 
 
 def draw(chart: Chart, known: dict[tuple[str, str], Outcome], folder: Path):

@@ -1,8 +1,9 @@
 """A column of water that is let go, by SPlisHSPlasH (https://splishsplash.physics-simulation.org).
 
 `splishsplash_dam.py '{"across": 32, "stop": 2.5, "names": {…}}'`: particles over the width, up to
-so many √(a/2g). Its incompressible method DFSPH (Bender & Koschier 2015, doi 10.1145/2786784.2786796)
-in the plane, single precision, walls of particles (Akinci et al. 2012), no viscosity, one thread.
+so many √(a/2g). Its incompressible method DFSPH (Bender & Koschier 2015, doi
+10.1145/2786784.2786796) in the plane, single precision, walls of particles (Akinci et al. 2012, doi
+10.1145/2185520.2185558), no viscosity, one thread.
 """
 
 import json

@@ -168,7 +168,7 @@ def ngsolve(order: int) -> list[Point]:
         mesh = {"radial": RADIUS / elements, "depth": depth, "order": order}
         mesh |= {"growth": 1.0 + 0.5 * order * growth}
         work = ProgramRun("plate_ngsolve.py", CASE | mesh | graded(steps), ".venv-peers")
-        points.append(Point(f"R/{elements}, {steps} steps", work))
+        points.append(Point(f"R/{elements}", work))
     return points
 
 
@@ -177,7 +177,7 @@ def scikit() -> list[Point]:
     for elements, depth, growth, steps in MESHES:
         mesh = {"radial": RADIUS / elements, "depth": depth, "growth": 1.0 + growth}
         work = ProgramRun("plate_scikit.py", CASE | mesh | graded(steps))
-        points.append(Point(f"R/{elements}, {steps} steps", work))
+        points.append(Point(f"R/{elements}", work))
     return points
 
 
