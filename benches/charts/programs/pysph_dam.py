@@ -3,7 +3,7 @@
 `pysph_dam.py '{"scheme": "wcsph", "across": 32, "stop": 2.5, "names": {…}}'`: so many particles
 over the width, up to so many √(a/2g). The example's column is 1 m by 2 m, its tank 4 m by 4 m.
 Asked for another distance of particles, the example keeps masses and supports of its own 0.03 m;
-here they follow.
+here they follow. `alpha` is of the artificial viscosity, 0.1 if nothing is said.
 """
 
 import json
@@ -35,6 +35,7 @@ def main() -> None:
         dx = 1.0 / asked["across"]
         command = [sys.executable, "-c", EXAMPLE.format(dx=dx)]
         command += ["--dx", repr(dx), "--tf", repr(stop)]
+        command += ["--alpha", repr(asked["alpha"])] if "alpha" in asked else []
         command += ["--scheme", asked["scheme"], "--pfreq", "1000000", "--directory", folder]
         ran = subprocess.run(command, check=True, capture_output=True, text=True)
         files = sorted(Path(folder).glob("dam_*"), key=number)

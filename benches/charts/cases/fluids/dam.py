@@ -34,15 +34,17 @@ def dam() -> Chart:
         Quantity(MIDDLE, "1", middle, None, source),
     ]
     sides = [10, 14, 20, 28, 40]
+    pysph = "pysph_dam.py"
     methods = [
         Method(FINEST, ours([ACROSS]), is_reference=True),
         Method("H = 3Δx", ours(sides)),
         Method("H = 4Δx", ours(sides, support=4.0)),
         Method("H = 3Δx, double", ours([10, 14, 20], precision="double")),
         Method("H = 3Δx, not shifted", ours(sides, shifting=False)),
-        Method("PySPH, compressible", theirs("pysph_dam.py", [10, 14, 20, 28], scheme="wcsph")),
-        Method("PySPH, Adami", theirs("pysph_dam.py", [10, 14, 20], scheme="aha")),
-        Method("PySPH, damped", theirs("pysph_dam.py", [10, 20], scheme="edac")),
+        Method("PySPH, compressible", theirs(pysph, [10, 14, 20, 28], scheme="wcsph")),
+        Method("PySPH, inviscid", theirs(pysph, [10, 14, 20, 28], scheme="wcsph", alpha=0.0)),
+        Method("PySPH, Adami", theirs(pysph, [10, 14, 20], scheme="aha")),
+        Method("PySPH, damped", theirs(pysph, [10, 20], scheme="edac")),
         Method("SPlisHSPlasH, DFSPH", theirs("splishsplash_dam.py", [10, 14, 20, 28, 40])),
     ]
     return Chart("dam", "A column of water that is let go", quantities, methods)
