@@ -36,6 +36,18 @@ def errors_of(row: dict[str, str]) -> dict[str, float]:
     return {name: float(text) for name, text in row.items() if name.startswith("error") and text}
 
 
+def test_no_point_of_a_chart_has_failed():
+    charts = [path.stem for path in (ROOT / "docs/charts").glob("*.csv")]
+    assert len(charts) > 10
+    failed = {
+        (chart, row["method"], row["setting"]): row["failure"]
+        for chart in charts
+        for row in rows_of(chart)
+        if row["failure"]
+    }
+    assert failed == {}
+
+
 @pytest.mark.parametrize("chart", ["spot", "alumina_plate", "pressure", "layers", "contact"])
 def test_tolerances_that_were_asked_for_are_kept(chart):
     asked = [row for row in rows_of(chart) if row["asked"]]
