@@ -78,7 +78,7 @@ bench: build $(VENV)/ready-verify ## time against an independent finite-element 
 	$(BIN)/python benches/plans.py
 	cargo bench --bench elastic_iterations
 
-charts: build $(VENV)/ready-verify $(PEERS)/ready ## chart errors over time, level beside level; goes on where it was stopped
+charts: build $(VENV)/ready-verify $(PEERS)/ready ## chart errors over time; goes on where it was stopped (needs g++, OpenGL)
 	cargo build --release --bench flow_limits
 	OMP_NUM_THREADS=1 $(BIN)/python benches/charts/run.py
 

@@ -35,7 +35,7 @@ struct Run {
     /// Shares of the bounds of time steps; nothing where a scene's are kept.
     courant: Option<f64>,
     capillary: Option<f64>,
-    /// Particles along a side, or across a drop.
+    /// Particles along a side, across a drop or over the width of a column.
     across: f64,
     /// c₀ over the speed of the flow.
     sound: f64,
@@ -48,7 +48,7 @@ struct Run {
     cells: Cells,
     /// Time steps of a lattice.
     steps: usize,
-    /// End of vortices over D/U, turns of a square, Rayleigh periods of drops.
+    /// End of vortices over D/U, turns of a square, Rayleigh periods of drops, √(a/2g) of columns.
     stop: f64,
     /// µ/√(ρσR) of drops.
     ohnesorge: f64,
@@ -95,6 +95,8 @@ enum Which {
     Square,
     /// A drop that swings.
     Swing,
+    /// A column of water that is let go beside a wall.
+    Dam,
 }
 
 #[derive(Deserialize, PartialEq)]
@@ -372,6 +374,81 @@ impl Run {
         }
         Ok(flow)
     }
+
+    /// How far a column of water of 1 m by 2 m has gone, over its width: its front from where it began, its middle.
+    /// Floor and walls let it slip but for water's own viscosity.
+    fn dam(&self, values: &mut Values) -> Result<Flow, Failure> {
+        let columns = self.across as usize;
+        let spacing = 1.0 / self.across;
+        let points = classical_flows::lattice(columns, dam::TALL * columns, spacing);
+        let sound = self.sound * dam::fastest();
+        let extents = [Extent::Closed(dam::TANK), Extent::Open, Extent::Closed(dam::TANK)];
+        let mut plan = self.plan(spacing, dam::VISCOSITY, sound, extents);
+        plan.gravity = [0.0, 0.0, -dam::GRAVITY];
+        let particles =
+            cloud((&points, spacing), |_| [0.0; 2], |n| dam::pressure(points[n]), sound);
+        let mut flow = Flow::of(plan, self.shares(), &particles);
+        let [front, middle] = dam::places(&particles);
+        let energy = dam::energy(&particles);
+        flow.advance(self.stop / (2.0 * dam::GRAVITY).sqrt())?;
+        let particles = flow.particles();
+        let [front_now, middle_now] = dam::places(&particles);
+        values.keep("front", 1.0 + front_now - front);
+        values.keep("middle", 0.5 + middle_now - middle);
+        values.keep("energy", dam::energy(&particles) / energy);
+        values.keep("steps", flow.drop.totals(&flow.state).steps);
+        Ok(flow)
+    }
+}
+
+/// The column of water of Martin & Moyce (1952, doi 10.1098/rsta.1952.0006), twice as high as wide.
+mod dam {
+    use std::f64::consts::PI;
+
+    use super::{DENSITY, ParticleFields};
+
+    pub const GRAVITY: f64 = 9.81;
+    pub const VISCOSITY: f64 = 1e-3;
+    /// Height over the width of 1 m.
+    pub const TALL: usize = 2;
+    /// Width and height of the tank [m].
+    pub const TANK: f64 = 4.0;
+
+    /// Speed of a fall over the height [m/s].
+    pub fn fastest() -> f64 {
+        (2.0 * GRAVITY * TALL as f64).sqrt()
+    }
+
+    /// That of an incompressible fluid as it is let go: harmonic, nothing at the free faces, and with the weight's
+    /// slope on the floor, `Σ 4ρg(−1)ⁿ/(π(2n + 1)k) cos(kx) sinh(k(H − z))/cosh(kH)`, `k = (n + ½)π/a`.
+    pub fn pressure([x, z]: [f64; 2]) -> f64 {
+        let height = TALL as f64;
+        let term = |n: u32| {
+            let (sign, odd) = (1.0 - 2.0 * f64::from(n % 2), f64::from(2 * n + 1));
+            let k = 0.5 * PI * odd;
+            // sinh(k(H − z))/cosh(kH), which overflow by themselves.
+            let fall = ((-k * z).exp() - (-k * (2.0 * height - z)).exp())
+                / (1.0 + (-2.0 * k * height).exp());
+            4.0 * DENSITY * GRAVITY * sign / (PI * odd * k) * (k * x).cos() * fall
+        };
+        (0..200).map(term).sum()
+    }
+
+    /// The furthest particle and the middle of all along x [m].
+    pub fn places(particles: &ParticleFields) -> [f64; 2] {
+        let along = || particles.position.iter().map(|x| x[0]);
+        let weighted: f64 = along().zip(&particles.mass).map(|(x, m)| x * m).sum();
+        [along().fold(0.0, f64::max), weighted / particles.mass.iter().sum::<f64>()]
+    }
+
+    /// Kinetic energy and that of the height [J].
+    pub fn energy(particles: &ParticleFields) -> f64 {
+        let of = |n: usize| {
+            let square: f64 = particles.velocity[n].iter().map(|v| v * v).sum();
+            particles.mass[n] * (0.5 * square + GRAVITY * particles.position[n][2])
+        };
+        (0..particles.mass.len()).map(of).sum()
+    }
 }
 
 /// That of a square of an incompressible fluid that turns at 1 rad/s (Le Touzé, Colagrossi, Colicchio & Greco 2013, Int.
@@ -454,6 +531,7 @@ fn main() {
         Which::Vortices => run.vortices(&mut values),
         Which::Square => run.square(&mut values),
         Which::Swing => run.swing(&mut values),
+        Which::Dam => run.dam(&mut values),
     };
     let (start, steps, failure) = match outcome {
         Ok(flow) => (flow.start, flow.steps, String::new()),

@@ -7,14 +7,23 @@ Values = dict[str, float]
 
 
 @dataclass(frozen=True)
+class Measured:
+    """A reference that is a value of a point of the same chart, measured as all points are."""
+
+    method: str
+    setting: str
+    quantity: str
+
+
+@dataclass(frozen=True)
 class Quantity:
     """What is asked for: `reference` is at least ten times as accurate as the best point shown."""
 
     name: str
     unit: str
-    reference: float
-    scale: float
-    """What an error is divided by, in the same unit."""
+    reference: float | Measured
+    scale: float | None
+    """What an error is divided by, in the same unit; nothing stands for the reference."""
     source: str
     """Where the reference comes from."""
     has_panel: bool = True
@@ -65,8 +74,10 @@ class Point:
 class Method:
     name: str
     points: list[Point]
-    references: Values = field(default_factory=dict)
+    references: dict[str, float | Measured] = field(default_factory=dict)
     """By quantity, of a method that models another body, whose own answer differs."""
+    is_reference: bool = False
+    """Whether others are measured by it: run once, in the table, and not drawn."""
 
 
 @dataclass(frozen=True)

@@ -1,5 +1,7 @@
 """Draws error over time, both logarithmic, with the front of what nothing else beats."""
 
+from dataclasses import replace
+from math import isnan
 from pathlib import Path
 
 import matplotlib
@@ -33,8 +35,10 @@ def curve(chart: Chart, quantity, method, known: dict[tuple[str, str], Outcome])
     for point in method.points:
         outcome = known.get((method.name, key(point)))
         if outcome and not outcome.failure and quantity.name in outcome.values:
-            err = max(error(quantity, method, outcome), SMALLEST)
-            found.append((outcome.seconds, err, point.setting, point.asked))
+            err = error(quantity, method, outcome)
+            # Its reference may not be measured yet.
+            if not isnan(err):
+                found.append((outcome.seconds, max(err, SMALLEST), point.setting, point.asked))
     return found
 
 
@@ -45,12 +49,24 @@ def between(low: float, high: float):
     return FuncFormatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "25" else "")
 
 
+GAP = 1e3
+"""Between times, which an axis leaves out."""
+
+
+def left_end(times: list[float]) -> float:
+    """Time from which on points stand where they are: what is far quicker is drawn there."""
+    times = sorted(times)
+    return times[1] / 2.0 if len(times) > 1 and times[1] > GAP * times[0] else 0.0
+
+
 def panel(axes, chart: Chart, quantity, known):
+    curves = [curve(chart, quantity, method, known) for method in chart.methods]
+    begin = left_end([seconds for found in curves for seconds, *_ in found])
     every = []
-    for place, method in enumerate(chart.methods):
-        found = curve(chart, quantity, method, known)
+    for place, (method, found) in enumerate(zip(chart.methods, curves, strict=True)):
         if not found:
             continue
+        found = [beside(begin, *point) for point in found]
         every += [(seconds, err) for seconds, err, *_ in found]
         colour, marker = COLOURS[place % len(COLOURS)], MARKERS[place % len(MARKERS)]
         axes.loglog(
@@ -82,6 +98,13 @@ def panel(axes, chart: Chart, quantity, known):
     axes.grid(True, which="major", color="0.92")
 
 
+def beside(begin: float, seconds: float, err: float, setting: str, asked: float | None) -> tuple:
+    """A point, at the left end and with its time if it is quicker than that."""
+    if seconds >= begin:
+        return seconds, err, setting, asked
+    return begin, err, f"{setting} ← {1e6 * seconds:.1g} µs".strip(), asked
+
+
 def asked_over_found(axes, chart: Chart, known):
     """Where a method can be asked for an error: what it kept of that."""
     drawn = False
@@ -110,8 +133,16 @@ def asked_over_found(axes, chart: Chart, known):
     axes.set_xlabel("error asked for [1]")
     axes.set_ylabel("error found [1]")
     axes.grid(True, which="major", color="0.92")
+    make_room(axes, len(axes.get_legend_handles_labels()[0]))
     axes.legend(fontsize=7, loc="lower right")
     return drawn
+
+
+def make_room(axes, entries: int):
+    """Leaves the lower part of the panel to a legend of so many entries."""
+    share = 0.038 * entries + 0.03
+    low, high = axes.get_ylim()
+    axes.set_ylim(high * (low / high) ** (1.0 / (1.0 - share)), high)
 
 
 def draw(chart: Chart, known: dict[tuple[str, str], Outcome], folder: Path):
@@ -126,6 +157,7 @@ def draw(chart: Chart, known: dict[tuple[str, str], Outcome], folder: Path):
             "svg.hashsalt": chart.name,
         }
     )
+    chart = replace(chart, methods=[m for m in chart.methods if not m.is_reference])
     can_ask = any(p.asked is not None for m in chart.methods for p in m.points)
     drawn = [quantity for quantity in chart.quantities if quantity.has_panel]
     panels, count = len(drawn), len(drawn) + can_ask

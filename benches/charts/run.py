@@ -4,14 +4,17 @@ Each point is packed and run in processes of its own; medians of its repetitions
 stays unless its scene has changed or `--again` asks for it.
 """
 
-import argparse
 import sys
 from pathlib import Path
 
 import table
 from cases import CHARTS
 from draw import draw
-from measure import ROOT, measure
+from measure import measure
+from references import resolved
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from surveys import parsed, parser  # noqa: E402 - of the folder of all benches
 
 
 def missing(folder: Path) -> list[str]:
@@ -27,21 +30,11 @@ def missing(folder: Path) -> list[str]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("charts", nargs="*", help=f"of {', '.join(CHARTS)} [default: all]")
-    parser.add_argument("--out", type=Path, default=ROOT / "docs/charts")
-    parser.add_argument("--repetitions", type=int, default=3)
-    parser.add_argument("--again", action="store_true", help="measure what is known, too")
-    parser.add_argument("--draw", action="store_true", help="only draw what is known")
-    parser.add_argument("--methods", nargs="*", help="measure these alone")
-    parser.add_argument("--check", action="store_true", help="only say what is not known")
-    options = parser.parse_args()
-    if unknown := set(options.charts) - set(CHARTS):
-        parser.error(f"no such chart: {', '.join(sorted(unknown))}; there are {', '.join(CHARTS)}")
-    if options.check:
-        sys.exit("\n".join(missing(options.out)) or None)
-    options.out.mkdir(parents=True, exist_ok=True)
-    for name in options.charts or CHARTS:
+    made = parser(__doc__, "charts", CHARTS)
+    made.add_argument("--repetitions", type=int, default=3)
+    made.add_argument("--methods", nargs="*", help="measure these alone")
+    options = parsed(made, CHARTS, missing)
+    for name in options.names:
         chart = CHARTS[name]()
         path = options.out / f"{name}.csv"
         known = table.read(path, chart)
@@ -52,10 +45,12 @@ def main() -> None:
                 place = method.name, table.key(point)
                 if place in known and not options.again:
                     continue
-                known[place] = measure(point, options.repetitions)
-                table.write(path, chart, known)
+                known[place] = measure(point, 1 if method.is_reference else options.repetitions)
+                table.write(path, resolved(chart, known), known)
                 said = known[place].failure or f"{known[place].seconds:.4g} s"
                 print(f"{name}: {method.name}, {point.setting}: {said}", flush=True)
+        chart = resolved(chart, known)
+        table.write(path, chart, known)
         draw(chart, known, options.out)
 
 

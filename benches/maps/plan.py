@@ -1,8 +1,14 @@
 """What a map of a method's limits is made of: two settings, what came of each pair, and theory."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import nan
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from references import Reference
 
 Work = dict
 """Plain arguments of a run, which JSON can write: a point is measured again where they change."""
@@ -68,6 +74,8 @@ class Map:
     """Ratio to which the boundary is searched between the values of y."""
     colours: tuple[float, float] | None = None
     """Ends of the colours' range."""
+    references: list[Reference] = field(default_factory=list)
+    """What cells are judged by, if that is measured, too; measured before them."""
 
 
 @dataclass(frozen=True)

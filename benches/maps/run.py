@@ -2,10 +2,9 @@
 
 A point is run in a process of its own; what is in a table stays unless its work has changed or
 `--again` asks for it. `limits.csv` holds how far each measured limit is from theory, and how many
-failures nothing was said of.
+failures nothing was said of, `references.csv` what maps of impacts are judged by.
 """
 
-import argparse
 import csv
 import multiprocessing
 import os
@@ -21,7 +20,8 @@ from cases import MAPS
 from draw import draw
 from plan import Answer, Cell, Map
 
-ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from surveys import parsed, parser  # noqa: E402 - of the folder of all benches
 
 
 def measure(name: str, x: float, y: float, is_search: bool) -> Cell:
@@ -92,6 +92,9 @@ class Surveyor:
                 table.write(self.path, self.of, self.known)
 
     def complete(self) -> None:
+        for reference in self.of.references:
+            if not reference.is_known:
+                reference.measure()
         grid = [(x, y) for x in self.of.x.values for y in self.of.y.values]
         self.measure([place for place in grid if place not in self.known])
         search(self.of, self.known, lambda places: self.measure(places, is_search=True))
@@ -123,24 +126,15 @@ def missing(folder: Path) -> list[str]:
         known = table.read(folder / f"{name}.csv", of)
         lacking = [(x, y) for x in of.x.values for y in of.y.values if (x, y) not in known]
         told += [f"{name} lacks x = {x:g}, y = {y:g}" for x, y in lacking]
+        told += [f"{name} lacks the reference {r.name}" for r in of.references if not r.is_known]
     return told
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("maps", nargs="*", help=f"of {', '.join(MAPS)} [default: all]")
-    parser.add_argument("--out", type=Path, default=ROOT / "docs/maps")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--again", action="store_true", help="measure what is known, too")
-    parser.add_argument("--draw", action="store_true", help="only draw what is known")
-    parser.add_argument("--check", action="store_true", help="only say what is not known")
-    options = parser.parse_args()
-    if unknown := set(options.maps) - set(MAPS):
-        parser.error(f"no such map: {', '.join(sorted(unknown))}; there are {', '.join(MAPS)}")
-    if options.check:
-        sys.exit("\n".join(missing(options.out)) or None)
-    options.out.mkdir(parents=True, exist_ok=True)
-    for name in options.maps or MAPS:
+    made = parser(__doc__, "maps", MAPS)
+    made.add_argument("--jobs", type=int, default=os.cpu_count())
+    options = parsed(made, MAPS, missing)
+    for name in options.names:
         surveyor = Surveyor(MAPS[name](), options.out / f"{name}.csv", options.jobs)
         if options.again:
             surveyor.known.clear()

@@ -14,8 +14,9 @@ Known = dict[tuple[float, float], Cell]
 
 
 def key(place: Map, x: float, y: float) -> str:
-    """What a row is of: rows of other work are measured again."""
-    text = json.dumps([place.name, place.work(x, y)], sort_keys=True)
+    """What a row is of: rows of other work are measured again, and those with other references."""
+    told = [place.name, place.work(x, y), *(reference.key for reference in place.references)]
+    text = json.dumps(told, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:12]
 
 

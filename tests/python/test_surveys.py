@@ -28,6 +28,47 @@ def test_no_failure_that_a_user_can_reach_is_silent():
     assert {name: count for name, count in silent.items() if count} == SCATTERED
 
 
+def rows_of(chart: str) -> list[dict[str, str]]:
+    with (ROOT / "docs/charts" / f"{chart}.csv").open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def errors_of(row: dict[str, str]) -> dict[str, float]:
+    return {name: float(text) for name, text in row.items() if name.startswith("error") and text}
+
+
+def test_no_point_of_a_chart_has_failed():
+    charts = [path.stem for path in (ROOT / "docs/charts").glob("*.csv")]
+    assert len(charts) > 10
+    failed = {
+        (chart, row["method"], row["setting"]): row["failure"]
+        for chart in charts
+        for row in rows_of(chart)
+        if row["failure"]
+    }
+    assert failed == {}
+
+
+@pytest.mark.parametrize("chart", ["spot", "alumina_plate", "pressure", "layers", "contact"])
+def test_tolerances_that_were_asked_for_are_kept(chart):
+    asked = [row for row in rows_of(chart) if row["asked"]]
+    assert len(asked) > 2
+    for row in asked:
+        errors = errors_of(row)
+        assert errors
+        assert max(errors.values()) < float(row["asked"]), (row["method"], row["setting"])
+
+
+@pytest.mark.parametrize("chart", ["spot", "alumina_plate"])
+@pytest.mark.parametrize("shape", ["box", "disc"])
+def test_stresses_of_references_have_settled(chart, shape):
+    coarse, fine = (row for row in rows_of(chart) if row["method"] == f"NGSolve, {shape}")
+    names = [name for name in coarse if name.startswith("value") and "stress" in name]
+    assert names
+    for name in names:
+        assert float(coarse[name]) == pytest.approx(float(fine[name]), rel=1e-5)
+
+
 @pytest.mark.parametrize("kind", ["charts", "maps"])
 def test_every_picture_is_explained(kind):
     folder = ROOT / "docs" / kind

@@ -11,6 +11,7 @@ point they give the other stresses. (Projected onto the shape functions instead,
 surface is some per cent off.)
 """
 
+import os
 from dataclasses import dataclass
 from math import pi, sqrt
 
@@ -55,12 +56,21 @@ class Case:
         return (3 * lam + 2 * mu) * self.expansion
 
 
+def pardiso():
+    """A solver of symmetric positive definite matrices; where MKL lies is searched for once."""
+    from pypardiso import PyPardisoSolver
+
+    solver = PyPardisoSolver(mtype=2)
+    os.environ.setdefault("PYPARDISO_MKL_RT", solver.libmkl._name)
+    return solver
+
+
 class Factor:
     """A factorised symmetric positive definite matrix: PARDISO where there is one, else SuperLU."""
 
     def __init__(self, matrix):
         try:
-            from pypardiso import PyPardisoSolver
+            solver = pardiso()
         except ImportError:
             from scipy.sparse.linalg import splu
 
@@ -69,7 +79,6 @@ class Factor:
             self.solve = lu.solve
             return
         self.name = "PARDISO"
-        solver = PyPardisoSolver(mtype=2)
         solver.size_limit_storage = 0  # compare matrices by hash, keep no copy
         upper = sp.triu(matrix, format="csr")
         solver.factorize(upper)
@@ -83,18 +92,28 @@ class SymmetricFactor:
     """
 
     def __init__(self):
-        self.solver = None
+        self.solver, self.upper, self.is_ordered = None, None, False
+
+    def factor(self, upper):
+        """Makes a matrix the one that `back` solves for."""
+        self.upper = upper
+        try:
+            self.solver = self.solver or pardiso()
+        except ImportError:
+            self.back = Factor((upper + sp.triu(upper, 1).T).tocsr()).solve
+            return
+        nothing = np.zeros(upper.shape[0])
+        if not self.is_ordered:
+            self._run(11, upper, nothing)
+            self.is_ordered = True
+        self._run(22, upper, nothing)
+
+    def back(self, b):
+        return self._run(33, self.upper, b)
 
     def solve(self, upper, b):
-        try:
-            from pypardiso import PyPardisoSolver
-        except ImportError:
-            return Factor((upper + sp.triu(upper, 1).T).tocsr()).solve(b)
-        if self.solver is None:
-            self.solver = PyPardisoSolver(mtype=2)
-            self._run(11, upper, b)
-        self._run(22, upper, b)
-        return self._run(33, upper, b)
+        self.factor(upper)
+        return self.back(b)
 
     def _run(self, phase, upper, b):
         self.solver.set_phase(phase)

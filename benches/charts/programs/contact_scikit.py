@@ -6,9 +6,10 @@ order (Alexander 1977, doi 10.1137/0714068).
 
 import numpy as np
 import scipy.sparse as sp
-from meridian import GAMMA, Factor, tell
+from meridian import GAMMA, Factor
 from skfem import Basis, BilinearForm, ElementLineP2, MeshLine
 from skfem.helpers import dot, grad
+from telling import tell
 
 
 def slab(case: dict, body: dict) -> tuple:

@@ -4,10 +4,7 @@ Heat advances by the L-stable, diagonally implicit Runge–Kutta method of secon
 1977, doi 10.1137/0714068); elastic stress is projected onto the shape functions.
 """
 
-import json
-import resource
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -40,6 +37,14 @@ def places(fine: float, size: float, end: float, growth: float) -> np.ndarray:
         ends.pop()
     ends[-1] = end
     return np.array(ends)
+
+
+def stepped(rise: np.ndarray, solve, conductance, load, step: float) -> np.ndarray:
+    """Temperatures a step later; `solve` is for the capacity and `GAMMA * step` conductances."""
+    first = solve(load - conductance @ rise)
+    between = rise + (1.0 - GAMMA) * step * first
+    second = solve(load - conductance @ between)
+    return rise + step * ((1.0 - GAMMA) * first + GAMMA * second)
 
 
 class Section:
@@ -90,16 +95,13 @@ class Section:
         def run() -> np.ndarray:
             rise = np.zeros(len(load))
             for _ in range(steps):
-                first = factor.solve(load - conductance @ rise)
-                between = rise + (1.0 - GAMMA) * step * first
-                second = factor.solve(load - conductance @ between)
-                rise = rise + step * ((1.0 - GAMMA) * first + GAMMA * second)
+                rise = stepped(rise, factor.solve, conductance, load, step)
             return rise
 
         return run
 
     def elastic(self):
-        """A function of a pressure on the spot that gives displacements."""
+        """A function of a pressure on the spot, and of more forces, that gives displacements."""
         young, poisson = self.case["young"], self.case["poisson"]
         lame = young * poisson / ((1 + poisson) * (1 - 2 * poisson))
         shear = young / (2 * (1 + poisson))
@@ -117,33 +119,43 @@ class Section:
             return 2.0 * np.pi * r * (2.0 * shear * inner + lame * volumes)
 
         matrix = stiff.assemble(vectors)
-        fixed = np.concatenate(
-            [
-                vectors.get_dofs(lambda x: np.isclose(x[0], 0.0)).all("u^1"),
-                vectors.get_dofs(lambda x: np.isclose(x[0], self.case["half"])).all("u^1"),
-                vectors.get_dofs(lambda x: np.isclose(x[1], -self.case["thickness"])).all("u^2"),
-            ]
-        )
-        reduced, _, _, free = condense(matrix, np.zeros(matrix.shape[0]), D=np.unique(fixed))
+        held = self.held(vectors)
+        reduced, _, _, free = condense(matrix, np.zeros(matrix.shape[0]), D=held)
         factor = Factor(reduced.tocsr())
 
-        def solve(pressure: float) -> np.ndarray:
-            force = -pressure * self.loaded(ElementVector(ElementQuad2()), 1)
+        press = self.loaded(ElementVector(ElementQuad2()), 1)
+
+        def solve(pressure: float, more: float | np.ndarray = 0.0) -> np.ndarray:
+            force = more - pressure * press
             moved = np.zeros(matrix.shape[0])
             moved[free] = factor.solve(force[free])
             return moved
 
         return solve
 
-    def stress(self, moved: np.ndarray, depth: float) -> np.ndarray:
-        """rr, tt and zz on the axis [Pa], projected onto the shape functions.
+    def held(self, vectors: Basis) -> np.ndarray:
+        """Unknowns that do not move: side and bottom are rollers, or the side is clamped."""
+        axis = vectors.get_dofs(lambda x: np.isclose(x[0], 0.0)).all("u^1")
+        side = vectors.get_dofs(lambda x: np.isclose(x[0], self.case["half"]))
+        if self.case.get("is_clamped"):
+            return np.unique(np.concatenate([axis, side.all()]))
+        bottom = vectors.get_dofs(lambda x: np.isclose(x[1], -self.case["thickness"])).all("u^2")
+        return np.unique(np.concatenate([axis, side.all("u^1"), bottom]))
 
-        Without the weight r, which would leave the axis to chance."""
+    def stress(self, moved: np.ndarray, depth: float) -> np.ndarray:
+        """rr, tt and zz on the axis [Pa], projected onto the shape functions."""
         lame, shear = self.moduli
         u = self.vectors.interpolate(moved)
         slopes, hoop = u.grad, u[0] / self.vectors.global_coordinates()[0]
         pressure = lame * (slopes[0, 0] + slopes[1, 1] + hoop)
         fields = [pressure + 2.0 * shear * part for part in (slopes[0, 0], hoop, slopes[1, 1])]
+
+        return self.projected(fields, depth)
+
+    def projected(self, fields: list[np.ndarray], depth: float) -> np.ndarray:
+        """Values on the axis of fields at the points of quadrature, as shape functions have them.
+
+        Without the weight r, which would leave the axis to chance."""
 
         @BilinearForm
         def mass(a, b, w):
@@ -154,24 +166,10 @@ class Section:
             return w["field"] * b
 
         factor = Factor(mass.assemble(self.basis).tocsr())
-        probe = self.basis.probes(np.array([[1e-9 * self.case["half"]], [-depth]]))
+        probe = self.probe(depth)
         loads = (of_field.assemble(self.basis, field=np.asarray(field)) for field in fields)
         return np.array([float((probe @ factor.solve(load))[0]) for load in loads])
 
-
-def peak() -> int:
-    """Peak memory of this process [B]."""
-    return 1024 * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-
-
-def tell(prepare) -> None:
-    """Runs what `prepare` makes of the arguments, and prints values, times and memory."""
-    case = json.loads(sys.argv[1])
-    before = peak()
-    begin = time.perf_counter()
-    run = prepare(case)
-    started = time.perf_counter()
-    values = run()
-    ended = time.perf_counter()
-    told = {"values": values, "start": started - begin, "steps": ended - started}
-    print(json.dumps(told | {"memory": peak() - before}))
+    def probe(self, depth: float):
+        """A row that reads what is on the axis."""
+        return self.basis.probes(np.array([[1e-9 * self.case["half"]], [-depth]]))

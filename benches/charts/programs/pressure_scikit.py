@@ -1,6 +1,7 @@
 """A pressed disc on a block: stress on the axis, by scikit-fem."""
 
-from meridian import Section, tell
+from meridian import Section
+from telling import tell
 
 
 def prepare(case: dict):

@@ -26,7 +26,7 @@ def ours(sides: list[int], **settings) -> list[Point]:
     return points
 
 
-def theirs(scheme: str, sides: list[int], scatter: float = 0.0) -> list[Point]:
+def theirs(scheme: str, sides: list[int], scatter: float = 0.0, **settings) -> list[Point]:
     """So many particles along the side, on a square lattice or a little off it."""
     points = []
     for side in sides:
@@ -37,7 +37,7 @@ def theirs(scheme: str, sides: list[int], scatter: float = 0.0) -> list[Point]:
             "reynolds": REYNOLDS,
             "stop": STOP,
         }
-        run = ProgramRun("pysph_vortices.py", work, environment=".venv-peers")
+        run = ProgramRun("pysph_vortices.py", work | settings, environment=".venv-peers")
         points.append(Point(str(side), run))
     return points
 
@@ -55,6 +55,7 @@ def vortices() -> Chart:
         Method("PySPH, damped", theirs("edac", [18, 25])),
         Method("PySPH, damped, scattered", theirs("edac", [12, 18, 25, 36], SCATTER)),
         Method("PySPH, transport, scattered", theirs("tvf", [25], SCATTER)),
+        Method("PySPH, transport, settled", theirs("tvf", [18, 25, 36], SCATTER, is_settled=True)),
         Method("PySPH, compressible, scattered", theirs("wcsph", [25], SCATTER)),
     ]
     return Chart(

@@ -79,6 +79,19 @@ def peer() -> list[Point]:
     return [Point(f"R/{2 * elements:g}", work(elements)) for elements in (1.5, 3.0, 6.0, 12.0)]
 
 
+def ngsolve(order: int) -> list[Point]:
+    """Elements over the radius, where these are smallest: at the edge of the disc."""
+    case = {"spot": RADIUS, "half": FAR, "thickness": FAR, "young": YOUNG, "poisson": POISSON}
+    case |= {"pressure": PRESSURE, "below": DEPTH, "order": order}
+
+    def work(elements: float) -> ProgramRun:
+        size = RADIUS / elements
+        mesh = {"radial": size, "depth": size, "growth": 1.0 + 0.6 * order / elements**0.8}
+        return ProgramRun("pressure_ngsolve.py", case | mesh, environment=".venv-peers")
+
+    return [Point(f"R/{elements:g}", work(elements)) for elements in (4.0, 8.0, 16.0)]
+
+
 def pressure() -> Chart:
     wanted = love()
     source = "closed form, Love 1929"
@@ -88,5 +101,7 @@ def pressure() -> Chart:
         Method("quadratic elements", spaced(2)),
         Method("linear elements", spaced(1)),
         Method("scikit-fem, PARDISO", peer()),
+        Method("NGSolve, order 2", ngsolve(2)),
+        Method("NGSolve, order 4", ngsolve(4)),
     ]
     return Chart("pressure", "A pressed disc on a deep block", quantities, methods)

@@ -6,7 +6,7 @@ quarter, whole box, elements and particles at equal distances.
 
 from math import erfc, exp, pi, sqrt
 
-from chart import Chart, Formula, Method, Point, ProgramRun, Quantity, UnitRun
+from chart import Chart, Formula, Measured, Method, Point, ProgramRun, Quantity, UnitRun
 
 FLUX, RADIUS, STOP, STEPS = 5e8, 50e-6, 10e-6, 10  # W/m², m, s
 HALF, THICKNESS, DEPTH = 0.25e-3, 0.25e-3, 5e-6  # m
@@ -22,9 +22,7 @@ MATERIAL = {
 }
 START = 293.15  # K
 TEMPERATURE, STRESS = "temperature of the centre", "von Mises stress 5 µm below"
-# Quadratic elements, 2 µm and 0.1 µm below the surface, growing by 1.1; 3 and 0.3 µm give 1e-5 more
-# in the box, 1.2e-4 more in the disc.
-STRESS_OF_BOX, STRESS_OF_DISC = 251.80e6, 252.08e6  # Pa
+BOX_REFERENCE, DISC_REFERENCE = "NGSolve, box", "NGSolve, disc"
 OUTPUTS = {TEMPERATURE: "centre.temperature", STRESS: "below.von_mises"}
 TOLERANCES = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3)
 
@@ -128,43 +126,86 @@ def plain(spacings: list[float]) -> list[Point]:
     return points
 
 
-def peer() -> list[Point]:
-    """scikit-fem on a meridian section: elements over the radius, depth of the first, steps."""
-    case = {"spot": RADIUS, "half": HALF, "thickness": THICKNESS}
-    case |= {"capacity": DENSITY * CAPACITY, "conductivity": CONDUCTIVITY, "flux": FLUX}
-    case |= {"stop": STOP, "initial": START}
+CASE = {
+    "spot": RADIUS,
+    "half": HALF,
+    "thickness": THICKNESS,
+    "capacity": DENSITY * CAPACITY,
+    "conductivity": CONDUCTIVITY,
+    "young": MATERIAL["young"],
+    "poisson": MATERIAL["poisson"],
+    "expansion": MATERIAL["expansion"],
+    "initial": START,
+    "is_clamped": True,
+}
+
+
+def graded(steps: int) -> dict:
+    """Steps whose ends are as cubes, since temperatures rise with the root of time at first."""
+    ends = [STOP * (n / steps) ** 3 for n in range(1, steps + 1)]
+    readings = {TEMPERATURE: (steps, 0.0, "temperature"), STRESS: (steps, DEPTH, "von_mises")}
+    return {"schedule": [(end, FLUX, 0.0) for end in ends], "readings": readings, "parts": 1}
+
+
+def fine(name: str, program: str, **more) -> Method:
+    """A reference, and one of elements twice as long that tells how good it is."""
     points = []
-    for elements, depth, growth, steps in (
-        (3, 5e-6, 1.5, 10),
-        (5, 2.5e-6, 1.3, 20),
-        (8, 1.5e-6, 1.2, 40),
-        (12, 1e-6, 1.15, 80),
-    ):
-        mesh = {"radial": RADIUS / elements, "depth": depth, "growth": growth, "steps": steps}
-        work = ProgramRun("spot_scikit.py", case | mesh)
-        points.append(Point(f"R/{2 * elements}, {steps} steps", work))
+    for size, growth, steps in ((2e-6, 1.7, 80), (1e-6, 1.6, 160)):
+        mesh = {"order": 8, "radial": size, "depth": size / 5.0, "growth": growth}
+        work = ProgramRun(program, CASE | mesh | graded(steps) | more, environment=".venv-peers")
+        points.append(Point(f"{1e6 * size:g} µm", work))
+    return Method(name, points, is_reference=True)
+
+
+MESHES = ((4, 2e-6, 0.3, 10), (8, 1e-6, 0.2, 20), (16, 5e-7, 0.12, 40))
+"""Elements of peers over the spot's radius, where these are smallest, depth of the first, by what
+share quadratic ones grow, and steps."""
+
+
+def ngsolve(order: int) -> list[Point]:
+    points = []
+    for elements, depth, growth, steps in MESHES:
+        mesh = {"radial": RADIUS / elements, "depth": depth, "order": order}
+        mesh |= {"growth": 1.0 + 0.5 * order * growth}
+        work = ProgramRun("plate_ngsolve.py", CASE | mesh | graded(steps), ".venv-peers")
+        points.append(Point(f"R/{elements}", work))
+    return points
+
+
+def scikit() -> list[Point]:
+    points = []
+    for elements, depth, growth, steps in MESHES:
+        mesh = {"radial": RADIUS / elements, "depth": depth, "growth": 1.0 + growth}
+        work = ProgramRun("plate_scikit.py", CASE | mesh | graded(steps))
+        points.append(Point(f"R/{elements}", work))
     return points
 
 
 def spot() -> Chart:
     rise = closed_form()[TEMPERATURE] - START
+    closed = "closed form, Carslaw & Jaeger 1959, § 10.5"
+    of_box, of_disc = (Measured(name, "1 µm", STRESS) for name in (BOX_REFERENCE, DISC_REFERENCE))
     quantities = [
-        Quantity(
-            TEMPERATURE, "K", START + rise, rise, "closed form, Carslaw & Jaeger 1959, § 10.5"
-        ),
-        Quantity(STRESS, "Pa", STRESS_OF_BOX, STRESS_OF_BOX, "quadratic elements of 2 µm"),
+        Quantity(TEMPERATURE, "K", START + rise, rise, closed),
+        Quantity(STRESS, "Pa", of_box, None, "NGSolve, elements of order 8"),
     ]
     coarse = [25e-6, 12.5e-6, 10e-6]
+    wider = {"half": 1.6 * HALF, "box": HALF}
+    of_disc = {STRESS: of_disc}
     methods = [
+        fine(BOX_REFERENCE, "box_ngsolve.py", **wider, blocks=3),
+        fine(DISC_REFERENCE, "plate_ngsolve.py"),
         Method("closed form", [Point("", Formula(closed_form))]),
         Method("reduced unit", asked(BOX, "reduced")),
         Method("column", column()),
-        Method("meridian section", asked(DISC), {STRESS: STRESS_OF_DISC}),
+        Method("meridian section", asked(DISC), of_disc),
         Method("quarter", asked(BOX)),
         Method("whole box", asked(BOX, symmetry="none")),
         Method("uniform finite elements", spaced(BOX, [*coarse, 6.25e-6, 5e-6], {"order": 1})),
         Method("uniform particles, corrected", spaced(BOX, coarse, {"order": 1}, "sph")),
         Method("uniform particles, plain", plain(coarse)),
-        Method("scikit-fem, PARDISO", peer()),
+        Method("scikit-fem, PARDISO", scikit(), of_disc),
+        Method("NGSolve, order 2", ngsolve(2), of_disc),
+        Method("NGSolve, order 4", ngsolve(4), of_disc),
     ]
     return Chart("spot", "A hot spot on alumina for 10 µs", quantities, methods)

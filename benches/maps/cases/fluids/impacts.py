@@ -3,6 +3,7 @@
 from functools import partial
 
 from plan import Answer, Axis, Map
+from references import Reference
 from unit_run import run_unit
 
 from cases.fluids.drops import (
@@ -33,10 +34,13 @@ def last(answer: Answer, name: str) -> float:
     return answer.values[f"drop.{name}"][-1]
 
 
-def off(references: dict[str, float], answer: Answer, x: float, y: float) -> float:
+def off(reference: Reference, answer: Answer, x: float, y: float) -> float:
     """One of the quantities beside its reference."""
-    name = QUANTITIES[round(y)]
-    return abs(last(answer, name) / references[name] - 1.0)
+    return beside(reference, answer, QUANTITIES[round(y)])
+
+
+def beside(reference: Reference, answer: Answer, name: str) -> float:
+    return abs(last(answer, name) / reference.value(f"drop.{name}") - 1.0)
 
 
 def of_quantities() -> Axis:
@@ -51,7 +55,7 @@ def spreads() -> Map:
         scene = case(weber, weber**0.5 / ohnesorge, across, stop, reach=10.0)
         return impact_work(scene, ["spread_diameter"])
 
-    def beside(answer: Answer, weber: float, ohnesorge: float) -> float:
+    def of_fit(answer: Answer, weber: float, ohnesorge: float) -> float:
         expected = largest_spread(weber, weber**0.5 / ohnesorge, HEMISPHERE)
         return abs(largest(answer, "spread_diameter") / DIAMETER / expected - 1.0)
 
@@ -65,12 +69,25 @@ def spreads() -> Map:
         bad=0.3,
         work=work,
         run=run_unit,
-        judge=beside,
+        judge=of_fit,
         colours=(0.0, 0.6),
     )
 
 
 WEBER, REYNOLDS, STOP = 300.0, 1000.0, 2.0
+FASTEST_SOUND, FINEST = 30.0, 64.0
+"""Speed of sound over that of the drop, and particles across, of references."""
+
+
+def by_sound() -> Reference:
+    sound = {"sound_speed": FASTEST_SOUND * speed_of(WEBER)}
+    work = impact_work(case(WEBER, REYNOLDS, 24.0, STOP, fluid=sound), QUANTITIES, 20)
+    return Reference(f"{FASTEST_SOUND:g} U", work, run_unit)
+
+
+def finest() -> Reference:
+    work = impact_work(case(WEBER, REYNOLDS, FINEST, STOP), QUANTITIES, 20)
+    return Reference(f"{FINEST:g} particles across", work, run_unit)
 
 
 def sound_speed() -> Map:
@@ -91,7 +108,8 @@ def sound_speed() -> Map:
         bad=0.25,
         work=work,
         run=run_unit,
-        judge=partial(off, BY_SOUND),
+        judge=partial(off, by_sound()),
+        references=[by_sound()],
         colours=(0.0, 0.4),
     )
 
@@ -118,7 +136,8 @@ def kernels() -> Map:
         bad=0.3,
         work=work,
         run=run_unit,
-        judge=lambda answer, x, y: abs(last(answer, "heat") / FINE["heat"] - 1.0),
+        judge=lambda answer, x, y: beside(finest(), answer, "heat"),
+        references=[finest()],
         colours=(0.0, 0.5),
     )
 
@@ -140,7 +159,8 @@ def diffusion() -> Map:
         bad=0.3,
         work=work,
         run=run_unit,
-        judge=partial(off, FINE),
+        judge=partial(off, finest()),
+        references=[finest()],
         colours=(0.0, 0.5),
     )
 
@@ -161,14 +181,20 @@ def resolution() -> Map:
         bad=0.3,
         work=work,
         run=run_unit,
-        judge=partial(off, FINE),
+        judge=partial(off, finest()),
+        references=[finest()],
         colours=(0.0, 0.5),
     )
 
 
 FILMS = [(10.0, 100.0), (30.0, 100.0), (30.0, 1000.0), (100.0, 1000.0), (300.0, 1000.0)]
 """Weber and Reynolds numbers."""
-FILM_STOP = 3.0
+FILM_STOP, FINE_FILM = 3.0, 48.0
+
+
+def fine_film(weber: float, reynolds: float) -> Reference:
+    work = impact_work(case(weber, reynolds, FINE_FILM, FILM_STOP), ["heat"], 20)
+    return Reference(f"We {weber:g}, Re {reynolds:g}, {FINE_FILM:g} across", work, run_unit)
 
 
 def films() -> Map:
@@ -177,8 +203,8 @@ def films() -> Map:
     def work(x: float, y: float) -> dict:
         return impact_work(case(*FILMS[round(y)], x, FILM_STOP), ["heat"], 20)
 
-    def beside(answer: Answer, x: float, y: float) -> float:
-        return abs(last(answer, "heat") / FILM_HEAT[round(y)] - 1.0)
+    def of_film(answer: Answer, x: float, y: float) -> float:
+        return beside(fine_film(*FILMS[round(y)]), answer, "heat")
 
     return Map(
         name="films",
@@ -196,29 +222,10 @@ def films() -> Map:
         bad=0.3,
         work=work,
         run=run_unit,
-        judge=beside,
+        judge=of_film,
+        references=[fine_film(*numbers) for numbers in FILMS],
         colours=(0.0, 0.5),
     )
-
-
-BY_SOUND = dict(zip(QUANTITIES, (-7.6573e-9, 3.1042e-4, 6.947e-6, 2.2138e-5), strict=True))
-FINE = dict(zip(QUANTITIES, (-7.6551e-9, 3.2422e-4, 8.058e-6, 2.2725e-5), strict=True))
-FILM_HEAT = [1.9260e-5, 2.0957e-5, 3.7730e-5, 4.0217e-5, 3.6241e-5]
-"""References, by `references` below: 30 U at 24 particles across; 64 across; 48 across."""
-
-
-def references() -> None:
-    """Prints what the numbers above come from."""
-    sound = {"sound_speed": 30.0 * speed_of(WEBER)}
-    for across, body in ((24.0, {"fluid": sound}), (64.0, {})):
-        scene = case(WEBER, REYNOLDS, across, STOP, **body)
-        answer = run_unit(impact_work(scene, QUANTITIES, 20))
-        print([last(answer, name) for name in QUANTITIES], flush=True)
-    heats = []
-    for weber, reynolds in FILMS:
-        scene = case(weber, reynolds, 48.0, FILM_STOP)
-        heats.append(last(run_unit(impact_work(scene, ["heat"], 20)), "heat"))
-        print(heats, flush=True)
 
 
 MAPS = {of.__name__: of for of in (spreads, sound_speed, kernels, diffusion, resolution, films)}
