@@ -20,12 +20,38 @@ pub struct Yielding {
     levels: Vec<usize>,
     /// Whether stress has a bound.
     yields: bool,
-    /// What an inner step of creep may err by, over the largest elastic strain.
+    /// Of outputs, relative.
     tolerance: f64,
 }
 
-/// How often a step that finds no equilibrium is halved.
-const MOST_HALVES: u32 = 6;
+/// How often a step is halved that finds no equilibrium, or in which temperatures turn.
+const MOST_HALVES: u32 = 8;
+/// Part of the tolerance of outputs that an increment of creep may err by, of the largest elastic strain.
+const PART_OF_STRAIN: f64 = 0.1;
+/// Weight of what is off a straight way between two temperatures without going beyond these: each place then goes the
+/// same way at another pace, which only matters where stress follows from several places.
+const BESIDE: f64 = 0.1;
+
+/// Part of a change of temperature that counts as the rise to yield where that is less.
+const LEAST: f64 = 0.1;
+
+/// How a part of a step goes.
+struct Advance<'a> {
+    yielding: &'a Yielding,
+    allowance: &'a Allowance,
+    heat: &'a dyn Fn(&mut [f64], &Acts) -> Result<(), BodyError>,
+}
+
+/// By how much the parabola through three values at equal distances leaves the range of the first and the last; a tenth
+/// of what it is off their mean in the middle where that is more.
+fn detour([first, middle, last]: [f64; 3]) -> f64 {
+    let off = (middle - 0.5 * (first + last)).abs();
+    let change = (last - first).abs();
+    // Its vertex lies between them where its bend is more than its slope.
+    let beyond =
+        if 4.0 * off > change { off + change * change / (16.0 * off) - 0.5 * change } else { 0.0 };
+    beyond.max(BESIDE * off)
+}
 
 impl Yielding {
     /// Nothing where stress follows linearly from deformation and temperature, or is not asked for.
@@ -81,42 +107,79 @@ impl SolidBody {
         &state[..self.heat_len]
     }
 
-    /// Advances heat, and then mechanics to the equilibrium at the end. A step that finds none is halved.
+    /// Advances heat and mechanics to the equilibrium at the end, in parts: one is halved where temperatures turn on its
+    /// way, so that plastic strain sees the warmest moment, and where it finds no equilibrium.
+    ///
+    /// What is received changes evenly over the whole step, so that step is not cut.
     pub(super) fn advance_yielding(
         &self,
         yielding: &Yielding,
         state: &mut [f64],
         acts: &Acts,
         allowance: &Allowance,
-        mut heat: impl FnMut(&mut [f64], &Acts) -> Result<(), BodyError>,
+        heat: impl Fn(&mut [f64], &Acts) -> Result<(), BodyError>,
     ) -> Result<(), BodyError> {
+        let advance = Advance { yielding, allowance, heat: &heat };
+        let halves = if acts.received.is_empty() { MOST_HALVES } else { 0 };
+        self.advance_part(&advance, state, acts, halves)
+    }
+
+    /// One part of a step, which may be halved so often.
+    fn advance_part(
+        &self,
+        advance: &Advance,
+        state: &mut [f64],
+        acts: &Acts,
+        halves: u32,
+    ) -> Result<(), BodyError> {
+        let Advance { yielding, allowance, heat } = *advance;
         let start = state.to_vec();
-        let mut halves = 0;
-        'parts: loop {
-            let parts = 1 << halves;
-            let length = acts.duration / f64::from(parts);
-            for part in 0..parts {
-                let path = acts.path.from(f64::from(part) * length);
-                let acts = Acts { path: &path, duration: length, ..*acts };
-                let before = state[..self.heat_len].to_vec();
-                heat(&mut state[..self.heat_len], &acts)?;
-                match self.balance(yielding, (&before, state), &acts, allowance) {
-                    Ok(()) => {}
-                    // What is received changes over the whole step, so that step is not cut; what creeps has been.
-                    Err(BodyError::Equilibrium { .. })
-                        if halves < MOST_HALVES
-                            && acts.received.is_empty()
-                            && !yielding.problem.creeps() =>
-                    {
-                        halves += 1;
-                        state.copy_from_slice(&start);
-                        continue 'parts;
-                    }
-                    Err(error) => return Err(error),
-                }
+        heat(&mut state[..self.heat_len], acts)?;
+        if halves == 0 || !self.turns(advance, [&start, state], acts)? {
+            match self.balance(yielding, (&start[..self.heat_len], state), acts, allowance) {
+                // What creeps has been cut.
+                Err(BodyError::Equilibrium { .. }) if halves > 0 && !yielding.problem.creeps() => {}
+                result => return result,
             }
-            return Ok(());
         }
+        state.copy_from_slice(&start);
+        let length = 0.5 * acts.duration;
+        for part in 0..2 {
+            let path = acts.path.from(f64::from(part) * length);
+            let acts = Acts { path: &path, duration: length, ..*acts };
+            self.advance_part(advance, state, &acts, halves - 1)?;
+        }
+        Ok(())
+    }
+
+    /// Whether temperatures on the way between two states go too far beyond those at its ends for mechanics that goes
+    /// straight, see [`detour`]: over the rise that makes a held body yield, or a tenth of their own change if that is more.
+    fn turns(
+        &self,
+        advance: &Advance,
+        [start, end]: [&[f64]; 2],
+        acts: &Acts,
+    ) -> Result<bool, BodyError> {
+        let yielding = advance.yielding;
+        if !yielding.yields {
+            return Ok(false);
+        }
+        let half = 0.5 * acts.duration;
+        let mut middle = self.heat_of(start).to_vec();
+        (advance.heat)(&mut middle, &Acts { duration: half, ..*acts })?;
+        let at = |time: f64, state: &[f64]| {
+            let loads = self.loads.assemble(&acts.path.at(0, time), self.meshes());
+            let temperatures = self.solid.temperatures(self.heat_of(state), &loads);
+            self.nodal_temperatures(yielding, &temperatures)
+        };
+        let [first, middle, last] = [at(0.0, start), at(half, &middle), at(acts.duration, end)];
+        let (mut most, mut change, mut hottest) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for ((&a, &m), &b) in first.iter().zip(&middle).zip(&last) {
+            most = most.max(detour([a, m, b]));
+            change = change.max(a.max(m).max(b) - a.min(m).min(b));
+            hottest = hottest.max(a.max(m).max(b));
+        }
+        Ok(most > yielding.tolerance * yielding.problem.rise_to_yield(hottest).max(LEAST * change))
     }
 
     /// Equilibrium at the end of what acts.
@@ -146,7 +209,7 @@ impl SolidBody {
             temperatures: [&start.0, &end.0],
             forces: [&start.1, &end.1],
             duration: acts.duration,
-            tolerance: yielding.tolerance,
+            tolerance: PART_OF_STRAIN * yielding.tolerance,
             allowance,
         };
         let advanced = yielding.problem.advance_increment(mechanics, &increment);
@@ -248,5 +311,23 @@ impl SolidBody {
         let work =
             |yielding: &Yielding| yielding.problem.dissipated_energy(&state[self.heat_len..]);
         self.yielding.as_ref().map_or(0.0, work)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_detour_is_what_a_parabola_goes_beyond_its_ends() {
+        // 4x(1 − x) + x has its vertex at 5/8, where it is 25/16.
+        assert!((detour([0.0, 1.5, 1.0]) - 9.0 / 16.0).abs() < 1e-14);
+        assert!((detour([1.0, 1.5, 0.0]) - 9.0 / 16.0).abs() < 1e-14);
+        assert_eq!(detour([0.0, 1.0, 0.0]), 1.0);
+        assert_eq!(detour([2.0, 2.0, 2.0]), 0.0);
+        // A root of time goes nowhere else, at another pace.
+        assert!(
+            (detour([0.0, 0.5_f64.sqrt(), 1.0]) - BESIDE * (0.5_f64.sqrt() - 0.5)).abs() < 1e-14
+        );
     }
 }
