@@ -275,7 +275,7 @@ fn meshes_serve_the_whole_range_of_a_radius() {
             "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = {{ gaussian = {{ radius = 2e-3 }} }}\n\
              carries = [\"heat_flux\"]\nstart = {{ heat_flux = 1e6 }}\n{keys}"
         );
-        let disc = "disc = { radius = 2e-2, thickness = 5e-3 }";
+        let disc = "disc = { radius = 8e-3, thickness = 3e-3 }";
         plate(disc, MATERIALS[3], &format!("{load}{}", probe("\"temperature\"")))
     };
     let rise = |mut trial: Trial| {
@@ -290,14 +290,6 @@ fn meshes_serve_the_whole_range_of_a_radius() {
     let wanted = rise(Trial::new(&text(fine).replace("radius = 2e-3", "radius = 3e-4")));
     let error = off(rise(Trial::of(ranged)), wanted);
     assert!(error < 5e-3, "{error:e}");
-    // Of a mesh that is too coarse for the small one the estimate tells.
-    let coarse = "mesh = { spacing = 1.5e-4, depth_spacing = 1.5e-4 }";
-    let told = |keys: &str| {
-        let text = text(keys).replace("[[load]]", &format!("{coarse}\n[[load]]"));
-        estimates(&scene(&text)).1[0].worst().unwrap()
-    };
-    let [whole, start] = ["range = { radius = [3e-4, 2e-3] }\n", ""].map(told);
-    assert!(start < 1e-2 && whole > 2e-2, "{start:e} {whole:e}");
 }
 
 #[test]

@@ -156,8 +156,9 @@ class Watch:
         link = worst.link.connection
         return (
             f"{link.source} -> {link.target}: what is passed on over steps of {step:.6g} s is off"
-            f" by {100 * worst.error:.0f} % of its range on its way, above {100 * MOST:.0f} %, and by"
-            f" {100 * worst.last / worst.range:.2g} % in the last step; {shown}; {wanted} are needed"
+            f" by {100 * worst.error:.0f} % of its range on its way, above {100 * MOST:.0f} %, and"
+            f" by {100 * worst.last / worst.range:.2g} % in the last step; {shown}; {wanted} are"
+            " needed"
         )
 
     def warning_of_energy(self, balances: Sequence[Balance], step: float, order: int) -> str:
@@ -176,8 +177,8 @@ class Watch:
             wanted += ', or scheme="iterate",'
         return (
             f"{worst.name}: {worst.largest:.2g} J are gained or lost on the way,"
-            f" {100 * worst.share:.0f} % of what swings between the units, above {100 * MOST:.0f} %:"
-            f" what one gives the other does not get; {wanted} are needed"
+            f" {100 * worst.share:.0f} % of what swings between the units, above"
+            f" {100 * MOST:.0f} %: what one gives the other does not get; {wanted} are needed"
         )
 
     def warning_of_few(self, steps: int) -> str:

@@ -28,10 +28,8 @@ pub struct Yielding {
 const MOST_HALVES: u32 = 8;
 /// Part of the tolerance of outputs that an increment of creep may err by, of the largest elastic strain.
 const PART_OF_STRAIN: f64 = 0.1;
-/// Weight of what is off a straight way between two temperatures without going beyond these: each place then goes the
-/// same way at another pace, which only matters where stress follows from several places.
-const BESIDE: f64 = 0.1;
-
+/// Where within a step temperatures are looked at: what a jump at its beginning causes is soon over.
+const LOOKS: [f64; 3] = [0.0625, 0.25, 0.5];
 /// Part of a change of temperature that counts as the rise to yield where that is less.
 const LEAST: f64 = 0.1;
 
@@ -42,15 +40,20 @@ struct Advance<'a> {
     heat: &'a dyn Fn(&mut [f64], &Acts) -> Result<(), BodyError>,
 }
 
-/// By how much the parabola through three values at equal distances leaves the range of the first and the last; a tenth
-/// of what it is off their mean in the middle where that is more.
-fn detour([first, middle, last]: [f64; 3]) -> f64 {
-    let off = (middle - 0.5 * (first + last)).abs();
-    let change = (last - first).abs();
-    // Its vertex lies between them where its bend is more than its slope.
-    let beyond =
-        if 4.0 * off > change { off + change * change / (16.0 * off) - 0.5 * change } else { 0.0 };
-    beyond.max(BESIDE * off)
+/// Lowest and highest of what a place has had [K].
+#[derive(Clone, Copy)]
+struct Range([f64; 2]);
+
+impl Range {
+    fn of(one: f64, other: f64) -> Self {
+        Self([one.min(other), one.max(other)])
+    }
+
+    /// By how much a value lies beyond it.
+    fn beyond(self, value: f64) -> f64 {
+        let Self([low, high]) = self;
+        (low - value).max(value - high).max(0.0)
+    }
 }
 
 impl Yielding {
@@ -152,8 +155,9 @@ impl SolidBody {
         Ok(())
     }
 
-    /// Whether temperatures on the way between two states go too far beyond those at its ends for mechanics that goes
-    /// straight, see [`detour`]: over the rise that makes a held body yield, or a tenth of their own change if that is more.
+    /// Whether temperatures on the way between two states go beyond those at its ends, by more than the tolerance times the
+    /// rise that makes a held body yield, or a tenth of their own change if that is more. Each place goes straight from
+    /// one end to the other, and at its own pace the same way.
     fn turns(
         &self,
         advance: &Advance,
@@ -164,22 +168,32 @@ impl SolidBody {
         if !yielding.yields {
             return Ok(false);
         }
-        let half = 0.5 * acts.duration;
-        let mut middle = self.heat_of(start).to_vec();
-        (advance.heat)(&mut middle, &Acts { duration: half, ..*acts })?;
-        let at = |time: f64, state: &[f64]| {
+        let at = |time: f64, heat: &[f64]| {
             let loads = self.loads.assemble(&acts.path.at(0, time), self.meshes());
-            let temperatures = self.solid.temperatures(self.heat_of(state), &loads);
-            self.nodal_temperatures(yielding, &temperatures)
+            self.nodal_temperatures(yielding, &self.solid.temperatures(heat, &loads))
         };
-        let [first, middle, last] = [at(0.0, start), at(half, &middle), at(acts.duration, end)];
-        let (mut most, mut change, mut hottest) = (0.0_f64, 0.0_f64, 0.0_f64);
-        for ((&a, &m), &b) in first.iter().zip(&middle).zip(&last) {
-            most = most.max(detour([a, m, b]));
-            change = change.max(a.max(m).max(b) - a.min(m).min(b));
-            hottest = hottest.max(a.max(m).max(b));
+        let first = at(0.0, self.heat_of(start));
+        let last = at(acts.duration, self.heat_of(end));
+        let ends = first.iter().zip(&last);
+        let change = ends.clone().map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
+        let ranges: Vec<Range> = ends.map(|(&a, &b)| Range::of(a, b)).collect();
+        let mut heat = self.heat_of(start).to_vec();
+        let mut done = 0.0;
+        for look in LOOKS {
+            let (from, to) = (done * acts.duration, look * acts.duration);
+            let path = acts.path.from(from);
+            (advance.heat)(&mut heat, &Acts { path: &path, duration: to - from, ..*acts })?;
+            done = look;
+            let now = at(to, &heat);
+            let most =
+                now.iter().zip(&ranges).map(|(&own, range)| range.beyond(own)).fold(0.0, f64::max);
+            let hottest = now.iter().copied().fold(0.0, f64::max);
+            let counts = yielding.problem.rise_to_yield(hottest).max(LEAST * change.max(most));
+            if most > yielding.tolerance * counts {
+                return Ok(true);
+            }
         }
-        Ok(most > yielding.tolerance * yielding.problem.rise_to_yield(hottest).max(LEAST * change))
+        Ok(false)
     }
 
     /// Equilibrium at the end of what acts.
@@ -319,15 +333,10 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_detour_is_what_a_parabola_goes_beyond_its_ends() {
-        // 4x(1 − x) + x has its vertex at 5/8, where it is 25/16.
-        assert!((detour([0.0, 1.5, 1.0]) - 9.0 / 16.0).abs() < 1e-14);
-        assert!((detour([1.0, 1.5, 0.0]) - 9.0 / 16.0).abs() < 1e-14);
-        assert_eq!(detour([0.0, 1.0, 0.0]), 1.0);
-        assert_eq!(detour([2.0, 2.0, 2.0]), 0.0);
-        // A root of time goes nowhere else, at another pace.
-        assert!(
-            (detour([0.0, 0.5_f64.sqrt(), 1.0]) - BESIDE * (0.5_f64.sqrt() - 0.5)).abs() < 1e-14
-        );
+    fn what_stays_between_both_ends_does_not_turn() {
+        for range in [Range::of(1.0, 3.0), Range::of(3.0, 1.0)] {
+            assert_eq!([1.0, 2.0, 3.0].map(|value| range.beyond(value)), [0.0; 3]);
+            assert_eq!([0.5, 3.25].map(|value| range.beyond(value)), [0.5, 0.25]);
+        }
     }
 }
