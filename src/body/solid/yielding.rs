@@ -37,8 +37,11 @@ const LEAST: f64 = 0.1;
 struct Advance<'a> {
     yielding: &'a Yielding,
     allowance: &'a Allowance,
-    heat: &'a dyn Fn(&mut [f64], &Acts) -> Result<(), BodyError>,
+    heat: &'a Heating<'a>,
 }
+
+/// Advances the part of a state that is heat.
+type Heating<'a> = dyn Fn(&mut [f64], &Acts) -> Result<(), BodyError> + 'a;
 
 /// Lowest and highest of what a place has had [K].
 #[derive(Clone, Copy)]

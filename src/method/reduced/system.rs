@@ -284,6 +284,9 @@ impl Request<'_> {
     }
 }
 
+/// Of the answers that a truncated system misses, output by output and input by input.
+type Integrals = Vec<Vec<f64>>;
+
 /// The truncated system of the smallest order whose bounds are within what is allowed, between orders whose singular
 /// values exceed `hopeless` and the highest; where none is, of those tried the one that exceeds it least.
 ///
@@ -293,10 +296,10 @@ impl Request<'_> {
 fn smallest(
     balanced: &Balanced,
     hopeless: f64,
-    judge: impl Fn(&Truncated, Wanted) -> (f64, Vec<Vec<f64>>),
-) -> Option<(Truncated, Vec<Vec<f64>>)> {
+    judge: impl Fn(&Truncated, Wanted) -> (f64, Integrals),
+) -> Option<(Truncated, Integrals)> {
     let most = balanced.most();
-    let mut best: Option<(f64, Truncated, Option<Vec<Vec<f64>>>)> = None;
+    let mut best: Option<(f64, Truncated, Option<Integrals>)> = None;
     let mut keeps = |order: usize, wanted: Wanted| {
         let Some(truncated) = balanced.truncated(order) else { return false };
         let (excess, found) = judge(&truncated, wanted);
