@@ -270,3 +270,15 @@ impl Quantity {
         }
     }
 }
+
+/// A part of something as a percentage.
+pub fn percent(part: f64) -> String {
+    let value = 100.0 * part;
+    match value {
+        0.0 => "0 %".to_owned(),
+        _ if value < 0.01 => format!("{value:.0e} %"),
+        _ if value < 1.0 => format!("{value:.2} %"),
+        _ if value < 10.0 => format!("{value:.1} %"),
+        _ => format!("{value:.0} %"),
+    }
+}

@@ -256,10 +256,12 @@ impl Unit {
         Ok(Status::Ok)
     }
 
-    /// Warns of what is known of drops only as a run ends, where there is room to look.
+    /// Warns of what is known of drops and of what melts only as a run ends, where there is room to look.
     fn warn_at_end(&mut self) {
         let Some(model) = self.run.as_ref().map(|run| Arc::clone(&run.model)) else { return };
-        if self.scene.droplets().next().is_none() || self.expect_room().is_err() {
+        let has_drops = self.scene.droplets().next().is_some();
+        let melts = self.scene.solids().any(|(_, solid)| solid.melts());
+        if !(has_drops || melts) || self.expect_room().is_err() {
             return;
         }
         let state = &self.state;

@@ -136,6 +136,11 @@ impl PointConstants {
         moduli && hardening && self.thermal_strain.is_finite() && self.yield_stress >= 0.0
     }
 
+    /// `E/(1 − ν) = 18KG/(3K + 4G)`, of stress over strain in two directions [Pa].
+    pub fn biaxial_modulus(&self) -> f64 {
+        18.0 * self.bulk * self.shear / (3.0 * self.bulk + 4.0 * self.shear)
+    }
+
     /// The tangent where nothing yields.
     pub fn elastic_tangent(&self) -> PointTangent {
         PointTangent { bulk: self.bulk, all: 2.0 * self.shear, along: 0.0, direction: [0.0; 6] }

@@ -149,6 +149,11 @@ impl Solid {
         layers.iter().enumerate().map(place).collect()
     }
 
+    /// Whether a part of it melts.
+    pub fn melts(&self) -> bool {
+        self.materials_of_layers().iter().any(|own| own.properties().melting.is_some())
+    }
+
     /// Coordinates of the interfaces between layers, from the top [m].
     pub fn interfaces(&self) -> Vec<f64> {
         let strata = self.strata();

@@ -277,6 +277,58 @@ def test_steps_that_are_not_stable_are_told_to_be(folder):
             master.run(40.0)
 
 
+def swing(folder, step, known=True, **options):
+    """A mass of 1 kg on a spring of 1 N/m, for two turns; by how much its energy grew, and what
+    was told."""
+    there, back = ({"u_unit": "N", "y_unit": "m/s"}, {"u_unit": "m/s", "y_unit": "N"})
+    mass = make(folder, f"mass{known}", [[0.0]], [1.0], [1.0], x=[1.0], **(there if known else {}))
+    spring = make(folder, f"spring{known}", [[0.0]], [-1.0], [1.0], **(back if known else {}))
+    ring = [("m.y", "s.u"), ("s.y", "m.u")]
+    with Master({"m": mass, "s": spring}, ring, step=step, **options) as master:
+        result = master.run(4 * np.pi)
+    energy = result["m.y"].values[-1] ** 2 + result["s.y"].values[-1] ** 2
+    return energy - 1.0, result.attrs, master.notes
+
+
+def test_what_swings_and_gains_energy_between_units_is_told_of(folder):
+    """Held over steps H, force and velocity bring 1 + (ωH)² of the energy in each of them, though
+    their paths are right to 2 %."""
+    with pytest.warns(MasterWarning, match="m.y\\*s.y: .* of what swings between the units"):
+        gain, told, (note,) = swing(folder, 0.1, scheme="jacobi")
+    assert gain == pytest.approx(1.01**126 - 1.0, rel=0.02)
+    assert told["path_error"] < 0.03
+    assert told["energy_error"] == pytest.approx(gain / (1.0 + gain), rel=0.2)
+    named = float(note.split("; steps of ")[1].split(" s")[0])
+    gain, told, notes = swing(folder, named, scheme="jacobi")
+    assert abs(gain) < 0.2 and told["energy_error"] < 0.15, (named, gain, notes)
+    for options in ({}, {"order": 2}, {"scheme": "jacobi", "extrapolation": 1}):
+        gain, told, notes = swing(folder, 0.1, **options)
+        assert abs(gain) < 0.03 and told["energy_error"] < 0.03 and notes == []
+    # Of what has no units of measurement it is not known whether it is a power.
+    assert swing(folder, 0.1, known=False, scheme="jacobi")[1]["energy_error"] == 0.0
+
+
+def test_too_few_steps_to_tell_are_told_of(folder):
+    """Two steps, after which a temperature is wrong by more than its way."""
+    with pytest.warns(MasterWarning, match="2 steps cannot tell whether .* changed by"):
+        with Master(stores(folder, 1.0), PAIR, scheme="jacobi", step=2.0) as master:
+            result = master.run(4.0)
+    exact = 0.5 + 0.5 * np.exp(-2.0 * result.time.values)
+    assert np.abs(result["a.y"].values - exact).max() > 0.5
+    # Of what goes on nearly as it did, two and three can, and what hardly changes needs no more.
+    for steps in (2, 3):
+        with Master(stores(folder, 1.0), PAIR, scheme="jacobi", step=0.01) as master:
+            result = master.run(0.01 * steps)
+        exact = 0.5 + 0.5 * np.exp(-2.0 * result.time.values)
+        assert np.abs(result["a.y"].values - exact).max() < 5e-3 * (1.0 - exact[-1]) / 0.02
+        assert master.notes == []
+    warm = make(folder, "warm", [0.0], [1.0], [1.0], x=[301.0])
+    cool = make(folder, "cool", [-1.0], [1.0], [1.0], x=[300.0], u=300.0)
+    with Master({"a": warm, "b": cool}, PAIR, scheme="gauss-seidel", step=1e-3) as master:
+        master.run(2e-3)
+    assert master.notes == []
+
+
 def test_rings_at_rest_and_what_goes_one_way_are_not_warned_of(folder):
     a = make(folder, "still", [0.0], [1.0], [1.0], x=[300.0])
     b = make(folder, "calm", [-1.0], [1.0], [1.0], d=-1.0, x=[300.0], u=300.0)

@@ -1,5 +1,7 @@
 //! Solids of scenes whose constants depend on the temperature, that melt, radiate or yield.
 
+use impinge::closed_form::{Bilinear, Conductor, HeatedSlab, MeltingFront};
+
 use crate::common::{Trial, off};
 
 /// A body with a material, faces and further tables.
@@ -445,4 +447,93 @@ fn no_part_of_a_body_bears_more_than_its_yield_stress() {
     // Both where the law holds, so that the one follows from the other.
     let most = (12e6 + 5e7 * strained) * (1.0 + 1e-9);
     assert!((11.9e6..most).contains(&highest), "{highest} {strained}");
+}
+
+/// A plate that is held flat, heated by a pulse and left alone: a quarter deep it is warmest after the pulse, within the
+/// second of two steps.
+#[test]
+fn a_moment_within_a_step_leaves_the_plastic_strain_that_it_makes() {
+    let (flux, stop, thickness, depth) = (1.5e7, 40e-3, 1e-3, 0.25e-3);
+    let body = Conductor { conductivity: 45.0, heat_capacity: 7800.0 * 500.0 };
+    let slab = HeatedSlab { body, flux: 3.0 * flux, thickness };
+    let rise = |time: f64| {
+        let from = |begin: f64| {
+            if time > begin { slab.rise_with_insulated_back(depth, time - begin) } else { 0.0 }
+        };
+        from(0.0) - from(0.5 * stop)
+    };
+    let warmest = (0..=400).map(|i| rise(stop * (0.5 + f64::from(i) / 800.0))).fold(0.0, f64::max);
+    let law = Bilinear::film(200e9, 0.3, 250e6, 2e9, 0.0);
+    let wanted = law.stresses(&[warmest, rise(stop)].map(|rise| -1.2e-5 * rise))[1];
+    assert!(rise(0.5 * stop) < 0.98 * warmest);
+    let faces = format!(
+        "top = {{ flux = {:e} }}\nbottom = {{ roller = true }}\nsides = {{ roller = true }}",
+        3.0 * flux
+    );
+    let shape = "disc = { radius = 5e-4, thickness = 1e-3 }";
+    let text = body_of_pulse(shape, &faces, depth);
+    for steps in [2, 8] {
+        let mut trial = Trial::new(&text);
+        for step in 0..steps {
+            if 2 * step == steps {
+                trial.set("plate.top.flux", 0.0);
+            }
+            trial.step(stop / f64::from(steps));
+        }
+        let error = (trial.get("inside.stress_xx") - wanted).abs() / 250e6;
+        assert!(error < 0.02, "{steps} steps: {error}");
+    }
+}
+
+fn body_of_pulse(shape: &str, faces: &str, depth: f64) -> String {
+    let text = body(shape, STEEL, 300.0, faces, &probe("inside", [0.0, 0.0, -depth], "\"stress\""));
+    let text = text.replace("stop_time = 1.0\nstep = 0.1", "stop_time = 40e-3\nstep = 1e-3");
+    with_mesh(&text, "spacing = 2.5e-4, depth_spacing = 3e-5, growth = 1.0")
+}
+
+/// Neumann's front through a column: a mesh that is chosen keeps the tolerance over the later half of the time, and one
+/// that does not says so at the end, by about as much as it errs.
+#[test]
+fn fronts_keep_the_tolerance_or_say_what_they_err_by() {
+    let (melting, hot, stop) = (1000.0, 1500.0, 5e-3);
+    let material = format!(
+        "model = \"thermoelastic\", density = 7900.0, specific_heat = 500.0, conductivity = 15.0, \
+         melting = {{ solidus = {melting:?}, liquidus = {melting:?}, latent_heat = 2e5 }}"
+    );
+    let steel = Conductor { conductivity: 15.0, heat_capacity: 7900.0 * 500.0 };
+    let exact = MeltingFront {
+        new: steel,
+        old: steel,
+        latent: 7900.0 * 2e5,
+        surface: hot - melting,
+        initial: 0.0,
+    };
+    let top = format!("top = {{ temperature = {hot:?} }}");
+    let run = |mesh: &str, tolerance: f64| {
+        let fidelity = format!("[fidelity]\ntolerance = {tolerance:e}\n");
+        let text = body("box = [1e-4, 1e-4, 2.5e-4]", &material, melting, &top, &fidelity);
+        let text = text.replace("stop_time = 1.0\nstep = 0.1", "stop_time = 5e-3\nstep = 5e-4");
+        let text = if mesh.is_empty() { text } else { with_mesh(&text, mesh) };
+        let mut trial = Trial::new(&text);
+        let mut worst = 0.0_f64;
+        for step in 1..=40 {
+            trial.step(stop / 40.0);
+            let depth = trial.get("plate.liquid_volume") / 1e-8;
+            if step > 20 {
+                worst = worst.max(off(depth, exact.depth(trial.state.time)));
+            }
+        }
+        (worst, trial.model.closing_warnings(&trial.state))
+    };
+    let (error, told) = run("", 1e-2);
+    assert!(error < 1e-2 && told.is_empty(), "{error:e} {told:?}");
+    let coarse = "spacing = 5e-5, depth_spacing = 2e-5, growth = 1.0, order = 1";
+    let (error, told) = run(coarse, 1e-3);
+    assert!(error > 5e-3 && told.len() == 1, "{error:e} {told:?}");
+    let said = told[0].split("errs by up to about ").nth(1).and_then(|rest| rest.split(' ').next());
+    let said: f64 = said.unwrap().parse().unwrap();
+    assert!((0.5..2.0).contains(&(0.01 * said / error)), "{error:e} {told:?}");
+    assert!(told[0].contains("is what this mesh keeps"), "{told:?}");
+    let (_, told) = run(coarse, 5e-3);
+    assert!(told[0].contains("times as many elements where the front stands"), "{told:?}");
 }

@@ -359,6 +359,11 @@ fn films_thinner_than_particles_are_warned_of() {
     let wanted =
         "body.drop.spacing = 5e-5: the film is expected to get 1.1 distances of particles thin";
     assert!(said[0].contains(wanted), "{said:?}");
+    // A number that is below the bound is never shown as the bound.
+    let said = warnings(&edited(&long, "spacing = 5e-5\n", "spacing = 3.6e-5\n"));
+    let shown = said[0].split(" get ").nth(1).and_then(|rest| rest.split(' ').next()).unwrap();
+    assert!(shown.starts_with("1.4") && shown.len() > 3, "{said:?}");
+    let said = warnings(&long);
     let finer = said[0].split("`spacing` of ").nth(1).and_then(|rest| rest.split(' ').next());
     let finer = format!("spacing = {}\n", finer.unwrap());
     let fine = edited(&long, "spacing = 5e-5\n", &finer);

@@ -265,3 +265,78 @@ fn extremes_of_stress_count_where_they_are_asked_for() {
     assert!(has_extreme(&names("peaks = [\"von_mises\"]")));
     assert!(names("").iter().any(|name| name == "plate.max_temperature"));
 }
+
+/// The centre of a spot that gets smaller than it starts, against a mesh twice as fine for the small one alone.
+#[test]
+fn meshes_serve_the_whole_range_of_a_radius() {
+    let small = 3e-4;
+    let text = |keys: &str| {
+        let load = format!(
+            "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = {{ gaussian = {{ radius = 2e-3 }} }}\n\
+             carries = [\"heat_flux\"]\nstart = {{ heat_flux = 1e6 }}\n{keys}"
+        );
+        let disc = "disc = { radius = 8e-3, thickness = 3e-3 }";
+        plate(disc, MATERIALS[3], &format!("{load}{}", probe("\"temperature\"")))
+    };
+    let rise = |mut trial: Trial| {
+        trial.set("spot.radius", small);
+        (0..20).for_each(|_| trial.step(0.05));
+        trial.get("p.temperature") - 300.0
+    };
+    let (ranged, found) = estimates(&scene(&text("range = { radius = [3e-4, 2e-3] }\n")));
+    let note = "in the estimate loads are tried at the lower ends of their ranges of radius, too";
+    assert!(found[0].notes.iter().any(|said| said == note), "{:?}", found[0].notes);
+    let fine = "[refinement.plate]\nalong = 2.0\nthrough = 2.0\n";
+    let wanted = rise(Trial::new(&text(fine).replace("radius = 2e-3", "radius = 3e-4")));
+    let error = off(rise(Trial::of(ranged)), wanted);
+    assert!(error < 5e-3, "{error:e}");
+}
+
+#[test]
+fn linear_elements_that_lock_are_told_to_be_quadratic() {
+    let told = |poisson: &str, order: usize| {
+        let load = "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = { disc = { radius = 1e-3 } }\n\
+                    carries = [\"pressure\"]\nstart = { pressure = 1e6 }\n";
+        let mesh = format!("mesh = {{ spacing = 2.5e-4, order = {order} }}\n");
+        let held = "[body.plate.faces]\nbottom = { clamped = true }\n";
+        let probes = probe("\"stress\"").replace("0.0]", "-8e-4]");
+        let disc = "disc = { radius = 4e-3, thickness = 4e-3 }";
+        let text = plate(disc, MATERIALS[3], &format!("{mesh}{held}{load}{probes}"));
+        let (scene, found) = estimates(&scene(&text.replace("poisson = 0.3", poisson)));
+        warnings(&scene, &found)
+    };
+    let said = told("poisson = 0.4999", 1);
+    assert!(said.len() == 1 && said[0].contains("`mesh.order = 2` would"), "{said:?}");
+    for (poisson, order) in [("poisson = 0.3", 1), ("poisson = 0.4999", 2)] {
+        let said = told(poisson, order);
+        assert!(said.iter().all(|said| !said.contains("mesh.order")), "{said:?}");
+    }
+}
+
+#[test]
+fn reduced_solids_are_not_said_to_err_in_what_they_do_not_tell() {
+    let names = |level: &str| {
+        let says = format!("[fidelity]\nlevel = \"{level}\"\n");
+        let scene = spotted("", "\"temperature\"", &says);
+        let offered = Registry::of(&scene);
+        let outputs = estimates(&scene).1.remove(0).outputs;
+        assert!(outputs.iter().all(|one| offered.find(&one.name).is_some()), "{outputs:?}");
+        outputs.len()
+    };
+    assert!((1..names("full")).contains(&names("reduced")));
+}
+
+/// What is beyond all tolerance is told without figures that mean nothing, and asks for no mesh that nobody can afford.
+#[test]
+fn errors_as_large_as_the_range_name_a_mesh_to_go_on_from() {
+    let (scene, mut found) = estimates(&spotted("", "\"temperature\"", ""));
+    let own = scene.refinement["plate"].factors();
+    (found[0].outputs[0].along, found[0].outputs[0].through) = (1.48, 0.0);
+    let said = warnings(&scene, &found);
+    assert!(
+        said.len() == 1 && said[0].contains("errs by about its whole range or more"),
+        "{said:?}"
+    );
+    let next = format!("with along = {:.2}, through = {:.2}", 2.0 * own[0], own[1]);
+    assert!(said[0].contains(&next) && said[0].contains("would tell which"), "{said:?} {next}");
+}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -70,7 +70,7 @@ class Balance:
         if given.total is not None:
             unit, variable = split(given.total, units)
             self._count = units[unit].reader([variable])
-        self.passed = 0.0
+        self.passed = self.low = self.high = 0.0
         self.moved = 0.0
         self.residual = 0.0
         self.largest = 0.0
@@ -94,9 +94,40 @@ class Balance:
         else:
             lost = size * float(np.sum(self.area * (left - came)))
         self.passed += energy
+        self.low, self.high = min(self.low, self.passed), max(self.high, self.passed)
         self.moved += abs(energy)
         self.residual += lost
         self.largest = max(self.largest, abs(self.residual))
+
+    @property
+    def share(self) -> float:
+        """The largest residual over what the energy that has passed ranged over: of what swings,
+        the energy of a swing."""
+        return self.largest / (self.high - self.low) if self.high > self.low else 0.0
+
+
+def powers(links: Sequence[Link], units: Mapping[str, Unit]) -> list[Balance]:
+    """Balances of all pairs of connections to and fro whose product is a power, as forces and
+    velocities, where both are known to be by their units of measurement."""
+    sources = [link.connection.source for link in links]
+    once = [link for link in links if link.is_real and sources.count(link.connection.source) == 1]
+    found = []
+    for i, one in enumerate(once):
+        for other in once[i + 1 :]:
+            ends = (other.target_unit, other.source_unit)
+            if (one.source_unit, one.target_unit) == ends and one.size == other.size:
+                names = one.connection.source, other.connection.source
+                if _is_power(*(_exponents(name, units) for name in names)):
+                    found.append(Balance(Bond(*names), list(links), units))
+    return found
+
+
+def _is_power(*factors: np.ndarray | None) -> bool:
+    """Whether quantities multiply to one, or one per length, area or volume; one alone is none."""
+    if any(each is None or all(each[_NOT_M] == _POWER) for each in factors):
+        return False
+    found = np.sum(factors, axis=0)
+    return all(found[_NOT_M] == _POWER) and -1 <= found[1] <= 2
 
 
 def _link(name: str, links: list[Link]) -> Link:

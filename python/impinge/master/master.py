@@ -25,7 +25,7 @@ from impinge.master.checks import (
     check_units,
 )
 from impinge.master.connection import Connection, Link, links, split
-from impinge.master.energy import Balance, bond
+from impinge.master.energy import Balance, bond, powers
 from impinge.master.engine import Component, Engine, NoConvergence
 from impinge.master.errors import MasterError, MasterWarning
 from impinge.master.exchange import Exchange
@@ -127,6 +127,7 @@ class Master:
             )
             self._exchange = Exchange(self.participants, self.links, self.units)
             self._balances = [Balance(bond(each), self.links, self.units) for each in energy]
+            self._powers = powers(self.links, self.units)
             sources = [link.connection.source for link in self.links]
             self._record = Record(self.units, [*sources, *outputs])
             step = self._proposed_step() if step is None else step
@@ -424,9 +425,9 @@ class Master:
 
     def _accept(self, end: float, size: float, is_jump: bool) -> None:
         engine = self._engine
-        if self._balances:
+        if balances := [*self._balances, *self._powers]:
             given = engine.given(end, size)
-            for balance in self._balances:
+            for balance in balances:
                 balance.add(size, engine.arrived, given)
         earlier, is_stale = list(engine.history.nodes), engine.is_stale
         engine.accept(end)
@@ -450,14 +451,21 @@ class Master:
         self._record.add(end, self._balances)
 
     def _judge(self) -> None:
-        """Warns, once, of steps that are too long for what rings of units pass on."""
-        if self.adaptive or "steps" in self._warned:
+        """Warns, once, of steps that are too long for what rings of units pass on, or too few to
+        tell."""
+        if self.adaptive:
             return
         guessed = any(c.guessed and not c.iterates for c in self.components)
         order = self.extrapolation if guessed else self.order
-        if text := self._watch.warning(self._schedule.step, order):
-            self._warned.add("steps")
-            self._note(text)
+        step = self._schedule.step
+        for key, text in (
+            ("steps", self._watch.warning(step, order)),
+            ("energy", self._watch.warning_of_energy(self._powers, step, order)),
+            ("few", self._watch.warning_of_few(self.steps)),
+        ):
+            if text and key not in self._warned:
+                self._warned.add(key)
+                self._note(text)
 
     def _attributes(self) -> dict[str, Any]:
         import impinge
@@ -476,6 +484,7 @@ class Master:
             "most_iterations": self.most_iterations,
             "unconverged": self.unconverged,
             "path_error": worst.error if (worst := self._watch.worst) else 0.0,
+            "energy_error": max((balance.share for balance in self._powers), default=0.0),
             "held_inputs": " ".join(self.held),
             "notes": "; ".join(self.notes),
             "impinge": impinge.__version__,

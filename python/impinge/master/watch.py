@@ -9,6 +9,7 @@ from math import floor, log10
 import numpy as np
 
 from impinge.master.connection import Link
+from impinge.master.energy import Balance
 from impinge.master.graph import unit_components
 from impinge.unit import Unit
 
@@ -28,6 +29,8 @@ class Course:
     range of its values: `Σ e² / (r Σ e)`. A mode that changes by the factor λ a step, held over
     steps, has `e = |1 − λ| |λ|ⁿ / 2` and so `error = (1 − λ)/(1 + λ)/2` where it decays and
     `1/(1 + |λ|)/2` where it jumps to and fro; `factor` is the λ that consecutive changes show.
+    After n steps such a mode has come `1 − λⁿ` of its way, and the share is of the whole of it: a
+    run that ends early is not off by more for that.
     """
 
     link: Link
@@ -36,6 +39,7 @@ class Course:
     first: float = 0.0
     second: float = 0.0
     steps: int = 0
+    last: float = 0.0
     change: np.ndarray | None = None
     like: float = 0.0
     square: float = 0.0
@@ -46,6 +50,11 @@ class Course:
         return float((self.high - self.low).max())
 
     @property
+    def change_share(self) -> float:
+        """The range over the largest value."""
+        return self.range / self.link.largest if self.link.largest else 0.0
+
+    @property
     def is_at_rest(self) -> bool:
         return self.range <= self.noise * self.link.largest
 
@@ -53,7 +62,8 @@ class Course:
     def error(self) -> float:
         if self.steps < _FEWEST or self.is_at_rest or not self.first:
             return 0.0
-        return self.second / self.first / self.range
+        way = 1.0 - self.factor**self.steps if 0.0 < self.factor < 1.0 else 1.0
+        return way * self.second / self.first / self.range
 
     @property
     def factor(self) -> float:
@@ -76,6 +86,7 @@ class Course:
             if error is not None:
                 self.first += float(error.sum())
                 self.second += float(error @ error)
+                self.last = float(error.max(initial=0.0))
                 self.steps += 1
         self.change = change
 
@@ -139,16 +150,62 @@ class Watch:
             shown = "values jump to and fro from step to step"
         else:
             shown = f"a change shrinks to {factor:.2g} of itself in every step"
-        digit = 10.0 ** floor(log10(step * share))
-        wanted = f"steps of {floor(step * share / digit) * digit:.1g} s or less"
+        wanted = f"steps of {_rounded(step * share)} s or less"
         if self._scheme != "iterate":
             wanted += ', or scheme="iterate" with some between,'
         link = worst.link.connection
         return (
             f"{link.source} -> {link.target}: what is passed on over steps of {step:.6g} s is off"
-            f" by {100 * worst.error:.0f} % of its range, above {100 * MOST:.0f} %; {shown};"
-            f" {wanted} are needed"
+            f" by {100 * worst.error:.0f} % of its range on its way, above {100 * MOST:.0f} %, and"
+            f" by {100 * worst.last / worst.range:.2g} % in the last step; {shown}; {wanted} are"
+            " needed"
         )
+
+    def warning_of_energy(self, balances: Sequence[Balance], step: float, order: int) -> str:
+        """What to say of energy that units which swing together gain or lose between them, with a
+        step that would do; nothing if that is little.
+
+        Held forces and velocities bring `(ωH)²` of the energy of a swing in every step, however
+        close to the truth each path is.
+        """
+        worst = max(balances, key=lambda balance: balance.share, default=None)
+        if worst is None or worst.share <= MOST:
+            return ""
+        share = (MOST / worst.share) ** (1 / (order + 1))
+        wanted = f"steps of {_rounded(step * share)} s or less"
+        if self._scheme != "iterate":
+            wanted += ', or scheme="iterate",'
+        return (
+            f"{worst.name}: {worst.largest:.2g} J are gained or lost on the way,"
+            f" {100 * worst.share:.0f} % of what swings between the units, above"
+            f" {100 * MOST:.0f} %: what one gives the other does not get; {wanted} are needed"
+        )
+
+    def warning_of_few(self, steps: int) -> str:
+        """What to say of a run of too few steps to be judged in which much has changed."""
+        # Held over steps, a mode is off by half of what it changes by in each.
+        moving = [
+            course
+            for course in self.courses
+            if not course.is_at_rest
+            and course.change_share > MOST
+            and course.factor < 1.0 - 2.0 * MOST
+        ]
+        if steps >= _FEWEST or not moving:
+            return ""
+        most = max(moving, key=lambda course: course.change_share)
+        link = most.link.connection
+        return (
+            f"{link.source} -> {link.target}: {steps} step{'s' if steps > 1 else ''} cannot tell"
+            f" whether what is passed on, which changed by {100 * most.change_share:.0f} % of its"
+            f" largest value, is resolved: {_FEWEST} steps or more are needed"
+        )
+
+
+def _rounded(step: float) -> str:
+    """To one digit, downward."""
+    digit = 10.0 ** floor(log10(step))
+    return f"{floor(step / digit) * digit:.1g}"
 
 
 def _in_rings(units: Mapping[str, Unit], links: Sequence[Link]) -> list[Link]:

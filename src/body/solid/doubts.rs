@@ -1,11 +1,15 @@
-//! What a user should know of a body whose heat particles conduct: where these are not to be trusted.
+//! What a user should know of a state: where particles that conduct heat, and fronts that melt, are not to be trusted.
 
 use super::SolidBody;
+use crate::quantity::percent;
 
 /// Part of the heat that passed which particles may make or lose before a user is told.
 const MOST_DRIFT: f64 = 0.05;
 /// Support radius from which on particles have neighbours enough on every mesh [distances of particles].
 const SAFE_SUPPORT: f64 = 2.0;
+
+/// Numbers of elements over those of a mesh up to which a finer one is proposed.
+const FARTHEST: f64 = 8.0;
 
 /// Nothing where finite elements conduct the heat, or where nothing is amiss.
 pub fn of_particles(body: &SolidBody, state: &[f64]) -> Option<String> {
@@ -29,6 +33,28 @@ pub fn of_particles(body: &SolidBody, state: &[f64]) -> Option<String> {
              fast (`heat_drift`): a `mesh.growth` nearer 1, or `heat = \"fem\"`, would keep it",
             100.0 * part,
             100.0 * MOST_DRIFT
+        )
+    })
+}
+
+/// Nothing where nothing melts or the front is as good as asked for.
+pub fn of_fronts(body: &SolidBody, state: &[f64]) -> Option<String> {
+    let heat = body.heat_of(state);
+    let off = body.solid.liquid_scatter(heat) / body.solid.liquid_volume(heat);
+    let name = &body.name;
+    let denser = off / body.tolerance;
+    (denser > 1.0).then(|| {
+        let remedy = match denser {
+            near if near <= FARTHEST => {
+                format!("about {near:.1} times as many elements where the front stands would keep it")
+            }
+            _ => format!("a `fidelity.tolerance` of {:.0e} is what this mesh keeps", 1.5 * off),
+        };
+        format!(
+            "{name}: {name}.liquid_volume errs by up to about {} of itself, as the front goes from node to node, more than \
+             the tolerance of {}: {remedy}",
+            percent(off),
+            percent(body.tolerance)
         )
     })
 }

@@ -64,11 +64,10 @@ pub struct SolidBody {
     shape: Shape,
     /// Of what running maxima are kept.
     peaks: Vec<PeakOf>,
+    /// Of outputs, relative.
+    tolerance: f64,
     threads: usize,
 }
-
-/// Part of the tolerance of outputs that an increment of creep may err by, of the largest elastic strain.
-const PART_OF_STRAIN: f64 = 0.1;
 
 /// Solids with fewer nodes than these are quicker on one thread.
 const NODES_WORTH_THREADS: usize = 20_000;
@@ -93,7 +92,7 @@ impl SolidBody {
         let rings = |face| face == FaceName::Top && scene.meets_rings(name);
         let port = |&face: &FaceName| Port::new(face, &plan, &fem, rings(face));
         let ports = linked.iter().map(port).collect();
-        let yielding = Yielding::of(&plan, PART_OF_STRAIN * scene.fidelity.tolerance, threads)?;
+        let yielding = Yielding::of(&plan, scene.fidelity.tolerance, threads)?;
         let heat_mesh = heat_mesh(&plan);
         let means = means_of(scene, (name, solid), [&heat_mesh, fem.mesh()]);
         let rows = Rows::new(Choice::of(scene, (name, solid), &plan), &fem, &means);
@@ -110,6 +109,7 @@ impl SolidBody {
             ports,
             shape: solid.shape,
             peaks: solid.peaks.clone(),
+            tolerance: scene.fidelity.tolerance,
             threads,
         })
     }
@@ -325,6 +325,10 @@ impl Body for SolidBody {
 
     fn warning(&self, state: &[f64]) -> Option<String> {
         doubts::of_particles(self, state)
+    }
+
+    fn closing_warning(&self, state: &[f64]) -> Option<String> {
+        doubts::of_fronts(self, state)
     }
 
     fn stiffness(&self) -> Option<Arc<ElasticProblem>> {

@@ -140,9 +140,7 @@ pub fn offered_totals(scene: &Scene, (name, solid): (&str, &Solid)) -> Vec<(usiz
     let is_offered = |total: &Total| match total.of {
         Offered::All => true,
         Offered::OfParticles => solid.sph().is_some(),
-        Offered::Melting => {
-            solid.materials_of_layers().iter().any(|own| own.properties().melting.is_some())
-        }
+        Offered::Melting => solid.melts(),
         Offered::Yielding => solid.yields() && scene.asks_mechanics(name),
         Offered::Mechanical => scene.asks_mechanics(name),
     };

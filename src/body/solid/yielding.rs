@@ -20,12 +20,44 @@ pub struct Yielding {
     levels: Vec<usize>,
     /// Whether stress has a bound.
     yields: bool,
-    /// What an inner step of creep may err by, over the largest elastic strain.
+    /// Of outputs, relative.
     tolerance: f64,
 }
 
-/// How often a step that finds no equilibrium is halved.
-const MOST_HALVES: u32 = 6;
+/// How often a step is halved that finds no equilibrium, or in which temperatures turn.
+const MOST_HALVES: u32 = 8;
+/// Part of the tolerance of outputs that an increment of creep may err by, of the largest elastic strain.
+const PART_OF_STRAIN: f64 = 0.1;
+/// Where within a step temperatures are looked at: what a jump at its beginning causes is soon over.
+const LOOKS: [f64; 3] = [0.0625, 0.25, 0.5];
+/// Part of a change of temperature that counts as the rise to yield where that is less.
+const LEAST: f64 = 0.1;
+
+/// How a part of a step goes.
+struct Advance<'a> {
+    yielding: &'a Yielding,
+    allowance: &'a Allowance,
+    heat: &'a Heating<'a>,
+}
+
+/// Advances the part of a state that is heat.
+type Heating<'a> = dyn Fn(&mut [f64], &Acts) -> Result<(), BodyError> + 'a;
+
+/// Lowest and highest of what a place has had [K].
+#[derive(Clone, Copy)]
+struct Range([f64; 2]);
+
+impl Range {
+    fn of(one: f64, other: f64) -> Self {
+        Self([one.min(other), one.max(other)])
+    }
+
+    /// By how much a value lies beyond it.
+    fn beyond(self, value: f64) -> f64 {
+        let Self([low, high]) = self;
+        (low - value).max(value - high).max(0.0)
+    }
+}
 
 impl Yielding {
     /// Nothing where stress follows linearly from deformation and temperature, or is not asked for.
@@ -81,42 +113,90 @@ impl SolidBody {
         &state[..self.heat_len]
     }
 
-    /// Advances heat, and then mechanics to the equilibrium at the end. A step that finds none is halved.
+    /// Advances heat and mechanics to the equilibrium at the end, in parts: one is halved where temperatures turn on its
+    /// way, so that plastic strain sees the warmest moment, and where it finds no equilibrium.
+    ///
+    /// What is received changes evenly over the whole step, so that step is not cut.
     pub(super) fn advance_yielding(
         &self,
         yielding: &Yielding,
         state: &mut [f64],
         acts: &Acts,
         allowance: &Allowance,
-        mut heat: impl FnMut(&mut [f64], &Acts) -> Result<(), BodyError>,
+        heat: impl Fn(&mut [f64], &Acts) -> Result<(), BodyError>,
     ) -> Result<(), BodyError> {
+        let advance = Advance { yielding, allowance, heat: &heat };
+        let halves = if acts.received.is_empty() { MOST_HALVES } else { 0 };
+        self.advance_part(&advance, state, acts, halves)
+    }
+
+    /// One part of a step, which may be halved so often.
+    fn advance_part(
+        &self,
+        advance: &Advance,
+        state: &mut [f64],
+        acts: &Acts,
+        halves: u32,
+    ) -> Result<(), BodyError> {
+        let Advance { yielding, allowance, heat } = *advance;
         let start = state.to_vec();
-        let mut halves = 0;
-        'parts: loop {
-            let parts = 1 << halves;
-            let length = acts.duration / f64::from(parts);
-            for part in 0..parts {
-                let path = acts.path.from(f64::from(part) * length);
-                let acts = Acts { path: &path, duration: length, ..*acts };
-                let before = state[..self.heat_len].to_vec();
-                heat(&mut state[..self.heat_len], &acts)?;
-                match self.balance(yielding, (&before, state), &acts, allowance) {
-                    Ok(()) => {}
-                    // What is received changes over the whole step, so that step is not cut; what creeps has been.
-                    Err(BodyError::Equilibrium { .. })
-                        if halves < MOST_HALVES
-                            && acts.received.is_empty()
-                            && !yielding.problem.creeps() =>
-                    {
-                        halves += 1;
-                        state.copy_from_slice(&start);
-                        continue 'parts;
-                    }
-                    Err(error) => return Err(error),
-                }
+        heat(&mut state[..self.heat_len], acts)?;
+        if halves == 0 || !self.turns(advance, [&start, state], acts)? {
+            match self.balance(yielding, (&start[..self.heat_len], state), acts, allowance) {
+                // What creeps has been cut.
+                Err(BodyError::Equilibrium { .. }) if halves > 0 && !yielding.problem.creeps() => {}
+                result => return result,
             }
-            return Ok(());
         }
+        state.copy_from_slice(&start);
+        let length = 0.5 * acts.duration;
+        for part in 0..2 {
+            let path = acts.path.from(f64::from(part) * length);
+            let acts = Acts { path: &path, duration: length, ..*acts };
+            self.advance_part(advance, state, &acts, halves - 1)?;
+        }
+        Ok(())
+    }
+
+    /// Whether temperatures on the way between two states go beyond those at its ends, by more than the tolerance times the
+    /// rise that makes a held body yield, or a tenth of their own change if that is more. Each place goes straight from
+    /// one end to the other, and at its own pace the same way.
+    fn turns(
+        &self,
+        advance: &Advance,
+        [start, end]: [&[f64]; 2],
+        acts: &Acts,
+    ) -> Result<bool, BodyError> {
+        let yielding = advance.yielding;
+        if !yielding.yields {
+            return Ok(false);
+        }
+        let at = |time: f64, heat: &[f64]| {
+            let loads = self.loads.assemble(&acts.path.at(0, time), self.meshes());
+            self.nodal_temperatures(yielding, &self.solid.temperatures(heat, &loads))
+        };
+        let first = at(0.0, self.heat_of(start));
+        let last = at(acts.duration, self.heat_of(end));
+        let ends = first.iter().zip(&last);
+        let change = ends.clone().map(|(a, b)| (b - a).abs()).fold(0.0, f64::max);
+        let ranges: Vec<Range> = ends.map(|(&a, &b)| Range::of(a, b)).collect();
+        let mut heat = self.heat_of(start).to_vec();
+        let mut done = 0.0;
+        for look in LOOKS {
+            let (from, to) = (done * acts.duration, look * acts.duration);
+            let path = acts.path.from(from);
+            (advance.heat)(&mut heat, &Acts { path: &path, duration: to - from, ..*acts })?;
+            done = look;
+            let now = at(to, &heat);
+            let most =
+                now.iter().zip(&ranges).map(|(&own, range)| range.beyond(own)).fold(0.0, f64::max);
+            let hottest = now.iter().copied().fold(0.0, f64::max);
+            let counts = yielding.problem.rise_to_yield(hottest).max(LEAST * change.max(most));
+            if most > yielding.tolerance * counts {
+                return Ok(true);
+            }
+        }
+        Ok(false)
     }
 
     /// Equilibrium at the end of what acts.
@@ -146,7 +226,7 @@ impl SolidBody {
             temperatures: [&start.0, &end.0],
             forces: [&start.1, &end.1],
             duration: acts.duration,
-            tolerance: yielding.tolerance,
+            tolerance: PART_OF_STRAIN * yielding.tolerance,
             allowance,
         };
         let advanced = yielding.problem.advance_increment(mechanics, &increment);
@@ -248,5 +328,18 @@ impl SolidBody {
         let work =
             |yielding: &Yielding| yielding.problem.dissipated_energy(&state[self.heat_len..]);
         self.yielding.as_ref().map_or(0.0, work)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_stays_between_both_ends_does_not_turn() {
+        for range in [Range::of(1.0, 3.0), Range::of(3.0, 1.0)] {
+            assert_eq!([1.0, 2.0, 3.0].map(|value| range.beyond(value)), [0.0; 3]);
+            assert_eq!([0.5, 3.25].map(|value| range.beyond(value)), [0.5, 0.25]);
+        }
     }
 }

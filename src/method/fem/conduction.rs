@@ -109,6 +109,14 @@ impl Conduction {
         }
     }
 
+    /// By how much that scatters, about, as fronts go from node to node [m³].
+    pub fn liquid_scatter(&self, state: &[f64], copies: f64) -> f64 {
+        match self {
+            Self::Nonlinear(problem) => problem.liquid_scatter(state, copies),
+            _ => 0.0,
+        }
+    }
+
     /// Length of a state.
     pub fn state_len(&self) -> usize {
         self.layout().len()

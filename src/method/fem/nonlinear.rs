@@ -1,5 +1,7 @@
 //! Nonlinear heat of a solid's plan: enthalpies on the nodes of its mesh.
 
+use std::f64::consts::TAU;
+
 use super::heat::{HeatLoads, ThermalFace};
 use super::plan::{NewtonPlan, Plan};
 use crate::math::allowance::Allowance;
@@ -141,7 +143,29 @@ impl NonlinearHeat {
         let parts = fractions.iter().zip(self.heat.volumes());
         copies * parts.map(|(fraction, volume)| fraction * volume).sum::<f64>()
     }
+
+    /// By how much the volume that is liquid scatters about the truth, about, as fronts go from node to node [m³].
+    ///
+    /// A node that melts keeps the temperature of melting whatever part of it is liquid, so the gradient that feeds a
+    /// front does not see where it stands in the node. Against Neumann's front (Carslaw & Jaeger 1959, § 11.2) that makes
+    /// 0.05 to 0.25 of a node's volume, at Stefan numbers of 0.05 to 5. Nodes that melt at different times make up for
+    /// each other: with fractions f, `|Σ V e^{2πif}|` is what of them goes together.
+    pub fn liquid_scatter(&self, state: &[f64], copies: f64) -> f64 {
+        let fractions = self.heat.liquid_fractions(state);
+        let melting = fractions
+            .iter()
+            .zip(self.heat.volumes())
+            .filter(|(part, _)| **part > 0.0 && **part < 1.0);
+        let sum = melting.fold([0.0; 2], |[re, im], (fraction, volume)| {
+            let (sin, cos) = (TAU * fraction).sin_cos();
+            [re + volume * cos, im + volume * sin]
+        });
+        copies * SCATTER * sum[0].hypot(sum[1])
+    }
 }
+
+/// Part of its volume by which a node that melts puts what is liquid wrong, about.
+const SCATTER: f64 = 0.1;
 
 /// The mesh on which heat is brought into the nodes.
 pub fn heat_mesh(plan: &Plan) -> Mesh {

@@ -197,6 +197,11 @@ impl SolidFem {
         self.heat.liquid_volume(state, self.mesh.copies())
     }
 
+    /// By how much that scatters, about, as fronts go from node to node [m³].
+    pub fn liquid_scatter(&self, state: &[f64]) -> f64 {
+        self.heat.liquid_scatter(state, self.mesh.copies())
+    }
+
     pub fn state_len(&self) -> usize {
         self.heat.state_len()
     }

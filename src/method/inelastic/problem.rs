@@ -287,6 +287,18 @@ impl InelasticProblem {
         Ok(all)
     }
 
+    /// The least rise of temperature that makes a layer yield at a temperature [K] if it is held along two directions,
+    /// `σ_y (1 − ν)/(E α)` [K].
+    pub fn rise_to_yield(&self, temperature: f64) -> f64 {
+        let rise = |law: &Arc<dyn FlowLaw>| {
+            let at = |temperature| law.over_step(temperature, 0.0);
+            let (own, warmer) = (at(temperature)?, at(temperature + 1.0)?);
+            let expansion = (warmer.thermal_strain - own.thermal_strain).abs();
+            Some(own.yield_stress / (own.biaxial_modulus() * expansion))
+        };
+        self.laws.iter().filter_map(rise).fold(f64::INFINITY, f64::min)
+    }
+
     /// All quadrature points, as histories stand in a state.
     pub fn points(
         &self,

@@ -75,7 +75,7 @@ impl ReducedSystem {
         let rows: Vec<Vec<&[f64]>> =
             scaled.iter().map(|row| row.iter().map(Vec::as_slice).collect()).collect();
         let balanced = Balanced::new(&clumped.points, &rows)?;
-        let excess_of = |truncated: &Truncated, wanted: Wanted| {
+        let judge = |truncated: &Truncated, wanted: Wanted| {
             let found = integrals(&clumped.points, &rows, truncated, wanted);
             let parts = found.iter().zip(residues.iter().zip(&allowed).zip(&scale.0));
             let excess = parts.map(|(found, ((residues, allowed), output))| {
@@ -85,12 +85,11 @@ impl ReducedSystem {
                 })
                 .fold(0.0, f64::max)
             });
-            excess.fold(0.0, f64::max)
+            (excess.fold(0.0, f64::max), found)
         };
-        let truncated =
-            smallest(&balanced, 2.0 * ((rows.len() * scale.1.len()) as f64).sqrt(), excess_of)
-                .ok_or(ReductionError::Decomposition)?;
-        let found = integrals(&clumped.points, &rows, &truncated, Wanted::Bound);
+        let hopeless = 2.0 * ((rows.len() * scale.1.len()) as f64).sqrt();
+        let (truncated, found) =
+            smallest(&balanced, hopeless, judge).ok_or(ReductionError::Decomposition)?;
         Ok((request.system(&truncated, &scale, &found, &ranges), ranges))
     }
 
@@ -285,26 +284,30 @@ impl Request<'_> {
     }
 }
 
+/// Of the answers that a truncated system misses, output by output and input by input.
+type Integrals = Vec<Vec<f64>>;
+
 /// The truncated system of the smallest order whose bounds are within what is allowed, between orders whose singular
 /// values exceed `hopeless` and the highest; where none is, of those tried the one that exceeds it least.
 ///
 /// Errors fall with the order but for rounding, so the order is found by halving, first of estimates; the bound then
-/// may ask for a few more unknowns.
+/// may ask for a few more unknowns. `judge` gives by how much a system exceeds what is allowed, and the integrals that say
+/// so; those that bound come with the system.
 fn smallest(
     balanced: &Balanced,
     hopeless: f64,
-    excess_of: impl Fn(&Truncated, Wanted) -> f64,
-) -> Option<Truncated> {
+    judge: impl Fn(&Truncated, Wanted) -> (f64, Integrals),
+) -> Option<(Truncated, Integrals)> {
     let most = balanced.most();
-    let mut best: Option<(f64, Truncated)> = None;
+    let mut best: Option<(f64, Truncated, Option<Integrals>)> = None;
     let mut keeps = |order: usize, wanted: Wanted| {
         let Some(truncated) = balanced.truncated(order) else { return false };
-        let excess = excess_of(&truncated, wanted);
+        let (excess, found) = judge(&truncated, wanted);
         // An estimate that keeps what is allowed is none yet that a bound keeps.
         let kept = excess <= 1.0;
         let counts = !kept || wanted == Wanted::Bound;
-        if counts && best.as_ref().is_none_or(|(least, _)| excess < *least) {
-            best = Some((excess, truncated));
+        if counts && best.as_ref().is_none_or(|(least, ..)| excess < *least) {
+            best = Some((excess, truncated, (wanted == Wanted::Bound).then_some(found)));
         }
         kept
     };
@@ -316,7 +319,10 @@ fn smallest(
         if keeps(middle, Wanted::Estimate) { high = middle } else { low = middle + 1 }
     }
     let _ = (low..=most).any(|order| keeps(order, Wanted::Bound));
-    best.map(|(_, truncated)| truncated)
+    best.map(|(_, truncated, found)| {
+        let found = found.unwrap_or_else(|| judge(&truncated, Wanted::Bound).1);
+        (truncated, found)
+    })
 }
 
 /// Factors of outputs and inputs that bring what is allowed to about one: `s_k t_j a_kj ≤ 1`, close to it where that can

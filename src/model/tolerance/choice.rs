@@ -6,7 +6,7 @@ use super::estimate::{Estimate, OutputError, differences};
 use super::experiment::experiments;
 use super::responses::{Responses, Watched, responses, watched};
 use super::twin::{Physics, Twin};
-use crate::body::{Reading, forecast};
+use crate::body::{BodyForecast, Reading, forecast};
 use crate::model::{ModelError, check_memory};
 use crate::scene::{HeatMethod, Scene, Shape, Solid, takes_newton};
 
@@ -46,6 +46,9 @@ const ORDER: f64 = 3.0;
 const ORDER_OF_NONLINEAR: f64 = 2.0;
 /// The levels that the law gives without an estimate.
 const LAW: [i32; 2] = [-3, 4];
+/// What a front scatters by in a column of level 0, over its depth: a tenth of the distance of nodes there, which is a fifth
+/// of the depth and more, as elements grow with that.
+const FRONT: f64 = 0.03;
 
 /// Numbers of elements over the usual ones.
 pub fn factors(levels: Levels) -> [f64; 2] {
@@ -82,7 +85,11 @@ pub fn choose(scene: &Scene, name: &str) -> Choice {
         open.map(|is_open| if is_open { level.clamp(LAW[0], LAW[1]) } else { 0 })
     };
     if let Some(order) = order_of_law(scene, name, solid) {
-        return Choice { factors: factors(law(order)), error: None };
+        let [along, through] = law(order);
+        let of_front =
+            if is_melting_column(scene, name, solid) { level_of_front(tolerance) } else { through };
+        let through = if open[1] { through.max(of_front) } else { through };
+        return Choice { factors: factors([along, through]), error: None };
     }
     let start = first_levels(tolerance, open);
     let Some(heat) = Twin::of(scene, name, Physics::Heat) else {
@@ -138,6 +145,21 @@ fn order_of_law(scene: &Scene, name: &str, solid: &Solid) -> Option<f64> {
     }
 }
 
+/// Whether a front goes through all of a column at once, so that nothing makes up for where it stands among nodes.
+fn is_melting_column(scene: &Scene, name: &str, solid: &Solid) -> bool {
+    let across = || {
+        let bodies = forecast(scene).bodies;
+        bodies.into_iter().find(|body| body.name == name).map(|body| (body.nodes, body.order))
+    };
+    solid.melts() && across().is_some_and(|([x, y, _], order)| x.max(y) <= order + 1)
+}
+
+/// The level through the thickness on which a front scatters by no more than a tolerance, as distances of nodes fall;
+/// beyond the highest of the law inner steps, one after another as nodes melt, take too long.
+fn level_of_front(tolerance: f64) -> i32 {
+    ((2.0 * (FRONT / tolerance).log2()).round() as i32).clamp(LAW[0], LAW[1])
+}
+
 fn is_layered_box(solid: &Solid) -> bool {
     solid.strata().len() > 1 && matches!(solid.shape, Shape::Box(_))
 }
@@ -175,16 +197,19 @@ impl<'a> Trials<'a> {
 
     /// Whether a mesh is too large to be tried.
     pub fn is_too_large(&self, levels: Levels) -> bool {
-        let bodies = forecast(&self.twin.on_mesh(factors(levels))).bodies;
+        let bodies = self.bodies(levels);
         let along = bodies.iter().flat_map(|body| body.nodes).max().unwrap_or(0);
-        along > MOST_ALONG || self.nodes(levels) > self.most_nodes
+        along > MOST_ALONG || nodes_of(&bodies) > self.most_nodes
     }
 
     /// Nodes of a mesh.
     pub fn nodes(&self, levels: Levels) -> f64 {
-        let scene = self.twin.on_mesh(factors(levels));
-        let bodies = forecast(&scene).bodies;
-        bodies.iter().map(|body| body.unknowns[0] as f64).sum()
+        nodes_of(&self.bodies(levels))
+    }
+
+    /// What the twin comes to on a mesh.
+    fn bodies(&self, levels: Levels) -> Vec<BodyForecast> {
+        forecast(&self.twin.on_mesh(factors(levels))).bodies
     }
 
     /// Whether a mesh has so few elements that a coarser level is no coarser; columns are exact along the surface.
@@ -286,6 +311,10 @@ impl<'a> Trials<'a> {
         };
         Estimate { outputs: outputs.map(error).collect() }
     }
+}
+
+fn nodes_of(bodies: &[BodyForecast]) -> f64 {
+    bodies.iter().map(|body| body.unknowns[0] as f64).sum()
 }
 
 /// The error on a mesh from differences to one √2 and one twice as coarse along the surface, where edges of loads make it

@@ -1,16 +1,18 @@
-//! What a body is tried with: its start values, and each load and flux that these leave at rest.
+//! What a body is tried with: its start values, and each load and flux that these leave at rest, each with loads as small
+//! as their ranges let them get, too.
 
 use std::ops::Range;
 
-use crate::inputs::{FaceInputKind, InputLayout};
+use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::model::initial_inputs;
-use crate::scene::Scene;
+use crate::scene::{Load, Scene};
 
 /// Most experiments with a body.
 const MOST: usize = 8;
 
 /// Inputs of the experiments with a scene of one body: first its start values, if anything happens under these, then
-/// one of every input that is at rest at the start; temperatures of faces only where all is at rest.
+/// one of every input that is at rest at the start; temperatures of faces only where all is at rest. Where a load may get
+/// smaller than it is at the start, each of them stands twice.
 pub fn experiments(scene: &Scene) -> Vec<Vec<f64>> {
     let layout = InputLayout::of(scene);
     let start = initial_inputs(scene);
@@ -41,8 +43,33 @@ pub fn experiments(scene: &Scene) -> Vec<Vec<f64>> {
             all.push(inputs);
         }
     }
+    let least = least_radii(scene, &layout, &start);
+    if !least.is_empty() {
+        all = all.into_iter().flat_map(|inputs| [shrunk(&inputs, &least), inputs]).collect();
+    }
     all.truncate(MOST);
     all
+}
+
+/// Whether loads are tried at the lower ends of their ranges of radius, too.
+pub fn tries_least_radii(scene: &Scene) -> bool {
+    !least_radii(scene, &InputLayout::of(scene), &initial_inputs(scene)).is_empty()
+}
+
+/// Places of the radii that inputs may make smaller than they start, with the least values [m].
+fn least_radii(scene: &Scene, layout: &InputLayout, start: &[f64]) -> Vec<(usize, f64)> {
+    let loads = scene.load.iter().zip(&layout.loads);
+    let least = |(load, places): (&Load, &LoadInputs)| {
+        let ([lowest, _], place) = (load.range.radius?, places.radius?);
+        (lowest < start[place]).then_some((place, lowest))
+    };
+    loads.filter_map(least).collect()
+}
+
+fn shrunk(inputs: &[f64], radii: &[(usize, f64)]) -> Vec<f64> {
+    let mut inputs = inputs.to_vec();
+    radii.iter().for_each(|&(place, radius)| inputs[place] = radius);
+    inputs
 }
 
 /// Inputs of one amount.

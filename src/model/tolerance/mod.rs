@@ -16,12 +16,12 @@ use std::convert::Infallible;
 use std::sync::Arc;
 
 use crate::math::shared_values::SharedValues;
+pub use crate::quantity::percent;
 use crate::scene::{MeshFactors, Scene};
 use choice::{Choice, choose, is_chosen};
 pub use levels::{Levels, levels, reduced_model, stored_reductions};
 pub use report::{
-    BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, percent,
-    warnings,
+    BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, warnings,
 };
 
 /// Meshes by scene and name of the body.

@@ -7,7 +7,9 @@ use super::estimate::{Estimate, OutputError};
 use super::resolve;
 use super::twin::{Physics, Twin};
 use crate::body::{forecast, warnings_on_landing};
-use crate::scene::{HeatMethod, MeshFactors, Scene, SolidLevel};
+use crate::quantity::{Quantity, percent};
+use crate::scene::{HeatMethod, MeshFactors, Scene, Shape, Solid, SolidLevel, Stratum};
+use crate::variables::Registry;
 
 /// What the outputs of a body err by on its mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -68,6 +70,11 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
             }
         }
         of_physics(&twin, physics, &mut found);
+    }
+    if scene.is_reduced(name) {
+        // Of the full body more can be read.
+        let offered = Registry::structured(scene);
+        found.outputs.retain(|one| offered.variables.iter().any(|own| own.name == one.name));
     }
     found
 }
@@ -137,6 +144,9 @@ fn by_order(estimate: &BodyEstimate, tolerance: f64) -> [f64; 2] {
 /// Numbers of elements over those of a mesh beyond which nothing is told of it by the order alone.
 const FARTHEST: f64 = 8.0;
 
+/// The same of a mesh that is proposed instead.
+const NEXT: f64 = 2.0;
+
 /// Growth of elements where a scene gives distances of nodes alone.
 const GROWTH: f64 = 1.2;
 
@@ -163,12 +173,20 @@ pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
         let solid = scene.solid(&estimate.body)?;
         let name = &estimate.body;
         let output = estimate.outputs.iter().max_by(|a, b| a.total().total_cmp(&b.total()))?;
+        let how_much = match worst {
+            beyond if beyond > 1.0 => "its whole range or more".to_owned(),
+            _ => format!("{} of its range at most", percent(worst)),
+        };
         let over = format!(
-            "{name}: {} errs by about {} of its range, more than the tolerance of {}",
+            "{name}: {} errs by about {how_much}, more than the tolerance of {}",
             output.name,
-            percent(worst),
             percent(tolerance)
         );
+        if locks(solid) && is_mechanical(scene, &output.name) {
+            return Some(format!(
+                "{over}; linear elements lock at this `poisson`: `mesh.order = 2` would keep it"
+            ));
+        }
         let keys = &solid.mesh;
         if open(solid) == [true; 2] {
             return Some(format!("{over}; {}", finer_factors(scene, estimate)));
@@ -189,29 +207,41 @@ pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
     estimates.iter().filter_map(warning).chain(warnings_on_landing(scene)).collect()
 }
 
+/// Poisson's ratio from which on linear elements of a section lock.
+const LOCKING: f64 = 0.49;
+
+/// Whether a solid has elements that lock, as its layers hardly change their volume.
+fn locks(solid: &Solid) -> bool {
+    let is_stiff_in_volume =
+        |stratum: &Stratum| stratum.constants.poisson.is_some_and(|poisson| poisson > LOCKING);
+    solid.mesh.order == Some(1)
+        && matches!(solid.shape, Shape::Disc(_))
+        && solid.strata().iter().any(is_stiff_in_volume)
+}
+
+/// Whether an output of a scene is a stress or a displacement.
+fn is_mechanical(scene: &Scene, output: &str) -> bool {
+    let registry = Registry::structured(scene);
+    let quantity =
+        registry.variables.iter().find(|one| one.name == output).and_then(|one| one.quantity);
+    matches!(quantity, Some(Quantity::Stress | Quantity::Displacement))
+}
+
 /// Factors of the mesh of a body that would keep the tolerance, as errors of second order fall.
 fn finer_factors(scene: &Scene, estimate: &BodyEstimate) -> String {
     let name = &estimate.body;
     let [along, through] = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
     let more = by_order(estimate, scene.fidelity.tolerance);
+    let is_near = more[0].max(more[1]) <= FARTHEST;
+    // So far from the tolerance errors fall as they please: a mesh a little finer tells more.
+    let next = more.map(|factor| if is_near { factor } else { factor.min(NEXT) });
+    let promise = if is_near { "would keep it" } else { "would tell which mesh keeps it" };
     format!(
         "its mesh has along = {along:.2}, through = {through:.2}, and finer ones are not tried here: about \
-         `[refinement.{name}]` with along = {:.2}, through = {:.2} would keep it",
-        along * more[0],
-        through * more[1]
+         `[refinement.{name}]` with along = {:.2}, through = {:.2} {promise}",
+        along * next[0],
+        through * next[1]
     )
-}
-
-/// A part of something as a percentage.
-pub fn percent(part: f64) -> String {
-    let value = 100.0 * part;
-    match value {
-        0.0 => "0 %".to_owned(),
-        _ if value < 0.01 => format!("{value:.0e} %"),
-        _ if value < 1.0 => format!("{value:.2} %"),
-        _ if value < 10.0 => format!("{value:.1} %"),
-        _ => format!("{value:.0} %"),
-    }
 }
 
 /// Begins what packing adds to the text of a scene, which the unit's GUID does not depend on.

@@ -1,5 +1,6 @@
 //! A body by itself, linear, with what is read of it and without what does not matter to that.
 
+use super::experiment::tries_least_radii;
 use crate::body::fine_radius;
 use crate::material::{Material, Properties, Property};
 use crate::scene::{
@@ -75,6 +76,9 @@ impl Twin {
             solid.peaks.push(PeakOf::VonMises);
         }
         let reads_extremes = !is_mechanical || has_stress_peaks;
+        if tries_least_radii(&twin) {
+            simplified.push("loads are tried at the lower ends of their ranges of radius, too");
+        }
         Some(Self {
             scene: twin,
             name: name.to_owned(),

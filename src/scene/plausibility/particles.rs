@@ -111,12 +111,18 @@ fn film(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
         return;
     }
     let message = format!(
-        "the film is expected to get {:.1} distances of particles thin by the stop time: below {THINNEST} its heat is \
+        "the film is expected to get {} distances of particles thin by the stop time: below {THINNEST} its heat is \
          too low by a fifth to a half, and height and spread err alike; did you mean a `spacing` of {} m or less?",
-        thickness / droplet.spacing,
+        below(thickness / droplet.spacing, THINNEST),
         number(rounded(thickness / THICK))
     );
     reviewer.warn(path, message);
+}
+
+/// A number below a bound, with as many digits as tell it from that, up to three.
+fn below(value: f64, bound: f64) -> String {
+    let digits = (1..3).find(|&digits| format!("{value:.digits$}") != format!("{bound:.digits$}"));
+    format!("{value:.0$}", digits.unwrap_or(3))
 }
 
 /// To two digits, downward.

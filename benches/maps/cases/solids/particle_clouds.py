@@ -1,5 +1,7 @@
 """The corrected operator on disordered particles beside a face, and on the meshes users reach."""
 
+from dataclasses import replace
+
 from plan import Answer, Axis, Map, Work
 from unit_run import equal_steps, run_unit, unit_work
 
@@ -11,8 +13,15 @@ DISORDERS = [0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5]
 DISTANCES = [0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0]
 
 
+SUPPORT, NARROW = 3.0, 1.6  # over the spacing: as users have it, and near where neighbours get few
+
+
 def cloud(disorder: float, distance: float) -> Work:
-    return {"support": 3.0, "disorder": disorder, "distance": distance, "count": CLOUDS}
+    return {"support": SUPPORT, "disorder": disorder, "distance": distance, "count": CLOUDS}
+
+
+def narrow_cloud(disorder: float, distance: float) -> Work:
+    return cloud(disorder, distance) | {"support": NARROW}
 
 
 def run_cloud(work: Work) -> Answer:
@@ -69,6 +78,18 @@ def cloud_plain() -> Map:
         0.3,
         (1e-3, 1.0),
     )
+
+
+def cloud_fallback() -> Map:
+    usual = of_clouds(
+        "cloud_fallback",
+        f"Particles that fall back to the plain operator, support {NARROW:g}",
+        "part of the particles whose corrected operator is given up",
+        "fallback",
+        0.5,
+        (0.0, 1.0),
+    )
+    return replace(usual, work=narrow_cloud)
 
 
 RADIUS, HALF, FLUX = 50e-6, 0.25e-3, 1e8
