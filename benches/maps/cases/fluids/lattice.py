@@ -112,7 +112,7 @@ class Lattice:
         return np.array([self.across * along[0], self.rows() * up[1]]) / self.support
 
     def waves(self, count: int) -> np.ndarray:
-        """Wave vectors all over half a cell of the reciprocal lattice; all those that periods let be."""
+        """Wave vectors all over half a cell of the reciprocal lattice, or all between periods."""
         if self.across:
             numbers = product(range(self.across), range(self.rows()))
             return 2.0 * pi * np.array(list(numbers)) / self.periods()

@@ -8,7 +8,15 @@ import numpy as np
 from plan import Answer, Axis, Boundary, Map
 
 from cases.fluids.flow_limits import run_flow
-from cases.fluids.lattice import SHAPES, Lattice, growth, largest, mean_slope, noise_between_periods, second_moment
+from cases.fluids.lattice import (
+    SHAPES,
+    Lattice,
+    growth,
+    largest,
+    mean_slope,
+    noise_between_periods,
+    second_moment,
+)
 
 ACROSS, STEPS, GROWN = 24, 300, 100.0
 """Particles along a side, time steps, and growth of noise that counts as one."""
