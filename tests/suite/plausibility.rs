@@ -362,7 +362,8 @@ fn films_thinner_than_particles_are_warned_of() {
     let finer = said[0].split("`spacing` of ").nth(1).and_then(|rest| rest.split(' ').next());
     let finer = format!("spacing = {}\n", finer.unwrap());
     let fine = edited(&long, "spacing = 5e-5\n", &finer);
-    assert_eq!(warnings(&fine), [""; 0], "{finer}");
+    let said = warnings(&fine);
+    assert!(!said.iter().any(|said| said.contains("film is expected")), "{finer}: {said:?}");
 }
 
 /// Heat of drops of 0.1 mm on a held wall by 2 D/U with 20 particles across, beside 56, was off by −32 % and 15 % (water,
