@@ -411,7 +411,9 @@ fn strays_of_a_record_are_told_as_particles_tell_theirs() {
     let said = |speed: &str| {
         let text = drop("record", "record = { duration = 5e-6 }")
             .replace("impact_velocity = 20.0", speed)
-            .replace("viscosity = 4e-3", "viscosity = 5e-4");
+            .replace("viscosity = 4e-3", "viscosity = 5e-4")
+            .replace(", surface_tension = 0.05", "")
+            .replace("spacing = 1e-5", "spacing = 1.5e-5");
         let mut trial = Trial::new(&(text + TILES));
         assert_eq!(trial.model.closing_warnings(&trial.state), [""; 0]);
         steps(&mut trial, 1);
