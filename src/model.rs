@@ -26,7 +26,7 @@ pub use timeline::Timeline;
 
 use std::sync::{Arc, OnceLock};
 
-use crate::body::{Assembly, Body, Fields, Joint, Link, Readings};
+use crate::body::{Assembly, Body, Fields, Joint, Link, Reading, Readings};
 pub use crate::body::{
     BodyError, BodyForecast, DropletForecast, Forecast, Kept, KeptReduction, ParticleForecast,
     forecast, keep_record, keep_reduction, notes_on_walls, records, to_be_recorded,
@@ -410,10 +410,40 @@ impl Model {
         ))
     }
 
+    /// What inputs tell since the last step, in answer to it, that does not go with how it was computed; `before` are
+    /// those of its beginning.
+    pub fn warning_on_answer(&self, state: &State, before: &[f64]) -> Option<String> {
+        let mut bodies = self.bodies.iter().zip(&state.bodies);
+        bodies.find_map(|(body, unknowns)| body.warning_on_answer(unknowns, before, &state.inputs))
+    }
+
+    /// What a user should know of an output's value.
+    pub fn warning_on_value(&self, output: &Output, value: f64) -> Option<String> {
+        self.bodies[output.body].warning_on_value(&output.reading, value)
+    }
+
+    /// The same of all values of whole bodies in a state: a sentence each.
+    pub fn warnings_on_values(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+    ) -> Result<Vec<String>, ModelError> {
+        let mut found = Vec::new();
+        let mut reader = self.reader(state, cache)?;
+        for variable in Registry::of(&self.scene).variables {
+            let Slot::Output(output) = &variable.slot else { continue };
+            if matches!(output.reading, Reading::Total(_)) {
+                let value = reader.value(output)?;
+                found.extend(self.warning_on_value(output, value));
+            }
+        }
+        Ok(found)
+    }
+
     /// What a user should know of the state at the end of a run: a sentence each.
     pub fn closing_warnings(&self, state: &State) -> Vec<String> {
         let bodies = self.bodies.iter().zip(&state.bodies);
-        bodies.filter_map(|(body, unknowns)| body.closing_warning(unknowns)).collect()
+        bodies.flat_map(|(body, unknowns)| body.closing_warnings(unknowns)).collect()
     }
 
     fn place(&self, body: &str) -> usize {

@@ -17,12 +17,15 @@ def unit_work(
     steps: list[float],
     inputs: dict | None = None,
     slopes: dict | None = None,
+    about: str = "",
 ) -> Work:
     """Work of `run_unit`: lengths of steps [s]; an input is a number, or a list with one a step.
 
-    `slopes` are time derivatives of inputs at the beginning of each step."""
+    `slopes` are time derivatives of inputs at the beginning of each step; only warnings with
+    `about` in them count."""
     work = {"scene": scene, "outputs": outputs, "steps": steps, "inputs": inputs or {}}
-    return work | ({"slopes": slopes} if slopes else {})
+    more = {"slopes": slopes, "about": about}
+    return work | {name: value for name, value in more.items() if value}
 
 
 def run_unit(work: Work) -> Answer:
@@ -33,7 +36,7 @@ def run_unit(work: Work) -> Answer:
     heard = []
 
     def listen(status: int, _: str, message: str) -> None:
-        if status == 1:
+        if status == 1 and work.get("about", "") in message:
             heard.append(message)
 
     values = {name: [] for name in work["outputs"]}

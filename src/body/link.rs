@@ -221,7 +221,7 @@ pub fn interval(coupling: &Coupling, droplet: &Droplet, plan: &Plan) -> f64 {
     let fluid = &droplet.fluid;
     let layers = || plan.strata.iter().map(|layer| layer.constants);
     let solid = layers().map(|c| c.effusivity()).fold(f64::INFINITY, f64::min);
-    let of_fluid = (fluid.conductivity * fluid.density * fluid.specific_heat).sqrt();
+    let of_fluid = fluid.effusivity();
     let share = (solid / (solid + of_fluid)).max(LEAST_ALONG);
     let length = shortest_element(plan);
     let along = |c: Constants| share * length.powi(2) * c.heat_capacity() / c.conductivity;

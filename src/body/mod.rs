@@ -162,9 +162,20 @@ pub trait Body: Send + Sync {
         None
     }
 
-    /// What a user should know of the state at the end of a run.
-    fn closing_warning(&self, _state: &[f64]) -> Option<String> {
+    /// What inputs tell since the last step, in answer to it, that does not go with how it was computed: those of its
+    /// beginning, and those that there are now.
+    fn warning_on_answer(&self, _state: &[f64], _before: &[f64], _now: &[f64]) -> Option<String> {
         None
+    }
+
+    /// What a user should know of a value that is read.
+    fn warning_on_value(&self, _reading: &Reading, _value: f64) -> Option<String> {
+        None
+    }
+
+    /// What a user should know of the state at the end of a run: a sentence each.
+    fn closing_warnings(&self, _state: &[f64]) -> Vec<String> {
+        Vec::new()
     }
 
     /// What bodies that differ in what concerns heat alone share.

@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use super::CliError;
 use super::table::table;
-use super::units::{decimal, engineering, kelvin};
+use super::units::{decimal, engineering, kelvin, lasting};
 
 /// Say what a scene will model, and what is left out and why
 #[derive(Args)]
@@ -134,7 +134,7 @@ fn notes(scene: &Scene) -> String {
             let _ = writeln!(text, "    - {note}");
         }
     }
-    let _ = writeln!(text, "  `impinge run` takes about {}", engineering(run_time, "s"));
+    let _ = writeln!(text, "  `impinge run` takes about {}", lasting(run_time));
     text
 }
 

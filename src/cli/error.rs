@@ -20,6 +20,12 @@ pub enum CliError {
     Table(#[from] TableError),
     #[error("{name} is set (--set) and has a column in the table (--inputs); allowed: one of both")]
     GivenTwice { name: String },
+    /// Nobody waits for the end of the run.
+    #[error(
+        "the run would take about {time}; allowed: {most}, as with `--until {until}` ({proposed}), a larger `spacing` or a \
+         lower `sound_speed` of droplets, or a lower speed"
+    )]
+    Months { time: String, most: String, until: String, proposed: String },
     /// The model refuses the value of an input.
     #[error("{name}: {message}")]
     Input { name: String, message: String },

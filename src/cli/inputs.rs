@@ -139,7 +139,10 @@ impl InputTable {
         }
         let ends_early = self.between == Between::Linear && 0.0 < last && last < NEARLY * stop;
         ends_early.then(|| {
-            ("note", format!("{file}: the values of the last row hold from {last:e} s to {stop:e} s"))
+            (
+                "note",
+                format!("{file}: the values of the last row hold from {last:e} s to {stop:e} s"),
+            )
         })
     }
 

@@ -5,6 +5,7 @@ mod check;
 mod error;
 mod idle;
 mod inputs;
+mod patience;
 mod run;
 mod schema;
 mod set;

@@ -14,6 +14,7 @@ use super::CliError;
 use super::error::input_name;
 use super::idle;
 use super::inputs::{Between, InputTable};
+use super::patience;
 use super::set::{self, Assignment, InputValue};
 use super::summary::{self, Balance};
 use super::units::engineering;
@@ -78,6 +79,9 @@ impl Run {
         let table = self.input_table(&scene, &inputs)?;
         self.check_folder(&self.folder(&scene))?;
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
+        if let Some(note) = patience::expected(&scene)? {
+            super::print_message("note", &note);
+        }
         for note in to_be_recorded(&scene) {
             super::print_message("note", &note);
         }
@@ -338,10 +342,12 @@ impl Running<'_> {
             summary::extremes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let peaks =
             summary::peaks_table(self.model, &self.state, &mut self.cache).map_err(named)?;
+        let of_values =
+            self.model.warnings_on_values(&self.state, &mut self.cache).map_err(named)?;
         let overflows = self.model.warnings(&self.state);
         let strays = self.model.closing_warnings(&self.state);
         let balances_off = self.balances.iter().filter_map(Balance::warning);
-        for warning in balances_off.chain(overflows).chain(strays) {
+        for warning in balances_off.chain(overflows).chain(strays).chain(of_values) {
             super::print_message("warning", &warning);
         }
         let balances = summary::balance_table(&self.balances);

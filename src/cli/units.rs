@@ -28,6 +28,16 @@ pub fn engineering(value: f64, unit: &str) -> String {
     }
 }
 
+/// A time in the unit that people would say it in [s].
+pub fn lasting(seconds: f64) -> String {
+    const UNITS: [(f64, &str); 4] =
+        [(3.156e7, "years"), (86_400.0, "days"), (3600.0, "hours"), (60.0, "minutes")];
+    match UNITS.iter().find(|(unit, _)| seconds >= 2.0 * unit) {
+        Some((unit, name)) => format!("{:.0} {name}", seconds / unit),
+        None => engineering(seconds, "s"),
+    }
+}
+
 /// Digits and power of ten of a value rounded to five significant digits.
 fn scientific(value: f64) -> (String, i32) {
     let text = format!("{value:.4e}");
@@ -65,6 +75,20 @@ mod tests {
         ];
         for (value, text) in cases {
             assert_eq!(engineering(value, "m"), text);
+        }
+    }
+
+    #[test]
+    fn times_are_said_as_people_say_them() {
+        let cases = [
+            (0.5, "500 ms"),
+            (119.0, "119 s"),
+            (40_642.0, "11 hours"),
+            (5.8e6, "67 days"),
+            (1e9, "32 years"),
+        ];
+        for (seconds, text) in cases {
+            assert_eq!(lasting(seconds), text);
         }
     }
 

@@ -119,6 +119,7 @@ impl Unit {
         self.scene = snapshot.scene;
         self.directory = snapshot.directory;
         self.experiment = snapshot.experiment;
+        self.forget_answers();
         self.state = snapshot.state;
         self.has_set_derivatives = snapshot.has_set_derivatives;
         self.texts.clear();

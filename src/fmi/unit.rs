@@ -69,6 +69,8 @@ pub struct Unit {
     warnings: Vec<Warning>,
     /// What the master has been warned of.
     said: BTreeSet<String>,
+    /// Inputs at the beginning of the last step, where what they become next may tell of it; nothing after a jump back.
+    told: Option<Vec<f64>>,
     /// The files of fields, in a folder that is written by nobody else meanwhile.
     pub(super) series: Option<(FieldSeries, FolderLock)>,
     /// Ends the step under way, from another thread.
@@ -156,6 +158,8 @@ fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
 
 /// The subject of warnings of steps that are too short.
 const SHORT_STEPS: &str = "short steps";
+/// The subject of warnings of walls that are held and answer all the same.
+const HELD_WALL: &str = "held wall";
 /// Folders among a unit's resources, which not every unit has: of recorded drops, and of reduced solids.
 const RECORDS: &str = "records";
 const REDUCTIONS: &str = "reduced";
@@ -201,6 +205,7 @@ impl Unit {
             run: None,
             warnings,
             said: BTreeSet::new(),
+            told: None,
             series: None,
             interrupt: Interrupt::default(),
             control: Rc::default(),
@@ -272,6 +277,7 @@ impl Unit {
     /// Back to the start values, as after fmi2Instantiate; log settings and saved states stay.
     pub fn reset(&mut self) -> Answer {
         self.drop_run();
+        self.forget_answers();
         self.series = None;
         self.texts.clear();
         self.scene = self.packed.clone();
@@ -299,9 +305,13 @@ impl Unit {
         let registry = Arc::clone(&self.registry);
         let has_set = self.has_set_derivatives;
         let is_told = self.said.contains(SHORT_STEPS);
+        let told = self.told.take();
+        let listens = self.listens_to_answers();
         let (interrupt, control) = (self.interrupt.clone(), Rc::clone(&self.control));
         let (run, state) = self.run()?;
         let past = if has_set { None } else { Some(std::mem::take(&mut state.derivatives)) };
+        let on_answer = told.and_then(|before| run.model.warning_on_answer(state, &before));
+        let told = listens.then(|| state.inputs.clone());
         let stepping = interrupt.begin();
         let stepped =
             control.advance((&*run.model, &mut run.cache), state, (point, step), &interrupt);
@@ -321,12 +331,27 @@ impl Unit {
         run.checked &= !has_set;
         let warnings = run.model.warnings(state);
         let on_step = if is_told { None } else { run.model.warning_on_step(step) };
+        self.told = told;
         self.warn_once(warnings);
+        if let Some(message) = on_answer {
+            self.warn_once_of(HELD_WALL, &message);
+        }
         if let Some(message) = on_step {
             self.warn_once_of(SHORT_STEPS, &message);
         }
         self.has_set_derivatives = false;
         Ok(self.write_fields())
+    }
+
+    /// Whether inputs may be answers to a step that took them as held, and nothing has been said of that yet.
+    fn listens_to_answers(&self) -> bool {
+        let is_held = self.scene.wall.iter().any(|wall| wall.effusivity.is_none());
+        is_held && !self.said.contains(HELD_WALL)
+    }
+
+    /// Forgets what the last step began with, as what comes is no answer to it.
+    pub(super) fn forget_answers(&mut self) {
+        self.told = None;
     }
 
     /// Drops the derivatives of inputs that the last step ended with, unless they were set since.

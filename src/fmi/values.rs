@@ -41,7 +41,24 @@ impl Unit {
             Slot::Output(_) => Ok(outputs.next().expect("as many as there are outputs")),
             Slot::Threads | Slot::OutputDirectory => Err(wrong_kind(variable, Kind::Real)),
         };
-        variables.into_iter().map(value).collect()
+        let values: Vec<f64> = variables.iter().copied().map(value).collect::<Answer<_>>()?;
+        self.warn_of_values(&variables, &values);
+        Ok(values)
+    }
+
+    /// Warns once of each output whose value tells less than it seems to.
+    fn warn_of_values(&mut self, variables: &[&Variable], values: &[f64]) {
+        let Some(run) = self.run.as_ref().filter(|_| self.scene.droplets().next().is_some()) else {
+            return;
+        };
+        let model = Arc::clone(&run.model);
+        for (variable, &value) in variables.iter().zip(values) {
+            let warning =
+                output_of(variable).and_then(|output| model.warning_on_value(output, value));
+            if let Some(message) = warning {
+                self.warn_once_of(&variable.name, &message);
+            }
+        }
     }
 
     /// Values of those variables that are outputs.

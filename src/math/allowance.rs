@@ -61,11 +61,26 @@ pub enum Halt {
     #[error(
         "{rounds:.1e} {what} over {size} unknowns are more than a communication step may take \
          (allowed: {MOST_UPDATES:.0e} updates of unknowns and {:.0e} rounds in all): take shorter \
-         communication steps, or look for an extreme value",
-        MOST_UPDATES / ROUND
+         communication steps{}, or look for an extreme value",
+        MOST_UPDATES / ROUND,
+        proposal(*.fits)
     )]
-    TooLong { rounds: f64, what: &'static str, size: usize },
+    TooLong {
+        rounds: f64,
+        what: &'static str,
+        size: usize,
+        /// A length that would have been taken [s], where it is known.
+        fits: Option<f64>,
+    },
 }
+
+/// A length of steps [s], in words.
+fn proposal(fits: Option<f64>) -> String {
+    fits.map_or(String::new(), |fits| format!(" (of {fits:.0e} s, say)"))
+}
+
+/// Part of the longest step that is proposed: work is only known about.
+const SURELY: f64 = 0.5;
 
 impl Halt {
     /// Part of a step that was too long which takes some updates, about; nothing where the step ended for
@@ -98,8 +113,26 @@ impl Allowance {
         // Numbers that are none are too many, too.
         match cost(rounds, size) <= self.left() {
             true => Ok(()),
-            false => Err(Halt::TooLong { rounds, what, size }),
+            false => Err(Halt::TooLong { rounds, what, size, fits: None }),
         }
+    }
+
+    /// The same of all that a step of `dt` [s] takes; a refusal proposes a shorter one.
+    pub fn foresee_step(
+        &self,
+        dt: f64,
+        rounds: f64,
+        what: &'static str,
+        size: usize,
+    ) -> Result<(), Halt> {
+        self.foresee(rounds, what, size).map_err(|halt| match halt {
+            Halt::TooLong { rounds, what, size, .. } => {
+                let fits = SURELY * dt * MOST_UPDATES / cost(rounds, size);
+                let fits = Some(fits).filter(|fits| fits.is_finite() && *fits > 0.0);
+                Halt::TooLong { rounds, what, size, fits }
+            }
+            halt => halt,
+        })
     }
 
     /// Takes rounds of updates from what is left; to be called between rounds, as this is where a step
@@ -153,6 +186,15 @@ mod tests {
         let halt = allowance.foresee(f64::INFINITY, "rounds", 0).unwrap_err();
         assert_eq!(halt.part_within(EARLY_UPDATES), Some(0.0));
         assert_eq!(Halt::Interrupted.part_within(EARLY_UPDATES), None);
+    }
+
+    #[test]
+    fn a_step_that_is_proposed_is_taken() {
+        let allowance = Allowance::default();
+        let halt = allowance.foresee_step(2.0, 1e9, "rounds", 90_000).unwrap_err();
+        let Halt::TooLong { fits: Some(fits), .. } = halt else { panic!("{halt}") };
+        assert!(halt.to_string().contains("(of 1e-3 s, say)"), "{halt}");
+        assert_eq!(allowance.foresee_step(fits, 1e9 * fits / 2.0, "rounds", 90_000), Ok(()));
     }
 
     #[test]

@@ -97,7 +97,7 @@ impl Model {
         let of_links = group.links.iter().map(|&link| self.links[link].parts(dt));
         let of_joints = group.joints.iter().map(|&joint| self.joints[joint].parts(dt));
         let parts = of_links.chain(of_joints).max().unwrap_or(1);
-        self.foresee_exchanges(group, states, parts, allowance)?;
+        self.foresee_exchanges(group, states, (dt, parts), allowance)?;
         let lengths = self.lengths(group, dt / parts as f64);
         let mut start = 0.0;
         for _ in 0..parts {
@@ -130,14 +130,15 @@ impl Model {
         &self,
         group: &Group,
         states: &[Vec<f64>],
-        parts: usize,
+        (dt, parts): (f64, usize),
         allowance: &Allowance,
     ) -> Result<(), BodyError> {
         let of_links = group.links.iter().map(|&link| self.links[link].to);
         let of_joints = group.joints.iter().map(|&joint| self.joints[joint].sides[1].body);
         for below in of_links.chain(of_joints) {
             let size = states[below].len();
-            let foreseen = allowance.foresee(parts as f64, "exchanges between bodies", size);
+            let what = "exchanges between bodies";
+            let foreseen = allowance.foresee_step(dt, parts as f64, what, size);
             let body = || self.bodies[below].name().to_owned();
             foreseen.map_err(|halt| BodyError::Halted { body: body(), halt })?;
         }

@@ -306,6 +306,13 @@ pub struct Coupling {
     pub radius: Option<f64>,
 }
 
+impl Fluid {
+    /// Thermal effusivity `e = √(k ρ c)` [W √s/(m² K)].
+    pub fn effusivity(&self) -> f64 {
+        (self.conductivity * self.density * self.specific_heat).sqrt()
+    }
+}
+
 fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }

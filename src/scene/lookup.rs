@@ -130,6 +130,15 @@ impl Scene {
         self.wall.iter().position(|wall| wall.under == droplet)
     }
 
+    /// √(kρc) of what lies below a droplet [W √s/(m² K)]: of a solid that of its top layer; nothing of a wall that is held.
+    pub fn effusivity_below(&self, droplet: &str) -> Option<f64> {
+        let solid = self.coupling_from(droplet).and_then(|index| self.coupling[index].solid());
+        match solid.and_then(|solid| self.solid(solid)) {
+            Some(solid) => solid.strata().first().map(|layer| layer.constants.effusivity()),
+            None => self.wall[self.wall_under(droplet)?].effusivity,
+        }
+    }
+
     /// The index of the coupling of a droplet.
     pub fn coupling_from(&self, droplet: &str) -> Option<usize> {
         self.coupling.iter().position(|coupling| coupling.from == droplet)

@@ -1,4 +1,4 @@
-//! A drop of water that hits a cold wall, for tests.
+//! Fluid without anything around it, and a drop of water that hits a cold wall, for tests.
 
 use std::f64::consts::PI;
 
@@ -23,9 +23,8 @@ pub const WATER: Fluid = Fluid {
     sound_speed: 500.0,
 };
 
-/// A quarter of a drop, with some particles over its diameter, that is about to hit a wall of rings.
-pub fn falling_drop(across: f64, fluid: Fluid) -> DropletPlan {
-    let spacing = DIAMETER / across;
+/// Particles of a fluid in open space, as scenes have them, without any drop.
+pub fn open_space(spacing: f64, fluid: Fluid) -> DropletPlan {
     DropletPlan {
         dimension: 3,
         axisymmetric: false,
@@ -39,22 +38,41 @@ pub fn falling_drop(across: f64, fluid: Fluid) -> DropletPlan {
         corrected_diffusion: true,
         shifting: true,
         gravity: [0.0; 3],
-        mirrors: [true; 2],
+        mirrors: [false; 2],
         extents: [Extent::Open; 3],
         demand: None,
+        releases: Vec::new(),
+        wall: None,
+    }
+}
+
+/// A quarter of a drop, with some particles over its diameter, half a distance above a wall of cells that it hits at a
+/// speed [m/s].
+pub fn above_wall(
+    [diameter, across, speed]: [f64; 3],
+    temperature: f64,
+    fluid: Fluid,
+    cells: WallCells,
+) -> DropletPlan {
+    let spacing = diameter / across;
+    DropletPlan {
+        mirrors: [true; 2],
         releases: vec![Release {
             time: 0.0,
-            centre: [0.0, 0.0, 0.5 * (DIAMETER + spacing)],
-            diameter: DIAMETER,
-            velocity: [0.0, 0.0, -SPEED],
-            temperature: HOT,
+            centre: [0.0, 0.0, 0.5 * (diameter + spacing)],
+            diameter,
+            velocity: [0.0, 0.0, -speed],
+            temperature,
         }],
-        wall: Some(Wall {
-            cells: WallCells::Rings { count: RINGS, radius: 1.5e-4 },
-            contact_angle: 0.5 * PI,
-            effusivity: None,
-        }),
+        wall: Some(Wall { cells, contact_angle: 0.5 * PI, effusivity: None }),
+        ..open_space(spacing, fluid)
     }
+}
+
+/// A quarter of a drop, with some particles over its diameter, that is about to hit a wall of rings.
+pub fn falling_drop(across: f64, fluid: Fluid) -> DropletPlan {
+    let rings = WallCells::Rings { count: RINGS, radius: 1.5e-4 };
+    above_wall([DIAMETER, across, SPEED], HOT, fluid, rings)
 }
 
 /// A state after some steps of 0.25 µs, an eighth of D/U, above a cold wall.

@@ -1,6 +1,6 @@
 //! States and derivatives of inputs of units with droplets.
 
-use crate::master::{DISCARD, ERROR, OK, Unit};
+use crate::master::{DISCARD, ERROR, OK, Unit, WARNING};
 
 /// Two drops, the second released after 0.4 µs, above a wall of tiles whose temperatures are inputs.
 pub const WALL: &str = r#"
@@ -67,6 +67,58 @@ pub fn started(scene: &str) -> Unit {
     assert_eq!(unit.exit(), OK, "{:?}", unit.messages.take());
     unit.messages.take();
     unit
+}
+
+/// A drop above narrow rings that are held over a step: what it is told of them after the first heat, as a half space of an
+/// effusivity would answer to a flux that is held as long.
+fn told_of_an_answer(effusivity: f64) -> Vec<String> {
+    let rings = WALL
+        .replace(
+            "tiles = { count = [2, 2], size = [2.4e-4, 2e-4] }",
+            "rings = { count = 4, radius = 4e-5 }",
+        )
+        .replace("arrivals = [{ time = 0.0 }, { time = 4e-7, x = 8e-5 }]\n", "");
+    let unit = started(&rings);
+    let cells: Vec<_> = (1..=4).map(|n| format!("wall.heat_flux[{n}]")).collect();
+    for _ in 0..20 {
+        assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
+        let rises = cells
+            .iter()
+            .map(|name| 2.0 * unit.get(name) * (STEP / std::f64::consts::PI).sqrt() / effusivity);
+        let rises: Vec<f64> = rises.collect();
+        if rises.iter().any(|&rise| rise > 0.0) {
+            for (n, rise) in (1..).zip(rises) {
+                assert_eq!(unit.set(&format!("wall.temperature[{n}]"), 300.0 + rise), OK);
+            }
+            unit.messages.take();
+            assert_eq!(unit.step(unit.time(), STEP), OK, "{:?}", unit.messages.take());
+            break;
+        }
+    }
+    let messages = unit.messages.take().into_iter();
+    messages.filter(|message| message.status == WARNING).map(|message| message.text).collect()
+}
+
+#[test]
+fn a_held_wall_that_answers_is_told_of_with_its_effusivity() {
+    let said = told_of_an_answer(600.0);
+    assert!(said.len() == 1, "{said:?}");
+    let number = said[0].split("effusivity = ").nth(1).and_then(|rest| rest.split('`').next());
+    let found: f64 = number.unwrap().parse().unwrap();
+    assert!((found / 600.0 - 1.0).abs() < 0.02, "{said:?}");
+    assert_eq!(told_of_an_answer(37_000.0), [""; 0]);
+}
+
+#[test]
+fn heights_of_a_few_particles_are_told_of_once() {
+    let unit = started(WALL);
+    let heard = || unit.messages.take().into_iter().filter(|m| m.text.contains("drop.height is"));
+    assert!(unit.get("drop.height") > 3e-5 && heard().count() == 0);
+    // Long after both drops have come down.
+    assert_eq!(unit.step(0.0, 6e-6), OK, "{:?}", unit.messages.take());
+    assert_eq!(heard().count(), 0, "nobody has read it");
+    assert!(unit.get("drop.height") < 3e-5, "{}", unit.get("drop.height"));
+    assert_eq!(heard().count(), 1);
 }
 
 /// Steps of different lengths under an input that changes; what is seen after each.

@@ -35,6 +35,22 @@ fn a_step_that_would_take_a_droplet_for_ever_is_discarded() {
     discarded(&unit, 1e-5, &[WORDS[0], WORDS[1], "drop: "]);
 }
 
+/// A day of 20 000 particles was once allowed, as if each were a single unknown; the step that is proposed is.
+#[test]
+fn a_step_of_many_particles_that_takes_a_day_is_discarded_with_one_that_does_not() {
+    let text = WALL.replace("spacing = 1e-5", "spacing = 2e-6").replace(
+        "arrivals = [{ time = 0.0 }, { time = 4e-7, x = 8e-5 }]\n",
+        "symmetry = \"none\"\n",
+    );
+    let unit = started(&text);
+    assert_eq!(unit.step(0.0, 1e-2), DISCARD);
+    let messages = unit.messages.take();
+    let said = &messages[messages.len() - 1].text;
+    let step = said.split("(of ").nth(1).and_then(|rest| rest.split(' ').next());
+    let step: f64 = step.unwrap_or_else(|| panic!("{said}")).parse().unwrap();
+    assert!((1e-4..5e-3).contains(&step), "{said}");
+}
+
 #[test]
 fn exchanges_without_end_are_discarded() {
     let unit = started(&PLATE.replace("interval = 5e-8", "interval = 1e-25"));

@@ -271,7 +271,7 @@ fn damaged_reductions_are_refused() {
     }
     let said = unit(Some(&bytes[..bytes.len() - 9])).err().unwrap();
     assert!(said.contains("plate.reduced: the reduction is"), "{said}");
-    let said = unit(Some(b"IMPREC01")).err().unwrap();
+    let said = unit(Some(b"IMPREC02")).err().unwrap();
     assert!(said.contains("plate.reduced: "), "{said}");
 }
 

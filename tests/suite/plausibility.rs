@@ -367,7 +367,37 @@ fn films_thinner_than_particles_are_warned_of() {
     let finer = said[0].split("`spacing` of ").nth(1).and_then(|rest| rest.split(' ').next());
     let finer = format!("spacing = {}\n", finer.unwrap());
     let fine = edited(&long, "spacing = 5e-5\n", &finer);
-    assert_eq!(warnings(&fine), [""; 0], "{finer}");
+    let said = warnings(&fine);
+    assert!(!said.iter().any(|said| said.contains("film is expected")), "{finer}: {said:?}");
+}
+
+/// Heat of drops of 0.1 mm on a held wall by 2 D/U with 20 particles across, beside 56, was off by −32 % and 15 % (water,
+/// 50 and 5 m/s), −1 % (tin, 15 m/s), 0 % (mercury, 5 m/s), −3 % (glycerol, 15 m/s).
+#[test]
+fn heat_that_particles_tell_badly_is_warned_of_and_no_other() {
+    let said = |row: FluidRow, speed: f64, more: &str| {
+        let text = edited(&drop(row), "diameter = 1e-3", "diameter = 1e-4");
+        let text = edited(&text, "spacing = 5e-5", "spacing = 5e-6");
+        let text = edited(&text, "radius = 3e-3", "radius = 3e-4");
+        let text = edited(&text, "stop_time = 1e-5", &format!("stop_time = {:?}", 2e-4 / speed));
+        let text = edited(&text, "impact_velocity = 2.0", &format!("impact_velocity = {speed:?}"));
+        warnings(&edited(&text, "under = \"drop\"\n", &format!("under = \"drop\"\n{more}")))
+    };
+    let water = ("water", 998.0, 1e-3, 4182.0, 0.6, 0.072, 293.0);
+    let tin = ("tin", 6980.0, 1.85e-3, 240.0, 30.0, 0.55, 600.0);
+    let mercury = ("mercury", 13534.0, 1.53e-3, 139.0, 8.5, 0.485, 300.0);
+    let glycerol = ("glycerol", 1260.0, 0.1, 2500.0, 0.285, 0.06, 330.0);
+    let fast = said(water, 50.0, "");
+    assert!(fast.len() == 1, "{fast:?}");
+    let [error, rest] = fast[0].split("off by ").nth(1).unwrap().split_once(" ± ").unwrap().into();
+    let error: f64 = error.parse().unwrap();
+    assert!((-40.0..-25.0).contains(&error) && rest.contains("`spacing` of"), "{fast:?}");
+    for (row, speed) in [(tin, 15.0), (mercury, 5.0), (glycerol, 15.0), (glycerol, 50.0)] {
+        assert_eq!(said(row, speed, ""), [""; 0], "{row:?} {speed}");
+    }
+    // Heat of what hardly cools follows the wetted area.
+    assert_eq!(said(water, 50.0, "effusivity = 600.0\n").len(), 1, "cells are wide");
+    assert!(said(water, 50.0, "effusivity = 600.0\n")[0].contains("cells of"));
 }
 
 #[test]

@@ -405,6 +405,25 @@ fn drops_on_others_are_noticed_and_told_at_the_end() {
     assert!(said.iter().any(|words| words.contains("1 of 3 drops")), "{said:?}");
 }
 
+/// Thin and fast, its film breaks up within the record; a slow one stays whole.
+#[test]
+fn strays_of_a_record_are_told_as_particles_tell_theirs() {
+    let said = |speed: &str| {
+        let text = drop("record", "record = { duration = 5e-6 }")
+            .replace("impact_velocity = 20.0", speed)
+            .replace("viscosity = 4e-3", "viscosity = 5e-4")
+            .replace(", surface_tension = 0.05", "")
+            .replace("spacing = 1e-5", "spacing = 1.5e-5");
+        let mut trial = Trial::new(&(text + TILES));
+        assert_eq!(trial.model.closing_warnings(&trial.state), [""; 0]);
+        steps(&mut trial, 1);
+        trial.model.closing_warnings(&trial.state)
+    };
+    let broken = said("impact_velocity = 80.0");
+    assert!(broken.len() == 1 && broken[0].contains("by the end of the record"), "{broken:?}");
+    assert_eq!(said("impact_velocity = 2.0"), [""; 0]);
+}
+
 /// What is scarce is told ahead.
 #[test]
 fn a_forecast_counts_what_is_recorded() {

@@ -4,10 +4,10 @@
 
 use std::f64::consts::PI;
 
+use crate::falling_drop::open_space;
 use crate::study::Study;
-use impinge::kernel::Kernel;
 use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Release,
 };
 
 /// About which temperatures vary by a degree [K].
@@ -26,21 +26,8 @@ const SIZE: f64 = 2e-5;
 
 fn plan(spacing: f64, extents: [Extent; 3], placement: Placement) -> DropletPlan {
     DropletPlan {
-        dimension: 3,
-        axisymmetric: false,
-        spacing,
-        support: 3.0,
-        kernel: Kernel::WendlandC2,
-        fluid: FLUID,
         placement,
-        precision: Precision::Single,
-        density_diffusion: 0.1,
-        corrected_diffusion: true,
-        shifting: true,
-        gravity: [0.0; 3],
-        mirrors: [false; 2],
         extents,
-        demand: None,
         releases: vec![Release {
             time: 0.0,
             centre: [0.0; 3],
@@ -48,7 +35,7 @@ fn plan(spacing: f64, extents: [Extent; 3], placement: Placement) -> DropletPlan
             velocity: [0.0; 3],
             temperature: MEAN,
         }],
-        wall: None,
+        ..open_space(spacing, FLUID)
     }
 }
 

@@ -4,12 +4,11 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use crate::common::Trial;
+use crate::falling_drop::open_space;
 use crate::study::{Study, alumina, keep, probe, relative_norm};
 use impinge::closed_form::{Conductor, Contact, SuddenSurface};
-use impinge::kernel::Kernel;
 use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
-    WallCells,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Release, Wall, WallCells,
 };
 
 /// The case of Park (2024), §2.4.6.
@@ -73,24 +72,12 @@ impl Layer {
             temperature: HOT,
         };
         let plan = DropletPlan {
-            dimension: 3,
-            axisymmetric: false,
-            spacing,
             support: case.support,
-            kernel: Kernel::WendlandC2,
-            fluid: WATER,
-            placement: Placement::Lattice,
-            precision: Precision::Single,
-            density_diffusion: 0.1,
-            corrected_diffusion: true,
-            shifting: true,
-            gravity: [0.0; 3],
-            mirrors: [false; 2],
             extents: [Extent::Periodic(period), Extent::Periodic(period), Extent::Open],
             // Without droplets there is no temperature before contact.
-            demand: None,
             releases: if case.thin { vec![at_no_time] } else { Vec::new() },
             wall: Some(Wall { cells, contact_angle: 0.5 * PI, effusivity: case.effusivity }),
+            ..open_space(spacing, WATER)
         };
         let mut particles = ParticleFields::default();
         for n in 0..columns * columns * rows {

@@ -14,6 +14,9 @@ mod common;
 mod conduction;
 mod contact;
 mod elasticity;
+#[path = "../common/falling_drop.rs"]
+#[allow(dead_code)]
+mod falling_drop;
 mod flows;
 mod heat;
 mod particles;

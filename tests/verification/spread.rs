@@ -3,11 +3,9 @@
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use impinge::kernel::Kernel;
-use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, Placement, Precision, Release, Wall, WallCells,
-};
+use impinge::method::sph::{DropletPlan, DropletSph, Fluid, WallCells};
 
+use crate::falling_drop::above_wall;
 use crate::study::keep;
 
 const REYNOLDS: f64 = 500.0;
@@ -73,7 +71,6 @@ fn sound_speed(weber: f64, resolution: usize) -> f64 {
 
 /// A quarter of a drop with so many particles over its diameter, half a distance above the wall.
 pub fn drop_of(weber: f64, reynolds: f64, resolution: usize) -> DropletSph {
-    let spacing = DIAMETER / resolution as f64;
     let fluid = Fluid {
         density: DENSITY,
         viscosity: DENSITY * SPEED * DIAMETER / reynolds,
@@ -82,35 +79,9 @@ pub fn drop_of(weber: f64, reynolds: f64, resolution: usize) -> DropletSph {
         surface_tension: DENSITY * SPEED * SPEED * DIAMETER / weber,
         sound_speed: sound_speed(weber, resolution),
     };
-    let plan = DropletPlan {
-        dimension: 3,
-        axisymmetric: false,
-        spacing,
-        support: 3.0,
-        kernel: Kernel::WendlandC2,
-        fluid,
-        placement: Placement::Lattice,
-        precision: Precision::Single,
-        density_diffusion: 0.1,
-        corrected_diffusion: true,
-        shifting: false,
-        gravity: [0.0; 3],
-        mirrors: [true; 2],
-        extents: [Extent::Open; 3],
-        demand: None,
-        releases: vec![Release {
-            time: 0.0,
-            centre: [0.0, 0.0, 0.5 * (DIAMETER + spacing)],
-            diameter: DIAMETER,
-            velocity: [0.0, 0.0, -SPEED],
-            temperature: 293.15,
-        }],
-        wall: Some(Wall {
-            cells: WallCells::Rings { count: 1, radius: 5.0 * DIAMETER },
-            contact_angle: CONTACT_ANGLE,
-            effusivity: None,
-        }),
-    };
+    let cells = WallCells::Rings { count: 1, radius: 5.0 * DIAMETER };
+    let plan = above_wall([DIAMETER, resolution as f64, SPEED], 293.15, fluid, cells);
+    let plan = DropletPlan { shifting: false, ..plan };
     DropletSph::new(plan, 2)
 }
 

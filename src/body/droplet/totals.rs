@@ -231,6 +231,11 @@ pub fn offered_totals(scene: &Scene, name: &str) -> Vec<(usize, Descriptor)> {
     described.collect()
 }
 
+/// Whether a total is the height of the fluid.
+pub fn is_height(place: usize) -> bool {
+    TOTALS[place].key == "height"
+}
+
 pub fn read(reader: &mut DropletReader, place: usize) -> f64 {
     match TOTALS[place].read {
         Read::Totals(of) => of(reader.totals()),

@@ -4,7 +4,7 @@ use super::course::Course;
 use super::profile::{Amounts, Profile};
 use crate::math::sealed::{Content, Format, Reader};
 
-const RECORD: Format = Format { magic: b"IMPREC01", noun: "record", of: "drops" };
+const RECORD: Format = Format { magic: b"IMPREC02", noun: "record", of: "drops" };
 
 impl Course {
     /// The bytes of a course that follows from what `key` says.
@@ -14,8 +14,8 @@ impl Course {
         for profile in self.profiles() {
             content.count(profile.rings);
             content.count(profile.samples());
-            let head = [profile.speed, profile.heat_capacity, profile.duration, profile.radius];
-            content.numbers(head);
+            let Profile { speed, heat_capacity, duration, radius, stray, .. } = *profile;
+            content.numbers([speed, heat_capacity, duration, radius, stray]);
             let of = |a: &Amounts| [a.heat, a.push, a.outward];
             content.numbers(profile.amounts.iter().flat_map(of));
             content.numbers(profile.spread.iter().copied());
@@ -37,12 +37,12 @@ fn profiles(reader: &mut Reader) -> Option<Vec<Profile>> {
 
 fn profile(reader: &mut Reader) -> Option<Profile> {
     let [rings, samples] = [reader.count()?, reader.count()?];
-    let [speed, heat_capacity, duration, radius] = reader.numbers(4)?.try_into().ok()?;
+    let [speed, heat_capacity, duration, radius, stray] = reader.numbers(5)?.try_into().ok()?;
     let amounts = reader.numbers(rings.checked_mul(samples)?.checked_mul(3)?)?;
     let of = |a: &[f64]| Amounts { heat: a[0], push: a[1], outward: a[2] };
     let amounts = amounts.chunks_exact(3).map(of).collect();
     let spread = reader.numbers(samples)?;
-    Some(Profile { speed, heat_capacity, duration, rings, radius, amounts, spread })
+    Some(Profile { speed, heat_capacity, duration, rings, radius, amounts, spread, stray })
 }
 
 #[cfg(test)]
@@ -60,6 +60,7 @@ mod tests {
                 .map(|n| Amounts { heat: 0.1, push: f64::from(n), outward: -0.5 })
                 .collect(),
             spread: vec![0.1, 0.2, 0.3],
+            stray: 0.25,
         };
         Course::new(vec![profile.clone(), Profile { speed: 4.0, ..profile }]).unwrap()
     }

@@ -73,6 +73,11 @@ impl Course {
         weights.map(|(place, weight)| weight * self.profiles[place].0.largest_spread()).sum()
     }
 
+    /// Largest part of a drop that had come off in small lumps as it was recorded.
+    pub fn largest_stray(&self) -> f64 {
+        self.profiles().map(|profile| profile.stray).fold(0.0, f64::max)
+    }
+
     /// Diameter of the film a time after the contact [m].
     pub fn spread(&self, speed: f64, age: f64) -> f64 {
         let of = |(place, weight): (usize, f64)| {
@@ -139,6 +144,7 @@ mod tests {
             radius: 1.0,
             amounts: amounts.collect(),
             spread: vec![1.0; samples],
+            stray: 0.0,
         }
     }
 

@@ -99,7 +99,16 @@ pub fn film_profile(film: &Film) -> Profile {
         spread.push(2.0 * impact.wetted_radius(largest, time));
     }
     let Film { duration, rings, radius, .. } = *film;
-    Profile { speed: impact.speed, heat_capacity, duration, rings, radius, amounts, spread }
+    Profile {
+        speed: impact.speed,
+        heat_capacity,
+        duration,
+        rings,
+        radius,
+        amounts,
+        spread,
+        stray: 0.0,
+    }
 }
 
 /// Radii [m] of the circles of a ring, and the area that belongs to each [m²].

@@ -41,6 +41,8 @@ pub struct Profile {
     pub amounts: Vec<Amounts>,
     /// Diameter of the film at these times [m].
     pub spread: Vec<f64>,
+    /// Largest part of the fluid that had come off it in small lumps at one of these times.
+    pub stray: f64,
 }
 
 impl Profile {
@@ -102,6 +104,9 @@ impl Profile {
         let numbers = self.amounts.iter().flat_map(of).chain(self.spread.iter().copied());
         if !numbers.chain([*heat_capacity]).all(f64::is_finite) {
             return Err("an amount is not finite".to_owned());
+        }
+        if !(0.0..=1.0).contains(&self.stray) {
+            return Err("the part of it that came off is none".to_owned());
         }
         let given: f64 = self.at(*duration).iter().map(|amounts| amounts.heat).sum();
         if given > MOST_HEAT * heat_capacity {

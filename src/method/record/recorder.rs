@@ -33,17 +33,19 @@ pub fn record_profile(plan: DropletPlan, recorder: Recorder) -> Result<Profile, 
     let droplet = DropletSph::new(plan, recorder.threads);
     let mut state = droplet.initial_state();
     let mut sums = vec![Amounts::default(); count];
-    let (mut amounts, mut spread) = (Vec::new(), Vec::new());
+    let (mut amounts, mut spread, mut stray) = (Vec::new(), Vec::new(), 0.0_f64);
     let step = recorder.duration / recorder.samples as f64;
     let allowance = Allowance::default();
     for _ in 0..recorder.samples {
         let exchange = droplet.advance_on_half_space(&mut state, temperature, step, &allowance)?;
         add(&mut sums, &exchange);
         amounts.extend_from_slice(&sums);
-        spread.push(droplet.totals(&state).spread_diameter);
+        let totals = droplet.totals(&state);
+        spread.push(totals.spread_diameter);
+        stray = stray.max((totals.stray_mass / totals.mass).min(1.0));
     }
     let Recorder { speed, heat_capacity, duration, .. } = recorder;
-    Ok(Profile { speed, heat_capacity, duration, rings: count, radius, amounts, spread })
+    Ok(Profile { speed, heat_capacity, duration, rings: count, radius, amounts, spread, stray })
 }
 
 /// What came down beyond the rings counts to the outermost.

@@ -99,6 +99,7 @@ mod tests {
             radius: 1.0,
             amounts: amounts.collect(),
             spread: vec![1.0; samples],
+            stray: 0.0,
         }
     }
 

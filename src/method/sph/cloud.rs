@@ -8,6 +8,9 @@ use super::wall::WallExchange;
 use crate::math::parallel::Team;
 use crate::state::{Field, Fields, Layout, Per, load, store};
 
+/// Unknowns of a particle: position, velocity, density and temperature. All else follows from them within a step.
+pub const UNKNOWNS: usize = 8;
+
 /// Particles, each list with an entry for each. Lengths over H, velocities over c₀, masses over
 /// ρ₀H^d.
 #[derive(Debug, Clone, PartialEq, Default)]

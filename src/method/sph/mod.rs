@@ -47,6 +47,7 @@ mod wall_heat;
 mod wall_points;
 
 pub use crate::scene::Precision;
+pub use cloud::UNKNOWNS;
 pub use cover::Cover;
 pub use droplet::{DropletSph, DropletTotals, ParticleFields};
 pub use effort::{Effort, RunSettings};

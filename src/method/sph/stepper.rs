@@ -6,7 +6,7 @@
 //! 2012, J. Comput. Phys. 231, 7057–7075, doi 10.1016/j.jcp.2012.05.005). Surface tension, which changes
 //! slowly, acts as impulses between rounds of steps.
 
-use super::cloud::{Cloud, Ledger, Part};
+use super::cloud::{Cloud, Ledger, Part, UNKNOWNS};
 use super::continuity::Continuity;
 use super::failure::Failure;
 use super::free_surface::FreeSurface;
@@ -131,7 +131,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             }
             // Equal steps to the end, so that none is tiny.
             let steps = (rest / stable).ceil();
-            allowance.foresee(steps, STEPS, self.cloud.len())?;
+            allowance.foresee(steps, STEPS, self.cloud.len() * UNKNOWNS)?;
             let dt = rest / steps;
             let turn = method.turn(dt).min(steps);
             motion = self.round(dt, turn, steps, allowance)?;
@@ -163,7 +163,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let mut left = turn;
         let mut motion = None;
         while left > 0.0 {
-            allowance.spend(1.0, STEPS, self.cloud.len())?;
+            allowance.spend(1.0, STEPS, self.cloud.len() * UNKNOWNS)?;
             let begins = (left == turn).then_some(impulse);
             let ends = (left == 1.0).then_some(impulse);
             motion = Some(self.step(dt, steps - (turn - left), [begins, ends])?);

@@ -158,8 +158,7 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, wall: &Wall, droplet: &Droplet
         );
         reviewer.warn(&path.key(key).key("count"), message);
     }
-    let fluid = &droplet.fluid;
-    let effusivity = (fluid.density * fluid.specific_heat * fluid.conductivity).sqrt();
+    let effusivity = droplet.fluid.effusivity();
     if wall.effusivity.is_some_and(|solid| solid < effusivity)
         && widest > WIDEST_ON_POOR * droplet.spacing * (1.0 + 1e-9)
     {

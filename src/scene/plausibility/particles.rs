@@ -5,11 +5,13 @@ use crate::kernel::Kernel;
 use crate::scene::check::number;
 use crate::scene::droplet::Droplet;
 use crate::scene::locate::Path;
+use crate::scene::resolution::Resolution;
 
-/// Distances of particles over the thickness of a film below which its heat is too low by more than a fifth.
+/// Distances of particles over the thickness of a film below which it breaks up too soon, and what is proposed instead.
 const THINNEST: f64 = 1.5;
-/// What is proposed instead: a tenth too low.
 const THICK: f64 = 2.0;
+/// Least expected error of heat that is warned of, half as much again as what that is known to.
+const LEAST_TOLD: f64 = 0.08;
 /// Fewest particles across a drop that tell its heat, and some that do.
 const FEWEST: f64 = 7.9;
 const SOME: f64 = 12.0;
@@ -26,7 +28,7 @@ pub fn review(reviewer: &mut Reviewer) {
         streams(reviewer, &path, droplet);
         if scene.wall_under(name).is_some() || scene.coupling_from(name).is_some() {
             coarse(reviewer, &path.key("spacing"), droplet);
-            film(reviewer, &path.key("spacing"), droplet);
+            resolved(reviewer, &path.key("spacing"), (name, droplet));
         }
     }
 }
@@ -92,37 +94,72 @@ fn coarse(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     reviewer.warn(path, message);
 }
 
-/// Warns of a film that gets too thin for its particles by the stop time.
-fn film(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
-    if droplet.dimension == 2 || droplet.fluid.conductivity == 0.0 || droplet.is_replayed() {
+/// Warns of a film that gets too thin for its particles by the stop time, or of particles too wide for the layers of
+/// shear and heat in it.
+fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
+    let Some(resolution) = Resolution::of(reviewer.scene, (name, droplet)) else { return };
+    let heat = resolution.heat().filter(|_| droplet.fluid.conductivity > 0.0);
+    if let Some(message) = thin(&resolution, droplet, heat) {
+        reviewer.warn(path, message);
         return;
     }
-    let begin = droplet.arrivals().first().map_or(0.0, |arrival| arrival.time);
-    let speed = droplet.normal_speed();
-    let time = reviewer.scene.stop_time - begin - droplet.fall_time(speed);
-    if time <= 0.0 {
-        return;
-    }
-    // It grows as `√(3Ut/D)` at first.
-    let area = (3.0 * speed * time / droplet.diameter)
-        .min((droplet.spread_diameter() / droplet.diameter).powi(2));
-    let thickness = 2.0 / 3.0 * droplet.diameter / area.max(1.0);
-    if thickness >= THINNEST * droplet.spacing {
-        return;
-    }
+    let tolerated = reviewer.scene.fidelity.tolerance.max(LEAST_TOLD);
+    let Some([error, scatter]) = heat.filter(|[error, _]| error.abs() > tolerated) else { return };
+    let spacing = match resolution.across_for_heat(tolerated) {
+        Some(across) => format!(
+            "did you mean a `spacing` of {} m or less?",
+            number(rounded(droplet.diameter / across))
+        ),
+        None => "no `spacing` is known to keep it".to_owned(),
+    };
+    let [film, sheared] = resolution.layers();
+    let warmed = resolution.thermal_layers().unwrap_or(0.0);
     let message = format!(
-        "the film is expected to get {} distances of particles thin by the stop time: below {THINNEST} its heat is \
-         too low by a fifth to a half, and height and spread err alike; did you mean a `spacing` of {} m or less?",
-        below(thickness / droplet.spacing, THINNEST),
-        number(rounded(thickness / THICK))
+        "heat is expected to be off by {}, more than {}: {} particles lie across the film at last, {} across its layer of \
+         shear √(νD/U) and {} across that of heat √(aD/U); {spacing}",
+        percents([error, scatter]),
+        percent(tolerated),
+        digits(film),
+        digits(sheared),
+        digits(warmed)
     );
     reviewer.warn(path, message);
+}
+
+/// What to say of a film that gets too thin for its particles.
+fn thin(resolution: &Resolution, droplet: &Droplet, heat: Option<[f64; 2]>) -> Option<String> {
+    let [film, _] = resolution.layers();
+    if film >= THINNEST {
+        return None;
+    }
+    let of_heat = heat.map_or(String::new(), |heat| format!("heat by {}, ", percents(heat)));
+    Some(format!(
+        "the film is expected to get {} distances of particles thin by the stop time: below {THINNEST} its spread is \
+         off by a tenth to a half, its height by more, {of_heat}means of force, which are highest before, by {}; did you mean a \
+         `spacing` of {} m or less?",
+        percent(resolution.force()),
+        number(rounded(resolution.thickness() * droplet.diameter / THICK))
+    ))
 }
 
 /// A number below a bound, with as many digits as tell it from that, up to three.
 fn below(value: f64, bound: f64) -> String {
     let digits = (1..3).find(|&digits| format!("{value:.digits$}") != format!("{bound:.digits$}"));
     format!("{value:.0$}", digits.unwrap_or(3))
+}
+
+/// An error and what it may be off by, in words.
+fn percents([error, scatter]: [f64; 2]) -> String {
+    format!("{:+.0} ± {:.0} %", 100.0 * error, 100.0 * scatter)
+}
+
+fn percent(error: f64) -> String {
+    format!("{:.0} %", 100.0 * error)
+}
+
+/// To two digits.
+fn digits(value: f64) -> String {
+    if value < 10.0 { format!("{value:.2}") } else { format!("{value:.0}") }
 }
 
 /// To two digits, downward.

@@ -105,7 +105,10 @@ fn what_is_wrong_with_a_table_is_said_with_line_and_column() {
 fn what_a_run_does_before_and_after_its_table_is_said() {
     let place = Workplace::new();
     for (rows, words) in [
-        ("1,5e7\n", "before the first row at 1e0 s, whose values hold throughout (are these seconds?)"),
+        (
+            "1,5e7\n",
+            "before the first row at 1e0 s, whose values hold throughout (are these seconds?)",
+        ),
         ("0,5e7\n2e-7,6e7\n", "the values of the last row hold from 2e-7 s to 1e-6 s"),
     ] {
         let table = format!("time,spot.heat_flux\n{rows}");

@@ -2,6 +2,7 @@
 
 from cases.coupling.contact import contact_exchanges, contact_prandtl, contact_spacing
 from cases.coupling.lengths import lengths
+from cases.coupling.liquids import heat_of_pairs, temperature_of_pairs
 from cases.coupling.lumps import gauss_seidel, iterate, jacobi
 from cases.coupling.records import records
 from cases.coupling.reductions import reductions
@@ -22,4 +23,6 @@ MAPS = {
     "coupling_reductions": reductions,
     "coupling_lengths": lengths,
     "coupling_records": records,
+    "coupling_pairs_heat": heat_of_pairs,
+    "coupling_pairs_temperature": temperature_of_pairs,
 }

@@ -72,6 +72,8 @@ class Lattice:
     """H over the distance of particles."""
     cells: str = "square"
     """`square`, `hexagonal` or `cubic`; the distance is that of a square or cube as large."""
+    across: int | None = None
+    """Particles along a side between periods; nothing of a lattice without end."""
 
     @property
     def dimension(self) -> int:
@@ -91,8 +93,29 @@ class Lattice:
         q = np.linalg.norm(places, axis=1)
         return places[(q > 0.0) & (q < 1.0)]
 
+    def rows(self) -> int:
+        """Of a plane lattice between periods, as `benches/flow_limits.rs` lays it out."""
+        is_square = self.cells == "square"
+        return self.across if is_square else 2 * round(self.across / sqrt(3.0))
+
+    def places(self) -> np.ndarray:
+        """Particles of a plane lattice between periods, over the support radius, row by row."""
+        columns, rows = np.arange(self.across), np.arange(self.rows())
+        along, up = self.basis()
+        row, column = (grid.ravel() for grid in np.meshgrid(rows, columns, indexing="ij"))
+        # Every second row begins half a distance farther along, so that the lattice stands upright.
+        shifted = column + (up[0] / along[0]) * (row % 2)
+        return np.stack([shifted * along[0], row * up[1]], axis=1) / self.support
+
+    def periods(self) -> np.ndarray:
+        along, up = self.basis()
+        return np.array([self.across * along[0], self.rows() * up[1]]) / self.support
+
     def waves(self, count: int) -> np.ndarray:
-        """Wave vectors all over half a cell of the reciprocal lattice."""
+        """Wave vectors all over half a cell of the reciprocal lattice, or all between periods."""
+        if self.across:
+            numbers = product(range(self.across), range(self.rows()))
+            return 2.0 * pi * np.array(list(numbers)) / self.periods()
         ticks = np.linspace(-0.5, 0.5, 2 * count + 1)
         whole = [np.linspace(0.0, 0.5, count + 1)] + [ticks] * (self.dimension - 1)
         parts = np.array(list(product(*whole)))
@@ -211,11 +234,29 @@ def growth(of: Lattice, step: float, **settings) -> float:
     return float(np.abs(np.linalg.eigvals(amplification(of, step, **settings))).max())
 
 
-def noise(of: Lattice, step: float, steps: int, **settings) -> float:
-    """Growth of random velocities, which all waves have the same share of, in so many steps."""
+def uneven(n: np.ndarray) -> np.ndarray:
+    """Between −1 and 1, without order: what `benches/flow_limits.rs` takes for noise."""
+    bits = (n.astype(np.uint64) + np.uint64(1)) * np.uint64(0x9E37_79B9_7F4A_7C15)
+    bits = (bits ^ (bits >> np.uint64(30))) * np.uint64(0xBF58_476D_1CE4_E5B9)
+    bits = (bits ^ (bits >> np.uint64(27))) * np.uint64(0x94D0_49BB_1331_11EB)
+    bits ^= bits >> np.uint64(31)
+    return 2.0 * (bits >> np.uint64(11)).astype(float) / 2.0**53 - 1.0
+
+
+@cache
+def shares(of: Lattice) -> np.ndarray:
+    """Of each wave that periods let be in the velocities that particles begin with."""
+    places = of.places()
+    velocities = uneven(np.arange(2 * len(places))).reshape(-1, 2)
+    return np.exp(-1j * of.waves(0) @ places.T) @ velocities / len(places)
+
+
+def noise_between_periods(of: Lattice, step: float, steps: int, **settings) -> float:
+    """Growth of those velocities in so many steps, each wave by what it has of them."""
     waves = np.linalg.matrix_power(amplification(of, step, **settings), steps)
-    velocities = waves[:, : of.dimension, : of.dimension]
-    return float(np.sqrt(np.mean(np.sum(np.abs(velocities) ** 2, axis=(1, 2))) / of.dimension))
+    before = shares(of)
+    after = np.einsum("kij,kj->ki", waves[:, :2, :2], before)
+    return float(np.linalg.norm(after) / np.linalg.norm(before))
 
 
 def largest(is_stable: Callable, low: float, high: float, ratio: float = 1.002) -> float:

@@ -8,7 +8,15 @@ import numpy as np
 from plan import Answer, Axis, Boundary, Map
 
 from cases.fluids.flow_limits import run_flow
-from cases.fluids.lattice import SHAPES, Lattice, growth, largest, mean_slope, noise, second_moment
+from cases.fluids.lattice import (
+    SHAPES,
+    Lattice,
+    growth,
+    largest,
+    mean_slope,
+    noise_between_periods,
+    second_moment,
+)
 
 ACROSS, STEPS, GROWN = 24, 300, 100.0
 """Particles along a side, time steps, and growth of noise that counts as one."""
@@ -95,9 +103,9 @@ def map_of_pressures(name: str, title: str, kernel: str, sign: float, cells: str
     supports = [2.0, 2.25, 2.5, 2.75, 3.0, 3.5, 4.0, 5.0, 6.0]
 
     def onset(support: float) -> float:
-        of = Lattice(kernel, support, cells)
+        of = Lattice(kernel, support, cells, ACROSS)
         return largest(
-            lambda p: noise(of, COURANT, STEPS, pressure=sign * p) < GROWN,
+            lambda p: noise_between_periods(of, COURANT, STEPS, pressure=sign * p) < GROWN,
             1e-5,
             1.0 if sign > 0 else 0.1,
         )

@@ -28,7 +28,7 @@ const SPEEDS_OF_FILM: usize = 17;
 /// Temperature of the drop that is recorded [K]; none follows from it.
 const WARM: f64 = 400.0;
 /// Changes with what is recorded.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 static COURSES: SharedValues<String, Course> = SharedValues::new();
 
@@ -62,7 +62,7 @@ impl Key {
             version: VERSION,
             durations: speeds.iter().map(|&speed| droplet.recorded_time(speed)).collect(),
             drops,
-            effusivity: effusivity(scene, name),
+            effusivity: scene.effusivity_below(name),
             rings,
             radius,
             samples: SAMPLES,
@@ -176,15 +176,6 @@ pub fn plans(scene: &Scene, named: (&str, &Droplet)) -> Vec<(DropletPlan, f64)> 
         return Vec::new();
     }
     Key::of(scene, named).plans().collect()
-}
-
-/// √(kρc) of what lies below [W √s/(m² K)]: of a solid that of its top layer.
-pub fn effusivity(scene: &Scene, name: &str) -> Option<f64> {
-    let solid = scene.coupling_from(name).and_then(|coupling| scene.coupling[coupling].solid());
-    match solid.and_then(|solid| scene.solid(solid)) {
-        Some(solid) => solid.strata().first().map(|layer| layer.constants.effusivity()),
-        None => scene.wall[scene.wall_under(name)?].effusivity,
-    }
 }
 
 /// Speeds at which drops are known, as they touch the wall [m/s].

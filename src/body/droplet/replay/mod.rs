@@ -11,7 +11,7 @@ pub use notes::notes;
 pub use totals::offered_totals;
 
 use super::demand::DropInputs;
-use super::{Below, Wall, plan};
+use super::{Below, STRAY_SHARE, Wall, plan};
 use crate::body::{
     Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, wall_quantities,
 };
@@ -238,8 +238,13 @@ impl Body for ReplayBody {
         self.notes.iter().map(|note| format!("{}: {note}", self.name)).collect()
     }
 
-    fn closing_warning(&self, state: &[f64]) -> Option<String> {
+    fn closing_warnings(&self, state: &[f64]) -> Vec<String> {
         let ReplayTotals { overlapping, released, .. } = self.totals(state);
-        (overlapping > 0.0).then(|| notes::on_overlap(&self.name, overlapping, released))
+        let on_others =
+            (overlapping > 0.0).then(|| notes::on_overlap(&self.name, overlapping, released));
+        let part = self.replay.course().largest_stray();
+        let strays = part > STRAY_SHARE && released > 0.0;
+        let on_strays = strays.then(|| notes::on_stray_mass(&self.name, part));
+        on_others.into_iter().chain(on_strays).collect()
     }
 }

@@ -1,6 +1,5 @@
 //! What a user should know of drops that are replayed.
 
-use super::knowledge;
 use crate::method::record::Course;
 use crate::scene::{Droplet, DropletMethod, Scene};
 
@@ -50,7 +49,7 @@ fn note_on_depth(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Option<Str
     let time = droplet.recorded_time(droplet.impact_velocity);
     let depth = (4.0 * top.constants.diffusivity() * time).sqrt();
     let thickness = top.thickness();
-    (depth > SHALLOW * thickness && knowledge::effusivity(scene, name).is_some()).then(|| {
+    (depth > SHALLOW * thickness && scene.effusivity_below(name).is_some()).then(|| {
         format!(
             "heat goes {depth:.1e} m deep while a drop spreads, and the top layer is {thickness:.1e} m thick: what is known \
              of a drop was found on a half space of its material"
@@ -73,6 +72,15 @@ pub fn on_course(course: &Course, droplet: &Droplet) -> String {
         course.rings(),
         course.radius(),
         course.duration(speed)
+    )
+}
+
+/// Of a part of the fluid that came off as the drop was recorded.
+pub fn on_stray_mass(name: &str, part: f64) -> String {
+    format!(
+        "{name}: {:.0} % of the fluid had come off in small lumps by the end of the record: films thinner than some two \
+         particles break up, those of a smaller `spacing` later",
+        100.0 * part
     )
 }
 

@@ -1,0 +1,35 @@
+//! How long a run will take: told where that is long, refused where nobody waits for it.
+
+use impinge::model::forecast;
+use impinge::scene::Scene;
+
+use super::CliError;
+use super::units::lasting;
+
+const MINUTE: f64 = 60.0;
+const DAY: f64 = 24.0 * 60.0 * MINUTE;
+/// From where on a run says how long it will take, and is refused [s].
+const TOLD: f64 = 10.0 * MINUTE;
+const REFUSED: f64 = 30.0 * DAY;
+/// What is proposed instead [s].
+const PROPOSED: f64 = DAY;
+
+/// What to say of the time that a run of a scene will take; refuses one that takes months, with what would do.
+pub fn expected(scene: &Scene) -> Result<Option<String>, CliError> {
+    let forecast = forecast(scene);
+    let time = forecast.run_time();
+    if time > REFUSED {
+        let until = scene.stop_time * PROPOSED / time;
+        return Err(CliError::Months {
+            time: lasting(time),
+            most: lasting(REFUSED),
+            until: format!("{until:.1e}"),
+            proposed: lasting(PROPOSED),
+        });
+    }
+    let steps = forecast.droplets.iter().map(|body| {
+        format!(", {:.2e} time steps of `{}` of {:.1e} s", body.steps, body.name, body.time_step)
+    });
+    let told = || format!("this takes about {}{}", lasting(time), steps.collect::<String>());
+    Ok((time > TOLD).then(told))
+}

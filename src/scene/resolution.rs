@@ -1,0 +1,174 @@
+//! What particles of some distance tell of a drop that hits a wall: errors as they were measured.
+//!
+//! Drops of six liquids (water, tin, mercury, wax, glycerol, molten steel; 0.1 mm, 1.5 to 50 m/s, so Re 2 to 44 000,
+//! We 3 to 7000, Pe 8 to 57 000) with 10 to 40 particles over the diameter beside 56, on a wall that is held, until
+//! 3 D/U (`docs/limits.md`). Of the heat given, error `e`, with `n = D/Δx` and `τ = Ut/D`:
+//!
+//! `e = y/sinh y · (0.055 (20/n)^1.7 min(1, v/v₀) − 0.5 √(20/n) τ^0.2 max(0, 1 − v/v₀))`, `v = n/√Re`, `v₀ = 0.9`
+//!
+//! - `v` particles lie across the viscous layer `√(νD/U)`. Where there are fewer than one, the sheet that runs out is
+//!   too thick and too small; particles that are thinner carry heat away too fast, as the layer of them at the wall
+//!   slips.
+//! - `y = 34 √(τ/Pe)`, Pe = UD/a, tells how far the film has cooled through: what has given all its heat cannot give
+//!   too little.
+//!
+//! That is on a wall or a solid that conducts at least as well as the fluid. On poorer conductors drops do not cool, and
+//! heat is in proportion to the area that they wet: the same liquids on aerogel, PMMA and glass err by −57 % to 22 %, most
+//! where films break up (`docs/maps/coupling.md`), and nothing is told.
+//!
+//! Its numbers are those by which `(1 + e(n))/(1 + e(56)) − 1` comes closest to what was measured; what is left is 6 %
+//! (root mean square): 8 % at n = 10, 5 % at 20, 3 % at 40. At Re 17 000, beside 226 particles, it tells 8 % to 9 % too
+//! little at any n.
+
+use super::droplet::Droplet;
+use super::types::Scene;
+
+/// Factors of the law above.
+const TOO_LITTLE: f64 = 0.5;
+const TOO_MUCH: f64 = 0.055;
+const OF_SLIP: f64 = 1.7;
+const USUAL: f64 = 20.0;
+const LAYER: f64 = 0.9;
+const GROWTH: f64 = 0.2;
+const COOLED: f64 = 34.0;
+/// τ between which it was measured.
+const TIMES: [f64; 2] = [0.5, 3.0];
+/// τ before which nothing is said.
+const EARLIEST: f64 = 0.25;
+/// What the law leaves, times √n, and at least.
+const SCATTER: f64 = 0.25;
+const LEAST_SCATTER: f64 = 0.01;
+/// Errors of the largest spread over Δx/D, lowest and highest: at We 30, Re 500 beside finer particles and at Re 27
+/// beside volumes of fluid (`tests/verification/README.md`).
+const SPREAD: [f64; 2] = [0.7, 2.4];
+/// Errors of means of force over 0.1 D/U (root mean square), times n², of particles and of rings, which stand at the axis
+/// in columns; and what no number of particles was seen to fall below.
+const FORCE: f64 = 22.0;
+const FORCE_OF_RINGS: f64 = 40.0;
+const LEAST_FORCE: f64 = 0.01;
+
+/// A drop, its particles, and how long it has been on the wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Resolution {
+    /// D/Δx
+    across: f64,
+    reynolds: f64,
+    /// UD/a; nothing of a fluid that does not conduct.
+    peclet: Option<f64>,
+    /// Time on the wall over D/U.
+    time: f64,
+    /// Thickness of the film over D at that time.
+    thickness: f64,
+    is_of_rings: bool,
+    /// Whether what lies below conducts at least as well as the fluid.
+    conducts: bool,
+}
+
+impl Resolution {
+    /// Of the first drop of a droplet of particles in space, by the stop time of a scene; nothing where none comes down by
+    /// then.
+    pub fn of(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Option<Self> {
+        if droplet.dimension == 2 || !droplet.has_particles() {
+            return None;
+        }
+        let begin = droplet.arrivals().first().map_or(0.0, |arrival| arrival.time);
+        let (speed, fall) = droplet.contact(droplet.normal_speed());
+        let on_wall = match droplet.is_replayed() {
+            true => droplet.recorded_time(droplet.impact_velocity),
+            false => scene.stop_time - begin - fall,
+        };
+        if !(on_wall > 0.0 && speed > 0.0) {
+            return None;
+        }
+        let fluid = &droplet.fluid;
+        let time = on_wall * speed / droplet.diameter;
+        // It grows as `√(3Ut/D)` at first.
+        let area = (3.0 * time).min((droplet.spread_diameter() / droplet.diameter).powi(2));
+        let capacity = fluid.density * fluid.specific_heat;
+        let peclet = speed * droplet.diameter * capacity / fluid.conductivity;
+        Some(Self {
+            across: droplet.diameter / droplet.spacing,
+            reynolds: fluid.density * speed * droplet.diameter / fluid.viscosity,
+            peclet: Some(peclet).filter(|peclet| peclet.is_finite()),
+            time,
+            thickness: 2.0 / 3.0 / area.max(1.0),
+            is_of_rings: droplet.is_axisymmetric(),
+            conducts: scene.effusivity_below(name).is_none_or(|below| below >= fluid.effusivity()),
+        })
+    }
+
+    pub fn across(&self) -> f64 {
+        self.across
+    }
+
+    /// Thickness of the film at last over D.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
+    }
+
+    /// Particles across the film at last, and across its viscous layer.
+    pub fn layers(&self) -> [f64; 2] {
+        [self.thickness, 1.0 / self.reynolds.sqrt()].map(|length| length * self.across)
+    }
+
+    /// Particles across the thermal layer √(aD/U), if the fluid conducts.
+    pub fn thermal_layers(&self) -> Option<f64> {
+        self.peclet.map(|peclet| self.across / peclet.sqrt())
+    }
+
+    /// Whether what lies below conducts at least as well as the fluid.
+    pub fn conducts(&self) -> bool {
+        self.conducts
+    }
+
+    /// Expected error of the heat given by the stop time, relative, and what that may be off by, where they are known.
+    pub fn heat(&self) -> Option<[f64; 2]> {
+        if !self.conducts || self.time < EARLIEST {
+            return None;
+        }
+        let viscous = self.layers()[1] / LAYER;
+        let time = self.time.clamp(TIMES[0], TIMES[1]);
+        let cooled = COOLED * (self.time.max(TIMES[0]) / self.peclet?).sqrt();
+        let left = if cooled > 0.0 { cooled / cooled.sinh() } else { 1.0 };
+        let coarse = USUAL / self.across;
+        let much = TOO_MUCH * coarse.powf(OF_SLIP) * viscous.min(1.0);
+        let little = TOO_LITTLE * coarse.sqrt() * time.powf(GROWTH) * (1.0 - viscous).max(0.0);
+        let scatter = (left * SCATTER / self.across.sqrt()).max(LEAST_SCATTER);
+        Some([left * (much - little), scatter])
+    }
+
+    /// Fewest particles over the diameter that are expected to keep an error of heat, if so many are known of.
+    pub fn across_for_heat(&self, error: f64) -> Option<f64> {
+        let mut finer = *self;
+        while finer.across <= MOST {
+            if finer.heat()?[0].abs() <= error {
+                return Some(finer.across);
+            }
+            finer.across *= FINER;
+        }
+        None
+    }
+
+    /// Error of the largest spread, lowest and highest.
+    pub fn spread(&self) -> [f64; 2] {
+        SPREAD.map(|rate| rate / self.across)
+    }
+
+    /// Error of means of force over 0.1 D/U.
+    pub fn force(&self) -> f64 {
+        (self.force_rate() / self.across.powi(2)).max(LEAST_FORCE)
+    }
+
+    /// Particles over the diameter that keep such an error of force, if any are known to.
+    pub fn across_for_force(&self, error: f64) -> Option<f64> {
+        (error >= LEAST_FORCE).then(|| (self.force_rate() / error).sqrt())
+    }
+
+    fn force_rate(&self) -> f64 {
+        if self.is_of_rings { FORCE_OF_RINGS } else { FORCE }
+    }
+}
+
+/// Most particles over a diameter that are proposed, and by how many there are more from one try to the next.
+const MOST: f64 = 200.0;
+const FINER: f64 = 1.05;
