@@ -137,6 +137,7 @@ fn thin(resolution: &Resolution, droplet: &Droplet, heat: Option<[f64; 2]>) -> O
         "the film is expected to get {} distances of particles thin by the stop time: below {THINNEST} its spread is \
          off by a tenth to a half, its height by more, {of_heat}means of force, which are highest before, by {}; did you mean a \
          `spacing` of {} m or less?",
+        below(film, THINNEST),
         percent(resolution.force()),
         number(rounded(resolution.thickness() * droplet.diameter / THICK))
     ))
