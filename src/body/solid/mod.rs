@@ -327,8 +327,8 @@ impl Body for SolidBody {
         doubts::of_particles(self, state)
     }
 
-    fn closing_warning(&self, state: &[f64]) -> Option<String> {
-        doubts::of_fronts(self, state)
+    fn closing_warnings(&self, state: &[f64]) -> Vec<String> {
+        doubts::of_fronts(self, state).into_iter().collect()
     }
 
     fn stiffness(&self) -> Option<Arc<ElasticProblem>> {
