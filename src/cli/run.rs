@@ -112,6 +112,7 @@ impl Run {
             cache: Cache::default(),
             timeline,
             table,
+            told_of_length: false,
             balances: Vec::new(),
             model: &model,
         };
@@ -283,6 +284,8 @@ struct Running<'a> {
     cache: Cache,
     timeline: Timeline,
     table: Option<InputTable>,
+    /// Whether a part of a step that is too short for a mesh was told of.
+    told_of_length: bool,
     /// Of the last row that was written.
     balances: Vec<Balance>,
 }
@@ -305,11 +308,16 @@ impl Running<'_> {
         let (start, end) = (self.timeline.time(i), self.timeline.time(i + 1));
         let length = self.timeline.length(i);
         let rows = self.table.as_ref().map_or(Vec::new(), |table| table.times_within(start, end));
+        let looks_every = rows.len().div_ceil(ROWS_PER_STEP).max(1);
         let mut from = start;
-        for &to in rows.iter().chain([&end]) {
+        for (part, &to) in rows.iter().chain([&end]).enumerate() {
             let is_whole = from == start && to == end;
             self.advance((from, to), if is_whole { length } else { to - from })?;
             self.state.set_time(to);
+            if to < end && part.is_multiple_of(looks_every) {
+                // Heat that comes and goes within a step counts, too.
+                self.look_at_balances().map_err(CliError::Model)?;
+            }
             from = to;
         }
         Ok(())
@@ -317,6 +325,10 @@ impl Running<'_> {
 
     /// Advances over a time between rows of the table [s].
     fn advance(&mut self, (from, to): (f64, f64), length: f64) -> Result<(), CliError> {
+        if let Some(warning) = self.model.warning_on_step(length).filter(|_| !self.told_of_length) {
+            super::print_message("warning", &warning);
+            self.told_of_length = true;
+        }
         if let Some(table) = &self.table {
             table.apply(&mut self.state, from, to);
         }

@@ -315,6 +315,7 @@ def test_too_few_steps_to_tell_are_told_of(folder):
             result = master.run(4.0)
     exact = 0.5 + 0.5 * np.exp(-2.0 * result.time.values)
     assert np.abs(result["a.y"].values - exact).max() > 0.5
+    assert np.isnan(result.attrs["path_error"])
     # Of what goes on nearly as it did, two and three can, and what hardly changes needs no more.
     for steps in (2, 3):
         with Master(stores(folder, 1.0), PAIR, scheme="jacobi", step=0.01) as master:

@@ -483,7 +483,7 @@ class Master:
             "iterations": self._engine.iterations,
             "most_iterations": self.most_iterations,
             "unconverged": self.unconverged,
-            "path_error": worst.error if (worst := self._watch.worst) else 0.0,
+            "path_error": self._watch.error(self.steps),
             "energy_error": max((balance.share for balance in self._powers), default=0.0),
             "held_inputs": " ".join(self.held),
             "notes": "; ".join(self.notes),

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import floor, log10
+from math import floor, log10, nan
 
 import numpy as np
 
@@ -129,6 +129,13 @@ class Watch:
         links = [course.link for course in moving.values()]
         rings = [moving[id(link)] for link in _in_rings(self._units, links)]
         return max(rings, key=lambda course: course.error, default=None)
+
+    def error(self, steps: int) -> float:
+        """Of the worst course, zero where nothing feeds back; no number where `steps` are too few."""
+        if steps < _FEWEST and self.courses:
+            return nan
+        worst = self.worst
+        return 0.0 if worst is None else worst.error
 
     def warning(self, step: float, order: int) -> str:
         """What to say of steps that are too long, with one that would do; nothing if they are not.

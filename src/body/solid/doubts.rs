@@ -8,6 +8,8 @@ const MOST_DRIFT: f64 = 0.05;
 /// Support radius from which on particles have neighbours enough on every mesh [distances of particles].
 const SAFE_SUPPORT: f64 = 2.0;
 
+/// Scatter of fronts over the tolerance from which on a user is told: it is what they err by at most.
+const SAFE: f64 = 1.25;
 /// Numbers of elements over those of a mesh up to which a finer one is proposed.
 const FARTHEST: f64 = 8.0;
 
@@ -43,7 +45,7 @@ pub fn of_fronts(body: &SolidBody, state: &[f64]) -> Option<String> {
     let off = body.solid.liquid_scatter(heat) / body.solid.liquid_volume(heat);
     let name = &body.name;
     let denser = off / body.tolerance;
-    (denser > 1.0).then(|| {
+    (denser > SAFE).then(|| {
         let remedy = match denser {
             near if near <= FARTHEST => {
                 format!("about {near:.1} times as many elements where the front stands would keep it")

@@ -149,13 +149,14 @@ impl NonlinearHeat {
     /// A node that melts keeps the temperature of melting whatever part of it is liquid, so the gradient that feeds a
     /// front does not see where it stands in the node. Against Neumann's front (Carslaw & Jaeger 1959, § 11.2) that makes
     /// 0.05 to 0.25 of a node's volume, at Stefan numbers of 0.05 to 5. Nodes that melt at different times make up for
-    /// each other: with fractions f, `|Σ V e^{2πif}|` is what of them goes together.
+    /// each other: with fractions f, `|Σ V e^{2πif}|` is what of them goes together. Where a body stands at its melting
+    /// point, rounding melts traces everywhere, which are no front.
     pub fn liquid_scatter(&self, state: &[f64], copies: f64) -> f64 {
         let fractions = self.heat.liquid_fractions(state);
         let melting = fractions
             .iter()
             .zip(self.heat.volumes())
-            .filter(|(part, _)| **part > 0.0 && **part < 1.0);
+            .filter(|(part, _)| **part > TRACE && **part < 1.0 - TRACE);
         let sum = melting.fold([0.0; 2], |[re, im], (fraction, volume)| {
             let (sin, cos) = (TAU * fraction).sin_cos();
             [re + volume * cos, im + volume * sin]
@@ -166,6 +167,9 @@ impl NonlinearHeat {
 
 /// Part of its volume by which a node that melts puts what is liquid wrong, about.
 const SCATTER: f64 = 0.1;
+
+/// Part of a node that counts as neither solid nor liquid.
+const TRACE: f64 = 1e-2;
 
 /// The mesh on which heat is brought into the nodes.
 pub fn heat_mesh(plan: &Plan) -> Mesh {

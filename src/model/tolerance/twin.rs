@@ -61,12 +61,20 @@ impl Twin {
         twin.fidelity.level = FidelityLevel::Full;
         if takes_newton(scene, solid) {
             simplified.push("constants are those at the temperature at time zero, and nothing melts or radiates");
+            if solid.melts() {
+                simplified.push(
+                    "fronts are left out, which go from node to node: temperatures behind one err by up to half of an \
+                     element over the depth that is molten",
+                );
+            }
         }
         if !solid.deforms_linearly() && is_mechanical {
             simplified.push("nothing yields or creeps");
         }
         if scene.couplings_to(name).next().is_some() {
-            simplified.push("a disc of the drop's size stands for it where it lands");
+            simplified.push(
+                "a disc as wide as the drop is expected to spread stands for it where it lands",
+            );
         }
         twin.solver.method = Default::default();
         let Some(Body::Solid(solid)) = twin.body.get_mut(name) else { return None };
@@ -115,7 +123,9 @@ fn drops(scene: &Scene, name: &str) -> impl Iterator<Item = Load> {
     let below = scene.couplings_to(name);
     below.filter_map(|coupling: &Coupling| {
         let droplet: &Droplet = scene.droplet(&coupling.from)?;
-        let radius = 0.5 * droplet.diameter;
+        let reach = fine_radius(coupling, droplet, scene.stop_time);
+        let spread = 0.5 * droplet.spread_diameter();
+        let radius = spread.min(reach).max(0.5 * droplet.diameter);
         let [x, y] = droplet.landings().next().unwrap_or_default();
         let is_box = matches!(scene.solid(name)?.shape, crate::scene::Shape::Box(_));
         let start = LoadStart {
@@ -125,14 +135,13 @@ fn drops(scene: &Scene, name: &str) -> impl Iterator<Item = Load> {
             heat_flux: Some(CellValues::Uniform(0.0)),
             ..LoadStart::default()
         };
-        let reach = fine_radius(coupling, droplet, scene.stop_time).max(radius);
         Some(Load {
             name: coupling.from.clone(),
             on: coupling.to.clone(),
             footprint: Footprint::Disc { radius },
             carries: vec![Carries::HeatFlux],
             start,
-            range: LoadRange { radius: Some([radius, reach]), ..LoadRange::default() },
+            range: LoadRange { radius: Some([radius, reach.max(radius)]), ..LoadRange::default() },
             role: Role::default(),
         })
     })

@@ -103,6 +103,11 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
         reviewer.warn(path, message);
         return;
     }
+    if let Some(across) = resolution.across_for_middle()
+        && reviewer.scene.coupling_from(name).is_some()
+    {
+        reviewer.warn(path, too_hot(droplet, across));
+    }
     let tolerated = reviewer.scene.fidelity.tolerance.max(LEAST_TOLD);
     let Some([error, scatter]) = heat.filter(|[error, _]| error.abs() > tolerated) else { return };
     let spacing = match resolution.across_for_heat(tolerated) {
@@ -124,6 +129,14 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
         digits(warmed)
     );
     reviewer.warn(path, message);
+}
+
+/// What to say of particles that are wider than the layer through which a drop warms the middle of what it hits.
+fn too_hot(droplet: &Droplet, across: f64) -> String {
+    format!(
+        "the temperature under the middle of the drop rises too high, by a tenth to a third with 20 particles across, as its          thermal layer √(aD/U) is thinner than half a particle; did you mean a `spacing` of {} m or less?",
+        number(rounded(droplet.diameter / across))
+    )
 }
 
 /// What to say of a film that gets too thin for its particles.

@@ -118,6 +118,20 @@ fn what_a_run_does_before_and_after_its_table_is_said() {
 }
 
 #[test]
+fn pulses_too_short_for_the_mesh_are_warned_of_and_what_comes_and_goes_is_balanced() {
+    let place = Workplace::new();
+    let said = |rows: &str| {
+        let table = format!("time,spot.heat_flux\n{rows}");
+        let options = ["--overwrite", "--until", "1e-7", "--between", "held"];
+        run_with(&place, &table, &options).succeeds().stderr()
+    };
+    let pulse = said("0,5e7\n1e-11,0\n");
+    assert!(pulse.contains("a step of 1.0e-11 s is shorter than"), "{pulse}");
+    let flipping = said("0,5e7\n5e-8,-5e7\n");
+    assert!(!flipping.contains("heat in differs"), "{flipping}");
+}
+
+#[test]
 fn a_run_never_writes_over_its_table() {
     let place = Workplace::new();
     fs::create_dir(place.path("w")).unwrap();
