@@ -131,7 +131,7 @@ class Watch:
         return max(rings, key=lambda course: course.error, default=None)
 
     def error(self, steps: int) -> float:
-        """Of the worst course, zero where nothing feeds back; no number where `steps` are too few."""
+        """Of the worst course, zero where nothing feeds back; no number after too few `steps`."""
         if steps < _FEWEST and self.courses:
             return nan
         worst = self.worst
