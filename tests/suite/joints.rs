@@ -380,7 +380,7 @@ fn a_droplet_on_each_of_two_plates_minds_its_own() {
 
 #[test]
 fn faces_of_different_sizes_touch_at_any_conductance_and_step() {
-    let pairs = [(COPPER, COPPER), (MERCURY, GLASS), (AEROGEL, AEROGEL), (DIAMOND, AEROGEL)];
+    let pairs = [(MERCURY, GLASS), (DIAMOND, AEROGEL), (COPPER, COPPER), (AEROGEL, AEROGEL)];
     let shapes = [
         [
             "disc = { radius = 1e-2, thickness = 4e-3 }",
@@ -389,14 +389,11 @@ fn faces_of_different_sizes_touch_at_any_conductance_and_step() {
         ["box = [2e-2, 1e-2, 4e-3]", "box = [6e-3, 8e-3, 2e-3]"],
     ];
     for [bed, plate] in shapes {
-        for (below, above) in pairs {
+        // Boxes take long: two pairs of them that differ do.
+        let count = if bed.starts_with("box") { 2 } else { pairs.len() };
+        for (below, above) in pairs.into_iter().take(count) {
             for (conductance, step) in [(1e4, 1e-3), (1e7, 1.0), (1e6, 1e5), (1e15, 1.0)] {
-                // Chosen ones of boxes take long.
-                let mesh = if bed.starts_with("box") {
-                    "spacing = 1e-3, depth_spacing = 2e-4, growth = 1.6"
-                } else {
-                    "growth = 1.6"
-                };
+                let mesh = "growth = 1.6";
                 let text = stack(
                     [(bed, below, 300.0, mesh), (plate, above, 600.0, mesh)],
                     [conductance, 1e9],
