@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-# Heat on insulators, and rises below the middle of drops of few particles: docs/maps/coupling.md and
-# the README tell of both, as no law foretells them.
+# Heat on insulators, and rises under the middle of drops of few particles: no law foretells them,
+# so that docs/maps/coupling.md and the README tell of them.
 KNOWN = {"coupling_pairs_heat": 7, "coupling_pairs_temperature": 11}
 
 
