@@ -95,7 +95,7 @@ def layers() -> Chart:
 
 
 MELTING, LATENT, HOT, DEEP, MELTING_STOP = 1000.0, 2.0e5, 1500.0, 1e-3, 5e-3
-DEPTH = "depth of the front"
+MELTED = "volume that is liquid"
 
 
 def front() -> float:
@@ -126,9 +126,9 @@ def melting_scene(**more) -> dict:
 
 
 def melting() -> Chart:
-    outputs = {DEPTH: "plate.liquid_volume"}
+    outputs = {MELTED: "plate.liquid_volume"}
     volume = front() * WIDE**2
-    quantity = Quantity(DEPTH, "m³", volume, volume, "closed form, Neumann; as a liquid volume")
+    quantity = Quantity(MELTED, "m³", volume, volume, "closed form, Neumann, over the face")
 
     def asked(tolerance: float) -> UnitRun:
         return UnitRun(melting_scene(fidelity={"tolerance": tolerance}), outputs, steps=STEPS)
