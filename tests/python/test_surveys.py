@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 # Heat on insulators, and rises under the middle of drops of few particles: no law foretells them,
 # so that docs/maps/coupling.md and the README tell of them.
-KNOWN = {"coupling_pairs_heat": 7, "coupling_pairs_temperature": 11}
+KNOWN = {"coupling_pairs_heat": 6, "coupling_pairs_temperature": 2}
 
 
 @pytest.mark.parametrize("kind", ["charts", "maps"])
