@@ -108,6 +108,10 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
     {
         reviewer.warn(path, too_hot(droplet, across));
     }
+    if let Some(across) = resolution.across_for_film().filter(|_| droplet.fluid.conductivity > 0.0)
+    {
+        reviewer.warn(path, broken(&resolution, droplet, across));
+    }
     let tolerated = reviewer.scene.fidelity.tolerance.max(LEAST_TOLD);
     let Some([error, scatter]) = heat.filter(|[error, _]| error.abs() > tolerated) else { return };
     let spacing = match resolution.across_for_heat(tolerated) {
@@ -131,10 +135,22 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
     reviewer.warn(path, message);
 }
 
+/// What to say of a film on a poor conductor that so few particles let break up.
+fn broken(resolution: &Resolution, droplet: &Droplet, across: f64) -> String {
+    format!(
+        "heat is expected to be too low by a twentieth to a half, as on what conducts less than the fluid it follows the wetted \
+         area, and the film breaks up: {} particles lie across its layer of shear √(νD/U); did you mean a `spacing` of {} m \
+         or less?",
+        digits(resolution.layers()[1]),
+        number(rounded(droplet.diameter / across))
+    )
+}
+
 /// What to say of particles that are wider than the layer through which a drop warms the middle of what it hits.
 fn too_hot(droplet: &Droplet, across: f64) -> String {
     format!(
-        "the temperature under the middle of the drop rises too high, by a tenth to a third with 20 particles across, as its          thermal layer √(aD/U) is thinner than half a particle; did you mean a `spacing` of {} m or less?",
+        "the temperature under the middle of the drop rises too high, by a tenth to a third with 20 particles across, as its \
+         thermal layer √(aD/U) is thinner than half a particle; did you mean a `spacing` of {} m or less?",
         number(rounded(droplet.diameter / across))
     )
 }
