@@ -9,6 +9,8 @@ mod classical_flows;
 mod common;
 #[path = "../common/falling_drop.rs"]
 mod falling_drop;
+#[path = "../common/forecast_cases.rs"]
+mod forecast_cases;
 
 mod adversarial;
 mod architecture;
@@ -22,6 +24,7 @@ mod field_means;
 mod fine_meshes;
 mod flows;
 mod footprints;
+mod forecast;
 mod impact;
 mod impossible;
 mod joints;

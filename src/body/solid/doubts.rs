@@ -53,8 +53,9 @@ pub fn of_fronts(body: &SolidBody, state: &[f64]) -> Option<String> {
             _ => format!("a `fidelity.tolerance` of {:.0e} is what this mesh keeps", 1.5 * off),
         };
         format!(
-            "{name}: {name}.liquid_volume errs by up to about {} of itself, as the front goes from node to node, more than \
-             the tolerance of {}: {remedy}",
+            "{name}: {name}.liquid_volume errs by up to about {} of itself, and temperatures behind the front by as much of \
+             what they rise above that of melting, as the front goes from node to node, more than the tolerance of {}: \
+             {remedy}",
             percent(off),
             percent(body.tolerance)
         )

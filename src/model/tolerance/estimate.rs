@@ -1,5 +1,7 @@
 //! What outputs err by, from the same experiments on coarser meshes.
 
+use std::collections::HashMap;
+
 use super::responses::{Responses, Watched};
 use crate::quantity::Quantity;
 
@@ -24,8 +26,9 @@ pub fn differences(on: &Responses, other: &Responses, watched: &[Watched]) -> Ve
     all
 }
 
-/// What errors of outputs in an experiment are a part of: their ranges, rest included, or a part of the largest of
-/// their quantity.
+/// What errors of outputs in an experiment are a part of: the largest range, rest included, of the same quantity at the
+/// same probe or over the same field, or a part of the largest of the quantity anywhere. A component that is next to
+/// nothing beside the others of its tensor, or a cell beside the others of its field, is not held to its own range.
 pub fn scales(rows: &[Vec<f64>], watched: &[Watched]) -> Vec<f64> {
     let range = |place: usize| {
         let [low, high] = rows.iter().fold([watched[place].rest; 2], |[low, high], row| {
@@ -33,17 +36,22 @@ pub fn scales(rows: &[Vec<f64>], watched: &[Watched]) -> Vec<f64> {
         });
         high - low
     };
-    let ranges: Vec<f64> = (0..watched.len()).map(range).collect();
-    let largest = |quantity: Quantity| {
-        let alike = watched.iter().zip(&ranges).filter(|(one, _)| one.quantity == quantity);
-        alike.map(|(_, range)| *range).fold(0.0, f64::max)
+    let (mut of_group, mut of_quantity) = (HashMap::new(), HashMap::new());
+    for (place, one) in watched.iter().enumerate() {
+        let range = range(place);
+        let widen = |widest: &mut f64| *widest = widest.max(range);
+        widen(of_group.entry((one.group(), one.quantity)).or_insert(0.0));
+        widen(of_quantity.entry(one.quantity).or_insert(0.0));
+    }
+    let scale = |one: &Watched| {
+        let largest = of_quantity[&one.quantity];
+        match one.quantity {
+            // Heat that left is a part of what came.
+            Quantity::Energy => largest,
+            quantity => of_group[&(one.group(), quantity)].max(FLOOR * largest),
+        }
     };
-    let floor = |one: &Watched| match one.quantity {
-        // Heat that left is a part of what came.
-        Quantity::Energy => largest(one.quantity),
-        quantity => FLOOR * largest(quantity),
-    };
-    ranges.iter().zip(watched).map(|(range, one)| range.max(floor(one))).collect()
+    watched.iter().map(scale).collect()
 }
 
 /// Estimated relative errors of the outputs of a body.

@@ -23,6 +23,13 @@ pub struct Watched {
     pub output: Output,
 }
 
+impl Watched {
+    /// The probe, field or body that the output is of.
+    pub fn group(&self) -> &str {
+        self.name.split_once('.').map_or(&self.name, |(owner, _)| owner)
+    }
+}
+
 /// The outputs of a scene of one body that follow from its mesh.
 pub fn watched(scene: &Scene, is_mechanical: bool) -> Vec<Watched> {
     let registry = Registry::structured(scene);

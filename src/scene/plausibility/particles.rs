@@ -108,9 +108,8 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
     {
         reviewer.warn(path, too_hot(droplet, across));
     }
-    if let Some(across) = resolution.across_for_film().filter(|_| droplet.fluid.conductivity > 0.0)
-    {
-        reviewer.warn(path, broken(&resolution, droplet, across));
+    if let Some(message) = wetted(&resolution, droplet) {
+        reviewer.warn(path, message);
     }
     let tolerated = reviewer.scene.fidelity.tolerance.max(LEAST_TOLD);
     let Some([error, scatter]) = heat.filter(|[error, _]| error.abs() > tolerated) else { return };
@@ -135,15 +134,31 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
     reviewer.warn(path, message);
 }
 
-/// What to say of a film on a poor conductor that so few particles let break up.
-fn broken(resolution: &Resolution, droplet: &Droplet, across: f64) -> String {
-    format!(
-        "heat is expected to be too low by a twentieth to a half, as on what conducts less than the fluid it follows the wetted \
-         area, and the film breaks up: {} particles lie across its layer of shear √(νD/U); did you mean a `spacing` of {} m \
-         or less?",
+/// What to say of a film on a poor conductor whose wetted area so few particles do not tell.
+fn wetted(resolution: &Resolution, droplet: &Droplet) -> Option<String> {
+    if droplet.fluid.conductivity == 0.0 {
+        return None;
+    }
+    let (error, cause, across) = match (resolution.across_for_film(), resolution.across_for_area())
+    {
+        (Some(whole), told) => (
+            "is expected to be too low by a twentieth to a half",
+            "the film breaks up",
+            told.unwrap_or(whole),
+        ),
+        (None, Some(told)) => (
+            "may be off by a tenth to a third, either way",
+            "so few particles do not tell it",
+            told,
+        ),
+        (None, None) => return None,
+    };
+    Some(format!(
+        "heat {error}, as on what conducts less than the fluid it follows the wetted area, and {cause}: {} \
+         particles lie across its layer of shear √(νD/U); did you mean a `spacing` of {} m or less?",
         digits(resolution.layers()[1]),
         number(rounded(droplet.diameter / across))
-    )
+    ))
 }
 
 /// What to say of particles that are wider than the layer through which a drop warms the middle of what it hits.
