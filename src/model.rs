@@ -89,17 +89,17 @@ impl Model {
     /// Builds meshes and modes; `threads` = 0 lets the program choose.
     pub fn build(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
         let Resolved { scene, choices } = tolerance::resolve(scene);
-        Ok(Self { choices, ..aside(|| Self::build_here(&scene, threads, Readings::Many))? })
+        Ok(Self { choices, ..aside(|| Self::build_here(&scene, threads, Readings::Usual))? })
     }
 
     /// The same on the mesh that follows from the scene's keys alone.
     fn build_as_it_is(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
-        aside(|| Self::build_here(scene, threads, Readings::Many))
+        aside(|| Self::build_here(scene, threads, Readings::Usual))
     }
 
-    /// The same, of which no more than one state is read: each reading takes a solution.
-    fn build_for_one_state(scene: &Scene, threads: usize) -> Result<Self, ModelError> {
-        aside(|| Self::build_here(scene, threads, Readings::OfOneState))
+    /// The same, of which so many states are read.
+    fn build_for_states(scene: &Scene, threads: usize, count: usize) -> Result<Self, ModelError> {
+        aside(|| Self::build_here(scene, threads, Readings::OfStates(count)))
     }
 
     fn build_here(scene: &Scene, threads: usize, readings: Readings) -> Result<Self, ModelError> {

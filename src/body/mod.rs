@@ -309,9 +309,9 @@ pub struct Assembly {
 /// How much of a model is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Readings {
-    /// Many states.
-    Many,
-    OfOneState,
+    /// As many states as the scene's default experiment has.
+    Usual,
+    OfStates(usize),
 }
 
 /// Builds the bodies of a scene, whose inputs begin as `start` says, and what joins them. Of the threads that are
@@ -335,8 +335,8 @@ pub fn build(
             let linked = link::linked_faces(scene, name);
             let body = SolidBody::new(scene, layout, (name, solid), &linked, threads)?;
             let body = match readings {
-                Readings::Many => body,
-                Readings::OfOneState => body.without_rows(),
+                Readings::Usual => body,
+                Readings::OfStates(count) => body.read_in_states(count),
             };
             built[index] = Some(Box::new(body));
         }

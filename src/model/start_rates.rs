@@ -64,7 +64,7 @@ fn start_values(
     inputs: &[f64],
     outputs: &[&Output],
 ) -> Result<Vec<f64>, ModelError> {
-    let model = Model::build_for_one_state(scene, scene.solver.threads)?;
+    let model = Model::build_for_states(scene, scene.solver.threads, 1)?;
     let mut state = model.initial_state();
     state.inputs = inputs.to_vec();
     let mut cache = Cache::default();

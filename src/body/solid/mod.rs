@@ -114,9 +114,12 @@ impl SolidBody {
         })
     }
 
-    /// The same, of which each reading takes a solution.
-    pub fn without_rows(self) -> Self {
-        Self { rows: Rows::default(), ..self }
+    /// The same, read in so many states alone: where they are few for the rows, each takes a solution.
+    pub fn read_in_states(self, count: usize) -> Self {
+        match self.rows.pay_in(count) {
+            true => self,
+            false => Self { rows: Rows::default(), ..self },
+        }
     }
 
     fn error(&self, failure: HeatFailure) -> BodyError {

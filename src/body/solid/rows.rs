@@ -169,6 +169,11 @@ impl Choice {
 }
 
 impl Rows {
+    /// Whether so many states cost less by rows than by a solution each.
+    pub fn pay_in(&self, states: usize) -> bool {
+        self.rows.len() as f64 * READINGS_OF_A_ROW <= states as f64
+    }
+
     pub fn new(choice: Choice, solid: &SolidFem, means: &[(usize, FaceMeans)]) -> Self {
         let mut made = Self::default();
         let mut numbers: HashMap<([u64; 3], Component), usize> = HashMap::new();

@@ -85,7 +85,8 @@ pub fn responses_at(
     watched: &[Watched],
     times: &[f64],
 ) -> Result<Responses, ModelError> {
-    let model = Model::build_as_it_is(scene, 1)?;
+    let experiments = experiments(scene);
+    let model = Model::build_for_states(scene, 1, experiments.len() * times.len())?;
     let run = |inputs: Vec<f64>| -> Result<Vec<Vec<f64>>, ModelError> {
         let mut state = model.initial_state();
         state.inputs = inputs;
@@ -103,5 +104,5 @@ pub fn responses_at(
         }
         Ok(rows)
     };
-    experiments(scene).into_iter().map(run).collect()
+    experiments.into_iter().map(run).collect()
 }
