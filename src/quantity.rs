@@ -271,6 +271,14 @@ impl Quantity {
     }
 }
 
+/// Below, six decimals tell a temperature [K].
+const FIXED: f64 = 1e6;
+
+/// A temperature in kelvin, however far it is from anything real.
+pub fn kelvin(value: f64) -> String {
+    if value.abs() < FIXED { format!("{value:.6} K") } else { format!("{value:.6e} K") }
+}
+
 /// A part of something as a percentage.
 pub fn percent(part: f64) -> String {
     let value = 100.0 * part;

@@ -4,6 +4,7 @@ use crate::math::cholesky::SolverError;
 use crate::method::fem::NonlinearFailure;
 use crate::method::inelastic::InelasticError;
 use crate::method::sph::Failure;
+use crate::quantity::kelvin;
 
 /// Why a body does not do what it is asked for.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -19,8 +20,8 @@ pub enum BodyError {
     Overflow { body: String },
     /// A step would cool a body below absolute zero.
     #[error(
-        "{body} would cool to {temperature:.6} K, below absolute zero: a negative heat flux takes more \
-         heat from it than it holds"
+        "{body} would cool to {}, below absolute zero: a negative heat flux takes more heat from it than it holds",
+        kelvin(*temperature)
     )]
     BelowAbsoluteZero { body: String, temperature: f64 },
     /// An output is too large for numbers.

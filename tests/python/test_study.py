@@ -409,6 +409,7 @@ def test_tunable_parameters_are_set_as_inputs_are(tmp_path):
         ({"inputs": {"plate.density": 1.0}}, "fixed|parameter"),
         ({"inputs": {"plate.top.flux": np.inf}}, "finite"),
         ({"outputs": []}, "at least one"),
+        ({"step": 1e-30}, "for at most 1e[+]08 steps"),
         ({"outputs": ["no.such"]}, "no variable"),
         ({"outputs": ["plate.density"]}, "has not yet"),
         ({"outputs": ["output.directory"]}, "no number"),

@@ -29,6 +29,9 @@ from .scenes import Scene, Variant
 from .signals import Signal, signal_of, takes_parameters
 from .worker import Job
 
+# More than these take gigabytes for their times alone.
+_MOST_STEPS = 1e8
+
 
 class Study:
     """Runs of one unit over values of its parameters, its inputs and the keys of its scene.
@@ -230,6 +233,11 @@ class Study:
         proposed = self.package.description.defaultExperiment
         stop = _positive("stop", stop, getattr(proposed, "stopTime", None))
         step = _positive("step", step, getattr(proposed, "stepSize", None))
+        if stop > _MOST_STEPS * step:
+            raise ValueError(
+                f"{stop / step:.3g} steps of {step:g} s (allowed: {stop / _MOST_STEPS:.3g} s or"
+                f" more, for at most {_MOST_STEPS:.0e} steps)"
+            )
         kept = tuple(output_of(output) for output in outputs)
         if not kept:
             raise ValueError("no outputs (allowed: at least one)")

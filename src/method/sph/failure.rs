@@ -2,6 +2,7 @@
 
 use super::kick::{FARTHEST, FASTEST};
 use crate::math::allowance::Halt;
+use crate::quantity::kelvin;
 
 /// A step that would have no physical meaning; the state is as it was before.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -25,7 +26,8 @@ pub enum Failure {
     )]
     TooFast { ratio: f64, time: f64 },
     #[error(
-        "a particle would cool to {temperature:.6} K at t = {time:.6e} s, not above absolute zero: what lies below takes more heat from it than it holds"
+        "a particle would cool to {} at t = {time:.6e} s, not above absolute zero: what lies below takes more heat from it than it holds",
+        kelvin(*temperature)
     )]
     BelowAbsoluteZero { temperature: f64, time: f64 },
     #[error("what was recorded of a drop makes no sense: {reason}")]
