@@ -8,8 +8,8 @@
 //!   AIChE J. 41, 1357, doi 10.1002/aic.690410602), and `β = 0.87 Re^{1/5} − 0.40 Re^{2/5} We^{−1/2}`
 //!   (I. V. Roisman 2009, Phys. Fluids 21, 052104, doi 10.1063/1.3129283);
 //! - base of the cap that the drop is at rest, over D: `2 (tan(θ/2) (3 + tan²(θ/2)))^{−1/3}`, from its volume;
-//! - wetted radius just after the impact, `r = √(3RUt)`, R = D/2 (G. Riboux and J. M. Gordillo 2014, Phys. Rev. Lett.
-//!   113, 024507, doi 10.1103/PhysRevLett.113.024507);
+//! - width of the footprint just after the impact, `2.8 √τ`, τ = Ut/D, over D (R. Rioboo, M. Marengo and C. Tropea 2002,
+//!   Exp. Fluids 33, 112, doi 10.1007/s00348-002-0431-x);
 //! - force, which is highest at 0.167 D/U (L. Gordillo, T.-P. Sun and X. Cheng 2018, J. Fluid Mech. 840, 190,
 //!   doi 10.1017/jfm.2017.901): `F = A √t e^{−t/(0.334 D/U)}` with A such that `∫F dt = mU`.
 
@@ -34,6 +34,10 @@ pub struct DropImpact {
 
 /// Time of the highest force over D/U.
 const PEAK: f64 = 0.167;
+/// Width of the footprint over D√τ at first.
+const EARLY_SPREAD: f64 = 2.8;
+/// Reynolds number from which on footprints grow until they are widest.
+const SUDDEN: f64 = 50.0;
 /// Drops that wet better take longer than anyone looks on to come to rest [rad].
 const LEAST_ANGLE: f64 = 0.26;
 /// F″(0) of the spreading film, see [`super::spreading_film`].
@@ -104,18 +108,37 @@ impl DropImpact {
         inertial.min(self.spread_by_viscosity()).max(self.spread_at_rest()).max(1.0)
     }
 
-    /// Radius [m] of the footprint that grows at first as `√(3RUt)` and comes to rest at `R_max`:
-    /// `R_max √(1 − e^{−3RUt/R_max²})`.
+    /// Radius [m] of the footprint that grows at first as `1.4 D√τ` and comes to rest at `R_max`:
+    /// `R_max (1 − e^{−xᵖ})^{1/p}`, x = 1.4 D√τ/R_max, `p = 2 + 2 Re/(Re + 50)`: what is viscous comes to rest gradually.
+    /// The exponent is that by which particles come closest (40 over D, Re 4 to 13 000, We 8 to 650): within 10 % where
+    /// neither their films tear nor `R_max` falls short.
     pub fn wetted_radius(&self, largest: f64, time: f64) -> f64 {
-        let growth = 1.5 * self.diameter * self.speed;
-        largest * (-(-growth * time / largest.powi(2)).exp_m1()).sqrt()
+        let sharpness = self.sharpness();
+        let root = (time.max(0.0) / self.time()).sqrt();
+        let power = (0.5 * EARLY_SPREAD * self.diameter * root / largest).powf(sharpness);
+        largest * (-(-power).exp_m1()).powf(1.0 / sharpness)
     }
 
     /// When the footprint comes to a radius [s]; never to `R_max` and beyond.
     pub fn time_of_wetting(&self, largest: f64, radius: f64) -> f64 {
-        let growth = 1.5 * self.diameter * self.speed;
-        let part = (radius / largest).powi(2);
-        if part < 1.0 { -(-part).ln_1p() * largest.powi(2) / growth } else { f64::INFINITY }
+        let sharpness = self.sharpness();
+        let part = (radius / largest).powf(sharpness);
+        if part >= 1.0 {
+            return f64::INFINITY;
+        }
+        let root = (-(-part).ln_1p()).powf(1.0 / sharpness) * largest
+            / (0.5 * EARLY_SPREAD * self.diameter);
+        root.powi(2) * self.time()
+    }
+
+    fn sharpness(&self) -> f64 {
+        let reynolds = self.reynolds();
+        2.0 + 2.0 * if reynolds.is_finite() { reynolds / (reynolds + SUDDEN) } else { 1.0 }
+    }
+
+    /// Part of the flow that is left: none when the footprint has come to rest.
+    pub fn flows(&self, largest: f64, time: f64) -> f64 {
+        1.0 - (self.wetted_radius(largest, time) / largest).powi(2)
     }
 
     /// Part of the momentum that the wall has got, ∫F dt/(mU) = erf √x − 2√(x/π) e^{−x}, x = t/(0.334 D/U).
@@ -124,11 +147,15 @@ impl DropImpact {
         libm::erf(x.sqrt()) - 2.0 * (x / PI).sqrt() * (-x).exp()
     }
 
+    /// Age t + τ [s] of the flow u = r/(t + τ) of the spreading film.
+    pub fn age(&self, time: f64) -> f64 {
+        time + LEAD * self.time()
+    }
+
     /// Shear at the wall under the spreading film [Pa], `F″(0) ρ √ν r (t + τ)^{−3/2}` (Roisman 2009).
     pub fn shear(&self, radius: f64, time: f64) -> f64 {
         let viscosity = self.viscosity / self.density;
-        let age = time + LEAD * self.time();
-        WALL_SHEAR * self.density * viscosity.sqrt() * radius * age.powf(-1.5)
+        WALL_SHEAR * self.density * viscosity.sqrt() * radius * self.age(time).powf(-1.5)
     }
 }
 
@@ -179,7 +206,8 @@ mod tests {
     fn the_footprint_grows_as_the_drop_sinks_in() {
         let (largest, early) = (3e-3, 1e-6);
         let radius = WATER.wetted_radius(largest, early);
-        assert!((radius / (3.0 * 1e-3 * 1.5 * early).sqrt() - 1.0).abs() < 1e-3);
+        let width = 2.8 * (early / WATER.time()).sqrt() * WATER.diameter;
+        assert!((2.0 * radius / width - 1.0).abs() < 1e-3);
         assert!((WATER.wetted_radius(largest, 1.0) / largest - 1.0).abs() < 1e-12);
         let back = WATER.time_of_wetting(largest, radius);
         assert!((back / early - 1.0).abs() < 1e-9);

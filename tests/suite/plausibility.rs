@@ -437,6 +437,19 @@ fn particles_too_wide_for_the_layers_of_a_drop_on_a_solid_are_warned_of() {
     assert_eq!(said(water, 1e-3, 36.0), [false; 3]);
 }
 
+/// On aerogel films of closed forms give a tenth to a half too little heat (`docs/fidelity.md`).
+#[test]
+fn films_on_what_hardly_conducts_are_warned_of() {
+    let said = |effusivity: f64| {
+        let text = edited(&drop(WATER), "spacing = 5e-5\n", "method = \"film\"\n");
+        let more = format!("under = \"drop\"\neffusivity = {effusivity:?}\n");
+        warnings(&edited(&text, "under = \"drop\"\n", &more))
+    };
+    let poor = said(40.0);
+    assert!(poor.len() == 1 && poor[0].contains("body.drop.method = \"film\": heat"), "{poor:?}");
+    assert_eq!(said(600.0), [""; 0]);
+}
+
 #[test]
 fn kernels_whose_particles_form_pairs_are_warned_of() {
     let kernel = |kernel: &str, support: f64| {

@@ -159,7 +159,8 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, wall: &Wall, droplet: &Droplet
         reviewer.warn(&path.key(key).key("count"), message);
     }
     let effusivity = droplet.fluid.effusivity();
-    if wall.effusivity.is_some_and(|solid| solid < effusivity)
+    if droplet.has_particles()
+        && wall.effusivity.is_some_and(|solid| solid < effusivity)
         && widest > WIDEST_ON_POOR * droplet.spacing * (1.0 + 1e-9)
     {
         let message = format!(

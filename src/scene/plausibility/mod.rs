@@ -2,6 +2,7 @@
 //! that were forgotten. Nothing here is refused; each finding is a [`Warning`].
 
 mod arrangement;
+mod films;
 mod moved;
 mod particles;
 mod relations;
@@ -52,6 +53,7 @@ pub(super) fn warnings(scene: &Scene, source: &Source, schema: &Schema) -> Vec<W
     relations::review(&mut reviewer);
     arrangement::review(&mut reviewer);
     particles::review(&mut reviewer);
+    films::review(&mut reviewer);
     reviewer.found.sort_by_key(|warning| warning.problem.line);
     reviewer.found
 }

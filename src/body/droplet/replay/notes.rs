@@ -7,7 +7,8 @@ use crate::scene::{Droplet, DropletMethod, Scene};
 pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {
     let what = match droplet.method {
         DropletMethod::Film => {
-            "closed forms of a film that spreads and cools stand for every drop (what they err by: docs/fidelity.md)"
+            "closed forms of a film that spreads and cools stand for every drop: heat is right to about a fifth, on what hardly \
+             conducts to a half (docs/fidelity.md)"
                 .to_owned()
         }
         _ => format!(
