@@ -57,7 +57,7 @@ const BROKEN: f64 = 0.35;
 const WHOLE: f64 = 0.48;
 /// Effusivity of what lies below over that of the fluid from which on it conducts next to nothing, and particles across
 /// the viscous layer that tell the wetted area there.
-pub const INSULATES: f64 = 0.1;
+const INSULATES: f64 = 0.1;
 const WETTED: f64 = 0.9;
 /// Errors of the largest spread over Δx/D, lowest and highest: at We 30, Re 500 beside finer particles and at Re 27
 /// beside volumes of fluid (`tests/verification/README.md`).

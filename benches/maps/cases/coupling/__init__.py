@@ -2,7 +2,12 @@
 
 from cases.coupling.contact import contact_exchanges, contact_prandtl, contact_spacing
 from cases.coupling.lengths import lengths
-from cases.coupling.liquids import heat_of_pairs, temperature_of_pairs
+from cases.coupling.liquids import (
+    heat_of_films,
+    heat_of_pairs,
+    temperature_of_films,
+    temperature_of_pairs,
+)
 from cases.coupling.lumps import gauss_seidel, iterate, jacobi
 from cases.coupling.records import records
 from cases.coupling.reductions import reductions
@@ -25,4 +30,6 @@ MAPS = {
     "coupling_records": records,
     "coupling_pairs_heat": heat_of_pairs,
     "coupling_pairs_temperature": temperature_of_pairs,
+    "coupling_films_heat": heat_of_films,
+    "coupling_films_temperature": temperature_of_films,
 }

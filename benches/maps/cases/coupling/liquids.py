@@ -16,7 +16,7 @@ HOT, COLD = 350.0, 293.15  # K
 STOP, STEPS = 2.0, 40
 """D/U, and steps over them."""
 ACROSS, FINE = 20.0, 48.0
-BAD = 0.1
+BAD, BAD_OF_FILMS = 0.1, 0.3
 HEAT, TEMPERATURE = "plate.heat_in", "centre.temperature"
 
 
@@ -93,9 +93,15 @@ def scene(fluid: str, solid: str, across: float, tolerance: float) -> dict:
     }
 
 
-def work(x: float, y: float, across: float = ACROSS, tolerance: float = BAD) -> dict:
+def work(
+    x: float, y: float, across: float = ACROSS, tolerance: float = BAD, method: str = "sph"
+) -> dict:
     fluid, solid = list(LIQUIDS)[round(y)], list(SOLIDS)[round(x)]
     made = scene(fluid, solid, across, tolerance)
+    if method == "film":
+        drop = made["body"]["drop"]
+        del drop["spacing"], drop["symmetry"]
+        drop["method"] = method
     steps = equal_steps(made["stop_time"], STEPS)
     return unit_work(made, [HEAT, TEMPERATURE], steps, about="body.drop")
 
@@ -112,7 +118,7 @@ def off(which: int, answer: Answer, x: float, y: float) -> float:
     return abs(read(answer)[which] / FINER[fluid][list(SOLIDS).index(solid)][which] - 1.0)
 
 
-def pairs(name: str, title: str, outcome: str, which: int) -> Map:
+def pairs(name: str, title: str, outcome: str, which: int, method: str = "sph") -> Map:
     return Map(
         name=name,
         title=title,
@@ -120,11 +126,11 @@ def pairs(name: str, title: str, outcome: str, which: int) -> Map:
         y=Axis("liquid", "", list(range(len(LIQUIDS))), False, list(LIQUIDS)),
         outcome=f"{outcome} off that of {FINE:g} particles across",
         unit="1",
-        bad=BAD,
-        work=work,
+        bad=BAD_OF_FILMS if method == "film" else BAD,
+        work=partial(work, method=method),
         run=run_unit,
         judge=partial(off, which),
-        colours=(0.0, 0.4),
+        colours=(0.0, 0.8 if method == "film" else 0.4),
     )
 
 
@@ -136,6 +142,16 @@ def heat_of_pairs() -> Map:
 def temperature_of_pairs() -> Map:
     title = f"Rise under the middle from 1 to {STOP:g} D/U, {ACROSS:g} particles across"
     return pairs("coupling_pairs_temperature", title, "rise", 1)
+
+
+def heat_of_films() -> Map:
+    title = f"Heat that a substrate takes by {STOP:g} D/U of a film of closed forms"
+    return pairs("coupling_films_heat", title, "heat", 0, "film")
+
+
+def temperature_of_films() -> Map:
+    title = f"Rise under the middle from 1 to {STOP:g} D/U under a film of closed forms"
+    return pairs("coupling_films_temperature", title, "rise", 1, "film")
 
 
 FINER = {
