@@ -8,7 +8,8 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
-from boundary import crossings, silent
+from boundary import crossings, is_bad, silent
+from matplotlib.collections import LineCollection
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.lines import Line2D
 from plan import Axis, Map
@@ -51,7 +52,16 @@ def coloured(axes, of: Map, known: Known):
     palette = plt.get_cmap("YlGnBu").copy()
     palette.set_bad("0.88")
     shown = np.ma.masked_invalid(np.where(np.isposinf(grid), high, grid))
-    return axes.pcolormesh(edges(of.x), edges(of.y), shown, cmap=palette, norm=norm)
+    mesh = axes.pcolormesh(edges(of.x), edges(of.y), shown, cmap=palette, norm=norm)
+    return mesh, beyond(grid, low, high)
+
+
+def beyond(grid: np.ndarray, low: float, high: float) -> str:
+    """At which ends of the colours outcomes lie beyond them."""
+    below, above = bool(np.nanmin(grid) < low), bool(np.nanmax(grid) > high)
+    return {(True, True): "both", (True, False): "min", (False, True): "max"}.get(
+        (below, above), "neither"
+    )
 
 
 def marks(axes, of: Map, known: Known) -> list[Line2D]:
@@ -86,19 +96,7 @@ def marks(axes, of: Map, known: Known) -> list[Line2D]:
 
 def lines(axes, of: Map, known: Known) -> list[Line2D]:
     """The measured boundary and those of theory."""
-    handles = []
-    found = crossings(of, known)
-    # Words have no order that a line could follow.
-    if found and not (of.x.labels or of.y.labels):
-        handles += axes.plot(
-            [c.x for c in found],
-            [c.middle(of) for c in found],
-            color="black",
-            linewidth=1.8,
-            marker="o",
-            markersize=3,
-            label=f"measured: {of.outcome} {of.bad:g}",
-        )
+    handles = searched(axes, of, known) if of.refine else outlined(axes, of, known)
     ends = of.x.values[0], of.x.values[-1]
     fine = np.geomspace(*ends, 200) if of.x.is_logarithmic else np.linspace(*ends, 200)
     for place, theory in enumerate(of.theory):
@@ -111,6 +109,41 @@ def lines(axes, of: Map, known: Known) -> list[Line2D]:
             label=f"{theory.name} ({theory.source})",
         )
     return handles
+
+
+def searched(axes, of: Map, known: Known) -> list[Line2D]:
+    """Where outcomes turn bad, found between the rows."""
+    found = crossings(of, known)
+    return axes.plot(
+        [c.x for c in found],
+        [c.middle(of) for c in found],
+        color="black",
+        linewidth=1.8,
+        marker="o",
+        markersize=3,
+        label=f"measured: {of.outcome} = {of.bad:g}",
+    )
+
+
+def outlined(axes, of: Map, known: Known) -> list[Line2D]:
+    """Sides that bad cells share with good ones."""
+    columns, rows = edges(of.x), edges(of.y)
+    bad = np.array(
+        [[(x, y) in known and is_bad(of, known[x, y]) for x in of.x.values] for y in of.y.values]
+    )
+    sides = [
+        [(columns[i + 1], rows[j]), (columns[i + 1], rows[j + 1])]
+        for j, i in np.argwhere(bad[:, 1:] != bad[:, :-1])
+    ]
+    sides += [
+        [(columns[i], rows[j + 1]), (columns[i + 1], rows[j + 1])]
+        for j, i in np.argwhere(bad[1:] != bad[:-1])
+    ]
+    if not sides:
+        return []
+    axes.add_collection(LineCollection(sides, colors="black", linewidths=1.8))
+    told = f"{of.outcome} above {of.bad:g}"
+    return [Line2D([], [], color="black", linewidth=1.8, label=f"around cells: {told}")]
 
 
 def label(axis: Axis) -> str:
@@ -127,7 +160,7 @@ def prepare(axes, of: Map) -> None:
         if axis.labels:
             ticks(axis.values, axis.labels)
             (axes.minorticks_off)()
-        elif axis.is_logarithmic and log10(axis.values[-1] / axis.values[0]) < 1.2:
+        elif not axis.is_logarithmic or log10(axis.values[-1] / axis.values[0]) < 1.2:
             ticks(axis.values, [f"{value:g}" for value in axis.values])
             (axes.minorticks_off)()
     axes.set_xlabel(label(of.x))
@@ -138,10 +171,10 @@ def prepare(axes, of: Map) -> None:
 def draw(of: Map, known: Known, folder: Path) -> None:
     plt.rcParams.update(STYLE | {"svg.hashsalt": of.name})
     figure, axes = plt.subplots(figsize=(7.4, 6.0), layout="constrained")
-    mesh = coloured(axes, of, known)
+    mesh, ends = coloured(axes, of, known)
     prepare(axes, of)
     handles = lines(axes, of, known) + marks(axes, of, known)
-    figure.colorbar(mesh, ax=axes, label=f"{of.outcome} [{of.unit}]", shrink=0.9)
+    figure.colorbar(mesh, ax=axes, label=f"{of.outcome} [{of.unit}]", shrink=0.9, extend=ends)
     if handles:
         figure.legend(handles=handles, loc="outside lower left", ncols=2, fontsize=8)
     figure.savefig(folder / f"{of.name}.png", dpi=120)

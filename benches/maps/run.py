@@ -108,6 +108,7 @@ def summary(of: Map, known: table.Known) -> list[str]:
         of.name,
         str(len(grid)),
         str(sum(cell.is_told for cell in grid)),
+        f"{of.bad:g}",
         str(len(silent(of, known))) if of.must_speak else "",
         str(len(crossings(of, known))),
         f"{100 * median(off):.2g}" if off else "",
@@ -115,7 +116,16 @@ def summary(of: Map, known: table.Known) -> list[str]:
     ]
 
 
-HEADS = ["map", "cells", "told of", "bad and silent", "edges", "off theory [%]", "at most [%]"]
+HEADS = [
+    "map",
+    "cells",
+    "told of",
+    "bad above",
+    "bad and silent",
+    "edges",
+    "off theory [%]",
+    "at most [%]",
+]
 
 
 def missing(folder: Path) -> list[str]:

@@ -88,25 +88,25 @@ fn notes(scene: &Scene) -> String {
         if let Some(particles) = &body.particles {
             let _ = writeln!(text, "    {}", conduction(particles, columns * rows * layers));
         }
-        let step_time = engineering(body.step_time, "s");
+        let step_time = lasting(body.step_time);
         let _ = match body.reduced {
             None => writeln!(
                 text,
                 "    about {:.0} MB, {} to build, {step_time} a step whose stresses are read",
                 body.memory / 1e6,
-                engineering(body.build_time, "s")
+                lasting(body.build_time)
             ),
             Some(None) => writeln!(
                 text,
                 "    reduced: about {:.0} MB and {} to get there, then {step_time} a step with all that is read",
                 body.memory / 1e6,
-                engineering(body.build_time, "s")
+                lasting(body.build_time)
             ),
             Some(Some(unknowns)) => writeln!(
                 text,
                 "    reduced to {unknowns} unknowns of {:.1} kB, {} to get there, about {step_time} a step with all that is read",
                 body.memory / 1e3,
-                engineering(body.build_time, "s")
+                lasting(body.build_time)
             ),
         };
         for note in &body.notes {
@@ -128,13 +128,13 @@ fn notes(scene: &Scene) -> String {
             text,
             "    about {:.0} MB, {} for all its steps and exchanges",
             body.memory / 1e6,
-            engineering(body.run_time, "s")
+            lasting(body.run_time)
         );
         for note in &body.notes {
             let _ = writeln!(text, "    - {note}");
         }
     }
-    let _ = writeln!(text, "  `impinge run` takes about {}", lasting(run_time));
+    let _ = writeln!(text, "  `impinge run` takes about {} on idle cores", lasting(run_time));
     text
 }
 

@@ -1,5 +1,9 @@
 /// A value with at most five significant digits and the SI prefix that keeps it short.
 pub fn engineering(value: f64, unit: &str) -> String {
+    with_prefix(value, unit, 5)
+}
+
+fn with_prefix(value: f64, unit: &str, digits: usize) -> String {
     const PREFIXES: [(&str, i32); 10] = [
         ("f", -15),
         ("p", -12),
@@ -12,7 +16,7 @@ pub fn engineering(value: f64, unit: &str) -> String {
         ("G", 9),
         ("T", 12),
     ];
-    let (digits, exponent) = scientific(value);
+    let (digits, exponent) = scientific(value, digits);
     let fitting = PREFIXES.iter().find(|(_, power)| (0..3).contains(&(exponent - power)));
     match fitting {
         // The kilogram has its prefix already.
@@ -28,19 +32,19 @@ pub fn engineering(value: f64, unit: &str) -> String {
     }
 }
 
-/// A time in the unit that people would say it in [s].
+/// A time that was estimated, in the unit that people would say it in [s].
 pub fn lasting(seconds: f64) -> String {
     const UNITS: [(f64, &str); 4] =
         [(3.156e7, "years"), (86_400.0, "days"), (3600.0, "hours"), (60.0, "minutes")];
     match UNITS.iter().find(|(unit, _)| seconds >= 2.0 * unit) {
         Some((unit, name)) => format!("{:.0} {name}", seconds / unit),
-        None => engineering(seconds, "s"),
+        None => with_prefix(seconds, "s", 2),
     }
 }
 
-/// Digits and power of ten of a value rounded to five significant digits.
-fn scientific(value: f64) -> (String, i32) {
-    let text = format!("{value:.4e}");
+/// Digits and power of ten of a value rounded to so many significant digits.
+fn scientific(value: f64, digits: usize) -> (String, i32) {
+    let text = format!("{value:.*e}", digits - 1);
     match text.split_once('e') {
         Some((digits, exponent)) => (digits.to_owned(), exponent.parse().unwrap_or(0)),
         None => (text, 0),
@@ -82,7 +86,8 @@ mod tests {
     fn times_are_said_as_people_say_them() {
         let cases = [
             (0.5, "500 ms"),
-            (119.0, "119 s"),
+            (0.064013, "64 ms"),
+            (114.0, "110 s"),
             (40_642.0, "11 hours"),
             (5.8e6, "67 days"),
             (1e9, "32 years"),

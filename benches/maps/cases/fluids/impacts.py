@@ -1,5 +1,6 @@
 """What comes of impacts in scenes, and how that depends on particles, kernels and sound."""
 
+from collections.abc import Callable
 from functools import partial
 
 from plan import Answer, Axis, Map
@@ -142,49 +143,39 @@ def kernels() -> Map:
     )
 
 
-def diffusion() -> Map:
-    """What users read over the density diffusion that a scene asks for."""
+def of_readings(name: str, title: str, x: Axis, work: Callable[[float, float], dict]) -> Map:
+    """What users read over one setting, beside the finest particles."""
+    return Map(
+        name=name,
+        title=title,
+        x=x,
+        y=of_quantities(),
+        outcome="off that of 64 particles across",
+        unit="1",
+        bad=0.3,
+        work=work,
+        run=run_unit,
+        judge=partial(off, finest()),
+        references=[finest()],
+        colours=(0.0, 0.5),
+    )
 
+
+def diffusion() -> Map:
     def work(x: float, y: float) -> dict:
         scene = case(WEBER, REYNOLDS, 24.0, STOP, density_diffusion=x)
         return impact_work(scene, [QUANTITIES[round(y)]], 20)
 
-    return Map(
-        name="diffusion",
-        title="Density diffusion that a scene asks for",
-        x=Axis("density diffusion δ", "1", [0.0, 0.03, 0.1, 0.3, 0.6, 1.0], False),
-        y=of_quantities(),
-        outcome="off that of 64 particles across",
-        unit="1",
-        bad=0.3,
-        work=work,
-        run=run_unit,
-        judge=partial(off, finest()),
-        references=[finest()],
-        colours=(0.0, 0.5),
-    )
+    axis = Axis("density diffusion δ", "1", [0.0, 0.03, 0.1, 0.3, 0.6, 1.0], False)
+    return of_readings("diffusion", "Density diffusion that a scene asks for", axis, work)
 
 
 def resolution() -> Map:
-    """Everything that users read over the particles across."""
-
     def work(x: float, y: float) -> dict:
         return impact_work(case(WEBER, REYNOLDS, x, STOP), [QUANTITIES[round(y)]], 20)
 
-    return Map(
-        name="resolution",
-        title="Particles across a drop and what is read of it",
-        x=Axis("particles across D/Δx", "1", [3, 6, 8, 10, 12, 16, 20, 24, 32]),
-        y=of_quantities(),
-        outcome="off that of 64 particles across",
-        unit="1",
-        bad=0.3,
-        work=work,
-        run=run_unit,
-        judge=partial(off, finest()),
-        references=[finest()],
-        colours=(0.0, 0.5),
-    )
+    axis = Axis("particles across D/Δx", "1", [3, 6, 8, 10, 12, 16, 20, 24, 32])
+    return of_readings("resolution", "Particles across a drop and what is read of it", axis, work)
 
 
 FILMS = [(10.0, 100.0), (30.0, 100.0), (30.0, 1000.0), (100.0, 1000.0), (300.0, 1000.0)]

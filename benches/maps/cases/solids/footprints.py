@@ -1,6 +1,7 @@
 """Footprints that elements hardly see: small ones, and those that reach over the edge."""
 
 import math
+from collections.abc import Callable
 
 from plan import Answer, Axis, Map, Work
 from unit_run import equal_steps, run_unit, unit_work
@@ -123,24 +124,39 @@ def of_moved(answer: Answer, *_) -> float:
     return abs(answer.values["centre.temperature"][-1] - START - rise) / rise
 
 
-def moved_spots() -> Map:
+def off_its_place(
+    name: str,
+    title: str,
+    x: Axis,
+    growths: list[float],
+    work: Callable[[float, float], Work],
+    colours: tuple[float, float],
+) -> Map:
+    """What becomes of a spot where the mesh was not made for it."""
     return Map(
-        name="moved_spots",
-        title="Spots that an input moves off the fine mesh",
-        x=Axis(
-            "way from where it starts over the radius",
-            "1",
-            [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 28.0],
-            is_logarithmic=False,
-        ),
-        y=Axis("growth of elements", "1", [1.1, 1.2, 1.35, 1.6, 2.0]),
+        name=name,
+        title=title,
+        x=x,
+        y=Axis("growth of elements", "1", growths),
         outcome="error of the centre's rise",
         unit="1",
         bad=0.05,
-        work=moved,
+        work=work,
         run=run_unit,
         judge=of_moved,
-        colours=(1e-3, 1.0),
+        colours=colours,
+    )
+
+
+def moved_spots() -> Map:
+    ways = [0.0, 1.0, 2.0, 4.0, 8.0, 16.0, 28.0]
+    return off_its_place(
+        "moved_spots",
+        "Spots that an input moves off the fine mesh",
+        Axis("way from where it starts over the radius", "1", ways, is_logarithmic=False),
+        [1.1, 1.2, 1.35, 1.6, 2.0],
+        moved,
+        (1e-3, 1.0),
     )
 
 
@@ -153,21 +169,12 @@ def on_seam(place: float, growth: float) -> Work:
 
 
 def seam() -> Map:
-    return Map(
-        name="seam",
-        title="A spot across the seam where elements begin to grow",
-        x=Axis(
-            "centre beyond the seam over the radius",
-            "1",
-            [-1.2, -0.75, -0.25, 0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0],
-            is_logarithmic=False,
-        ),
-        y=Axis("growth of elements", "1", [1.1, 1.2, 1.4, 1.6, 2.0]),
-        outcome="error of the centre's rise",
-        unit="1",
-        bad=0.05,
-        work=on_seam,
-        run=run_unit,
-        judge=of_moved,
-        colours=(1e-4, 0.3),
+    places = [-1.2, -0.75, -0.25, 0.0, 0.25, 0.5, 1.0, 1.5, 2.0, 3.0]
+    return off_its_place(
+        "seam",
+        "A spot across the seam where elements begin to grow",
+        Axis("centre beyond the seam over the radius", "1", places, is_logarithmic=False),
+        [1.1, 1.2, 1.4, 1.6, 2.0],
+        on_seam,
+        (1e-4, 0.3),
     )
