@@ -83,6 +83,12 @@ pub trait Body: Send + Sync {
         0.0
     }
 
+    /// Moments within a step of this length [s] at which a body below should be asked anew, as what this one gives
+    /// changes fast there.
+    fn moments(&self, _state: &[f64], _path: &InputPath, _duration: f64) -> Vec<f64> {
+        Vec::new()
+    }
+
     /// Counts what is told as of the last step over that from the state `before`, too.
     fn join_steps(&self, _before: &[f64], _state: &mut Vec<f64>) {}
 

@@ -312,7 +312,13 @@ impl Running<'_> {
         let mut from = start;
         for (part, &to) in rows.iter().chain([&end]).enumerate() {
             let is_whole = from == start && to == end;
-            self.advance((from, to), if is_whole { length } else { to - from })?;
+            let length = if is_whole { length } else { to - from };
+            // What is left of a run that is no whole number of steps is short, but follows no jump.
+            let is_rest = is_whole && i > 0 && i + 1 == self.timeline.count;
+            if !is_rest {
+                self.warn_of_length(length);
+            }
+            self.advance((from, to), length)?;
             self.state.set_time(to);
             if to < end && part.is_multiple_of(looks_every) {
                 // Heat that comes and goes within a step counts, too.
@@ -323,12 +329,16 @@ impl Running<'_> {
         Ok(())
     }
 
-    /// Advances over a time between rows of the table [s].
-    fn advance(&mut self, (from, to): (f64, f64), length: f64) -> Result<(), CliError> {
+    /// Tells once of a step that is too short for a mesh [s].
+    fn warn_of_length(&mut self, length: f64) {
         if let Some(warning) = self.model.warning_on_step(length).filter(|_| !self.told_of_length) {
             super::print_message("warning", &warning);
             self.told_of_length = true;
         }
+    }
+
+    /// Advances over a time between rows of the table [s].
+    fn advance(&mut self, (from, to): (f64, f64), length: f64) -> Result<(), CliError> {
         if let Some(table) = &self.table {
             table.apply(&mut self.state, from, to);
         }

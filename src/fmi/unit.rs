@@ -71,6 +71,8 @@ pub struct Unit {
     said: BTreeSet<String>,
     /// Inputs at the beginning of the last step, where what they become next may tell of it; nothing after a jump back.
     told: Option<Vec<f64>>,
+    /// Whether the last step was no shorter than the meshes tell: a single short one follows no jump.
+    was_long: bool,
     /// The files of fields, in a folder that is written by nobody else meanwhile.
     pub(super) series: Option<(FieldSeries, FolderLock)>,
     /// Ends the step under way, from another thread.
@@ -206,6 +208,7 @@ impl Unit {
             warnings,
             said: BTreeSet::new(),
             told: None,
+            was_long: false,
             series: None,
             interrupt: Interrupt::default(),
             control: Rc::default(),
@@ -278,6 +281,7 @@ impl Unit {
     pub fn reset(&mut self) -> Answer {
         self.drop_run();
         self.forget_answers();
+        self.was_long = false;
         self.series = None;
         self.texts.clear();
         self.scene = self.packed.clone();
@@ -331,12 +335,13 @@ impl Unit {
         run.checked &= !has_set;
         let warnings = run.model.warnings(state);
         let on_step = if is_told { None } else { run.model.warning_on_step(step) };
+        let was_long = std::mem::replace(&mut self.was_long, on_step.is_none());
         self.told = told;
         self.warn_once(warnings);
         if let Some(message) = on_answer {
             self.warn_once_of(HELD_WALL, &message);
         }
-        if let Some(message) = on_step {
+        if let Some(message) = on_step.filter(|_| !was_long) {
             self.warn_once_of(SHORT_STEPS, &message);
         }
         self.has_set_derivatives = false;

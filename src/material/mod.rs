@@ -23,7 +23,7 @@ pub use melting::{Melting, MeltingError};
 pub use parameters::{AtStart, MaterialConstant};
 pub use properties::Properties;
 pub use property::{Curve, Property, PropertyError, Table};
-pub use radiation::{radiative_flux, radiative_slope};
+pub use radiation::{radiative_coefficient, radiative_flux, radiative_slope};
 pub use substance::{Substance, SubstanceError};
 pub use thermoelastic::Thermoelastic;
 pub use viscoplastic::{Creep, Overstress, Parted, Viscoplastic};

@@ -9,6 +9,12 @@ pub fn radiative_flux(emissivity: f64, temperature: f64, ambient: f64) -> f64 {
     emissivity * STEFAN_BOLTZMANN * (fourth(ambient) - fourth(temperature))
 }
 
+/// `q/(T∞ − T)` of it [W/(m² K)], also where they are equal.
+pub fn radiative_coefficient(emissivity: f64, temperature: f64, ambient: f64) -> f64 {
+    let squares = temperature.powi(2) + ambient.powi(2);
+    emissivity * STEFAN_BOLTZMANN * (temperature + ambient) * squares
+}
+
 /// `−∂q/∂T` of it [W/(m² K)].
 pub fn radiative_slope(emissivity: f64, temperature: f64) -> f64 {
     4.0 * emissivity * STEFAN_BOLTZMANN * temperature.abs().powi(3)
@@ -22,6 +28,16 @@ mod tests {
     fn a_black_surface_at_1000_k_loses_57_kw_to_empty_space() {
         assert!((radiative_flux(1.0, 1000.0, 0.0) + 56703.74419).abs() < 1e-9);
         assert_eq!(radiative_flux(0.7, 450.0, 450.0), 0.0);
+    }
+
+    #[test]
+    fn the_coefficient_is_the_flux_over_the_difference_and_at_last_the_slope() {
+        for [t, ambient] in [[900.0, 300.0], [300.0, 2000.0], [4.0, 300.0]] {
+            let flux = radiative_coefficient(0.9, t, ambient) * (ambient - t);
+            assert!((flux / radiative_flux(0.9, t, ambient) - 1.0).abs() < 1e-12);
+        }
+        let same = radiative_coefficient(0.9, 700.0, 700.0) / radiative_slope(0.9, 700.0);
+        assert!((same - 1.0).abs() < 1e-12);
     }
 
     #[test]

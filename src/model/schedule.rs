@@ -55,6 +55,9 @@ impl Exchange {
 /// A part of a step for a group: the inputs from its beginning on, and its length [s].
 pub(super) type Part<'a> = (&'a InputPath, f64);
 
+/// Shortest part of a step that is cut where bodies ask for it.
+const SHORTEST: f64 = 1e-6;
+
 impl Model {
     /// Advances all bodies by `dt` [s] under inputs that follow a path.
     ///
@@ -97,8 +100,12 @@ impl Model {
         let of_links = group.links.iter().map(|&link| self.links[link].parts(dt));
         let of_joints = group.joints.iter().map(|&joint| self.joints[joint].parts(dt));
         let parts = of_links.chain(of_joints).max().unwrap_or(1);
-        self.foresee_exchanges(group, states, (dt, parts), allowance)?;
-        let lengths = self.lengths(group, dt / parts as f64);
+        let cut = match parts {
+            1 => self.cut(group, states, (path, dt)),
+            parts => vec![dt / parts as f64],
+        };
+        self.foresee_exchanges(group, states, (dt, parts.max(cut.len())), allowance)?;
+        let lengths: Vec<f64> = cut.iter().flat_map(|&part| self.lengths(group, part)).collect();
         let mut start = 0.0;
         for _ in 0..parts {
             for &length in &lengths {
@@ -115,6 +122,23 @@ impl Model {
             }
         }
         Ok(())
+    }
+
+    /// The parts of a step at whose ends bodies above are asked for what they give.
+    fn cut(&self, group: &Group, states: &[Vec<f64>], (path, dt): Part) -> Vec<f64> {
+        let above = group.links.iter().map(|&link| self.links[link].from);
+        let moments = above.flat_map(|body| self.bodies[body].moments(&states[body], path, dt));
+        let mut moments: Vec<f64> = moments.collect();
+        moments.sort_by(f64::total_cmp);
+        let (mut parts, mut start) = (Vec::new(), 0.0);
+        for moment in moments {
+            if moment - start > SHORTEST * dt && dt - moment > SHORTEST * dt {
+                parts.push(moment - start);
+                start = moment;
+            }
+        }
+        parts.push(dt - start);
+        parts
     }
 
     /// The parts of a part of a step: one, or some that grow where solids that touch would go beyond their rest.

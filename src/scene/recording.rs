@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::droplet::{Droplet, DropletMethod};
+use crate::closed_form::DropImpact;
 use crate::limits::within;
 
 /// How an impact is recorded.
@@ -14,7 +15,8 @@ use crate::limits::within;
 pub struct Recording {
     /// Time after the first contact that is recorded [s]; then the splat cools as a film.
     #[schemars(transform = within(1e-12, 1e6, "s", "the time that is recorded")
-        .otherwise("five times D/U, or as many of the time in which tension pulls the drop round"))]
+        .otherwise("five times D/U, or as many of the time in which tension pulls the drop round; of films until they are widest, \
+                    if that takes longer"))]
     pub duration: Option<f64>,
     /// Speeds at the release that are recorded [m/s]: drops of speeds between them are interpolated.
     #[schemars(
@@ -66,7 +68,11 @@ impl Droplet {
     /// Time after the contact that is known of drops that are replayed [s].
     pub fn recorded_time(&self, speed: f64) -> f64 {
         let capillary = self.fluid.surface_tension / (self.fluid.density * 0.5 * self.diameter);
-        let default = RECORDED * self.diameter / speed.max(capillary.sqrt());
+        let usual = RECORDED * self.diameter / speed.max(capillary.sqrt());
+        let default = match self.has_particles() {
+            true => usual,
+            false => usual.max(DropImpact { speed, ..self.impact() }.time_to_rest()),
+        };
         self.record.as_ref().and_then(|record| record.duration).unwrap_or(default)
     }
 }

@@ -210,6 +210,17 @@ fn a_run_in_which_nothing_acts_says_so() {
     assert!(!said.contains("note:"), "{said}");
 }
 
+/// Three steps of 333.33 ns leave 10 ps of a microsecond.
+#[test]
+fn what_steps_leave_over_of_a_run_is_no_short_step() {
+    let place = Workplace::new();
+    let said = place.run(&["--step", "3.3333e-7"]).succeeds().stderr();
+    assert!(!said.contains("is shorter than"), "{said}");
+    let rows = fs::read_to_string(place.path("out/HotSpot/outputs.csv")).unwrap();
+    assert_eq!(rows.lines().count(), 6);
+    assert!(rows.lines().last().unwrap().starts_with("1e-6,"), "{rows}");
+}
+
 /// A face of `bed2` at the temperature of `bed` is not at rest.
 #[test]
 fn bodies_whose_names_begin_alike_are_told_apart() {

@@ -450,6 +450,37 @@ fn films_on_what_hardly_conducts_are_warned_of() {
     assert_eq!(said(600.0), [""; 0]);
 }
 
+/// Glass of 5 µm under a film of water would come to 508 K, the drop has 350 K.
+#[test]
+fn replayed_drops_on_what_is_thinner_than_their_heat_goes_are_warned_of() {
+    let body = edited(&drop(FLUIDS[5]), "spacing = 5e-5\n", "method = \"film\"\n");
+    let body = edited(&body, "stop_time = 1e-5", "stop_time = 1e-2");
+    let body = &body[..body.find("[[wall]]").unwrap()];
+    let said = |method: &str, shape: &str, made_of: &str| {
+        let text = format!(
+            "{}\n[body.plate]\nkind = \"solid\"\nshape = {{ disc = {{ radius = 5e-3{shape} }} }}\n{made_of}\ninitial_temperature \
+             = 300.0\n[[coupling]]\nfrom = \"drop\"\nto = \"plate.top\"\n{PARTS}",
+            edited(body, "method = \"film\"", method)
+        );
+        warnings(&text).iter().filter(|one| one.contains("on a half space")).count()
+    };
+    const PARTS: &str = "[material.glass]\nmodel = \"thermoelastic\"\ndensity = 2500.0\nspecific_heat = 800.0\nconductivity = \
+                         1.0\n[material.copper]\nmodel = \"thermoelastic\"\ndensity = 8960.0\nspecific_heat = \
+                         385.0\nconductivity = 400.0\n";
+    let of_layers = |one: &str, other: &str| {
+        format!(
+            "layers = [{{ material = \"{one}\", thickness = 1e-5 }}, {{ material = \"{other}\", thickness = 5e-3 }}]"
+        )
+    };
+    let glass = "material = { model = \"thermoelastic\", density = 2500.0, specific_heat = 800.0, conductivity = 1.0 }";
+    for method in ["method = \"film\"", "method = \"record\"\nspacing = 5e-5"] {
+        assert_eq!(said(method, ", thickness = 5e-6", glass), 1);
+        assert_eq!(said(method, ", thickness = 5e-3", glass), 0);
+        assert_eq!(said(method, ", thickness = 5.01e-3", &of_layers("copper", "glass")), 1);
+        assert_eq!(said(method, ", thickness = 5.01e-3", &of_layers("glass", "glass")), 0);
+    }
+}
+
 /// Under mercury, tin and steel on metals films are 39 % to 87 % too cool in the middle, under water they are not.
 #[test]
 fn films_that_cool_through_while_their_drop_comes_down_are_warned_of() {

@@ -102,6 +102,62 @@ fn slow_drops_give_what_their_particles_give_to_conductors_and_insulators() {
     }
 }
 
+/// What is given within a step that is far longer than a drop takes to cool reaches the plate when it should: one step and
+/// two hundred leave it as warm. So do steps that begin while drops cool, and several drops.
+#[test]
+fn steps_far_longer_than_drops_take_to_cool_leave_plates_as_warm() {
+    const GLASS: &str = "density = 2500.0, specific_heat = 800.0, conductivity = 1.0";
+    const STEEL: &str = "density = 7900.0, specific_heat = 500.0, conductivity = 16.0";
+    let arrivals =
+        "arrivals = [{ time = 0.0, x = 0.0, y = 0.0 }, { time = 4e-3, x = 0.0, y = 0.0 }]";
+    for (method, material, keys) in
+        [("film", GLASS, ""), ("film", STEEL, ""), ("film", GLASS, arrivals), ("record", STEEL, "")]
+    {
+        let text = format!(
+            "{}[body.plate]\nkind = \"solid\"\nshape = {{ disc = {{ radius = 1e-3, thickness = 1e-3 }} }}\nmaterial = {{ \
+             model = \"thermoelastic\", {material} }}\ninitial_temperature = 300.0\n[[coupling]]\nfrom = \"drop\"\nto = \
+             \"plate.top\"\n[[probe]]\nname = \"centre\"\nin = \"plate\"\nat = [0.0, 0.0, 0.0]\ngives = \
+             [\"temperature\"]\n",
+            drop(method, keys)
+        );
+        let risen = |count: usize| {
+            let mut trial = Trial::new(&text);
+            (0..count).for_each(|_| trial.step(8e-3 / count as f64));
+            trial.get("centre.temperature") - 300.0
+        };
+        let fine = risen(200);
+        for count in [1, 3] {
+            let found = risen(count);
+            assert!(off(found, fine) < 0.01, "{method} {material} {count}: {found} K of {fine} K");
+        }
+    }
+}
+
+/// Drops that hardly fall are pulled down by tension, and give what momentum they have; fast thin ones go on until they
+/// are as wide as Roisman (2009) or Pasandideh-Fard et al. (1996) say.
+#[test]
+fn films_give_all_momentum_of_slow_drops_and_spread_as_wide_as_fast_ones_do() {
+    for speed in [0.1, 0.3, 1.0] {
+        let text = drop("film", "").replace(&format!("{SPEED:?}"), &format!("{speed:?}"));
+        let mut trial = Trial::new(&(text + &plate(300.0, "")));
+        (0..20).for_each(|_| trial.step(2e-4));
+        let part = -trial.get("drop.impulse_z") / (mass() * speed);
+        assert!((part - 1.0).abs() < 1e-4, "{speed} m/s: {part}");
+    }
+    let text = drop("film", "").replace("viscosity = 4e-3", "viscosity = 1e-4");
+    let mut trial = Trial::new(&(text.replace(&format!("{SPEED:?}"), "80.0") + TILES));
+    let widest = (0..400).map(|_| {
+        trial.step(1e-7);
+        trial.get("drop.spread_diameter")
+    });
+    let found = widest.fold(0.0, f64::max) / DIAMETER;
+    let (reynolds, weber): (f64, f64) = (8e4, 12_800.0);
+    let inertial = 0.87 * reynolds.powf(0.2) - 0.4 * reynolds.powf(0.4) / weber.sqrt();
+    let energetic = ((weber + 12.0) / (3.0 + 4.0 * weber / reynolds.sqrt())).sqrt();
+    let expected = inertial.max(energetic);
+    assert!(expected > 7.0 && off(found, expected) < 0.02, "{found} of {expected}");
+}
+
 /// The flow does not depend on temperatures, and conduction is linear.
 #[test]
 fn heat_is_in_proportion_to_the_difference_of_temperatures() {

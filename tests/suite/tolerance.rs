@@ -51,6 +51,30 @@ fn random_scenes_keep_their_tolerance() {
     }
 }
 
+/// Surroundings of 2000 K warm a half space by 3 K, which its flux does not feel: `2q√(t/(πkρc))`.
+#[test]
+fn a_face_that_radiates_and_nothing_else_keeps_the_tolerance() {
+    for material in MATERIALS {
+        let [density, heat, conductivity] = material;
+        let (rise, flux) = (3.0, 0.9 * 5.670374e-8 * (2000f64.powi(4) - 300f64.powi(4)));
+        let time =
+            std::f64::consts::PI * conductivity * density * heat * (0.5 * rise / flux).powi(2);
+        let thickness = 12.0 * (conductivity * time / (density * heat)).sqrt();
+        let radiates =
+            "[body.plate.faces]\ntop = { radiation = { emissivity = 0.9, ambient = 2000.0 } }\n";
+        let text = plate(&format!("box = [1.0, 1.0, {thickness:?}]"), material, radiates)
+            .replace("stop_time = 1.0", &format!("stop_time = {time:?}"))
+            .replace("step = 0.05", &format!("step = {:?}", time / 20.0));
+        let mut trial = Trial::new(&(text + &probe("\"temperature\"")));
+        (0..20).for_each(|_| trial.step(time / 20.0));
+        let found = trial.get("p.temperature") - 300.0;
+        assert!(off(found, rise) < 0.01, "{material:?}: {found}");
+        let estimate = trial.get("plate.estimated_error");
+        assert!(estimate > 0.0 && estimate <= 1e-2, "{material:?}: {estimate}");
+        assert!(trial.heat_residual("plate") < 1e-9);
+    }
+}
+
 #[test]
 fn a_half_space_keeps_the_tolerance_that_is_asked_for_by_the_closed_form() {
     for material in MATERIALS {

@@ -309,13 +309,14 @@ impl<'a> Fineness<'a> {
 
     /// Whether heat passes a face, by a condition or a load.
     fn is_heated(&self, face: FaceName) -> bool {
-        let Face { temperature, flux, convection, .. } = self.solid.face(face);
+        let Face { temperature, flux, convection, radiation, .. } = self.solid.face(face);
         let loaded = |r: &Refinement| {
             r.heats && face == if r.top { FaceName::Top } else { FaceName::Bottom }
         };
         temperature.is_some()
             || flux.is_some()
             || convection.is_some()
+            || radiation.is_some()
             || self.refinements.iter().any(loaded)
     }
 

@@ -10,6 +10,8 @@ const SAME: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Course {
     profiles: Vec<(Profile, Option<Tail>)>,
+    /// When each has given half of its heat [s].
+    half_times: Vec<f64>,
 }
 
 impl Course {
@@ -30,7 +32,9 @@ impl Course {
             let tail = profile.tail();
             (profile, tail)
         };
-        Ok(Self { profiles: profiles.into_iter().map(with_tail).collect() })
+        let profiles: Vec<_> = profiles.into_iter().map(with_tail).collect();
+        let half_times = profiles.iter().map(half_time).collect();
+        Ok(Self { profiles, half_times })
     }
 
     pub fn profiles(&self) -> impl Iterator<Item = &Profile> {
@@ -65,6 +69,14 @@ impl Course {
             profile.duration * profile.speed / speed + tail
         };
         self.weights(speed).into_iter().map(of).fold(0.0, f64::max)
+    }
+
+    /// When a drop has given half of what heat it gives [s]; never one that gives none.
+    pub fn half_time(&self, speed: f64) -> f64 {
+        let of = |(place, weight): (usize, f64)| {
+            weight * self.half_times[place] * self.profiles[place].0.speed / speed
+        };
+        self.weights(speed).into_iter().map(of).sum()
     }
 
     /// Largest diameter of the film [m].
@@ -121,6 +133,28 @@ impl Course {
         vec![(above - 1, 1.0 - share), (above, share)]
     }
 }
+
+/// When a drop has given half of what heat it gives [s], found by halving.
+fn half_time((profile, tail): &(Profile, Option<Tail>)) -> f64 {
+    let heat = |age: f64| {
+        let of_profile: f64 = profile.at(age).iter().map(|amounts| amounts.heat).sum();
+        of_profile + tail.as_ref().map_or(0.0, |tail| tail.heat(age - profile.duration))
+    };
+    let end = profile.duration + tail.as_ref().map_or(0.0, Tail::duration);
+    let half = 0.5 * heat(end);
+    if half <= 0.0 {
+        return f64::INFINITY;
+    }
+    let (mut low, mut high) = (0.0, end);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if heat(middle) < half { low = middle } else { high = middle }
+    }
+    high
+}
+
+/// To a thousandth of what lasts a million times as long.
+const HALVINGS: usize = 30;
 
 #[cfg(test)]
 mod tests {

@@ -2,10 +2,11 @@
 
 use super::experiment::tries_least_radii;
 use crate::body::fine_radius;
-use crate::material::{Material, Properties, Property};
+use crate::material::{Material, Properties, Property, radiative_coefficient};
 use crate::scene::{
-    Body, Carries, CellValues, Coupling, Droplet, FidelityLevel, Footprint, Gives, Load, LoadRange,
-    LoadStart, MaterialChoice, MeshFactors, PeakOf, Role, Scene, Solid, takes_newton,
+    Body, Carries, CellValues, Convection, Coupling, Droplet, Face, FidelityLevel, Footprint,
+    Gives, Load, LoadRange, LoadStart, MaterialChoice, MeshFactors, PeakOf, Radiation, Role, Scene,
+    Solid, takes_newton,
 };
 
 /// What of a body is estimated.
@@ -60,7 +61,10 @@ impl Twin {
         twin.solver.threads = 1;
         twin.fidelity.level = FidelityLevel::Full;
         if takes_newton(scene, solid) {
-            simplified.push("constants are those at the temperature at time zero, and nothing melts or radiates");
+            simplified.push(
+                "constants are those at the temperature at time zero, nothing melts, and faces radiate in proportion to \
+                 what they are warmer than their surroundings",
+            );
             if solid.melts() {
                 simplified.push(
                     "fronts are left out, which go from node to node: temperatures behind one err by up to half of an \
@@ -147,12 +151,25 @@ fn drops(scene: &Scene, name: &str) -> impl Iterator<Item = Load> {
     })
 }
 
+/// Lets a face that radiates convect what it would at a temperature [K]. One with a `flux` has that alone.
+fn convect(face: &mut Face, temperature: f64) {
+    let Some(Radiation { emissivity, ambient }) = face.radiation.take() else { return };
+    if face.flux.is_some() {
+        return;
+    }
+    let radiative = radiative_coefficient(emissivity, temperature, ambient);
+    let beside = face.convection.unwrap_or(Convection { coefficient: 0.0, ambient });
+    let coefficient = beside.coefficient + radiative;
+    if coefficient > 0.0 {
+        let ambient = (beside.coefficient * beside.ambient + radiative * ambient) / coefficient;
+        face.convection = Some(Convection { coefficient, ambient });
+    }
+}
+
 /// Makes constants numbers, those at the temperature at time zero.
 fn linearise(solid: &mut Solid) {
     let temperature = solid.initial_temperature;
-    for face in solid.faces.values_mut() {
-        face.radiation = None;
-    }
+    solid.faces.values_mut().for_each(|face| convect(face, temperature));
     let choices = solid
         .material
         .iter_mut()

@@ -1,16 +1,71 @@
-//! Drops of closed forms that say little of what they land on.
+//! Drops that are replayed and say little of what they land on.
 
 use super::{Path, Reviewer, number};
-use crate::scene::{Droplet, DropletMethod};
+use crate::scene::{Droplet, DropletMethod, Scene};
 
 pub fn review(reviewer: &mut Reviewer) {
     let scene = reviewer.scene;
-    let films = scene.droplets().filter(|(_, droplet)| droplet.method == DropletMethod::Film);
-    for (name, droplet) in films {
+    for (name, droplet) in scene.droplets().filter(|(_, droplet)| droplet.is_replayed()) {
         let path = Path::default().key("body").key(name).key("method");
-        insulated(reviewer, &path, (name, droplet));
-        depleted(reviewer, &path, (name, droplet));
+        thin(reviewer, &path, (name, droplet));
+        if droplet.method == DropletMethod::Film {
+            insulated(reviewer, &path, (name, droplet));
+            depleted(reviewer, &path, (name, droplet));
+        }
     }
+}
+
+/// Effusivities of layers of which the one may be taken for the other.
+const ALIKE: f64 = 1.25;
+
+/// Warns of drops on what is thinner than their heat goes while they cool: what is known of them was found on a half
+/// space, from which heat does not come back.
+fn thin(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
+    let Some((thickness, diffusivity)) = half_space(reviewer.scene, name) else { return };
+    let (speed, _) = droplet.contact(droplet.normal_speed());
+    if droplet.fluid.conductivity == 0.0 || speed <= 0.0 {
+        return;
+    }
+    let time = droplet.recorded_time(speed).max(cooling_time(reviewer.scene, (name, droplet)));
+    let depth = (4.0 * diffusivity * time.min(reviewer.scene.stop_time)).sqrt();
+    if depth <= thickness {
+        return;
+    }
+    let message = format!(
+        "temperatures and heat are expected to be off, temperatures up to beyond the drop's own: a drop of this method cools as \
+         on a half space of what it lands on, which is {thickness:.1e} m thick, and heat goes {depth:.1e} m deep while it \
+         does; did you mean `sph`?"
+    );
+    reviewer.warn(path, message);
+}
+
+/// Thickness [m] to which what lies below a droplet is much like its top, and the diffusivity of that [m²/s].
+fn half_space(scene: &Scene, name: &str) -> Option<(f64, f64)> {
+    scene.effusivity_below(name)?;
+    let coupling = &scene.coupling[scene.coupling_from(name)?];
+    let strata = scene.solid(coupling.solid()?)?.strata();
+    let top = strata.first()?.constants;
+    let is_alike = |effusivity: f64| {
+        let ratio = effusivity / top.effusivity();
+        ratio.max(1.0 / ratio) < ALIKE
+    };
+    let alike = strata.iter().take_while(|layer| is_alike(layer.constants.effusivity()));
+    Some((alike.map(|layer| layer.thickness()).sum(), top.diffusivity()))
+}
+
+/// Time in which the film of a drop cools [s]: `δ²/a` over the square of what part of its heat the wall takes up.
+fn cooling_time(scene: &Scene, (name, droplet): (&str, &Droplet)) -> f64 {
+    let fluid = &droplet.fluid;
+    let own = fluid.effusivity();
+    let taken = scene.effusivity_below(name).map_or(1.0, |below| below / (below + own));
+    let diffusivity = fluid.conductivity / (fluid.density * fluid.specific_heat);
+    thickness(droplet).powi(2) / (diffusivity * taken.powi(2))
+}
+
+/// Of the film that a drop becomes [m].
+fn thickness(droplet: &Droplet) -> f64 {
+    let spread = droplet.spread_diameter() / droplet.diameter;
+    2.0 / 3.0 * droplet.diameter / spread.powi(2)
 }
 
 /// Fourier number of a film over D/U from which on it has cooled through while its drop still comes down.
@@ -19,17 +74,12 @@ const COOLED: f64 = 0.25;
 /// Warns of films that have given their heat before fresh fluid has ceased to come: metals on what conducts. They are as
 /// thin from the first as they get.
 fn depleted(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
-    let fluid = &droplet.fluid;
     let (speed, _) = droplet.contact(droplet.normal_speed());
-    if fluid.conductivity == 0.0 || speed <= 0.0 {
+    if droplet.fluid.conductivity == 0.0 || speed <= 0.0 {
         return;
     }
-    let own = fluid.effusivity();
-    let taken = reviewer.scene.effusivity_below(name).map_or(1.0, |below| below / (below + own));
-    let spread = droplet.spread_diameter() / droplet.diameter;
-    let thickness = 2.0 / 3.0 * droplet.diameter / spread.powi(2);
-    let diffusivity = fluid.conductivity / (fluid.density * fluid.specific_heat);
-    let fourier = taken.powi(2) * diffusivity * droplet.diameter / speed / thickness.powi(2);
+    let cooling = cooling_time(reviewer.scene, (name, droplet));
+    let fourier = droplet.diameter / speed / cooling;
     if fourier < COOLED {
         return;
     }

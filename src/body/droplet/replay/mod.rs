@@ -193,6 +193,12 @@ impl Body for ReplayBody {
         Ok(self.given_of(exchange, falls))
     }
 
+    fn moments(&self, state: &[f64], path: &InputPath, duration: f64) -> Vec<f64> {
+        // What cannot be released is refused by the step.
+        let released = self.released(state, path, duration);
+        released.map_or(Vec::new(), |(released, _)| self.replay.moments(state, &released, duration))
+    }
+
     /// What another body got is told of the last exchange, however long the step.
     fn join_steps(&self, before: &[f64], state: &mut Vec<f64>) {
         if !matches!(self.below, Below::Body { .. }) {

@@ -22,8 +22,9 @@ pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {
         "each drop gives heat in proportion to its temperature above that of the wall where and when it comes down: \
          exact on a plate that is warm evenly; drops do not meet, and `overlapping` counts those that should have"
             .to_owned(),
-        "heat and force are known at any time, and act as means and slopes over communication steps, or over `interval` \
-         of the coupling: a drop feels those before it as of the beginning of its step"
+        "heat and force are known at any time, and act as means and slopes over communication steps, which are cut as a drop \
+         comes down and cools where they are longer than that takes, or over `interval` of the coupling: a drop feels those \
+         before it as of the beginning of its part of a step"
             .to_owned(),
     ];
     notes.extend(note_on_depth(scene, (name, droplet)));
