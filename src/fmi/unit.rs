@@ -8,6 +8,8 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 
+mod warnings;
+
 use super::MARK;
 use super::guid;
 use super::legality::{Function, Phase};
@@ -23,7 +25,7 @@ use crate::model::{
     BodyError, Cache, Kept, KeptReduction, Model, ModelError, State, Stiffness, Tangent,
     initial_inputs, keep_record, keep_reduction, to_be_recorded,
 };
-use crate::output::{FieldSeries, FolderLock, OutputError};
+use crate::output::{FieldSeries, FolderLock};
 use crate::scene::{self, Scene, Warning};
 use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
 
@@ -71,8 +73,9 @@ pub struct Unit {
     said: BTreeSet<String>,
     /// Inputs at the beginning of the last step, where what they become next may tell of it; nothing after a jump back.
     told: Option<Vec<f64>>,
-    /// Whether the last step was no shorter than the meshes tell: a single short one follows no jump.
-    was_long: bool,
+    /// Whether the last step was no shorter than the meshes tell, and no input has been set otherwise since: a single short
+    /// one follows no jump then.
+    is_settled: bool,
     /// The files of fields, in a folder that is written by nobody else meanwhile.
     pub(super) series: Option<(FieldSeries, FolderLock)>,
     /// Ends the step under way, from another thread.
@@ -158,10 +161,6 @@ fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
     Ok(packed)
 }
 
-/// The subject of warnings of steps that are too short.
-const SHORT_STEPS: &str = "short steps";
-/// The subject of warnings of walls that are held and answer all the same.
-const HELD_WALL: &str = "held wall";
 /// Folders among a unit's resources, which not every unit has: of recorded drops, and of reduced solids.
 const RECORDS: &str = "records";
 const REDUCTIONS: &str = "reduced";
@@ -208,7 +207,7 @@ impl Unit {
             warnings,
             said: BTreeSet::new(),
             told: None,
-            was_long: false,
+            is_settled: false,
             series: None,
             interrupt: Interrupt::default(),
             control: Rc::default(),
@@ -264,24 +263,11 @@ impl Unit {
         Ok(Status::Ok)
     }
 
-    /// Warns of what is known of drops and of what melts only as a run ends, where there is room to look.
-    fn warn_at_end(&mut self) {
-        let Some(model) = self.run.as_ref().map(|run| Arc::clone(&run.model)) else { return };
-        let has_drops = self.scene.droplets().next().is_some();
-        let melts = self.scene.solids().any(|(_, solid)| solid.melts());
-        if !(has_drops || melts) || self.expect_room().is_err() {
-            return;
-        }
-        let state = &self.state;
-        let warnings = aside(|| model.closing_warnings(state));
-        self.warn_once(warnings);
-    }
-
     /// Back to the start values, as after fmi2Instantiate; log settings and saved states stay.
     pub fn reset(&mut self) -> Answer {
         self.drop_run();
         self.forget_answers();
-        self.was_long = false;
+        self.is_settled = false;
         self.series = None;
         self.texts.clear();
         self.scene = self.packed.clone();
@@ -308,7 +294,6 @@ impl Unit {
         self.check_step(point, step)?;
         let registry = Arc::clone(&self.registry);
         let has_set = self.has_set_derivatives;
-        let is_told = self.said.contains(SHORT_STEPS);
         let told = self.told.take();
         let listens = self.listens_to_answers();
         let (interrupt, control) = (self.interrupt.clone(), Rc::clone(&self.control));
@@ -334,29 +319,12 @@ impl Unit {
         run.tangent = None;
         run.checked &= !has_set;
         let warnings = run.model.warnings(state);
-        let on_step = if is_told { None } else { run.model.warning_on_step(step) };
-        let was_long = std::mem::replace(&mut self.was_long, on_step.is_none());
         self.told = told;
         self.warn_once(warnings);
-        if let Some(message) = on_answer {
-            self.warn_once_of(HELD_WALL, &message);
-        }
-        if let Some(message) = on_step.filter(|_| !was_long) {
-            self.warn_once_of(SHORT_STEPS, &message);
-        }
+        self.warn_of_answer(on_answer);
+        self.warn_of_length(step);
         self.has_set_derivatives = false;
         Ok(self.write_fields())
-    }
-
-    /// Whether inputs may be answers to a step that took them as held, and nothing has been said of that yet.
-    fn listens_to_answers(&self) -> bool {
-        let is_held = self.scene.wall.iter().any(|wall| wall.effusivity.is_none());
-        is_held && !self.said.contains(HELD_WALL)
-    }
-
-    /// Forgets what the last step began with, as what comes is no answer to it.
-    pub(super) fn forget_answers(&mut self) {
-        self.told = None;
     }
 
     /// Drops the derivatives of inputs that the last step ended with, unless they were set since.
@@ -462,40 +430,10 @@ impl Unit {
         })
     }
 
-    /// Warns once of what is implausible in the scene with its parameters, now that they are fixed.
-    fn warn_of_scene(&mut self) {
-        let changed = self.scene != self.packed;
-        let warnings = match changed {
-            true => aside(|| scene::warnings(&self.scene)),
-            false => self.warnings.clone(),
-        };
-        for warning in warnings {
-            if self.said.insert(warning.subject()) {
-                self.log.send(Status::Warning, &warning.to_string());
-            }
-        }
-    }
-
     /// Refuses to look at the state, or to copy it, where there is too little address space for that.
     pub(super) fn expect_room(&self) -> Answer<()> {
         let room = |run: &Run| run.model.room(&self.state);
         expect_room(self.run.as_ref().map_or(0, room))
-    }
-
-    /// Warns of a subject unless there was a warning of it before.
-    pub(super) fn warn_once_of(&mut self, subject: &str, message: &str) {
-        if self.said.insert(subject.to_owned()) {
-            self.log.send(Status::Warning, message);
-        }
-    }
-
-    fn warn_once(&mut self, messages: Vec<String>) {
-        for message in messages {
-            if !self.said.contains(&message) {
-                self.log.send(Status::Warning, &message);
-                self.said.insert(message);
-            }
-        }
     }
 
     /// The model of a scene with parameters.
@@ -510,6 +448,7 @@ impl Unit {
 
     /// Drops all that followed from other inputs.
     pub(super) fn forget_past_inputs(&mut self) {
+        self.is_settled = false;
         self.forget_past_derivatives();
         if let Some(run) = &mut self.run {
             run.cache.expect_inputs();
@@ -565,13 +504,6 @@ impl Unit {
             Ok(()) => Status::Ok,
             Err(error) => self.warn_of_output(&error),
         }
-    }
-
-    /// The computation is fine, so files that cannot be written are no error.
-    pub(super) fn warn_of_output(&self, error: &OutputError) -> Status {
-        let message = format!("output.directory {:?}: {error}", self.directory);
-        self.log.send(Status::Warning, &message);
-        Status::Warning
     }
 }
 

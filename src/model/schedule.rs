@@ -55,7 +55,8 @@ impl Exchange {
 /// A part of a step for a group: the inputs from its beginning on, and its length [s].
 pub(super) type Part<'a> = (&'a InputPath, f64);
 
-/// Shortest part of a step that is cut where bodies ask for it.
+/// Most parts of a step that is cut where bodies ask for it, and the shortest over the step.
+const MOST_PARTS: usize = 64;
 const SHORTEST: f64 = 1e-6;
 
 impl Model {
@@ -130,9 +131,11 @@ impl Model {
         let moments = above.flat_map(|body| self.bodies[body].moments(&states[body], path, dt));
         let mut moments: Vec<f64> = moments.collect();
         moments.sort_by(f64::total_cmp);
+        // Of many, as under a printer in a long step, those that are farther apart.
+        let apart = if moments.len() < MOST_PARTS { SHORTEST } else { 1.0 / MOST_PARTS as f64 };
         let (mut parts, mut start) = (Vec::new(), 0.0);
         for moment in moments {
-            if moment - start > SHORTEST * dt && dt - moment > SHORTEST * dt {
+            if moment - start > apart * dt && dt - moment > apart * dt {
                 parts.push(moment - start);
                 start = moment;
             }

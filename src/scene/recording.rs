@@ -67,12 +67,9 @@ impl Droplet {
 
     /// Time after the contact that is known of drops that are replayed [s].
     pub fn recorded_time(&self, speed: f64) -> f64 {
-        let capillary = self.fluid.surface_tension / (self.fluid.density * 0.5 * self.diameter);
-        let usual = RECORDED * self.diameter / speed.max(capillary.sqrt());
-        let default = match self.has_particles() {
-            true => usual,
-            false => usual.max(DropImpact { speed, ..self.impact() }.time_to_rest()),
-        };
+        let impact = DropImpact { speed, ..self.impact() };
+        let usual = RECORDED * impact.time();
+        let default = if self.has_particles() { usual } else { usual.max(impact.time_to_rest()) };
         self.record.as_ref().and_then(|record| record.duration).unwrap_or(default)
     }
 }

@@ -481,7 +481,7 @@ fn replayed_drops_on_what_is_thinner_than_their_heat_goes_are_warned_of() {
     }
 }
 
-/// Under mercury, tin and steel on metals films are 39 % to 87 % too cool in the middle, under water they are not.
+/// Under mercury, tin and steel on metals films are 39 % to 86 % too cool in the middle, under water they are not.
 #[test]
 fn films_that_cool_through_while_their_drop_comes_down_are_warned_of() {
     let said = |row: FluidRow, effusivity: f64| {

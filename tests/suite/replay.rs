@@ -102,8 +102,8 @@ fn slow_drops_give_what_their_particles_give_to_conductors_and_insulators() {
     }
 }
 
-/// What is given within a step that is far longer than a drop takes to cool reaches the plate when it should: one step and
-/// two hundred leave it as warm. So do steps that begin while drops cool, and several drops.
+/// What is given within a step that is far longer than a drop takes to come down or to cool reaches the plate when it
+/// should: one step and two hundred leave it as warm. So do steps that begin while drops cool, and several drops.
 #[test]
 fn steps_far_longer_than_drops_take_to_cool_leave_plates_as_warm() {
     const GLASS: &str = "density = 2500.0, specific_heat = 800.0, conductivity = 1.0";
@@ -120,15 +120,21 @@ fn steps_far_longer_than_drops_take_to_cool_leave_plates_as_warm() {
              [\"temperature\"]\n",
             drop(method, keys)
         );
-        let risen = |count: usize| {
-            let mut trial = Trial::new(&text);
-            (0..count).for_each(|_| trial.step(8e-3 / count as f64));
-            trial.get("centre.temperature") - 300.0
-        };
-        let fine = risen(200);
-        for count in [1, 3] {
-            let found = risen(count);
-            assert!(off(found, fine) < 0.01, "{method} {material} {count}: {found} K of {fine} K");
+        // 50 and 1600 D/U.
+        for time in [2.5e-4, 8e-3] {
+            let risen = |count: usize| {
+                let mut trial = Trial::new(&text);
+                (0..count).for_each(|_| trial.step(time / count as f64));
+                trial.get("centre.temperature") - 300.0
+            };
+            let fine = risen(200);
+            for count in [1, 3] {
+                let found = risen(count);
+                assert!(
+                    off(found, fine) < 0.01,
+                    "{method} {material} {time} {count}: {found} {fine}"
+                );
+            }
         }
     }
 }

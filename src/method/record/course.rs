@@ -10,8 +10,8 @@ const SAME: f64 = 1e-6;
 #[derive(Debug, Clone, PartialEq)]
 pub struct Course {
     profiles: Vec<(Profile, Option<Tail>)>,
-    /// When each has given half of its heat [s].
-    half_times: Vec<f64>,
+    /// Ages of each between which its heat changes little enough to be told by a mean and a slope [s].
+    turns: Vec<Vec<f64>>,
 }
 
 impl Course {
@@ -33,8 +33,8 @@ impl Course {
             (profile, tail)
         };
         let profiles: Vec<_> = profiles.into_iter().map(with_tail).collect();
-        let half_times = profiles.iter().map(half_time).collect();
-        Ok(Self { profiles, half_times })
+        let turns = profiles.iter().map(turns).collect();
+        Ok(Self { profiles, turns })
     }
 
     pub fn profiles(&self) -> impl Iterator<Item = &Profile> {
@@ -71,12 +71,12 @@ impl Course {
         self.weights(speed).into_iter().map(of).fold(0.0, f64::max)
     }
 
-    /// When a drop has given half of what heat it gives [s]; never one that gives none.
-    pub fn half_time(&self, speed: f64) -> f64 {
-        let of = |(place, weight): (usize, f64)| {
-            weight * self.half_times[place] * self.profiles[place].0.speed / speed
-        };
-        self.weights(speed).into_iter().map(of).sum()
+    /// Ages of a drop between which its heat changes little enough to be told by a mean and a slope [s]; none of a drop
+    /// that gives no heat.
+    pub fn turns(&self, speed: f64) -> impl Iterator<Item = f64> {
+        let (place, _) = self.weights(speed).swap_remove(0);
+        let ratio = self.profiles[place].0.speed / speed;
+        self.turns[place].iter().map(move |age| ratio * age)
     }
 
     /// Largest diameter of the film [m].
@@ -155,6 +155,27 @@ fn half_time((profile, tail): &(Profile, Option<Tail>)) -> f64 {
 
 /// To a thousandth of what lasts a million times as long.
 const HALVINGS: usize = 30;
+
+/// The first, over what the profile lasts: while its drop comes down.
+const FIRST: f64 = 0.1;
+/// Ages over that at which half of the heat has been given: what is left in a film falls to a tenth in five of it.
+const COOLING: [f64; 12] = [1.0, 2.0, 4.0, 6.0, 8.0, 10.0, 15.0, 30.0, 60.0, 120.0, 1e3, 1e4];
+
+/// Ages that double until half of the heat has been given, as fluxes fall like 1/√t until then, and on as a film cools.
+fn turns(known: &(Profile, Option<Tail>)) -> Vec<f64> {
+    let half = half_time(known);
+    if half.is_infinite() {
+        return Vec::new();
+    }
+    let mut age = FIRST * known.0.duration;
+    let mut ages = Vec::new();
+    while age < half {
+        ages.push(age);
+        age *= 2.0;
+    }
+    ages.extend(COOLING.map(|times| times * half));
+    ages
+}
 
 #[cfg(test)]
 mod tests {

@@ -156,27 +156,19 @@ impl Replay {
         }
     }
 
-    /// Moments within a step of this length [s] at which the wall should be asked anew: as drops that give half of their
-    /// heat in less than a quarter of it touch down, and as they cool. None of steps in which many do.
+    /// Moments within a step of this length [s] at which the wall should be asked anew: as drops touch down, and as they
+    /// cool.
     pub fn moments(&self, state: &[f64], released: &[Falling], duration: f64) -> Vec<f64> {
         let (ledger, drops) = self.of(state);
         let known = drops.iter().map(|drop| (drop.contact, drop.speed));
         let further = released.iter().map(|falling| (falling.contact, falling.speed));
-        let mut moments: Vec<f64> = Vec::new();
-        for (contact, speed) in known.chain(further) {
-            let (touched, half) = (contact - ledger.time, self.plan.course.half_time(speed));
-            if half * QUICK >= duration {
-                continue;
-            }
-            let later = COOLING.map(|age| touched + age * half).into_iter();
-            moments.extend(
-                std::iter::once(touched).chain(later).filter(|at| (0.0..duration).contains(at)),
-            );
-        }
-        if moments.len() > MOST_MOMENTS {
-            return Vec::new();
-        }
-        moments
+        let of_drop = |(contact, speed): (f64, f64)| {
+            let touched = contact - ledger.time;
+            let turns = self.plan.course.turns(speed).map(move |age| touched + age);
+            std::iter::once(touched).chain(turns)
+        };
+        let moments = known.chain(further).flat_map(of_drop);
+        moments.filter(|moment| (0.0..duration).contains(moment)).collect()
     }
 
     /// Radius that a drop comes to cover [m].
@@ -312,11 +304,6 @@ impl Replay {
 
 /// Relative rounding of times and places.
 const ROUNDING: f64 = 1e-9;
-/// A step so many times as long as a drop takes to give half of its heat is cut.
-const QUICK: f64 = 4.0;
-/// Ages at which it is, over that time: what is left in a film falls to a tenth in five of it.
-const COOLING: [f64; 12] = [1.0, 2.0, 4.0, 6.0, 8.0, 10.0, 15.0, 30.0, 60.0, 120.0, 1e3, 1e4];
-const MOST_MOMENTS: usize = 48;
 
 fn minus(after: &Amounts, before: &Amounts) -> [f64; 2] {
     [after.push - before.push, after.outward - before.outward]
