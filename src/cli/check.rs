@@ -2,10 +2,10 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use impinge::machine::available_memory;
+use impinge::machine::{Usage, available_memory};
 use impinge::model::tolerance::estimate::OutputError;
 use impinge::model::tolerance::{self, BodyEstimate, percent};
-use impinge::model::{Model, ParticleForecast, Timeline, check_memory, forecast};
+use impinge::model::{Forecast, Model, ParticleForecast, Timeline, check_memory, forecast};
 use impinge::scene::{
     self, Coupling, Droplet, Face, Field, Load, MaterialChoice, Probe, Scene, Shape, Solid, Wall,
 };
@@ -29,11 +29,13 @@ pub struct Check {
 impl Check {
     /// Reports on the scene.
     pub fn execute(&self) -> Result<String, CliError> {
+        let begun = Usage::now();
         let (scene, warnings) = scene::read_with_warnings(&self.scene)?;
         super::warn(&warnings);
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
         let levels = tolerance::levels(&scene, available_memory());
         let (scene, estimates) = tolerance::estimates(&levels.scene);
+        let preparation = Preparation { begun, done: Usage::now() };
         for warning in tolerance::warnings(&scene, &estimates) {
             super::print_message("warning", &warning);
         }
@@ -52,7 +54,7 @@ impl Check {
             ("Fields", fields(&scene)),
             ("Walls", walls(&scene)),
             ("Couplings", couplings(&scene)),
-            ("Model", notes(&scene)),
+            ("Model", notes(&scene, &preparation)),
             ("Errors by the mesh", errors(&estimates)),
         ];
         let mut text = head(&scene);
@@ -65,11 +67,45 @@ impl Check {
     }
 }
 
+/// What this process used to choose and judge meshes, which a run does as well before it builds its model.
+struct Preparation {
+    begun: Usage,
+    done: Usage,
+}
+
+impl Preparation {
+    /// Processor time [s], which is the time on an idle machine: trials take one thread.
+    fn time(&self) -> f64 {
+        self.done.processor_time - self.begun.processor_time
+    }
+
+    /// Memory of a process that prepares and then holds so much data [B]: trials are given up before models are built.
+    fn process_memory(&self, data: f64) -> f64 {
+        self.done.peak_memory.max(self.begun.peak_memory + data)
+    }
+
+    /// The cost of a run in words: that of its preparation and that of its model.
+    fn cost(&self, forecast: &Forecast) -> String {
+        let total = forecast.run_time() + self.time();
+        let memory = self.process_memory(forecast.memory()) / 1e6;
+        let of_it = match self.time() {
+            time if time > NOTABLE * total => {
+                format!(", {} of it to choose and judge meshes", lasting(time))
+            }
+            _ => String::new(),
+        };
+        format!("`impinge run` takes about {} on idle cores{of_it}, and {memory:.0} MB", lasting(total))
+    }
+}
+
+/// Part of a run from which on the time of its preparation is told.
+const NOTABLE: f64 = 0.1;
+
 /// What the model will cost and what was chosen, without building it.
-fn notes(scene: &Scene) -> String {
+fn notes(scene: &Scene, preparation: &Preparation) -> String {
     let mut text = String::new();
     let forecast = forecast(scene);
-    let run_time = forecast.run_time();
+    let cost = preparation.cost(&forecast);
     for body in forecast.bodies {
         let [columns, rows, layers] = body.nodes;
         let [heat, mechanics] = body.unknowns;
@@ -134,7 +170,7 @@ fn notes(scene: &Scene) -> String {
             let _ = writeln!(text, "    - {note}");
         }
     }
-    let _ = writeln!(text, "  `impinge run` takes about {} on idle cores", lasting(run_time));
+    let _ = writeln!(text, "  {cost}");
     text
 }
 

@@ -356,10 +356,12 @@ impl Running<'_> {
         Ok(())
     }
 
-    /// The heat balance and the extremes; warns on standard error if the heat does not add up.
+    /// Returns the heat balances, what probes read, and the extremes; warns on standard error if heat is missing.
     fn report(&mut self) -> Result<String, CliError> {
         let named = |error| CliError::from_model(error, self.model.scene());
         self.look_at_balances().map_err(named)?;
+        let probes =
+            summary::probes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let extremes =
             summary::extremes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let peaks =
@@ -373,8 +375,9 @@ impl Running<'_> {
             super::print_message("warning", &warning);
         }
         let balances = summary::balance_table(&self.balances);
-        let peaks = if peaks.is_empty() { peaks } else { format!("\n{peaks}") };
-        Ok(format!("{balances}\n{extremes}{peaks}"))
+        let tables = [balances, probes, extremes, peaks];
+        let tables: Vec<_> = tables.into_iter().filter(|table| !table.is_empty()).collect();
+        Ok(tables.join("\n"))
     }
 }
 

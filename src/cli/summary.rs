@@ -1,3 +1,5 @@
+use std::fmt::Write;
+
 use impinge::body::{PeakPart, Reading};
 use impinge::model::{Cache, Model, ModelError, State};
 use impinge::variables::{Output, Quantity, Registry, Slot, Variable};
@@ -9,6 +11,9 @@ use super::units::{engineering, kelvin};
 const BALANCED: f64 = 1e-9;
 /// The same where particles conduct: on graded meshes they keep heat only approximately.
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
+
+/// Most values of probes that a run's report lists.
+const MOST_PROBED: usize = 40;
 
 /// Where the heat of a body went [J].
 #[derive(Debug, Clone, PartialEq)]
@@ -95,6 +100,32 @@ pub fn balances(
 pub fn balance_table(balances: &[Balance]) -> String {
     let rows: Vec<_> = balances.iter().map(Balance::row).collect();
     table(["body", "heat in", "stored", "lost", "residual"], &rows)
+}
+
+/// Returns what probes read at `state` as a table, in the order of the scene; nothing where there are no probes.
+pub fn probes_table(model: &Model, state: &State, cache: &mut Cache) -> Result<String, ModelError> {
+    let mut rows = Vec::new();
+    let mut further = 0;
+    for variable in Registry::of(model.scene()).variables {
+        let Slot::Output(output) = &variable.slot else { continue };
+        let Some(quantity) = variable.quantity else { continue };
+        match output.reading {
+            Reading::Point { alone: true, .. } if rows.len() < MOST_PROBED => {
+                let value = model.output(state, cache, output)?;
+                rows.push([variable.name.clone(), shown(value, quantity)]);
+            }
+            Reading::Point { alone: true, .. } => further += 1,
+            _ => {}
+        }
+    }
+    if rows.is_empty() {
+        return Ok(String::new());
+    }
+    let mut text = table(["probes at the end", "value"], &rows);
+    if further > 0 {
+        let _ = writeln!(text, "  {further} more in the table of outputs");
+    }
+    Ok(text)
 }
 
 /// The extremes of each solid and the totals of each droplet at `state` as a table.

@@ -1,9 +1,12 @@
 //! What the machine has left: the one thing that a run depends on and no scene says.
 
 mod allocator;
+mod usage;
 
 use std::fs;
 use std::path::Path;
+
+pub use usage::Usage;
 
 /// Memory that this process may still take [B], as far as the system tells; without end where it does
 /// not.

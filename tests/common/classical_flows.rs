@@ -135,7 +135,7 @@ pub fn tilted_lattice(m: usize) -> (f64, Vec<[f64; 2]>) {
 }
 
 /// Flow between plates at distance H = 1 m under a pressure gradient of 10 Pa/m, viscosity 1 mPa s
-/// (Park 2024, §2.4.5.2), from rest. The density, which no steady shear depends on, makes the
+/// (Park 2019, §2.4.5.2), from rest. The density, which no steady shear depends on, makes the
 /// Reynolds number of the largest velocity 10.
 pub struct Poiseuille;
 

@@ -1,5 +1,6 @@
 """What the documentation tells to type does what it says."""
 
+import logging
 import re
 import shlex
 import subprocess
@@ -14,7 +15,22 @@ from impinge.adapt.cli import main
 from impinge.linear import plan
 from impinge.unit.build import find_program
 
-DOCS = Path(__file__).parents[2] / "docs"
+ROOT = Path(__file__).parents[2]
+DOCS = ROOT / "docs"
+
+
+def test_the_coupled_snippet_of_the_readme_runs_without_a_warning(monkeypatch, caplog, recwarn, capsys):
+    """The drop heats the rings below its contact; none is hotter than the drop or colder than the plate."""
+    monkeypatch.chdir(ROOT)
+    blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / "README.md").read_text(), re.M | re.S)
+    (snippet,) = [block for block in blocks if "Master" in block]
+    names = {}
+    exec(snippet, names)
+    assert [record.message for record in caplog.records if record.levelno >= logging.WARNING] == []
+    assert [str(warning.message) for warning in recwarn] == []
+    rings = names["result"]["plate.face.temperature"].values
+    assert 505 < rings[-1, 0] < 573.15 and rings.min() > 493.15 - 1e-6
+    assert "K" in capsys.readouterr().out
 
 
 def test_examples_of_the_adapter_run_and_keep_their_heat(tmp_path, monkeypatch, capsys):

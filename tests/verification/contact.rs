@@ -11,7 +11,7 @@ use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Release, Wall, WallCells,
 };
 
-/// The case of Park (2024), §2.4.6.
+/// The case of Park (2019), §2.4.6.
 const HOT: f64 = 373.15;
 const COLD: f64 = 293.15;
 const TIME: f64 = 3.5e-6;

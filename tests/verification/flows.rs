@@ -1,4 +1,4 @@
-//! Classical flows of the droplet engine: between plates (Park 2024, §2.4.5.2), Taylor–Green's
+//! Classical flows of the droplet engine: between plates (Park 2019, §2.4.5.2), Taylor–Green's
 //! vortices, water at rest, a rotating square, and the break of a dam.
 
 use impinge::method::sph::{Extent, ParticleFields, WallCells};

@@ -1,4 +1,4 @@
-//! Heat by particles: the operators alone, the cases of Park (2024) §2.4.5, and bodies of particles
+//! Heat by particles: the operators alone, the cases of Park (2019) §2.4.5, and bodies of particles
 //! beside the same bodies of finite elements.
 
 use std::time::Instant;

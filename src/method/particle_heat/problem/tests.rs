@@ -131,7 +131,7 @@ fn a_flux_into_a_slab_converges_at_second_order_with_the_corrected_operator_alon
     assert!((plain[1] / plain[2]).log2() < 0.5, "{plain:?}");
 }
 
-/// A rod of unit length and diffusivity, its left end suddenly at one: Park (2024) Fig. 2.7.
+/// A rod of unit length and diffusivity, its left end suddenly at one: Park (2019) Fig. 2.7.
 #[test]
 fn a_sudden_end_temperature_converges_with_the_corrected_operator_alone() {
     let exact =

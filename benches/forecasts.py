@@ -1,0 +1,176 @@
+"""What `impinge check` forecasts of a run, compared with the run: processor time and peak memory, on one thread.
+
+    python benches/forecasts.py [NAME …]
+
+Each of some twenty scenes runs once as a process of its own. `time` is its processor time, which an idle machine
+takes as wall time; `memory` is its peak resident set. Ratios are measured over forecast.
+"""
+
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parents[1]
+RELEASE = PROJECT / "target/release"
+
+EXAMPLES = (
+    "alumina_plate/scene.toml",
+    "coated_plate/scene.toml",
+    "heated_bed/scene.toml",
+    "moving_spot/scene.toml",
+    "printed_line/scene.toml",
+    "printer_control/bed.toml",
+    "droplet_on_plate_two_units/together.toml",
+    "droplet_unit/scene.toml",
+    "droplet_impact/scene.toml",
+    "stress_study/scene.toml",
+)
+STEEL = "density = 7850.0, specific_heat = 470.0, conductivity = 45.0"
+ELASTIC = "young = 210e9, poisson = 0.3, expansion = 12e-6"
+WATER = "density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6, surface_tension = 0.072"
+TIN = "density = 6970.0, viscosity = 1.85e-3, specific_heat = 244.0, conductivity = 33.0, surface_tension = 0.544"
+HONEY = "density = 1420.0, viscosity = 5.0, specific_heat = 2400.0, conductivity = 0.35, surface_tension = 0.06"
+CENTRE = '[[probe]]\nname = "centre"\nin = "plate"\nat = [0.0, 0.0, 0.0]\ngives = {gives}\n'
+
+
+def head(name: str, stop: float, step: float) -> str:
+    return f'name = "{name}"\nstop_time = {stop:e}\nstep = {step:e}\n'
+
+
+def solid(shape: str, material: str, more: str = "", gives: str = '["temperature", "stress"]') -> str:
+    return (
+        f'[body.plate]\nkind = "solid"\nshape = {{ {shape} }}\nmaterial = {{ {material} }}\n'
+        f"initial_temperature = 300.0\n{more}{CENTRE.format(gives=gives)}"
+    )
+
+
+def spot(radius: float, flux: float) -> str:
+    return (
+        f'[[load]]\nname = "spot"\non = "plate.top"\nfootprint = {{ disc = {{ radius = {radius:e} }} }}\n'
+        f'carries = ["heat_flux"]\nstart = {{ heat_flux = {flux:e} }}\n'
+    )
+
+
+def droplet(fluid: str, diameter: float, speed: float, across: float, more: str = "") -> str:
+    spacing = "" if across == 0 else f"spacing = {diameter / across:e}\n"
+    return (
+        f'[body.drop]\nkind = "droplet"\ndiameter = {diameter:e}\nimpact_velocity = {speed}\n'
+        f"initial_temperature = 350.0\n{spacing}fluid = {{ {fluid} }}\n{more}"
+        '[[coupling]]\nfrom = "drop"\nto = "plate.top"\n'
+    )
+
+
+THERMAL = f'model = "thermoelastic", {STEEL}'
+ELASTIC_STEEL = f'model = "thermoelastic", {STEEL}, {ELASTIC}'
+YIELDING = f'model = "elastoplastic", {STEEL}, {ELASTIC}, yield_stress = 250e6, isotropic_hardening = 2e9'
+MELTING = f"{THERMAL}, melting = {{ solidus = 1700.0, liquidus = 1750.0, latent_heat = 2.7e5 }}"
+DISC = "disc = { radius = 2e-3, thickness = 0.5e-3 }"
+BOX = "box = [4e-3, 4e-3, 0.5e-3]"
+ONLY_HEAT = '["temperature"]'
+
+SCENES = {
+    "disc, heat": head("A", 1e-2, 1e-3) + solid(DISC, THERMAL, gives=ONLY_HEAT) + spot(2e-4, 1e7),
+    "disc, tight tolerance": head("B", 1e-2, 1e-3)
+    + "fidelity = { tolerance = 1e-3 }\n"
+    + solid(DISC, ELASTIC_STEEL)
+    + spot(2e-4, 1e7),
+    "box, tight tolerance": head("C", 1e-2, 1e-3)
+    + "fidelity = { tolerance = 2e-3 }\n"
+    + solid(BOX, THERMAL, gives=ONLY_HEAT)
+    + spot(2e-4, 1e7),
+    "box, stress": head("D", 1e-2, 1e-3) + solid(BOX, ELASTIC_STEEL) + spot(2e-4, 1e7),
+    "disc, yielding": head("E", 1e-2, 5e-4) + solid(DISC, YIELDING) + spot(2e-4, 3e8),
+    "box, melting": head("F", 2e-3, 1e-4) + solid(BOX, MELTING, gives=ONLY_HEAT) + spot(3e-4, 1e9),
+    "water on a disc": head("G", 2e-4, 1e-5)
+    + solid(DISC, THERMAL, gives=ONLY_HEAT)
+    + droplet(WATER, 2e-4, 3.0, 30),
+    "tin on a box": head("H", 2e-4, 1e-5)
+    + solid(BOX, THERMAL, gives=ONLY_HEAT)
+    + droplet(TIN, 2e-4, 3.0, 20),
+    "honey on a disc": head("I", 2e-4, 1e-5)
+    + solid(DISC, THERMAL, gives=ONLY_HEAT)
+    + droplet(HONEY, 2e-4, 3.0, 20),
+    "recorded drops": head("J", 2e-2, 1e-4)
+    + solid(BOX, THERMAL, gives=ONLY_HEAT)
+    + droplet(WATER, 1e-4, 3.0, 20, 'method = "record"\ntrain = { count = 100, interval = 1e-4 }\n'),
+    "films": head("K", 2e-2, 1e-4)
+    + solid(BOX, THERMAL, gives=ONLY_HEAT)
+    + droplet(WATER, 1e-4, 3.0, 0, 'method = "film"\ntrain = { count = 100, interval = 1e-4 }\n'),
+}
+
+
+def scenes(folder: Path) -> dict[str, Path]:
+    """All scenes as files."""
+    found = {name: PROJECT / "examples" / name for name in EXAMPLES}
+    for name, text in SCENES.items():
+        found[name] = folder / (re.sub(r"\W+", "_", name) + ".toml")
+        found[name].write_text(text)
+    return {name: on_one_thread(path, folder) for name, path in found.items()}
+
+
+def on_one_thread(path: Path, folder: Path) -> Path:
+    """A copy of a scene that takes one thread."""
+    copy = folder / f"one_thread_{path.parent.name}_{path.name}"
+    copy.write_text("solver = { threads = 1 }\n" + path.read_text())
+    return copy
+
+
+UNITS = {"ns": 1e-9, "µs": 1e-6, "ms": 1e-3, "s": 1.0, "minutes": 60.0, "hours": 3600.0, "days": 86400.0}
+
+
+def seconds(text: str) -> float:
+    """A duration as `impinge check` writes it [s]."""
+    number, unit = re.fullmatch(r"([\d.e-]+) ?(\w+)", text).groups()
+    return float(number) * UNITS[unit]
+
+
+def forecast(scene: Path) -> tuple[float, float]:
+    """Time [s] and memory [MB] as forecast."""
+    report = subprocess.run([RELEASE / "impinge", "check", scene], capture_output=True, text=True)
+    if report.returncode:
+        raise SystemExit(report.stderr)
+    time, memory = re.search(r"`impinge run` takes about (.+?) on idle cores(?:.*, and (.+?) MB)?", report.stdout).groups()
+    if memory is None:
+        memory = sum(float(m) for m in re.findall(r"about (\d+) MB", report.stdout))
+    return seconds(time), float(memory)
+
+
+def measured(scene: Path, folder: Path) -> tuple[float, float]:
+    """Processor time [s] and peak resident memory [MB] of a run."""
+    command = [RELEASE / "impinge", "run", scene, "--out", folder / "out", "--overwrite"]
+    code = (
+        "import resource, subprocess, sys\n"
+        "done = subprocess.run(sys.argv[1:], capture_output=True, text=True)\n"
+        "used = resource.getrusage(resource.RUSAGE_CHILDREN)\n"
+        "print(used.ru_utime + used.ru_stime, used.ru_maxrss / 1e3)\n"
+        "sys.exit(done.stderr if done.returncode else 0)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code, *command], capture_output=True, text=True)
+    if done.returncode:
+        raise SystemExit(done.stderr)
+    time, memory = done.stdout.split()
+    return float(time), float(memory)
+
+
+def main() -> None:
+    wanted = sys.argv[1:]
+    print(f"{'scene':<42} {'time, s':>9} {'forecast':>9} {'ratio':>6} {'memory, MB':>11} {'forecast':>9} {'ratio':>6}")
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        for scene, path in scenes(folder).items():
+            if wanted and not any(part in scene for part in wanted):
+                continue
+            said, space = forecast(path)
+            time, memory = measured(path, folder)
+            print(
+                f"{scene:<42} {time:9.2f} {said:9.2f} {time / said:6.2f} "
+                f"{memory:11.1f} {space:9.1f} {memory / max(space, 1.0):6.2f}",
+                flush=True,
+            )
+
+
+if __name__ == "__main__":
+    main()
