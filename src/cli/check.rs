@@ -94,7 +94,10 @@ impl Preparation {
             }
             _ => String::new(),
         };
-        format!("`impinge run` takes about {} on idle cores{of_it}, and {memory:.0} MB", lasting(total))
+        format!(
+            "`impinge run` takes about {} on idle cores{of_it}, and {memory:.0} MB",
+            lasting(total)
+        )
     }
 }
 

@@ -19,7 +19,9 @@ ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 
 
-def test_the_coupled_snippet_of_the_readme_runs_without_a_warning(monkeypatch, caplog, recwarn, capsys):
+def test_the_coupled_snippet_of_the_readme_runs_without_a_warning(
+    monkeypatch, caplog, recwarn, capsys
+):
     """The drop heats the rings below its contact; none is hotter than the drop or colder than the plate."""
     monkeypatch.chdir(ROOT)
     blocks = re.findall(r"^```python\n(.*?)^```$", (ROOT / "README.md").read_text(), re.M | re.S)
