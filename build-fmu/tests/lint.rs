@@ -151,7 +151,7 @@ fn reference_of(entries: &Entries, name: &str) -> String {
 type Change = fn(&mut Entries);
 
 /// A defect with its change, the rules that must find it and a part of what they say.
-const DEFECTS: [(&str, Change, &[&str], &str); 15] = [
+const DEFECTS: [(&str, Change, &[&str], &str); 16] = [
     (
         "duplicate value reference",
         |unit| {
@@ -238,6 +238,16 @@ const DEFECTS: [(&str, Change, &[&str], &str); 15] = [
         },
         &["zip-paths"],
         "documentation\\index.html: the path has a backslash",
+    ),
+    (
+        "absurd cells",
+        |unit| {
+            let (_, cells) =
+                unit.iter_mut().find(|(path, _)| path == "resources/cells.json").unwrap();
+            *cells = br#"{"families": {"spot": {"footprint": "disc", "count": [-3]}}}"#.to_vec();
+        },
+        &["cells"],
+        "resources/cells.json spot: count is [-3], none of [], [n] and [n, m]",
     ),
     (
         "missing binary",
