@@ -21,12 +21,14 @@ LARGEST_JSON = 256_000_000
 def reading(source: object, kind: type[ImpingeError]) -> Iterator[None]:
     """Turns whatever a reader raises into `kind` with `source` and the reason.
 
-    Errors of the package itself pass as they are.
+    Errors of the package itself that name the source pass as they are.
     """
     try:
         yield
-    except ImpingeError:
-        raise
+    except ImpingeError as error:
+        if not isinstance(error, kind) or str(error).startswith(str(source)):
+            raise
+        raise kind(f"{source}: {error}") from error
     except FileNotFoundError as error:
         raise kind(f"{source}: no such file") from error
     except (Exception, SystemExit) as error:  # of readers of many formats: anything
