@@ -352,8 +352,7 @@ impl Running<'_> {
 
     /// Brings the heat balances up to date.
     fn look_at_balances(&mut self) -> Result<(), ModelError> {
-        let read =
-            |one: &BalanceOutputs| one.read(self.model, &self.state, &mut self.cache);
+        let read = |one: &BalanceOutputs| one.read(self.model, &self.state, &mut self.cache);
         let mut balances =
             self.balance_outputs.iter().map(read).collect::<Result<Vec<Balance>, _>>()?;
         Balance::join(&mut balances, &self.balances);

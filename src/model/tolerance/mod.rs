@@ -20,11 +20,11 @@ use crate::math::shared_values::SharedValues;
 pub use crate::quantity::percent;
 use crate::scene::{MeshFactors, Scene};
 use choice::{Choice, choose, is_chosen};
-use twin::MOST_PROBES;
 pub use levels::{Levels, levels, reduced_model, stored_reductions};
 pub use report::{
     BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, warnings,
 };
+use twin::MOST_PROBES;
 
 /// Meshes by scene and name of the body.
 static CHOICES: SharedValues<(Scene, String), Choice> = SharedValues::new();

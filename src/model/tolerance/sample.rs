@@ -1,25 +1,23 @@
 //! Places of a long list that represent all of it.
 
-/// 1/φ, the golden ratio.
+use std::collections::BTreeSet;
+
+/// 1/φ of the golden ratio φ.
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// Returns at most `most` places of a list of `count`, ascending: all, or the first multiples of count/φ modulo the
-/// count, which lie evenly in every stretch of the list and follow no period of it.
+/// Returns at most `most` places of a list of `count`, ascending: all, or where the multiples of 1/φ modulo 1 fall first,
+/// which lie evenly in every stretch of the list and follow no period of it (Kronecker's sequence of least discrepancy).
 pub fn sample(count: usize, most: usize) -> Vec<usize> {
     if count <= most {
         return (0..count).collect();
     }
-    let mut stride = (GOLDEN * count as f64) as usize;
-    while greatest_common_divisor(stride, count) != 1 {
-        stride += 1;
+    let mut places = BTreeSet::new();
+    let mut position: f64 = 0.0;
+    while places.len() < most {
+        places.insert((position * count as f64) as usize);
+        position = (position + GOLDEN).fract();
     }
-    let mut places: Vec<usize> = (0..most).map(|k| k * stride % count).collect();
-    places.sort_unstable();
-    places
-}
-
-fn greatest_common_divisor(a: usize, b: usize) -> usize {
-    if b == 0 { a } else { greatest_common_divisor(b, a % b) }
+    places.into_iter().collect()
 }
 
 #[cfg(test)]

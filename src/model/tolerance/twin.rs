@@ -102,7 +102,9 @@ impl Twin {
         }
         let reads_extremes = !is_mechanical || has_stress_peaks;
         if tries_least_radii(&twin) {
-            simplified.push("loads are tried at the lower ends of their ranges of radius, too".to_owned());
+            simplified.push(
+                "loads are tried at the lower ends of their ranges of radius, too".to_owned(),
+            );
         }
         Some(Self {
             scene: twin,

@@ -111,9 +111,11 @@ mod tests {
     #[test]
     fn families_of_each_footprint_are_right_and_absurd_ones_are_found() {
         let family = |more: &str| format!("{{\"families\": {{\"a\": {{{more}}}}}}}");
-        let rings = "\"footprint\": \"rings\", \"count\": [2], \"area\": [1.0, 2.0], \"outer\": [1, 2]";
+        let rings =
+            "\"footprint\": \"rings\", \"count\": [2], \"area\": [1.0, 2.0], \"outer\": [1, 2]";
         let disc = "\"footprint\": \"disc\", \"count\": [], \"area\": [1.0], \"at\": [0, 0.5]";
-        let tiles = "\"footprint\": \"tiles\", \"count\": [1, 2], \"x\": [0, 1], \"size\": [1, 2.5]";
+        let tiles =
+            "\"footprint\": \"tiles\", \"count\": [1, 2], \"x\": [0, 1], \"size\": [1, 2.5]";
         for right in [rings, disc, tiles] {
             assert_eq!(faults(family(right).as_bytes()), [], "{right}");
         }
@@ -131,7 +133,9 @@ mod tests {
             let found = faults(family(&wrong).as_bytes());
             assert!(found.len() == 1 && found[0].1.contains(part), "{wrong}: {found:?}");
         }
-        for (text, part) in [("[]", "no table families"), ("", "no JSON"), ("{\"families\": 1}", "no table")] {
+        for (text, part) in
+            [("[]", "no table families"), ("", "no JSON"), ("{\"families\": 1}", "no table")]
+        {
             assert!(faults(text.as_bytes())[0].1.contains(part), "{text}");
         }
         assert!(faults("[".repeat(100_000).as_bytes())[0].1.contains("recursion limit"));
