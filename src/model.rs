@@ -462,7 +462,7 @@ const NO_ESTIMATE: f64 = -1.0;
 /// Start values of all inputs, in the order of the layout.
 pub fn initial_inputs(scene: &Scene) -> Vec<f64> {
     let mut inputs = vec![0.0; InputLayout::of(scene).len];
-    for variable in &Registry::of(scene).variables {
+    for variable in Registry::inputs(scene) {
         if let (Slot::Input(at), Some(value)) = (&variable.slot, variable.real_start()) {
             inputs[*at] = value;
         }

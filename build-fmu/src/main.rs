@@ -103,6 +103,9 @@ fn run(arguments: &Arguments) -> Result<(String, ExitCode), String> {
 fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     let file = path.display().to_string();
     let text = scene::text_of(path, &file).map_err(|error| error.to_string())?;
+    if let Some(note) = scene::note_on_reading(&text, &file) {
+        complain(&format!("note: {note}"));
+    }
     let (scene, warnings) =
         scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
     for warning in warnings {
@@ -125,7 +128,7 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     refuse_inputs(&target, &[path, &library_path])?;
     refuse_other_files(&target, b"PK")?;
     let library = library::read(&library_path, arguments.fmi)?;
-    for note in to_be_recorded(&scene) {
+    for note in to_be_recorded(&scene).into_iter().chain(tolerance::note_on_sample(&scene)) {
         complain(&format!("note: {note}"));
     }
     let (known, estimates) = tolerance::estimates(&levels.scene);

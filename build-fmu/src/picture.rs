@@ -33,7 +33,8 @@ pub fn png(scene: &Scene) -> Result<Vec<u8>, String> {
         section.paint_loads(&mut canvas);
         section.drops.iter().for_each(|drop| section.paint_drop(&mut canvas, drop));
         let probes = scene.probe.iter().filter(|probe| Some(&*probe.body) == section.body);
-        probes.for_each(|probe| section.paint_probe(&mut canvas, probe.at));
+        let stride = scene.probe.len().div_ceil(MOST_PROBES).max(1);
+        probes.step_by(stride).for_each(|probe| section.paint_probe(&mut canvas, probe.at));
     }
     canvas.0.encode_png().map_err(|error| format!("cannot draw the picture: {error}"))
 }
@@ -95,6 +96,9 @@ impl Spot {
         (2.0 * a / sum).min(1.0).asin() * std::f64::consts::FRAC_2_PI
     }
 }
+
+/// Probes that are shown, at most: more of them cover each other.
+const MOST_PROBES: usize = 1000;
 
 /// The part of a body that is seen, and where: rightward x and downward depth below the top face.
 struct Section<'a> {

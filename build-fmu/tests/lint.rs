@@ -473,6 +473,16 @@ fn a_dependency_that_is_no_input_is_found() {
 }
 
 #[test]
+fn cells_that_cannot_be_are_found() {
+    let change = |unit: &mut Entries| {
+        let (_, cells) = unit.iter_mut().find(|(path, _)| path == "resources/cells.json").unwrap();
+        *cells = br#"{"families": {"spot": {"footprint": "disc", "count": [-3]}}}"#.to_vec();
+    };
+    let words = "resources/cells.json spot: count is [-3], none of [], [n] and [n, m]";
+    finds(change, ("error", "cells"), &[words]);
+}
+
+#[test]
 fn source_files_that_are_not_there_are_found() {
     let list =
         "><SourceFiles><File name=\"./a.c\"/><File name=\"b.c\"/></SourceFiles></CoSimulation>";

@@ -9,7 +9,7 @@ from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
-from impinge.errors import ImpingeError, StepDiscarded, UnitError
+from impinge.errors import ImpingeError, StepDiscarded, StudyError, UnitError
 from impinge.unit import State, Unit, Variable
 
 if TYPE_CHECKING:
@@ -30,6 +30,7 @@ __all__ = [
     "State",
     "StepDiscarded",
     "Study",
+    "StudyError",
     "Surface",
     "Unit",
     "UnitError",

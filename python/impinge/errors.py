@@ -35,6 +35,10 @@ class StepDiscarded(UnitError):
         self.terminated = terminated
 
 
+class StudyError(ImpingeError, RuntimeError):
+    """The folder of a study is in use, or holds files that are none of a study."""
+
+
 def need(module: str, command: str, why: str) -> ModuleType:
     """A module that not everyone has; `command` installs it, `why` needs it.
 

@@ -13,6 +13,7 @@ use impinge::variables::{ArrayRegistry, Causality, Quantity, Registry, Value, Va
 use serde::Serialize;
 
 use super::CliError;
+use super::patience;
 use super::table::table;
 use super::units::{decimal, engineering, kelvin, lasting};
 
@@ -30,9 +31,12 @@ impl Check {
     /// Reports on the scene.
     pub fn execute(&self) -> Result<String, CliError> {
         let begun = Usage::now();
-        let (scene, warnings) = scene::read_with_warnings(&self.scene)?;
+        let (scene, warnings) = patience::read(&self.scene)?;
         super::warn(&warnings);
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
+        if let Some(note) = tolerance::note_on_sample(&scene) {
+            super::print_message("note", &note);
+        }
         let levels = tolerance::levels(&scene, available_memory());
         let (scene, estimates) = tolerance::estimates(&levels.scene);
         let preparation = Preparation { begun, done: Usage::now() };

@@ -36,10 +36,12 @@ pub enum CliError {
     #[error(transparent)]
     Output(#[from] OutputError),
     #[error(
-        "{} holds the files of an earlier run; allowed: another folder (--out), or --overwrite",
-        folder.display()
+        "{} holds the files of an earlier run, or others of their names ({}); allowed: another folder (--out), or \
+         --overwrite",
+        folder.display(),
+        file.display()
     )]
-    Taken { folder: PathBuf },
+    Taken { folder: PathBuf, file: PathBuf },
     #[error("{} is not a folder; allowed: a folder, or a name that is free (--out)", path.display())]
     NoFolder { path: PathBuf },
     #[error("{} could be one of the files of the run; allowed: another folder (--out)", file.display())]

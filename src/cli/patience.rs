@@ -1,7 +1,9 @@
-//! How long a run will take: told where that is long, refused where nobody waits for it.
+//! How long a command will take: told where that is long, refused where nobody waits for it.
+
+use std::path::Path;
 
 use impinge::model::forecast;
-use impinge::scene::Scene;
+use impinge::scene::{self, Scene, Warning};
 
 use super::CliError;
 use super::units::lasting;
@@ -13,6 +15,16 @@ const TOLD: f64 = 10.0 * MINUTE;
 const REFUSED: f64 = 30.0 * DAY;
 /// What is proposed instead [s].
 const PROPOSED: f64 = DAY;
+
+/// Reads and checks the scene in a file; says so before it reads a large one.
+pub fn read(path: &Path) -> Result<(Scene, Vec<Warning>), CliError> {
+    let file = path.display().to_string();
+    let text = scene::text_of(path, &file)?;
+    if let Some(note) = scene::note_on_reading(&text, &file) {
+        super::print_message("note", &note);
+    }
+    Ok(scene::parse_with_warnings(&text, &file)?)
+}
 
 /// What to say of the time that a run of a scene will take; refuses one that takes months, with what would do.
 pub fn expected(scene: &Scene) -> Result<Option<String>, CliError> {

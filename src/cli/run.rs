@@ -16,7 +16,7 @@ use super::idle;
 use super::inputs::{Between, InputTable};
 use super::patience;
 use super::set::{self, Assignment, InputValue};
-use super::summary::{self, Balance};
+use super::summary::{self, Balance, BalanceOutputs};
 use super::units::engineering;
 
 /// Number of times at which fields are written, about, if the user does not say.
@@ -77,12 +77,12 @@ impl Run {
         let (scene, inputs) = self.asked_scene()?;
         // What is wrong with files is told before meshes are judged, which takes its time.
         let table = self.input_table(&scene, &inputs)?;
-        self.check_folder(&self.folder(&scene))?;
+        self.check_folder(&self.folder(&scene), &scene)?;
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
         if let Some(note) = patience::expected(&scene)? {
             super::print_message("note", &note);
         }
-        for note in to_be_recorded(&scene) {
+        for note in to_be_recorded(&scene).into_iter().chain(tolerance::note_on_sample(&scene)) {
             super::print_message("note", &note);
         }
         let levels = tolerance::levels(&scene, available_memory());
@@ -113,6 +113,7 @@ impl Run {
             timeline,
             table,
             told_of_length: false,
+            balance_outputs: BalanceOutputs::of(&scene),
             balances: Vec::new(),
             model: &model,
         };
@@ -132,7 +133,7 @@ impl Run {
 
     /// The scene with everything that the command line changes in it, and the inputs it sets.
     fn asked_scene(&self) -> Result<(Scene, Vec<InputValue>), CliError> {
-        let (mut scene, warnings) = scene::read_with_warnings(&self.scene)?;
+        let (mut scene, warnings) = patience::read(&self.scene)?;
         let read = scene.clone();
         scene.stop_time = self.until.unwrap_or(scene.stop_time);
         scene.step = self.step.unwrap_or(scene.step);
@@ -187,9 +188,12 @@ impl Run {
     }
 
     /// Refuses a folder of another run, of what is read, and what is no folder.
-    fn check_folder(&self, folder: &Path) -> Result<(), CliError> {
-        if folder.join(TABLE).exists() && !self.overwrite {
-            return Err(CliError::Taken { folder: folder.to_owned() });
+    fn check_folder(&self, folder: &Path, scene: &Scene) -> Result<(), CliError> {
+        let table = folder.join(TABLE);
+        let own = table.symlink_metadata().is_ok().then_some(table);
+        let taken = own.or_else(|| FieldSeries::found_in(folder, scene));
+        if let Some(file) = taken.filter(|_| !self.overwrite) {
+            return Err(CliError::Taken { folder: folder.to_owned(), file });
         }
         if folder.exists() && !folder.is_dir() {
             return Err(CliError::NoFolder { path: folder.to_owned() });
@@ -201,10 +205,7 @@ impl Run {
     fn record(&self, run: &Running) -> Result<Record, CliError> {
         let folder = self.folder(run.model.scene());
         let lock = FolderLock::take(&folder)?;
-        self.check_folder(&folder)?;
-        if FieldSeries::is_in(&folder, run.model) && !self.overwrite {
-            return Err(CliError::Taken { folder });
-        }
+        self.check_folder(&folder, run.model.scene())?;
         let table = folder.join(TABLE);
         let every = self.fields_every.unwrap_or(run.timeline.count.div_ceil(SNAPSHOTS));
         let table = CsvTable::create(&table, run.model)?;
@@ -286,6 +287,7 @@ struct Running<'a> {
     table: Option<InputTable>,
     /// Whether a part of a step that is too short for a mesh was told of.
     told_of_length: bool,
+    balance_outputs: Vec<BalanceOutputs>,
     /// Of the last row that was written.
     balances: Vec<Balance>,
 }
@@ -350,7 +352,9 @@ impl Running<'_> {
 
     /// Brings the heat balances up to date.
     fn look_at_balances(&mut self) -> Result<(), ModelError> {
-        let mut balances = summary::balances(self.model, &self.state, &mut self.cache)?;
+        let read = |one: &BalanceOutputs| one.read(self.model, &self.state, &mut self.cache);
+        let mut balances =
+            self.balance_outputs.iter().map(read).collect::<Result<Vec<Balance>, _>>()?;
         Balance::join(&mut balances, &self.balances);
         self.balances = balances;
         Ok(())

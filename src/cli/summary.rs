@@ -2,6 +2,7 @@ use std::fmt::Write;
 
 use impinge::body::{PeakPart, Reading};
 use impinge::model::{Cache, Model, ModelError, State};
+use impinge::scene::Scene;
 use impinge::variables::{Output, Quantity, Registry, Slot, Variable};
 
 use super::table::table;
@@ -67,33 +68,46 @@ impl Balance {
     }
 }
 
-/// The heat balance of each body that tells one at `state`.
-pub fn balances(
-    model: &Model,
-    state: &State,
-    cache: &mut Cache,
-) -> Result<Vec<Balance>, ModelError> {
-    let mut list = Vec::new();
-    let registry = Registry::structured(model.scene());
-    for body in model.scene().body.keys() {
-        let solid = model.scene().solid(body);
-        let by_particles = solid.is_some_and(|solid| solid.sph().is_some());
-        let expected = if by_particles { BALANCED_BY_PARTICLES } else { BALANCED };
-        let mut heat = |key: &str| {
-            let place = registry.find(&format!("{body}.{key}"))?;
-            let Slot::Output(output) = &registry.variables[place].slot else { return None };
-            Some(model.output(state, cache, output))
+/// The outputs of a body whose sum is its heat balance.
+pub struct BalanceOutputs {
+    body: String,
+    /// Heat that came in, that is stored and that was lost.
+    outputs: [Output; 3],
+    expected: f64,
+}
+
+impl BalanceOutputs {
+    /// Those of each body of a scene that has all of them.
+    pub fn of(scene: &Scene) -> Vec<Self> {
+        let registry = Registry::structured(scene);
+        let of_body = |body: &String| {
+            let output = |key: &str| {
+                let place = registry.find(&format!("{body}.{key}"))?;
+                let Slot::Output(output) = &registry.variables[place].slot else { return None };
+                Some(output.clone())
+            };
+            let outputs = [output("heat_in")?, output("heat_stored")?, output("heat_lost")?];
+            let by_particles = scene.solid(body).is_some_and(|solid| solid.sph().is_some());
+            let expected = if by_particles { BALANCED_BY_PARTICLES } else { BALANCED };
+            Some(Self { body: body.clone(), outputs, expected })
         };
-        let (Some(heat_in), Some(stored), Some(lost)) =
-            (heat("heat_in"), heat("heat_stored"), heat("heat_lost"))
-        else {
-            continue;
-        };
+        scene.body.keys().filter_map(of_body).collect()
+    }
+
+    /// The balance at `state`.
+    pub fn read(
+        &self,
+        model: &Model,
+        state: &State,
+        cache: &mut Cache,
+    ) -> Result<Balance, ModelError> {
+        let [heat_in, stored, lost] =
+            self.outputs.each_ref().map(|output| model.output(state, cache, output));
         let (heat_in, stored, lost) = (heat_in?, stored?, lost?);
         let largest = [heat_in, stored, lost].into_iter().map(f64::abs).fold(0.0, f64::max);
-        list.push(Balance { body: body.to_owned(), heat_in, stored, lost, largest, expected });
+        let (body, expected) = (self.body.clone(), self.expected);
+        Ok(Balance { body, heat_in, stored, lost, largest, expected })
     }
-    Ok(list)
 }
 
 /// The balances as a table.

@@ -10,7 +10,7 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 
 use super::xml::{Attributes, Xml, leaf, parent};
-use crate::scene::Scene;
+use crate::scene::{Field, Probe, Scene, Wall};
 use crate::variables::{ArrayRegistry, ArrayVariable, Causality, Registry};
 
 /// Folder of the file and of the icons.
@@ -137,23 +137,24 @@ fn document(xml: &mut Xml, scene: &Scene, members: &[Member]) -> io::Result<()> 
             return Ok(());
         }
         let places = places(&terminals);
+        let described = descriptions(scene);
         parent(xml, "Terminals", &[], |xml| {
             let mut both = terminals.iter().zip(&places);
-            both.try_for_each(|(terminal, place)| element(xml, scene, terminal, place))
+            both.try_for_each(|(terminal, place)| element(xml, &described, terminal, place))
         })
     })
 }
 
 fn element(
     xml: &mut Xml,
-    scene: &Scene,
+    described: &HashMap<&str, String>,
     terminal: &Terminal,
     place: &Attributes,
 ) -> io::Result<()> {
     let attributes: Attributes = vec![
         ("name", terminal.name.to_owned()),
         ("matchingRule", "plug".into()),
-        ("description", description(scene, terminal.name)),
+        ("description", description(described, terminal.name)),
     ];
     parent(xml, "Terminal", &attributes, |xml| {
         for member in &terminal.members {
@@ -202,24 +203,25 @@ fn extent(low: [f64; 2], high: [f64; 2]) -> [(&'static str, String); 4] {
     ]
 }
 
-/// What the terminal of this name stands for.
-fn description(scene: &Scene, name: &str) -> String {
-    if let Some(load) = scene.load.iter().find(|load| load.name == name) {
-        return format!("load on {}", load.on);
-    }
-    if let Some(probe) = scene.probe.iter().find(|probe| probe.name == name) {
-        return format!("values at a point of {}", probe.body);
-    }
-    if let Some(wall) = scene.wall.iter().find(|wall| wall.name == name) {
-        return format!("wall under {}", wall.under);
-    }
-    match scene.field.iter().find(|field| field.name == name) {
-        Some(field) => match field.footprint {
-            Some(_) => format!("means over cells of {}", field.body_and_place().0),
-            None => format!("values on a grid of {}", field.body_and_place().0),
-        },
-        None => format!("what {name} is given and shows as a whole"),
-    }
+/// Descriptions of the terminals of loads, probes, walls and fields by name, of which no two are the same.
+fn descriptions(scene: &Scene) -> HashMap<&str, String> {
+    let loads = scene.load.iter().map(|load| (load.name.as_str(), format!("load on {}", load.on)));
+    let of_probe = |probe: &Probe| format!("values at a point of {}", probe.body);
+    let probes = scene.probe.iter().map(|probe| (probe.name.as_str(), of_probe(probe)));
+    let of_wall = |wall: &Wall| format!("wall under {}", wall.under);
+    let walls = scene.wall.iter().map(|wall| (wall.name.as_str(), of_wall(wall)));
+    let of_field = |field: &Field| match field.footprint {
+        Some(_) => format!("means over cells of {}", field.body_and_place().0),
+        None => format!("values on a grid of {}", field.body_and_place().0),
+    };
+    let fields = scene.field.iter().map(|field| (field.name.as_str(), of_field(field)));
+    loads.chain(probes).chain(walls).chain(fields).collect()
+}
+
+/// The description of the terminal of a name; terminals that no table describes are bodies.
+fn description(described: &HashMap<&str, String>, name: &str) -> String {
+    let own = described.get(name).cloned();
+    own.unwrap_or_else(|| format!("what {name} is given and shows as a whole"))
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@ use quick_xml::events::{BytesDecl, Event};
 use super::{OutputError, vtk};
 use crate::body::Fields;
 use crate::model::{Cache, Model, State};
-use crate::scene::Shape;
+use crate::scene::{Scene, Shape};
 
 /// The fields of all bodies as ParaView time series: `BODY.pvd` lists one `BODY_NNNNNN.vtr` (the nodes
 /// of a box), `.vts` (those of a disc, turned round its axis) or `.vtp` (the particles of a droplet) a
@@ -33,7 +33,7 @@ impl FieldSeries {
     /// these bodies left there.
     pub fn create(directory: &Path, model: &Model) -> Result<Self, OutputError> {
         fs::create_dir_all(directory).map_err(OutputError::at("create the folder", directory))?;
-        let series = Self::of(directory, model);
+        let series = Self::of(directory, model.scene());
         for body in &series.bodies {
             series.write_list(body)?;
         }
@@ -42,15 +42,15 @@ impl FieldSeries {
     }
 
     /// A series without times, of which nothing is written yet.
-    fn of(directory: &Path, model: &Model) -> Self {
-        let solids = model.scene().solids().map(|(name, solid)| {
+    fn of(directory: &Path, scene: &Scene) -> Self {
+        let solids = scene.solids().map(|(name, solid)| {
             let kind = match solid.shape {
                 Shape::Box(_) => Kind::Grid,
                 Shape::Disc(_) => Kind::Revolved,
             };
             (name.to_owned(), kind)
         });
-        let droplets = model.scene().droplets().map(|(name, _)| (name.to_owned(), Kind::Particles));
+        let droplets = scene.droplets().map(|(name, _)| (name.to_owned(), Kind::Particles));
         let bodies = solids.chain(droplets).collect();
         Self { directory: directory.to_owned(), bodies, times: Vec::new() }
     }
@@ -58,7 +58,7 @@ impl FieldSeries {
     /// Removes the series of a model's bodies from a folder, files that were never finished included. What cannot
     /// be removed is an error: it would pass for fields of a later run.
     pub fn remove(directory: &Path, model: &Model) -> Result<(), OutputError> {
-        let series = Self::of(directory, model);
+        let series = Self::of(directory, model.scene());
         let Ok(entries) = fs::read_dir(directory) else { return Ok(()) };
         let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
         for name in names.filter(|name| series.is_list(name) || series.is_unlisted(name)) {
@@ -73,11 +73,13 @@ impl FieldSeries {
         self.bodies.iter().any(|(body, _)| name.strip_suffix(".pvd") == Some(body.as_str()))
     }
 
-    /// Whether a folder holds a series of a model's bodies already.
-    pub fn is_in(directory: &Path, model: &Model) -> bool {
-        let scene = model.scene();
-        let names = scene.solids().map(|body| body.0).chain(scene.droplets().map(|body| body.0));
-        names.into_iter().any(|name| directory.join(format!("{name}.pvd")).exists())
+    /// The first file in a folder that a series of a scene's bodies would replace or remove.
+    pub fn found_in(directory: &Path, scene: &Scene) -> Option<PathBuf> {
+        let series = Self::of(directory, scene);
+        let entries = fs::read_dir(directory).ok()?;
+        let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
+        let own = names.filter(|name| series.is_list(name) || series.is_unlisted(name)).min()?;
+        Some(directory.join(own))
     }
 
     /// Whether all files that the lists name are there, and the lists.

@@ -58,12 +58,6 @@ pub fn read(path: &Path) -> Result<Scene, SceneError> {
     parse(&text_of(path, &file)?, &file)
 }
 
-/// The same, with warnings of what is implausible in it.
-pub fn read_with_warnings(path: &Path) -> Result<(Scene, Vec<Warning>), SceneError> {
-    let file = path.display().to_string();
-    parse_with_warnings(&text_of(path, &file)?, &file)
-}
-
 /// Bytes of a scene's file, at most: hundreds of thousands of lines.
 pub const LARGEST_FILE: u64 = 16_000_000;
 
@@ -90,6 +84,15 @@ pub fn text_of(path: &Path, file: &str) -> Result<String, SceneError> {
     }
     let text = String::from_utf8(bytes);
     Ok(text.map_err(|error| unreadable(io::Error::new(io::ErrorKind::InvalidData, error)))?)
+}
+
+/// Bytes of a text that takes a noticeable time to read.
+const LARGE_TEXT: usize = 1_000_000;
+
+/// What to say before a large text is read.
+pub fn note_on_reading(text: &str, file: &str) -> Option<String> {
+    let size = text.len() as f64 / 1e6;
+    (text.len() > LARGE_TEXT).then(|| format!("reading {file}, {size:.1} MB"))
 }
 
 /// Reads and checks a scene's text; `file` is the name that messages show.

@@ -1,4 +1,6 @@
+use std::collections::HashMap;
 use std::ops::Range;
+use std::rc::Rc;
 
 use super::registry::flat;
 use super::{Causality, CellFamily, Quantity, Registry, Slot, Variable};
@@ -78,8 +80,30 @@ impl ArrayRegistry {
         let Some(Slot::Output(first)) = elements.first().map(|element| &element.slot) else {
             return Vec::new();
         };
-        let inputs = registry.dependencies(scene, first);
-        let mut rest = inputs.as_slice();
+        self.arrays_of(&registry.dependencies(scene, first))
+    }
+
+    /// Every output with its [`dependencies`](Self::dependencies); outputs that follow the same inputs share one list.
+    pub fn all_dependencies(
+        &self,
+        scene: &Scene,
+        registry: &Registry,
+    ) -> Vec<(usize, Rc<[usize]>)> {
+        let of_elements: HashMap<usize, Rc<[usize]>> =
+            registry.all_dependencies(scene).into_iter().collect();
+        let mut lists: HashMap<*const usize, Rc<[usize]>> = HashMap::new();
+        let outputs = self.variables.iter().enumerate().filter_map(|(reference, variable)| {
+            let Content::Elements(range) = &variable.content else { return None };
+            let inputs = of_elements.get(&range.start)?;
+            let list = lists.entry(inputs.as_ptr());
+            Some((reference, Rc::clone(list.or_insert_with(|| self.arrays_of(inputs).into()))))
+        });
+        outputs.collect()
+    }
+
+    /// Value references of the arrays that inputs, ascending, are elements of.
+    fn arrays_of(&self, inputs: &[usize]) -> Vec<usize> {
+        let mut rest = inputs;
         let mut found = Vec::new();
         for (reference, variable) in self.variables.iter().enumerate() {
             let Content::Elements(range) = &variable.content else { continue };

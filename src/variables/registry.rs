@@ -99,6 +99,13 @@ impl Registry {
         Self::new(list(scene))
     }
 
+    /// The inputs alone under their structured names, tunable parameters among them: outputs may be many.
+    pub fn inputs(scene: &Scene) -> Vec<Variable> {
+        let mut list = Vec::new();
+        inputs::list(scene, &mut list);
+        list
+    }
+
     fn new(list: Vec<Variable>) -> Self {
         let by_name = list.iter().enumerate().map(|(i, v)| (v.name.clone(), i)).collect();
         Self { variables: list, by_name }

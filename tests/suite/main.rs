@@ -31,6 +31,7 @@ mod joints;
 mod layered_mechanics;
 mod layers;
 mod levels;
+mod many_probes;
 mod named_materials;
 mod nonlinear_heat;
 mod nonlinear_solids;

@@ -86,9 +86,11 @@ fn findings(bytes: Vec<u8>, may_run: bool) -> Vec<Finding> {
     let Some(package) = Report::of(&rules::READABLE, &mut found).take(Package::open(bytes)) else {
         return found;
     };
-    for fault in package.read_all() {
+    let (sizes, faults) = package.read_all();
+    for fault in faults {
         Report::of(&rules::READABLE, &mut found).take(Err::<(), _>(fault));
     }
+    rules::check_sizes(&sizes, &mut Report::of(&rules::SIZES, &mut found));
     for rule in rules::all() {
         if let Check::Package(check) = rule.check {
             check(&package, &mut Report::of(rule, &mut found));

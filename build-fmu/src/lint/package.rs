@@ -20,6 +20,16 @@ type Archive = ZipArchive<Cursor<Vec<u8>>>;
 pub struct Entry {
     /// The path, bytes as they are.
     pub path: Vec<u8>,
+    /// Mode of the file by POSIX; 0 where none is given.
+    pub mode: u32,
+}
+
+/// Bytes of an entry: by the directory, as packed, and as unpacked.
+pub struct Size {
+    pub path: String,
+    pub said: u64,
+    pub packed: u64,
+    pub unpacked: u64,
 }
 
 pub struct Package {
@@ -85,22 +95,28 @@ impl Package {
     }
 
     /// Reads every entry to its end, which compares its checksum, within the bounds.
-    pub fn read_all(&self) -> Vec<Fault> {
+    pub fn read_all(&self) -> (Vec<Size>, Vec<Fault>) {
         let mut archive = self.archive.borrow_mut();
-        let (mut read, mut faults) = (0, Vec::new());
+        let (mut read, mut sizes, mut faults) = (0, Vec::new(), Vec::new());
         for at in 0..archive.len() {
             let name = archive.name_for_index(at).and_then(Result::ok);
-            let path = name.map_or_else(|| format!("entry {at}"), Into::into);
+            let path: String = name.map_or_else(|| format!("entry {at}"), Into::into);
             let fault = |wrong: String| Fault::new(Place::file(&path), wrong);
             let whole = archive.by_index(at).map_err(std::io::Error::other).and_then(|file| {
+                let (said, packed) = (file.size(), file.compressed_size());
                 // What the directory says of its size need not be true.
-                std::io::copy(&mut file.take(LARGEST_ENTRY + 1), &mut std::io::sink())
+                let unpacked =
+                    std::io::copy(&mut file.take(LARGEST_ENTRY + 1), &mut std::io::sink())?;
+                Ok(Size { path: path.clone(), said, packed, unpacked })
             });
             match whole {
-                Ok(size) if size > LARGEST_ENTRY => {
+                Ok(size) if size.unpacked > LARGEST_ENTRY => {
                     faults.push(fault(format!("more than {LARGEST_ENTRY} bytes when unpacked")));
                 }
-                Ok(size) => read += size,
+                Ok(size) => {
+                    read += size.unpacked;
+                    sizes.push(size);
+                }
                 Err(error) => faults.push(fault(format!("unreadable: {error}"))),
             }
             if read > MOST_UNPACKED {
@@ -110,7 +126,7 @@ impl Package {
                 break;
             }
         }
-        faults
+        (sizes, faults)
     }
 
     pub fn text(&self, path: &str) -> Result<String, Fault> {
@@ -153,7 +169,8 @@ fn directory(bytes: &[u8], start: usize) -> Vec<Entry> {
         let length = |at: usize| usize::from(u16::from_le_bytes([rest[at], rest[at + 1]]));
         let (path, extra, comment) = (length(28), length(30), length(32));
         let Some(found) = rest.get(HEADER..HEADER + path) else { break };
-        entries.push(Entry { path: found.to_owned() });
+        let mode = u32::from(u16::from_le_bytes([rest[40], rest[41]]));
+        entries.push(Entry { path: found.to_owned(), mode });
         rest = rest.get(HEADER + path + extra + comment..).unwrap_or_default();
     }
     entries

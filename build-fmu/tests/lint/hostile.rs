@@ -135,3 +135,92 @@ fn entries_that_nothing_else_reads_are_read_too() {
         }
     }
 }
+
+/// The bytes of a unit with a change to the entry of a path in its directory (APPNOTE.TXT of PKWARE, section 4.3.12).
+fn with_directory(path: &str, change: impl Fn(&mut [u8])) -> Vec<u8> {
+    let folder = TempDir::new().unwrap();
+    let unit = folder.path().join("unit.fmu");
+    write_zip(&good(), &unit);
+    let mut bytes = fs::read(&unit).unwrap();
+    let mut at = bytes.windows(4).position(|four| four == b"PK\x01\x02").unwrap();
+    loop {
+        assert!(bytes[at..].starts_with(b"PK\x01\x02"), "{path} is not there");
+        let length = |k: usize| usize::from(u16::from_le_bytes([bytes[at + k], bytes[at + k + 1]]));
+        let (name, rest) = (length(28), length(30) + length(32));
+        if &bytes[at + 46..at + 46 + name] == path.as_bytes() {
+            change(&mut bytes[at..at + 46]);
+            return bytes;
+        }
+        at += 46 + name + rest;
+    }
+}
+
+fn lint_bytes(bytes: &[u8]) -> (i32, String) {
+    let folder = TempDir::new().unwrap();
+    let unit = folder.path().join("unit.fmu");
+    fs::write(&unit, bytes).unwrap();
+    lint_file(&unit, &["--no-run"])
+}
+
+#[test]
+fn links_and_pipes_among_the_entries_are_found() {
+    for path in ["resources/scene.toml", "resources/cells.json", XML] {
+        for (mode, words) in [
+            (0o120_777_u32, "the entry is a link"),
+            (0o010_644, "the entry is neither a file nor a folder"),
+        ] {
+            let bytes = with_directory(path, |entry| {
+                entry[40..42].copy_from_slice(&(mode as u16).to_le_bytes());
+            });
+            let (code, text) = lint_bytes(&bytes);
+            let found = format!("error: {path}: {words}");
+            assert!(code == 1 && text.contains(&found) && text.contains("[zip-links,"), "{text}");
+        }
+    }
+}
+
+#[test]
+fn sizes_that_the_directory_invents_are_found() {
+    for (said, words, rule) in [
+        (3_u32, "unreadable: File is larger than its declared uncompressed size", "zip-readable"),
+        (0xFFFF_FFF0, "the directory says 4294967280 bytes, but there are", "zip-sizes"),
+    ] {
+        let bytes = with_directory("resources/scene.toml", |entry| {
+            entry[24..28].copy_from_slice(&said.to_le_bytes());
+        });
+        let (code, text) = lint_bytes(&bytes);
+        let words = format!("resources/scene.toml: {words}");
+        assert!(code == 1 && text.contains(&words) && text.contains(rule), "{text}");
+    }
+}
+
+#[test]
+fn an_entry_that_unpacks_to_a_hundred_times_its_size_is_found() {
+    let folder = TempDir::new().unwrap();
+    let unit = folder.path().join("bomb.fmu");
+    let mut zip = ZipWriter::new(fs::File::create(&unit).unwrap());
+    let packed = SimpleFileOptions::default().compression_method(CompressionMethod::Deflated);
+    for (path, content) in good() {
+        zip.start_file(path, packed.compression_level(Some(1))).unwrap();
+        zip.write_all(&content).unwrap();
+    }
+    zip.start_file("resources/zeros", packed.compression_level(Some(1))).unwrap();
+    let zeros = vec![0; 1 << 24];
+    (0..5).for_each(|_| zip.write_all(&zeros).unwrap());
+    zip.finish().unwrap();
+    let (code, text) = lint_file(&unit, &["--no-run"]);
+    let words = "resources/zeros: 83886080 bytes are packed in";
+    assert!(code == 1 && text.contains(words) && text.contains("[zip-sizes,"), "{text}");
+}
+
+/// Other tools may keep cells of their own under that name.
+#[test]
+fn cells_of_other_tools_are_a_warning() {
+    let mut unit = good();
+    super::set(&mut unit, "<fmiModelDescription", "generationTool", "another tool");
+    let (_, cells) = unit.iter_mut().find(|(path, _)| path == "resources/cells.json").unwrap();
+    *cells = b"[1, 2]".to_vec();
+    let (code, text) = lint(&unit);
+    let words = "warning: resources/cells.json: no table families";
+    assert!(code == 0 && text.contains(words), "{text}");
+}

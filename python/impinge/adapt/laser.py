@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from ..reading import open_file, reading
 from ..surface import Series, Surface, SurfaceError
+from ..surface.arrays import read_datasets
 from ..surface.csv_files import read_matrix, read_table
 from ..surface.errors import need
 
@@ -26,14 +28,18 @@ def read_picture(path: str | Path) -> tuple[np.ndarray | None, np.ndarray]:
         With the file, and line and column of tables, of what is no intensity.
     """
     path = Path(path)
-    if not path.is_file():
-        raise SurfaceError(f"{path}: no such file")
+    with reading(path, SurfaceError):
+        open_file(path).close()
+        return _read_picture(path)
+
+
+def _read_picture(path: Path) -> tuple[np.ndarray | None, np.ndarray]:
     times = None
     match path.suffix.lower():
         case ".csv" | ".txt":
             frames = read_matrix(path)
         case ".npy":
-            frames = _read_npy(path)
+            frames = np.load(path, allow_pickle=False)
         case ".h5" | ".hdf5":
             times, frames = _read_hdf5(path)
         case suffix if suffix in PICTURES:
@@ -63,31 +69,18 @@ def read_picture(path: str | Path) -> tuple[np.ndarray | None, np.ndarray]:
 def _read_hdf5(path: Path) -> tuple[np.ndarray | None, np.ndarray]:
     h5py = need("h5py")
 
-    try:
-        with h5py.File(path) as file:
-            if "intensity" not in file:
-                raise SurfaceError(f"{path}: no dataset `intensity`; there are {', '.join(file)}")
-            times = file["time"][()] if "time" in file else None
-            return times, file["intensity"][()]
-    except OSError as error:
-        raise SurfaceError(f"{path}: {error}") from None
-
-
-def _read_npy(path: Path) -> np.ndarray:
-    try:
-        return np.asarray(np.load(path, allow_pickle=False), float)
-    except (ValueError, TypeError, EOFError) as error:
-        raise SurfaceError(f"{path}: {error}") from None
+    with h5py.File(path) as file:
+        content = read_datasets(file)
+    if "intensity" not in content:
+        raise SurfaceError(f"{path}: no dataset `intensity`; there are {', '.join(content)}")
+    return content.get("time"), content["intensity"]
 
 
 def _read_image(path: Path) -> np.ndarray:
     Image = need("PIL.Image")
-    try:
-        with Image.open(path) as image:
-            grey = image if image.mode in ("L", "I", "F", "I;16") else image.convert("L")
-            return np.asarray(grey)
-    except OSError as error:
-        raise SurfaceError(f"{path}: {error}") from None
+    with Image.open(path) as image:
+        grey = image if image.mode in ("L", "I", "F", "I;16") else image.convert("L")
+        return np.asarray(grey)
 
 
 def laser_frames(

@@ -9,7 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from ..reading import reading
 from ..surface import Placement, SurfaceError
+from ..surface.arrays import check_finite
 from ..surface.errors import need
 from ..surface.files import lattice, load_mesh
 from ..surface.vtk_xml import read_pvd, read_vtk_xml
@@ -38,8 +40,11 @@ class Body:
     def read(cls, path: str | Path) -> Body:
         """Reads a file of a series that a unit writes to ``output.directory``."""
         path = Path(path)
-        if not path.is_file():
-            raise SurfaceError(f"{path}: no such file")
+        with reading(path, SurfaceError):
+            return cls._read(path)
+
+    @classmethod
+    def _read(cls, path: Path) -> Body:
         file = read_vtk_xml(path)
         points, shape = lattice(path, file)
         if file.kind == "StructuredGrid":
@@ -54,6 +59,7 @@ class Body:
         else:
             kept = np.arange(len(points)).reshape(shape, order="F")
             axes = tuple(file.geometry[name] for name in ("x", "y", "z"))
+        check_finite({"points": points, **file.points})
         fields = {
             name: np.asarray(v, float).reshape(len(points), -1)[kept]
             for name, v in file.points.items()
@@ -163,8 +169,6 @@ def onto_mesh(
         How far nodes may lie off the body [m]; by default 1e-6 of its extent.
     """
     series = Path(series)
-    if not series.is_file():
-        raise SurfaceError(f"{series}: no such file")
     frames = read_pvd(series) if series.suffix == ".pvd" else [(0.0, series)]
     placement = placement or Placement()
     points = placement.to_face(

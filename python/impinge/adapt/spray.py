@@ -10,6 +10,9 @@ from ..surface import Placement, Series, Surface, SurfaceError
 from ..surface.csv_files import read_table
 from ..surface.maps import NOTHING
 
+# Drops times windows, at most: their amounts take eight bytes each
+_MOST_AMOUNTS = 5e8
+
 
 def spray_frames(
     path: str | Path,
@@ -67,6 +70,12 @@ def spray_frames(
     if times.min() < 0:
         drop = int(np.argmin(times))
         raise SurfaceError(f"{path}: drop {drop + 1}: column time: {times[drop]} s is below 0")
+    windows = (times.max() - times.min()) / window
+    if not (windows * len(rows) < _MOST_AMOUNTS and times.max() < 2**52 * window):
+        raise SurfaceError(
+            f"{path}: {len(rows)} drops over {windows:.3g} windows of {window} s (allowed: at most"
+            f" {_MOST_AMOUNTS:.0e} for their product)"
+        )
     place = np.floor(times / window + 1e-9).astype(int)
     first = place - place.min()
     places = np.column_stack([columns["x"], columns["y"], np.zeros(len(rows))])

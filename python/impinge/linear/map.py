@@ -5,11 +5,13 @@ from __future__ import annotations
 import json
 import os
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from impinge.errors import need
+from impinge.errors import ImpingeError, need
+from impinge.reading import open_file, reading
 from impinge.unit import Unit
 
 from .realisation import StateSpace, named, realise
@@ -168,7 +170,11 @@ class LinearMap:
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> LinearMap:
         """What `save` has written."""
-        with np.load(path) as stored:
+        with (
+            reading(path, ImpingeError),
+            open_file(Path(path)) as file,
+            np.load(file, allow_pickle=False) as stored,
+        ):
             about = json.loads(str(stored["about"]))
             return cls(
                 inputs=tuple(about["inputs"]),

@@ -21,6 +21,7 @@ from typing import Any
 import cloudpickle
 
 from impinge.errors import need
+from impinge.unit.temporary import temporary_folder
 
 from .journal import Finished
 from .processes import Batch, Prepare, Server
@@ -185,7 +186,7 @@ def _server(key: str, content: bytes, experiment: bytes) -> Server | None:
         place = (key, threading.get_ident())
         if place not in _SERVERS:
             if key not in _FOLDERS:
-                _FOLDERS[key] = Path(tempfile.mkdtemp(prefix="impinge-study-"))
+                _FOLDERS[key] = Path(tempfile.mkdtemp(dir=temporary_folder().path))
                 (_FOLDERS[key] / "temporary").mkdir()
                 with zipfile.ZipFile(io.BytesIO(content)) as archive:
                     archive.extractall(_FOLDERS[key] / "unit")

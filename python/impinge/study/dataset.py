@@ -10,11 +10,12 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import h5py
 import numpy as np
 import xarray as xr
 
 import impinge
-from impinge.errors import UnitError
+from impinge.errors import StudyError, UnitError
 from impinge.unit.variable import stem_of
 
 from . import identity
@@ -61,10 +62,32 @@ def assemble(study: Study, finished: Mapping[str, Finished]) -> xr.Dataset:
 
 
 def write(table: xr.Dataset, path: Path) -> None:
-    """Writes the table as NetCDF: whole or not at all."""
+    """Writes the table as NetCDF: whole or not at all. A link is replaced, not written through."""
     part = path.with_name(f"{path.name}.part")
-    table.to_netcdf(part, engine="h5netcdf")
-    os.replace(part, path)
+    part.unlink(missing_ok=True)
+    try:
+        table.to_netcdf(part, engine="h5netcdf")
+        os.replace(part, path)
+    except BaseException:
+        part.unlink(missing_ok=True)
+        raise
+
+
+def refuse_foreign(path: Path) -> None:
+    """Raises `StudyError` where a file or link stands that is not the table of a study."""
+    if path.is_symlink() or path.exists():
+        if not (path.is_file() and _is_table(path)):
+            raise StudyError(
+                f"{path}: is not the table of a study (allowed: another folder, or overwrite=True)"
+            )
+
+
+def _is_table(path: Path) -> bool:
+    try:
+        with h5py.File(path) as file:
+            return {"unit_sha256", "sampler_kind", "outputs"} <= set(file.attrs)
+    except OSError:
+        return False
 
 
 def _column(

@@ -1,16 +1,20 @@
 """The journal of a study: one line per finished row, durable once it is written.
 
 A line is a JSON object with the row's key and either its values or the message of its failure.
-Numbers keep all their digits; arrays are base64 of little-endian doubles. What a process that was
-killed left of a last line is cut off when the journal is opened again.
+Numbers keep all their digits; arrays are base64 of little-endian doubles. The last member is a
+checksum of all bytes before it, the key included: a row whose values or key were changed is not
+taken. What a process that was killed left of a last line is cut off when the journal is opened
+again.
 """
 
 from __future__ import annotations
 
 import base64
 import fcntl
+import hashlib
 import json
 import os
+import stat
 import warnings
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -18,6 +22,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+
+from impinge.errors import StudyError
+
+_START = b'{"key": "'
+_MARK = b', "sha256": "'  # before the checksum, which ends a line
+_DIGITS = 32  # of the checksum, in hexadecimal
 
 
 @dataclass(frozen=True)
@@ -40,21 +50,36 @@ class Journal:
         folder.mkdir(parents=True, exist_ok=True)
         self.path = folder / "rows.jsonl"
         is_new = not self.path.exists()
+        if not is_new and not stat.S_ISREG(self.path.stat().st_mode):
+            raise StudyError(f"{self.path}: is no file (allowed: the journal of a study)")
         self._file = open(self.path, "ab")  # noqa: SIM115 (closed by `close`)
+        try:
+            self._lock(folder)
+            if is_new:
+                _sync_folder(folder)
+            self._cut_torn_line()
+            self.rows = read(self.path)
+        except BaseException:
+            self._file.close()
+            raise
+
+    def _lock(self, folder: Path) -> None:
         try:
             fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
-            self._file.close()
             message = f"{folder}: another process runs a study there (allowed: one at a time)"
-            raise RuntimeError(message) from None
-        if is_new:
-            _sync_folder(folder)
-        self._cut_torn_line()
-        self.rows = read(self.path)
+            raise StudyError(message) from None
 
     def _cut_torn_line(self) -> None:
+        """Cuts off the begin of a row; a file without any row is not one of ours."""
         text = self.path.read_bytes()
         whole = text.rfind(b"\n") + 1
+        torn = text[whole:].rstrip(b"\0")  # zeros are what a loss of power may leave
+        is_torn_row = torn.startswith(_START) or _START.startswith(torn)
+        has_row = text.startswith(_START) or b"\n" + _START in text
+        if not has_row and not (whole == 0 and is_torn_row):
+            message = f"{self.path}: is not the journal of a study (allowed: another folder)"
+            raise StudyError(message)
         if whole < len(text):
             self._file.truncate(whole)
             os.fsync(self._file.fileno())
@@ -80,15 +105,45 @@ class Journal:
 
 
 def read(path: Path) -> dict[str, Finished]:
-    """All whole rows of a journal by key; of several lines with one key the last counts."""
+    """All whole rows of a journal by key; of several lines with one key the last counts.
+
+    Warns of lines whose content does not have their checksum, and of lines without one, as older
+    versions wrote them: their rows run again.
+    """
     rows = {}
+    unchecked = 0
     for number, line in enumerate(path.read_bytes().split(b"\n")[:-1], start=1):
+        content, mark, _ = line.rpartition(_MARK)
+        if line != content + _seal(content):
+            if not mark and _is_whole(line):
+                unchecked += 1
+                continue
+            _warn(path, number, "does not have its checksum")
+            continue
         try:
             stored = json.loads(line)
             rows[stored["key"]] = _row(stored)
-        except (ValueError, KeyError, TypeError):
-            warnings.warn(f"{path}, line {number} is damaged; its row runs again", stacklevel=2)
+        except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):
+            _warn(path, number, "holds no row")
+    if unchecked:
+        message = f"{path}: {unchecked} lines have no checksum, as older versions wrote them"
+        warnings.warn(f"{message}; their rows run again", stacklevel=2)
     return rows
+
+
+def _warn(path: Path, number: int, wrong: str) -> None:
+    message = f"{path}, line {number} is damaged: it {wrong}; its row runs again"
+    warnings.warn(message, stacklevel=3)
+
+
+def _is_whole(line: bytes) -> bool:
+    return line.startswith(_START) and line.endswith(b"}")
+
+
+def _seal(content: bytes) -> bytes:
+    """End of a line: the checksum of what stands before it."""
+    checksum = hashlib.sha256(content).hexdigest()[:_DIGITS]
+    return _MARK + checksum.encode() + b'"}'
 
 
 def _line(key: str, row: Finished) -> bytes:
@@ -97,13 +152,15 @@ def _line(key: str, row: Finished) -> bytes:
         stored["failed"] = row.message
     else:
         stored["values"] = [_pack(value) for value in row.values]
-    return json.dumps(stored).encode() + b"\n"
+    content = json.dumps(stored).encode().removesuffix(b"}")
+    return content + _seal(content) + b"\n"
 
 
 def _row(stored: dict[str, Any]) -> Finished:
+    seconds = float(stored["seconds"])
     if "failed" in stored:
-        return Finished(None, stored["failed"], stored["seconds"])
-    return Finished([_unpack(value) for value in stored["values"]], "", stored["seconds"])
+        return Finished(None, str(stored["failed"]), seconds)
+    return Finished([_unpack(value) for value in stored["values"]], "", seconds)
 
 
 def _pack(value: np.ndarray) -> Any:
@@ -114,10 +171,13 @@ def _pack(value: np.ndarray) -> Any:
 
 
 def _unpack(stored: Any) -> np.ndarray:
-    if not isinstance(stored, dict):
-        return np.array(stored, float)
+    if isinstance(stored, float):
+        return np.array(stored)
     data = np.frombuffer(base64.b64decode(stored["data"], validate=True), "<f8")
-    return data.astype(float).reshape(stored["shape"])
+    shape = [int(length) for length in stored["shape"]]
+    if min(shape, default=0) < 0:
+        raise ValueError("a negative length")
+    return data.astype(float).reshape(shape)
 
 
 def _sync_folder(folder: Path) -> None:

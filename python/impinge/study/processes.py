@@ -18,6 +18,8 @@ from typing import Any
 
 import cloudpickle
 
+from impinge.unit.temporary import temporary_folder
+
 from .journal import Finished
 from .runner import Row
 from .scenes import Variant
@@ -45,10 +47,12 @@ class Worker:
         environment["PYTHONPATH"] = os.pathsep.join(filter(None, sys.path))
         if temporary:
             environment["TMPDIR"] = temporary
+        lock = temporary_folder().lock
         with theirs:
             self.process = subprocess.Popen(
                 [sys.executable, "-c", START_WORKER, str(theirs.fileno())],
-                pass_fds=[theirs.fileno()],
+                # Keeps what the worker uses from being swept should this process be killed.
+                pass_fds=[theirs.fileno(), *(number for number in [lock] if number >= 0)],
                 stdin=subprocess.PIPE,  # its end tells of ours
                 env=environment,
                 start_new_session=True,  # Ctrl-C is for the study alone

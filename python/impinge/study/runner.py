@@ -14,6 +14,7 @@ import numpy as np
 
 from impinge.errors import ImpingeError
 from impinge.unit import Package, State, Unit, open_package
+from impinge.unit.temporary import temporary_folder
 
 from .journal import Finished
 from .outputs import Output
@@ -160,7 +161,7 @@ class Runner:
         elif row.variant is None:
             raise ValueError(f"row {row.index} came without its unit")
         else:
-            self._temporary = Path(tempfile.mkdtemp(prefix="impinge-study-"))
+            self._temporary = Path(tempfile.mkdtemp(dir=temporary_folder().path))
             self._package = row.variant.unpack(self.base, self._temporary)
         self._scene = row.scene
         return self._package

@@ -21,8 +21,10 @@ from typing import Any
 import tomli_w
 
 from impinge.errors import UnitError
+from impinge.reading import LARGEST_SCENE, read_bytes, reading
 from impinge.unit import Package
 from impinge.unit.build import find_program
+from impinge.unit.temporary import temporary_folder
 
 # What the study itself decides, or what names the library.
 _KEPT = {"name": "names the library", "stop_time": "is the study's stop", "step": "is its step"}
@@ -54,11 +56,9 @@ class Scene:
     def __init__(self, path: Path, fmi: int):
         self.path = path
         self.fmi = fmi
-        self.text = path.read_text()
-        try:
+        with reading(path, UnitError):
+            self.text = read_bytes(path, LARGEST_SCENE).decode()
             self.content = tomllib.loads(self.text)
-        except tomllib.TOMLDecodeError as error:
-            raise UnitError(f"{path}: {error}") from None
 
     def has(self, key: str) -> bool:
         """Whether the scene has this key, or a table below its top in which it may stand."""
@@ -85,7 +85,7 @@ class Scene:
 
     def variant(self, text: str) -> Variant:
         """The description of a changed scene; raises `UnitError` if the scene is refused."""
-        with tempfile.TemporaryDirectory(prefix="impinge-") as name:
+        with tempfile.TemporaryDirectory(dir=temporary_folder().path) as name:
             folder = Path(name)
             (folder / "scene.toml").write_text(text)
             command = [str(find_program()), str(folder / "scene.toml"), "--fmi", str(self.fmi)]

@@ -7,6 +7,7 @@ import os
 import shlex
 import sys
 import tempfile
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -17,6 +18,7 @@ from tqdm import tqdm
 
 from impinge.errors import UnitError
 from impinge.unit import Package, open_package
+from impinge.unit.temporary import temporary_folder
 
 from . import checks, dataset, identity
 from .distributions import Distribution, distribution_of, is_held
@@ -103,6 +105,7 @@ class Study:
         retry: bool = False,
         timeout: float | None = None,
         progress: bool | None = None,
+        overwrite: bool = False,
     ) -> xr.Dataset:
         """Runs all rows that are not in `folder` yet, and returns the whole table.
 
@@ -113,15 +116,21 @@ class Study:
         retry: runs rows again that have failed before.
         timeout: in s, what a row may take before it counts as failed.
         progress: whether to show a bar; left out, one is shown on a terminal.
+        overwrite: replaces a `study.nc` in the folder that is not the table of a study, which is
+            refused with `StudyError` otherwise.
 
         A row that fails keeps its message (`status`, `message` of the table), one whose process
         dies too. After Ctrl-C all finished rows are in the folder.
         """
         finished: dict[str, Finished] = {}
+        path = Path(folder) / "study.nc" if folder is not None else None
+        if path and not overwrite:
+            dataset.refuse_foreign(path)
         journal = Journal(Path(folder)) if folder is not None else None
         try:
             if journal:
-                finished = {k: row for k, row in journal.rows.items() if not (retry and row.failed)}
+                known = self._own(journal.rows)
+                finished = {key: row for key, row in known.items() if not (retry and row.failed)}
             pending = self._pending(finished)
             silent = None if progress is None else not progress
             with tqdm(
@@ -132,12 +141,12 @@ class Study:
                 desc=self.package.name,
             ) as bar:
                 self._run(pending, finished, journal, bar, processes, dask, timeout)
+            table = dataset.assemble(self, finished)
+            if path:
+                dataset.write(table, path)
         finally:
             if journal:
                 journal.close()
-        table = dataset.assemble(self, finished)
-        if folder is not None:
-            dataset.write(table, Path(folder) / "study.nc")
         return table
 
     def results(self, folder: str | os.PathLike[str]) -> xr.Dataset:
@@ -145,7 +154,18 @@ class Study:
         path = Path(folder) / "rows.jsonl"
         if not path.is_file():
             raise FileNotFoundError(f"{path}: no study has run there")
-        return dataset.assemble(self, read(path))
+        return dataset.assemble(self, self._own(read(path)))
+
+    def _own(self, rows: Mapping[str, Finished]) -> dict[str, Finished]:
+        """Rows of this study, each with a value for every output; others run again."""
+        own = {key: rows[key] for key in set(self.keys) & rows.keys()}
+        count = len(self.experiment.outputs)
+        for key, row in list(own.items()):
+            if row.values is not None and len(row.values) != count:
+                message = f"row {key} has {len(row.values)} values of {count} outputs"
+                warnings.warn(f"{message}; it runs again", stacklevel=3)
+                del own[key]
+        return own
 
     def _run(
         self,
@@ -169,7 +189,7 @@ class Study:
 
         if not pending:
             return
-        with tempfile.TemporaryDirectory(prefix="impinge-study-") as temporary:
+        with tempfile.TemporaryDirectory(dir=temporary_folder().path) as temporary:
             workers = self._workers(pending, processes, dask, timeout, temporary)
             try:
                 for batch in workers:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..reading import read_bytes, reading
 from .errors import SurfaceError
 
 
@@ -22,6 +23,11 @@ def read_table(path: Path) -> tuple[list[str], np.ndarray]:
     SurfaceError
         With file, line and column of what is not a number.
     """
+    with reading(path, SurfaceError):
+        return _read_table(path)
+
+
+def _read_table(path: Path) -> tuple[list[str], np.ndarray]:
     lines = _lines(path)
     if not lines:
         raise SurfaceError(f"{path}: is empty")
@@ -43,6 +49,11 @@ def read_table(path: Path) -> tuple[list[str], np.ndarray]:
 
 def read_matrix(path: Path) -> np.ndarray:
     """Numbers without names of columns; shape (lines, columns)."""
+    with reading(path, SurfaceError):
+        return _read_matrix(path)
+
+
+def _read_matrix(path: Path) -> np.ndarray:
     lines = _lines(path)
     if not lines:
         raise SurfaceError(f"{path}: is empty")
@@ -70,9 +81,7 @@ def numbers(path: Path, line: int, cells: list[str], names: list[str] | int) -> 
 
 def _lines(path: Path) -> list[tuple[int, str]]:
     try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise SurfaceError(f"{path}: no such file") from None
+        text = read_bytes(path).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise SurfaceError(f"{path}: no text: {error}") from None
     kept = ((k, line) for k, line in enumerate(text.splitlines(), 1))

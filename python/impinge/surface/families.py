@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-import json
 import tomllib
-import zipfile
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ..errors import UnitError
+from ..reading import LARGEST_JSON, LARGEST_SCENE, read_bytes, reading
+from ..unit.archive import open_archive
+from ..unit.cells import PLACE, parse_cells
 from .cells import Scattered
 from .errors import SurfaceError
 from .surface import Surface
@@ -32,33 +34,44 @@ def family(unit: Any, name: str, z: float | None = None) -> Surface:
     if hasattr(unit, "cells"):
         return from_cells(unit.cells(name), name, z)
     path = Path(unit)
-    if path.suffix == ".toml":
-        surface = _of_scene(path, name)
-        return surface if z is None else replace(surface, z=z)
-    families = _read_cells(path)
-    if name not in families:
-        raise SurfaceError(f"{path}: `{name}` is none of its families: {', '.join(families)}")
-    return from_cells(families[name], name, z)
+    with reading(path, SurfaceError):
+        if path.suffix == ".toml":
+            surface = _of_scene(path, name)
+            return surface if z is None else replace(surface, z=z)
+        families = _read_cells(path)
+        if name not in families:
+            raise SurfaceError(f"{path}: `{name}` is none of its families: {', '.join(families)}")
+        return from_cells(families[name], name, z)
 
 
 def _read_cells(path: Path) -> dict[str, Any]:
-    inside = "resources/cells.json"
     try:
-        if path.is_dir():
-            text = (path / inside).read_text()
-        else:
-            with zipfile.ZipFile(path) as archive:
-                text = archive.read(inside).decode()
+        content = _cells_file(path)
     except (KeyError, FileNotFoundError):
-        what = f"no {inside}" if path.exists() else "no such file"
+        what = f"no {PLACE}" if path.exists() else "no such file"
         raise SurfaceError(f"{path}: {what}; a scene (.toml) tells its cells, too") from None
-    except zipfile.BadZipFile:
-        raise SurfaceError(f"{path}: neither a unit (.fmu) nor a scene (.toml)") from None
-    return json.loads(text)["families"]
+    except UnitError as error:
+        raise SurfaceError(f"{error}; neither a unit (.fmu) nor a scene (.toml)") from None
+    with reading(f"{path}: {PLACE}", SurfaceError):
+        return parse_cells(content)
+
+
+def _cells_file(path: Path) -> bytes:
+    if path.is_dir():
+        return read_bytes(path / PLACE, LARGEST_JSON)
+    with open_archive(path, path) as archive:
+        if PLACE in archive.namelist():
+            return archive.read(PLACE)
+    raise KeyError(PLACE)
 
 
 def from_cells(cells: dict[str, Any], name: str, z: float | None = None) -> Surface:
     """The surface of an entry of ``resources/cells.json``."""
+    with reading(name, SurfaceError):
+        return _from_cells(cells, name, z)
+
+
+def _from_cells(cells: dict[str, Any], name: str, z: float | None) -> Surface:
     footprint = cells["footprint"]
     x, y = (np.asarray(cells.get(axis, []), float).ravel() for axis in "xy")
     heights = np.asarray(cells.get("z", []), float).ravel()
@@ -120,12 +133,7 @@ def _of_scene(path: Path, name: str) -> Surface:
     """Loads and walls with rings, tiles or a disc, and fields with a size, as the scene has
     them.
     """
-    try:
-        scene = tomllib.loads(path.read_text())
-    except FileNotFoundError:
-        raise SurfaceError(f"{path}: no such file") from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise SurfaceError(f"{path}: {error}") from None
+    scene = tomllib.loads(read_bytes(path, LARGEST_SCENE).decode())
     kinds = ("load", "wall", "field")
     entries = {
         e.get("name", scene.get("name", "")): e for kind in kinds for e in scene.get(kind, [])

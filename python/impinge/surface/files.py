@@ -5,11 +5,14 @@ from __future__ import annotations
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
 from dataclasses import replace
+from math import prod
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ..reading import open_file, reading
+from .arrays import check_corners, check_fields, check_finite, check_points, read_datasets
 from .csv_files import read_table
 from .errors import SurfaceError, need
 from .placement import Placement
@@ -20,6 +23,8 @@ from .vtk_xml import read_pvd, read_vtk_xml
 # Cells of meshio that lie on surfaces, and how many of their nodes are corners
 FACES = {"triangle": 3, "triangle6": 3, "triangle7": 3, "quad": 4, "quad8": 4, "quad9": 4}
 HDF5 = {".h5", ".hdf5", ".hdf"}
+# Points of a grid, at most
+MOST_POINTS = 10**8
 
 
 def read(
@@ -58,7 +63,7 @@ def read(
         With the file, and of tables line and column, of what cannot be read.
     """
     path = Path(path)
-    surface, series = _read_any(path, placement, values, face, tolerance)
+    surface, series = _read_file(path, placement, values, face, tolerance)
     many = [name for name, one in series.items() if len(one) > 1]
     if many:
         raise SurfaceError(
@@ -84,21 +89,25 @@ def read_series(
     All frames are to have the same places.
     """
     path = Path(path)
-    surface, series = _read_any(path, placement, values, face, tolerance)
+    surface, series = _read_file(path, placement, values, face, tolerance)
     fixed = {name: Series(np.zeros(1), field[None]) for name, field in surface.data.items()}
     return replace(surface, data={}), {**fixed, **series}
 
 
-def _read_any(
+def _read_file(
     path: Path,
     placement: Placement | None,
     values: str | None,
     face: float | None,
     tolerance: float | None,
 ) -> tuple[Surface, dict[str, Series]]:
-    if not path.is_file():
-        raise SurfaceError(f"{path}: no such file")
     make = _Maker(path, placement or Placement(), values, face, tolerance)
+    with reading(path, SurfaceError):
+        return _read_any(path, make)
+
+
+def _read_any(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
+    open_file(path).close()
     suffix = path.suffix.lower()
     if suffix in (".csv", ".txt"):
         return _read_csv(path, make)
@@ -131,7 +140,13 @@ class _Maker:
         self, points: np.ndarray, cells: np.ndarray | None, at_points: dict, at_cells: dict
     ) -> Surface:
         try:
-            return self._make(points, cells, at_points, at_cells)
+            points = check_points(points)
+            cells = None if cells is None else check_corners(cells, len(points))
+            at_points = check_fields(at_points, len(points), "points")
+            at_cells = check_fields(at_cells, 0 if cells is None else len(cells), "cells")
+            surface = self._make(points, cells, at_points, at_cells)
+            check_finite(surface.data)
+            return surface
         except SurfaceError as error:
             raise SurfaceError(f"{self.path}: {error}") from None
 
@@ -197,19 +212,16 @@ def _read_csv(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
 def _read_hdf5(path: Path, make: _Maker) -> tuple[Surface, dict[str, Series]]:
     h5py = need("h5py")
 
-    try:
-        with h5py.File(path) as file:
-            content = {
-                name: item[()] for name, item in file.items() if isinstance(item, h5py.Dataset)
-            }
-    except OSError as error:
-        raise SurfaceError(f"{path}: {error}") from None
+    with h5py.File(path) as file:
+        content = read_datasets(file)
     if "points" not in content:
         raise SurfaceError(
             f"{path}: no dataset `points` of shape (n, 2 or 3); there are {', '.join(content)}"
         )
     points, cells = content.pop("points"), content.pop("cells", None)
     times = content.pop("time", None)
+    if times is not None and times.ndim != 1:
+        raise SurfaceError(f"{path}: `time` of shape {times.shape} (allowed: one axis)")
     frames, still = {}, {}
     for name, field in content.items():
         is_frames = times is not None and field.ndim >= 2 and len(field) == len(times)
@@ -290,11 +302,9 @@ def _read_mesh(path: Path, make: _Maker) -> Surface:
 def load_mesh(path: Path) -> Any:
     """A mesh as meshio reads it."""
     meshio = need("meshio")
-
-    try:
+    with reading(path, SurfaceError):
+        open_file(path).close()
         return meshio.read(path)
-    except (Exception, SystemExit) as error:  # of readers of many formats: anything
-        raise SurfaceError(f"{path}: {str(error) or 'meshio knows no such format'}") from None
 
 
 def _of_mesh(path: Path, mesh: Any, make: _Maker) -> Surface:
@@ -325,17 +335,17 @@ def _of_vtk(path: Path, make: _Maker) -> Surface:
     if file.kind == "PolyData":
         ends, nodes = file.geometry["Polys.offsets"], file.geometry["Polys.connectivity"]
         begin = np.concatenate([[0], ends[:-1]]).astype(int)
-        many = (ends - begin).astype(int)
+        many = ends - begin
         if not np.isin(many, (3, 4)).all():
             cell = int(np.flatnonzero(~np.isin(many, (3, 4)))[0])
             raise SurfaceError(f"{path}: polygon {cell} has {many[cell]} corners, not 3 or 4")
         fourth = begin + np.minimum(3, many - 1)
         cells = nodes[np.column_stack([begin, begin + 1, begin + 2, fourth])].astype(np.int64)
         return make(file.geometry["Points"], cells, file.points, file.cells)
-    points, shape = lattice(path, file)
-    flat = [k for k in range(3) if shape[k] == 1]
-    if len(flat) != 1:
+    shape = file.dimensions or ()
+    if shape and sorted(shape)[:2].count(1) != 1:
         raise SurfaceError(f"{path}: a grid of {' × '.join(map(str, shape))} points is no surface")
+    points, shape = lattice(path, file)
     number = np.arange(len(points)).reshape(shape, order="F").squeeze()
     cells = np.stack([number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]], axis=2)
     at_cells = {name: field for name, field in file.cells.items()}
@@ -346,11 +356,14 @@ def lattice(path: Path, file: Any) -> tuple[np.ndarray, tuple[int, int, int]]:
     """Points of a grid, shape (n, 3), the first index fastest, and how many there are along each
     index.
     """
-    if file.kind == "RectilinearGrid":
-        axes = list(file.geometry.values())[:3]
+    count = prod(file.dimensions or ())
+    if count > MOST_POINTS:
+        raise SurfaceError(f"{path}: {count} points (allowed: at most {MOST_POINTS})")
+    if file.kind == "RectilinearGrid" and len(file.geometry) == 3:
+        axes = list(file.geometry.values())
         shape = tuple(len(axis) for axis in axes)
         grid = np.meshgrid(*axes, indexing="ij")
         return np.column_stack([a.ravel(order="F") for a in grid]), shape
-    if file.kind == "StructuredGrid" and file.dimensions:
+    if file.kind == "StructuredGrid" and file.dimensions and "Points" in file.geometry:
         return file.geometry["Points"], file.dimensions
     raise SurfaceError(f"{path}: a {file.kind} is neither a grid nor polygons")

@@ -5,11 +5,12 @@ import os
 import shutil
 import subprocess
 import sys
-import tempfile
 import tomllib
 from pathlib import Path
 
 from impinge.errors import UnitError
+from impinge.reading import LARGEST_SCENE, read_bytes, reading
+from impinge.unit.temporary import LockedFolder
 
 PROGRAM = "build-fmu" + (".exe" if sys.platform == "win32" else "")
 
@@ -76,21 +77,19 @@ def build(scene: str | Path, *, fmi: int | None = None, text: str | None = None)
     fmi = 2 if fmi is None else fmi
     if fmi not in (2, 3):
         raise UnitError(f"fmi is {fmi}; it may be 2 or 3")
-    try:
-        content = scene.read_bytes() if text is None else text.encode()
-    except OSError as error:
-        raise UnitError(f"{scene}: {error.strerror}") from error
+    with reading(scene, UnitError):
+        content = read_bytes(scene, LARGEST_SCENE) if text is None else text.encode()
     program = find_program()
     unit = cache_folder() / "units" / _key(content, program, fmi) / "unit.fmu"
     if unit.is_file():
         return unit
     unit.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=unit.parent) as folder:
+    with LockedFolder(unit.parent) as folder:
         source = scene
         if text is not None:
-            source = Path(folder) / scene.name
+            source = folder.path / scene.name
             source.write_text(text)
-        made = Path(folder) / "unit.fmu"
+        made = folder.path / "unit.fmu"
         command = [program, source, "-o", made, "--fmi", str(fmi)]
         ran = subprocess.run(command, capture_output=True, text=True, check=False)
         if ran.returncode != 0:

@@ -10,8 +10,9 @@ import numpy as np
 
 from impinge.errors import UnitError
 from impinge.unit.log import Log, callbacks
-from impinge.unit.package import Package, temporary_folder
+from impinge.unit.package import Package
 from impinge.unit.slave import Slave, pointer
+from impinge.unit.temporary import temporary_folder
 from impinge.unit.variable import NUMBERS
 
 _CO_SIMULATION = 1
@@ -30,7 +31,7 @@ class Fmi2(Slave):
 
     def __init__(self, package: Package, log: Log):
         super().__init__(package, log)
-        self._callbacks = callbacks(log, temporary_folder())
+        self._callbacks = callbacks(log, temporary_folder().path)
         instantiate = self._library["fmi2Instantiate"]
         instantiate.argtypes = [c_char_p, c_int, c_char_p, c_char_p, c_void_p, c_int, c_int]
         instantiate.restype = c_void_p

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import atexit
 import copy
 import hashlib
-import json
 import os
 import re
 import shutil
-import tempfile
-import zipfile
+from codecs import getincrementaldecoder
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
@@ -20,7 +17,11 @@ from typing import Any
 import fmpy
 
 from impinge.errors import UnitError
+from impinge.reading import LARGEST_JSON, open_file, read_bytes, reading
+from impinge.unit import cells
+from impinge.unit.archive import open_archive, unpack
 from impinge.unit.build import build
+from impinge.unit.temporary import temporary_folder
 from impinge.unit.variable import Capabilities, Variable, element_of, read_variables, stem_of
 
 
@@ -34,17 +35,17 @@ class Package:
         self.folder = folder
         self.digest = digest
         self.source = source
-        try:
+        with reading(f"{source}: modelDescription.xml", UnitError):
+            _check_encoding(folder / "modelDescription.xml")
             self.description: Any = fmpy.read_model_description(str(folder), validate=False)
-        except Exception as error:
-            raise UnitError(f"{source}: {error}") from error
         version = str(self.description.fmiVersion)
         if version[:1] not in ("2", "3"):
             raise UnitError(f"{source} is a unit of FMI {version}; it may be of 2.0 or 3.0")
         self.fmi = int(version[0])
         if self.description.coSimulation is None:
             raise UnitError(f"{source} offers no co-simulation")
-        self.variables, self._elements = read_variables(self.description)
+        with reading(f"{source}: modelDescription.xml", UnitError):
+            self.variables, self._elements = read_variables(self.description)
 
     def reshaped(self, structural: Mapping[str, Any]) -> Package:
         """This package, with the shapes that arrays of FMI 3.0 have for structural parameters."""
@@ -142,12 +143,15 @@ class Package:
         Beside what the file says each has `quantities`, the names of its inputs and outputs, and
         where it is made of equal cells their `width` [m].
         """
-        path = self.folder / "resources/cells.json"
-        told = json.loads(path.read_text())["families"] if path.is_file() else {}
+        path = self.folder / cells.PLACE
+        told: dict[str, dict[str, Any]] = {}
+        with reading(f"{self.source}: {cells.PLACE}", UnitError):
+            if path.exists():
+                told = cells.parse_cells(read_bytes(path, LARGEST_JSON))
         return {
             name: {
                 **family,
-                "quantities": [*family["inputs"], *family["outputs"]],
+                "quantities": [*family.get("inputs", []), *family.get("outputs", [])],
                 **({"width": family["size"]} if "size" in family else {}),
             }
             for name, family in told.items()
@@ -156,7 +160,7 @@ class Package:
 
 _PACKAGES: dict[str, Package] = {}  # by digest
 _DIGESTS: dict[tuple[str, int, int], str] = {}  # of files, by path, time and size
-_TEMPORARY: dict[str, Any] = {}
+_BLOCK = 1 << 20
 
 
 def open_package(source: str | os.PathLike[str], fmi: int | None = None) -> Package:
@@ -166,14 +170,7 @@ def open_package(source: str | os.PathLike[str], fmi: int | None = None) -> Pack
         path = build(path, fmi=fmi)
     if path.is_dir():
         return _of_folder(path)
-    if not path.is_file():
-        raise UnitError(f"{path}: no such file")
-    status = path.stat()
-    key = (str(path.resolve()), status.st_mtime_ns, status.st_size)
-    if key not in _DIGESTS:
-        with open(path, "rb") as file:
-            _DIGESTS[key] = hashlib.file_digest(file, "sha256").hexdigest()
-    digest = _DIGESTS[key]
+    digest = _digest_of_file(path)
     if digest not in _PACKAGES:
         _PACKAGES[digest] = Package(_unzip(path, digest), digest, str(source))
     package = _PACKAGES[digest]
@@ -182,34 +179,41 @@ def open_package(source: str | os.PathLike[str], fmi: int | None = None) -> Pack
     return package
 
 
-def temporary_folder() -> Path:
-    """A folder of this process, which goes when it ends. Forked processes share their parent's."""
-    if not _TEMPORARY:
-        _TEMPORARY.update(folder=Path(tempfile.mkdtemp(prefix="impinge-")), process=os.getpid())
-        atexit.register(_remove)
-    return _TEMPORARY["folder"]
-
-
-def _remove() -> None:
-    if _TEMPORARY.get("process") == os.getpid():
-        shutil.rmtree(_TEMPORARY["folder"], ignore_errors=True)
+def _digest_of_file(path: Path) -> str:
+    with reading(path, UnitError), open_file(path) as file:
+        status = os.fstat(file.fileno())
+        key = (str(path.resolve()), status.st_mtime_ns, status.st_size)
+        if key not in _DIGESTS:
+            _DIGESTS[key] = hashlib.file_digest(file, "sha256").hexdigest()
+        return _DIGESTS[key]
 
 
 def _unzip(path: Path, digest: str) -> Path:
-    folder = temporary_folder() / digest[:16]
-    try:
-        with zipfile.ZipFile(path) as archive:
-            archive.extractall(folder)
-    except zipfile.BadZipFile as error:
-        raise UnitError(f"{path}: {error}") from error
+    folder = temporary_folder().path / digest[:16]
+    with open_archive(path, path) as archive:
+        try:
+            unpack(archive, folder)
+        except BaseException:
+            shutil.rmtree(folder, ignore_errors=True)
+            raise
     return folder
+
+
+def _check_encoding(path: Path) -> None:
+    """Raises `ValueError` for a description that is not in UTF-8, as FMI asks for."""
+    decoder = getincrementaldecoder("utf-8")()
+    with open_file(path) as file:
+        while block := file.read(_BLOCK):
+            decoder.decode(block)
+        decoder.decode(b"", final=True)
 
 
 def _of_folder(path: Path) -> Package:
     description = path / "modelDescription.xml"
     if not description.is_file():
         raise UnitError(f"{path} holds no modelDescription.xml")
-    digest = hashlib.sha256(str(path.resolve()).encode() + description.read_bytes()).hexdigest()
+    content = str(path.resolve()).encode() + description.read_bytes()
+    digest = hashlib.sha256(content).hexdigest()
     if digest not in _PACKAGES:
         _PACKAGES[digest] = Package(path.resolve(), digest, str(path))
     return _PACKAGES[digest]

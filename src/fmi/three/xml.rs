@@ -153,9 +153,9 @@ impl Description<'_> {
     /// parameters and inputs, which is what a list that is left out means.
     fn structure(&self, xml: &mut Xml) -> io::Result<()> {
         let is_output = |v: &ArrayVariable| v.causality(&self.registry) == Some(Causality::Output);
-        let outputs = || self.arrays.variables.iter().enumerate().filter(|(_, v)| is_output(v));
-        outputs().try_for_each(|(reference, output)| {
-            let inputs = self.arrays.dependencies(self.scene, &self.registry, output);
+        let mut outputs = self.arrays.variables.iter().enumerate().filter(|(_, v)| is_output(v));
+        let dependencies = self.arrays.all_dependencies(self.scene, &self.registry);
+        dependencies.iter().try_for_each(|(reference, inputs)| {
             let inputs: Vec<String> = inputs.iter().map(usize::to_string).collect();
             let attributes: Attributes = vec![
                 ("valueReference", reference.to_string()),
@@ -164,7 +164,7 @@ impl Description<'_> {
             ];
             leaf(xml, "Output", &attributes)
         })?;
-        outputs().try_for_each(|(reference, _)| {
+        outputs.try_for_each(|(reference, _)| {
             leaf(xml, "InitialUnknown", &[("valueReference", reference.to_string())])
         })
     }

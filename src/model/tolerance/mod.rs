@@ -10,6 +10,7 @@ pub mod experiment;
 mod levels;
 mod report;
 pub mod responses;
+mod sample;
 pub mod twin;
 
 use std::convert::Infallible;
@@ -23,6 +24,7 @@ pub use levels::{Levels, levels, reduced_model, stored_reductions};
 pub use report::{
     BodyEstimate, PACKED, estimate as estimate_of, estimates, finer_mesh, packed_text, warnings,
 };
+use twin::MOST_PROBES;
 
 /// Meshes by scene and name of the body.
 static CHOICES: SharedValues<(Scene, String), Choice> = SharedValues::new();
@@ -46,6 +48,14 @@ pub fn resolve(scene: &Scene) -> Resolved {
         resolved.choices.push(choice);
     }
     resolved
+}
+
+/// What to say of a scene with more probes than are tried, before these trials.
+pub fn note_on_sample(scene: &Scene) -> Option<String> {
+    let probes = scene.probe.len();
+    (probes > MOST_PROBES).then(|| {
+        format!("of {probes} probes, {MOST_PROBES} a body tell which mesh it takes and what outputs err by")
+    })
 }
 
 /// Forgets choices that nobody holds any more.

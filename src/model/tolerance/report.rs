@@ -74,7 +74,7 @@ pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
     if scene.is_reduced(name) {
         // Of the full body more can be read.
         let offered = Registry::structured(scene);
-        found.outputs.retain(|one| offered.variables.iter().any(|own| own.name == one.name));
+        found.outputs.retain(|one| offered.find(&one.name).is_some());
     }
     found
 }
@@ -228,8 +228,7 @@ fn locks(solid: &Solid) -> bool {
 /// Whether an output of a scene is a stress or a displacement.
 fn is_mechanical(scene: &Scene, output: &str) -> bool {
     let registry = Registry::structured(scene);
-    let quantity =
-        registry.variables.iter().find(|one| one.name == output).and_then(|one| one.quantity);
+    let quantity = registry.find(output).and_then(|place| registry.variables[place].quantity);
     matches!(quantity, Some(Quantity::Stress | Quantity::Displacement))
 }
 

@@ -1,6 +1,7 @@
 //! A body by itself, linear, with what is read of it and without what does not matter to that.
 
 use super::experiment::tries_least_radii;
+use super::sample::sample;
 use crate::body::fine_radius;
 use crate::material::{Material, Properties, Property, radiative_coefficient};
 use crate::scene::{
@@ -28,8 +29,11 @@ pub struct Twin {
     /// running maxima ask for them.
     pub reads_extremes: bool,
     /// What differs from the body itself.
-    pub simplified: Vec<&'static str>,
+    pub simplified: Vec<String>,
 }
+
+/// Probes of a twin, at most: of more, a sample stands for all.
+pub const MOST_PROBES: usize = 256;
 
 impl Twin {
     /// Of a solid of a scene; nothing where there is nothing to be estimated.
@@ -56,6 +60,12 @@ impl Twin {
         twin.load.extend(drops(scene, name));
         twin.probe.iter_mut().for_each(|probe| probe.gives = own(&probe.gives));
         twin.probe.retain(|probe| !probe.gives.is_empty());
+        let probes = twin.probe.len();
+        if probes > MOST_PROBES {
+            let sample = sample(probes, MOST_PROBES);
+            twin.probe = sample.into_iter().map(|place| twin.probe[place].clone()).collect();
+            simplified.push(format!("{MOST_PROBES} of {probes} probes stand for all of them"));
+        }
         twin.field.iter_mut().for_each(|field| field.gives = own(&field.gives));
         twin.field.retain(|field| !field.gives.is_empty());
         twin.solver.threads = 1;
@@ -63,21 +73,24 @@ impl Twin {
         if takes_newton(scene, solid) {
             simplified.push(
                 "constants are those at the temperature at time zero, nothing melts, and faces radiate in proportion to \
-                 what they are warmer than their surroundings",
+                 what they are warmer than their surroundings"
+                    .to_owned(),
             );
             if solid.melts() {
                 simplified.push(
                     "fronts are left out, which go from node to node: temperatures behind one err by up to half of an \
-                     element over the depth that is molten",
+                     element over the depth that is molten"
+                        .to_owned(),
                 );
             }
         }
         if !solid.deforms_linearly() && is_mechanical {
-            simplified.push("nothing yields or creeps");
+            simplified.push("nothing yields or creeps".to_owned());
         }
         if scene.couplings_to(name).next().is_some() {
             simplified.push(
-                "a disc as wide as the drop is expected to spread stands for it where it lands",
+                "a disc as wide as the drop is expected to spread stands for it where it lands"
+                    .to_owned(),
             );
         }
         twin.solver.method = Default::default();
@@ -89,7 +102,9 @@ impl Twin {
         }
         let reads_extremes = !is_mechanical || has_stress_peaks;
         if tries_least_radii(&twin) {
-            simplified.push("loads are tried at the lower ends of their ranges of radius, too");
+            simplified.push(
+                "loads are tried at the lower ends of their ranges of radius, too".to_owned(),
+            );
         }
         Some(Self {
             scene: twin,

@@ -101,6 +101,37 @@ fn the_files_of_an_earlier_run_are_replaced_only_if_asked() {
     assert_eq!(place.files("out/HotSpot"), ["mine.pvd", "outputs.csv"]);
 }
 
+/// Files that no run wrote, under names that one would write or remove.
+#[test]
+fn foreign_files_of_the_names_of_a_series_are_replaced_only_if_asked() {
+    for name in ["plate.pvd", "plate_000003.vtr", "plate_000003.vts", "plate_1000000.vtp"] {
+        for fields in ["1", "0"] {
+            let place = Workplace::new();
+            fs::create_dir(place.path("files")).unwrap();
+            fs::write(place.path("files").join(name), "mine").unwrap();
+            let run = ["--out", "files", "--until", "4e-7", "--fields-every", fields];
+            place.run(&run).fails(1, &["files holds", &format!("files/{name}"), "--overwrite"]);
+            assert_eq!(place.files("files"), [name]);
+            assert_eq!(fs::read(place.path("files").join(name)).unwrap(), b"mine");
+            place.run(&[&run[..], &["--overwrite"]].concat()).succeeds();
+            let left = fs::read(place.path("files").join(name)).unwrap_or_default();
+            assert_ne!(left, b"mine", "{name}");
+        }
+    }
+}
+
+#[test]
+fn files_of_other_names_are_left_alone() {
+    let place = Workplace::new();
+    fs::create_dir(place.path("files")).unwrap();
+    let names = ["plate2_000003.vtr", "plate_03.vtr", "plate_000003.vtu", "notes.txt"];
+    names.iter().for_each(|name| fs::write(place.path("files").join(name), "mine").unwrap());
+    place.run(&["--out", "files", "--until", "4e-7", "--fields-every", "1"]).succeeds();
+    for name in names {
+        assert_eq!(fs::read(place.path("files").join(name)).unwrap(), b"mine", "{name}");
+    }
+}
+
 #[test]
 fn a_killed_run_is_an_earlier_run() {
     let place = Workplace::new();

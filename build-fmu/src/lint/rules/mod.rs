@@ -2,6 +2,7 @@
 
 mod attributes;
 mod capabilities;
+mod cells;
 mod combinations;
 mod declared_types;
 mod default_experiment;
@@ -23,13 +24,16 @@ mod unique_names;
 mod units;
 mod value_references;
 mod zip_duplicates;
+mod zip_links;
 mod zip_paths;
+mod zip_sizes;
 
 use super::Subject;
 use super::finding::Report;
 use super::package::Package;
 
 pub use reading::{READABLE, VERSION, WELL_FORMED, check_encoding, of_this_version};
+pub use zip_sizes::{RULE as SIZES, check_sizes};
 
 pub struct Rule {
     pub name: &'static str,
@@ -51,10 +55,13 @@ pub enum Check {
 
 /// All rules in the order in which they are checked.
 pub fn all() -> impl Iterator<Item = &'static Rule> {
-    const ALL: [&Rule; 27] = [
+    const ALL: [&Rule; 30] = [
         &READABLE,
+        &zip_sizes::RULE,
         &zip_paths::RULE,
+        &zip_links::RULE,
         &zip_duplicates::RULE,
+        &cells::RULE,
         &WELL_FORMED,
         &VERSION,
         &elements::RULE,

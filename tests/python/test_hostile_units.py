@@ -1,0 +1,318 @@
+"""Units of strangers: zip files and descriptions that lie, and folders of killed processes."""
+
+import json
+import os
+import re
+import signal
+import stat
+import struct
+import subprocess
+import sys
+import time
+import zipfile
+from pathlib import Path
+
+import pytest
+from impinge import Surface, Unit, UnitError
+from impinge.surface import SurfaceError
+from impinge.unit import archive, open_package, temporary
+from linear_unit import make
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def unit(tmp_path_factory):
+    return make(tmp_path_factory.mktemp("decay"), "Decay", [[-2.0]], [1.0], [1.0], x=[3.0])
+
+
+def entries_of(unit):
+    with zipfile.ZipFile(unit) as whole:
+        return {name: whole.read(name) for name in whole.namelist()}
+
+
+@pytest.fixture
+def remade(unit, tmp_path):
+    """Writes the unit again with other entries, after those of `first`."""
+
+    def remade(changes=None, more=(), name="a.fmu"):
+        path = tmp_path / name
+        with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as out:
+            for entry, content in {**entries_of(unit), **(changes or {})}.items():
+                out.writestr(entry, content)
+            for entry, content in more:
+                out.writestr(entry, content)
+        return path
+
+    return remade
+
+
+def patched(unit, folder, field, value, name="modelDescription.xml"):
+    """A copy with another value in the directory's entry of a name."""
+    data = bytearray(Path(unit).read_bytes())
+    at = data.find(b"PK\1\2")
+    while bytes(data[at + 46 : at + 46 + struct.unpack_from("<H", data, at + 28)[0]]) != (
+        name.encode()
+    ):
+        at = data.find(b"PK\1\2", at + 1)
+    offset, form = {"flags": (8, "<H"), "method": (10, "<H"), "size": (24, "<I")}[field]
+    struct.pack_into(form, data, at + offset, value)
+    path = folder / "patched.fmu"
+    path.write_bytes(data)
+    return path
+
+
+def refused(path, words):
+    with pytest.raises(UnitError, match=re.escape(path.name) + ".*" + words):
+        Unit(path)
+
+
+def test_bombs_are_refused_before_they_are_unpacked(remade, monkeypatch, tmp_path):
+    taken = {"resources/large": bytes(100_000)}
+    for name, value, words in [
+        ("LARGEST_ENTRY", 99_999, "resources/large: 100000 bytes when .*at most 99999"),
+        ("MOST_UNPACKED", 999, "bytes when unpacked .*at most 999"),
+        ("MOST_ENTRIES", 2, "entries .*at most 2"),
+        ("LARGEST_FILE", 100, "bytes .*at most 100"),
+        ("JUDGED_RATIO", 99_999, "100000 bytes of .* packed ones"),
+        ("_LARGEST_DIRECTORY", 50, "its directory has .* bytes .*at most 50"),
+    ]:
+        path = remade(taken, name=f"{name}.fmu")
+        with monkeypatch.context() as patch:
+            patch.setattr(archive, name, value)
+            if name == "JUDGED_RATIO":
+                patch.setattr(archive, "MOST_RATIO", 2)
+            refused(path, words)
+    open_package(path)
+
+
+def test_limits_are_those_of_the_linter():
+    package = (ROOT / "build-fmu/src/lint/package.rs").read_text()
+    sizes = (ROOT / "build-fmu/src/lint/rules/zip_sizes.rs").read_text()
+    whole = (ROOT / "build-fmu/src/lint/mod.rs").read_text()
+    for text, name in [
+        (whole, "LARGEST_FILE"),
+        (package, "MOST_ENTRIES"),
+        (package, "LARGEST_ENTRY"),
+        (package, "MOST_UNPACKED"),
+        (sizes, "JUDGED_RATIO"),
+        (sizes, "MOST_RATIO"),
+    ]:
+        value = re.search(rf"const {name}: \w+ = ([^;]+);", text)[1]
+        assert getattr(archive, name) == eval(value), name
+
+
+@pytest.mark.parametrize(
+    ("mode", "words"), [(0o120777, "is a link"), (0o010644, "is no file"), (0o020644, "is no file")]
+)
+def test_links_pipes_and_devices_are_refused(remade, mode, words):
+    entry = zipfile.ZipInfo("resources/link")
+    entry.external_attr = mode << 16
+    refused(remade(more=[(entry, "/tmp")]), f"resources/link: {words}")
+
+
+@pytest.mark.parametrize("path", ["/tmp/x", "../x", "resources/../../x", "a\\b", "C:/x"])
+def test_paths_that_lead_out_of_the_unit_are_refused(remade, path):
+    refused(remade({path: b"x"}), "leads out of the unit")
+
+
+def test_a_path_that_stands_twice_is_refused(remade):
+    with pytest.warns(UserWarning, match="Duplicate"):
+        path = remade(more=[("modelDescription.xml", b"<x/>")])
+    refused(path, "modelDescription.xml: the path stands twice")
+
+
+@pytest.mark.parametrize(
+    ("field", "value", "words"),
+    [
+        ("method", 99, "compression method"),
+        ("flags", 1, "is encrypted"),
+        ("size", 0xFFFFFFF0, "bytes when unpacked"),
+        ("size", 5, "CRC-32|has 5 bytes"),
+        ("size", 1_000_000, "where the directory says 1000000"),
+    ],
+)
+def test_directories_that_lie_are_refused(unit, tmp_path, field, value, words):
+    refused(patched(unit, tmp_path, field, value), words)
+
+
+def test_damaged_data_is_refused(remade):
+    path = remade()
+    data = bytearray(path.read_bytes())
+    data[80:200] = bytes(120)
+    path.write_bytes(data)
+    refused(path, "")
+    path.write_bytes(b"PK\3\4" + bytes(100))
+    refused(path, "not a zip file")
+
+
+def test_descriptions_that_cannot_be_taken_are_refused(remade, unit):
+    text = entries_of(unit)["modelDescription.xml"].decode()
+    for number, (changed, words) in enumerate([
+        (text.replace("UTF-8", "UTF-16").encode("utf-16"), "codec"),
+        (text.replace('valueReference="0"', f'valueReference="{10**20}"').encode(), "too large"),
+        (text.replace('valueReference="0"', 'valueReference="-1"').encode(), ""),
+        (b"<x/>", ""),
+        (b"", ""),
+        (b"<a>" * 100_000, ""),
+    ]):  # fmt: skip
+        path = remade({"modelDescription.xml": changed}, name=f"a{number}.fmu")
+        refused(path, f"modelDescription.xml: .*{words}")
+
+
+def test_nothing_is_left_of_a_unit_that_was_refused(remade):
+    path = remade(more=[("resources/a", b"x"), ("resources/a/b", b"x")])
+    before = set(temporary.temporary_folder().path.iterdir())
+    for _ in range(2):
+        refused(path, "")
+    assert set(temporary.temporary_folder().path.iterdir()) == before
+
+
+CELLS = {"footprint": "rings", "count": [2], "inputs": ["q"], "outputs": [], "at": [0.0, 0.0]}
+CELLS |= {"inner": [0.0, 1.0], "outer": [1.0, 2.0]}
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        (b"", "Expecting value"),
+        (b"[]", "holds no table `families`"),
+        (b'{"families": 3}', "holds no table `families`"),
+        (b"\xff", "codec|decode"),
+        (b"[" * 100_000, "nested too deeply"),
+        ({"a": 3}, "family `a`: is no table"),
+        ({"a": {**CELLS, "footprint": None}}, "has no `footprint`"),
+        ({"a": {**CELLS, "count": [10**12]}}, "`count` is none"),
+        ({"a": {**CELLS, "count": [-2]}}, "`count` is none"),
+        ({"a": {**CELLS, "count": [2.0]}}, "`count` is none"),
+        ({"a": {**CELLS, "count": [3]}}, "`inner` has 2 values for 3 cells"),
+        ({"a": {**CELLS, "outer": [1.0, float("nan")]}}, "NaN is not finite"),
+        ({"a": {**CELLS, "outer": [1.0, 10**400]}}, "family `a`|too large"),
+        ({"a": {**CELLS, "outer": [1.0, "2"]}}, "`outer` holds 2"),
+        ({"a": {**CELLS, "outer": "12"}}, "`outer` is no list"),
+        ({"a": {**CELLS, "area": [1.0, -1.0]}}, "below 0 m2"),
+        ({"a": {**CELLS, "at": [0.0]}}, "`at` is no place"),
+        ({"a": {**CELLS, "size": [1.0, 0.0]}}, "`size` is no pair"),
+        ({"a": {**CELLS, "inputs": "q"}}, "`inputs` is no list"),
+    ],
+)
+def test_absurd_files_of_cells_are_refused_with_file_and_reason(remade, content, words):
+    if isinstance(content, dict):
+        content = json.dumps({"families": content}).encode()
+    path = remade({"resources/cells.json": content})
+    with pytest.raises(UnitError, match=f"a.fmu: resources/cells.json: .*({words})"):
+        _ = open_package(path).cell_families
+    with pytest.raises(SurfaceError, match=f"a.fmu: resources/cells.json: .*({words})"):
+        Surface.of(path, "a")
+
+
+def test_cells_that_are_right_are_read(remade):
+    path = remade({"resources/cells.json": json.dumps({"families": {"a": CELLS}}).encode()})
+    assert open_package(path).cell_families["a"]["quantities"] == ["q"]
+    assert Surface.of(path, "a").shape == (2,)
+
+
+def test_pipes_and_folders_are_no_units(tmp_path):
+    for name in ("a.fmu", "a.toml"):
+        os.mkfifo(tmp_path / name)
+        refused(tmp_path / name, "is no regular file")
+        with pytest.raises(SurfaceError, match=f"{name}: is no regular file"):
+            Surface.of(tmp_path / name, "laser")
+    (tmp_path / "folder").mkdir()
+    refused(tmp_path / "folder", "holds no modelDescription.xml")
+    os.mkfifo(tmp_path / "folder/modelDescription.xml")
+    refused(tmp_path / "folder", "holds no modelDescription.xml")
+    refused(tmp_path / "b.fmu", "no such file")
+
+
+# Folders of killed processes
+
+HOLDS = """
+import sys, time
+from impinge.unit import open_package
+print(open_package(sys.argv[1]).folder.parent, flush=True)
+time.sleep(60)
+"""
+
+
+def start(unit, place, code=HOLDS):
+    process = subprocess.Popen(
+        [sys.executable, "-c", code, str(unit)],
+        env={**os.environ, "TMPDIR": str(place)},
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    return process, Path(process.stdout.readline().strip())
+
+
+def test_folders_of_killed_processes_go_and_those_of_others_stay(unit, tmp_path):
+    place = tmp_path / "temporary"
+    place.mkdir()
+    killed, left = start(unit, place)
+    living, used = start(unit, place)
+    killed.send_signal(signal.SIGKILL)
+    killed.wait()
+    outside = tmp_path / "outside"
+    outside.mkdir()
+    (outside / "mine").write_text("mine")
+    (left / "link").symlink_to(outside)
+    name = "impinge-1-abcdefgh"
+    foreign = [place / "impinge-notes", place / "impinge-12-x", place / name]
+    for folder in foreign[:2]:
+        folder.mkdir()
+        (folder / ".lock").touch()
+    foreign[2].symlink_to(outside)
+    (outside / ".lock").touch()
+    without_lock = place / "impinge-2-abcdefgh"
+    without_lock.mkdir()
+    with_pipe = place / "impinge-3-abcdefgh"
+    with_pipe.mkdir()
+    os.mkfifo(with_pipe / ".lock")
+    try:
+        assert left.is_dir() and used.is_dir() and left != used
+        temporary.sweep(place)
+        assert not left.exists() and used.is_dir()
+        assert (outside / "mine").read_text() == "mine"
+        assert all(os.path.lexists(folder) for folder in [*foreign, without_lock, with_pipe])
+        assert stat.S_IMODE(used.stat().st_mode) == 0o700
+    finally:
+        living.terminate()
+        living.wait()
+
+
+FORKS = """
+import os, sys, time
+from impinge.unit import open_package
+folder = open_package(sys.argv[1]).folder.parent
+if os.fork() == 0:
+    print(folder, flush=True)
+    time.sleep(60)
+    os._exit(0)
+time.sleep(60)
+"""
+
+
+def test_a_folder_is_used_as_long_as_a_forked_process_lives(unit, tmp_path):
+    parent, used = start(unit, tmp_path, FORKS)
+    child = int(
+        next(p.parent.name for p in Path("/proc").glob("[0-9]*/stat") if _parent(p) == parent.pid)
+    )
+    parent.send_signal(signal.SIGKILL)
+    parent.wait()
+    try:
+        temporary.sweep(tmp_path)
+        assert used.is_dir()
+    finally:
+        os.kill(child, signal.SIGKILL)
+    limit = time.monotonic() + 20.0
+    while used.exists():
+        assert time.monotonic() < limit
+        temporary.sweep(tmp_path)
+        time.sleep(0.05)
+
+
+def _parent(path):
+    try:
+        return int(path.read_text().rpartition(")")[2].split()[1])
+    except OSError:
+        return 0
