@@ -96,6 +96,7 @@ fn beside_this_program() -> Result<PathBuf, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn a_missing_library_is_refused_with_the_way_to_build_it() {

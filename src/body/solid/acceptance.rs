@@ -3,8 +3,10 @@
 use super::SolidBody;
 use crate::method::fem::ThermalFace;
 
-/// Part of the heat in a body and of the heat that passed which a balance may miss: runs keep it to 1e-9.
+/// Part of the heat that warmed a body and of the heat that passed which a balance may miss: runs keep it to 1e-9.
 const BALANCE: f64 = 1e-6;
+/// Part of the heat that was there at time zero which it may miss: enthalpies round to 1e-16 of it.
+const ROUNDING: f64 = 1e-9;
 /// Part of the range of nodal temperatures by which the lowest may lie below absolute zero. Consistent capacities place a
 /// node beside one that was just heated below its surroundings, by 2 − √3 of the jump along one axis.
 const UNDERSHOOT: f64 = 0.4;
@@ -35,10 +37,11 @@ impl SolidBody {
         }
         let totals = self.solid.heat_totals(heat);
         let stored = self.solid.heat_stored(heat);
-        let content = self.heat_capacity() * highest.abs().max(lowest.abs());
-        let scale = content + stored.abs() + totals.brought_in.abs() + totals.lost.abs();
+        let (start, capacity) = (self.solid.initial_temperature(), self.heat_capacity());
+        let warmed = capacity * (highest - start).abs().max((lowest - start).abs());
+        let scale = warmed + stored.abs() + totals.brought_in.abs() + totals.lost.abs();
         let missing = self.solid.heat_drift(heat);
-        if !(missing.abs() <= BALANCE * scale) {
+        if !(missing.abs() <= BALANCE * scale + ROUNDING * capacity * start) {
             return Err(format!(
                 "{missing:e} J more heat in {name} than was brought in and not lost"
             ));
