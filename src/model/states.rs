@@ -34,8 +34,8 @@ impl Model {
             return refuse(format!("unknowns of {found} bodies; the scene has {wanted}"));
         }
         for (body, unknowns) in self.bodies.iter().zip(&state.bodies) {
-            // Written so that numbers that are none are refused.
-            if let Some(at) = unknowns.iter().position(|number| !(number.abs() <= LARGEST)) {
+            let is_beyond = |number: &f64| !number.is_finite() || number.abs() > LARGEST;
+            if let Some(at) = unknowns.iter().position(is_beyond) {
                 let place = body.layout(unknowns).and_then(|layout| layout.place(at));
                 let place = place.map_or("a number".to_owned(), |place| place.to_string());
                 let wrong = match unknowns[at].is_finite() {

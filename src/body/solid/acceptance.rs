@@ -24,9 +24,9 @@ impl SolidBody {
         let lowest = self.solid.min_temperature(&temperatures);
         let highest = self.solid.hottest(&temperatures).value;
         let name = &self.name;
-        // Written so that numbers that are none are refused.
         let below = self.undershoot() * (highest - lowest);
-        if !(lowest > -below && highest < HOTTEST) {
+        let is_possible = lowest > -below && highest < HOTTEST;
+        if !is_possible {
             return Err(format!(
                 "temperatures of {name} from {lowest:e} to {highest:e} K, which no run leads to"
             ));
@@ -41,7 +41,8 @@ impl SolidBody {
         let warmed = capacity * (highest - start).abs().max((lowest - start).abs());
         let scale = warmed + stored.abs() + totals.brought_in.abs() + totals.lost.abs();
         let missing = self.solid.heat_drift(heat);
-        if !(missing.abs() <= BALANCE * scale + ROUNDING * capacity * start) {
+        let is_balanced = missing.abs() <= BALANCE * scale + ROUNDING * capacity * start;
+        if !is_balanced {
             return Err(format!(
                 "{missing:e} J more heat in {name} than was brought in and not lost"
             ));
