@@ -152,7 +152,7 @@ fn the_state_itself_is_taken() {
 fn particles_that_are_nowhere_are_refused() {
     let (unit, state) = stepped();
     let most = f64::from(f32::MAX);
-    let places = [[most; 3], [-most, -most, 1.0], [1e300; 3], [1e6, 0.0, 1.0], [0.0, 0.0, -0.1]];
+    let places = [[most; 3], [-most, -most, 1.0], [1e60; 3], [1e6, 0.0, 1.0], [0.0, 0.0, -0.1]];
     for place in places {
         let mut state = state.clone();
         state.position(1).copy_from_slice(&place);
@@ -169,7 +169,7 @@ fn particles_that_are_nowhere_are_refused() {
 fn particles_far_above_the_speed_of_sound_are_refused() {
     let (unit, state) = stepped();
     let first = 3 * state.particles();
-    for speed in [101.0, -1e6, 1e300] {
+    for speed in [101.0, -1e6, 1e60] {
         let mut state = state.clone();
         state.bodies[0][BEFORE_PARTICLES + first + 5] = speed;
         refused(&unit, &state, "times the speed of sound");
