@@ -49,8 +49,8 @@ pub fn hand_out<F: Function>(mut unit: Unit) -> Handle {
     ptr::from_ref(instance).cast_mut().cast()
 }
 
-/// The place that has rested longest, or a new one: nobody waits for a thread that still calls the unit which had the place,
-/// as a forked process may not have that thread.
+/// The place that has rested longest, or a new one: nobody waits for a thread that still calls the unit which
+/// had the place, as a forked process may not have that thread.
 fn vacant_place() -> &'static Instance {
     let mut all = SPARE.lock();
     let rested = if all.len() > RESTING { all.pop_front() } else { None };

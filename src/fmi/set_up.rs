@@ -18,8 +18,8 @@ pub struct SetUpOnce(AtomicU32);
 /// The process was forked while a thread that it does not have was setting it up.
 #[derive(Debug, PartialEq, thiserror::Error)]
 #[error(
-    "this process was forked while another thread made the first unit of its parent: the parent has to make one before it \
-     forks"
+    "this process was forked while another thread made the first unit of its parent: the parent has to \
+     make one before it forks"
 )]
 pub struct CutOff;
 

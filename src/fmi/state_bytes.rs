@@ -9,8 +9,9 @@
 //! | … | contents: phase, parameters, experiment, time, inputs, their derivatives, unknowns, running maxima |
 //! | 16 | first half of the SHA-256 of everything before |
 //!
-//! Names of folders are left out, as bytes may come from anywhere: fields are written where the instance that goes on has
-//! been set to write. Numbers are little-endian, counts 64 bits wide, and each body's unknowns carry their own count:
+//! Names of folders are left out, as bytes may come from anywhere: fields are written where the instance that
+//! goes on has been set to write. Numbers are little-endian, counts 64 bits wide, and each body's unknowns
+//! carry their own count:
 //! how many there may be is for the model to say.
 
 use sha2::{Digest, Sha256};
@@ -24,7 +25,8 @@ use crate::scene::{MOST_THREADS, Scene};
 use crate::variables::{Parameter, Registry, Slot};
 
 const MARK: &[u8; 8] = b"impinge\n";
-/// To be raised whenever what bodies keep in their states changes. Those of earlier versions are refused: 3 named a folder.
+/// To be raised whenever what bodies keep in their states changes. Those of earlier versions are refused: 3
+/// named a folder.
 const VERSION: u32 = 4;
 const GUID_LENGTH: usize = 38;
 const HEAD: usize = MARK.len() + 4 + 8 + GUID_LENGTH;

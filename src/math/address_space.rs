@@ -94,8 +94,8 @@ mod system {
         }
     }
 
-    /// Takes it for a moment and gives it back: the system alone knows what counts. Only what may be written to counts as
-    /// data.
+    /// Takes it for a moment and gives it back: the system alone knows what counts. Only what may be written
+    /// to counts as data.
     pub fn is_to_be_had(bytes: usize) -> bool {
         let flags = libc::MAP_PRIVATE | libc::MAP_ANONYMOUS | libc::MAP_NORESERVE;
         let access = match has_limit_of_data() {

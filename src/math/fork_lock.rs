@@ -1,8 +1,8 @@
 //! A lock that a forked process takes over from threads that it does not have.
 //!
-//! A fork copies memory but only the calling thread: a lock of the standard library that another thread held stays locked
-//! in the child for ever. This one notes the process of its holder. A child that finds another process there replaces the
-//! value, which may be half changed, by the default one.
+//! A fork copies memory but only the calling thread: a lock of the standard library that another thread held
+//! stays locked in the child for ever. This one notes the process of its holder. A child that finds another
+//! process there replaces the value, which may be half changed, by the default one.
 
 use std::cell::UnsafeCell;
 use std::hint::spin_loop;
@@ -68,7 +68,8 @@ impl<T: Default> ForkLock<T> {
             Err(holder) if holder == process => return None,
             Err(gone) => {
                 take(gone).ok()?;
-                // SAFETY: the thread that held the lock does not exist in this process, and no other thread took it over.
+                // SAFETY: the thread that held the lock does not exist in this process, and no other thread
+                // took it over.
                 unsafe { ptr::write(self.value.get(), ManuallyDrop::new(T::default())) };
             }
         }

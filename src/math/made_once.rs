@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicPtr, Ordering};
 
 use super::fork_lock::ForkLock;
 
-/// A value made by the first thread that needs it; others of the process wait for it. A forked process makes a value anew
-/// that a thread of its parent was making. A value is published at once, so a fork finds none or all of it.
+/// A value made by the first thread that needs it; others of the process wait for it. A forked process makes
+/// a value anew that a thread of its parent was making. A value is published at once, so a fork finds none or
+/// all of it.
 pub struct MadeOnce<T> {
     value: AtomicPtr<T>,
     making: ForkLock<()>,

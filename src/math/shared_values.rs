@@ -7,8 +7,8 @@ use super::fork_lock::ForkLock;
 /// A key and the value that lives for it, if anyone still holds it.
 type Entry<K, V> = (K, Arc<ForkLock<Weak<V>>>);
 
-/// Values by their keys, none of which is kept alive here. A forked process goes on with those of its parent, but for those
-/// that one of the parent's threads was making then: these it makes itself.
+/// Values by their keys, none of which is kept alive here. A forked process goes on with those of its parent,
+/// but for those that one of the parent's threads was making then: these it makes itself.
 pub struct SharedValues<K, V> {
     entries: ForkLock<Vec<Entry<K, V>>>,
 }

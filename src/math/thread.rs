@@ -131,9 +131,9 @@ mod system {
     /// A thread and its stack, which stays where nobody waits for the thread.
     pub struct Thread(libc::pthread_t, ManuallyDrop<Stack>);
 
-    /// Memory of a stack above a page that nothing may touch. The C library would keep the stacks of threads that have ended for
-    /// later ones, with what they held per thread. A fork while another thread takes one of these leaves the child a
-    /// stack whose blocks are freed twice (glibc 2.36, `get_cached_stack`).
+    /// Memory of a stack above a page that nothing may touch. The C library would keep the stacks of threads
+    /// that have ended for later ones, with what they held per thread. A fork while another thread takes one
+    /// of these leaves the child a stack whose blocks are freed twice (glibc 2.36, `get_cached_stack`).
     struct Stack {
         place: *mut c_void,
         guard: usize,

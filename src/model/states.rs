@@ -5,8 +5,8 @@ use crate::limits::LARGEST;
 
 impl Model {
     /// Refuses a state that this model cannot go on from: a wrong number of inputs or bodies,
-    /// unknowns of a length that a body does not take, numbers that are not finite or beyond all constants of scenes, or
-    /// heat, particles and running maxima that no run leads to.
+    /// unknowns of a length that a body does not take, numbers that are not finite or beyond all constants of
+    /// scenes, or heat, particles and running maxima that no run leads to.
     pub fn check_state(&self, state: &State) -> Result<(), ModelError> {
         let refuse = |message: String| Err(ModelError::State(message));
         let orders = state.derivatives.len();

@@ -4,7 +4,8 @@ use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Opens a regular file, or a link to one. Pipes and devices are refused: they may have no end, or keep the reader waiting.
+/// Opens a regular file, or a link to one. Pipes and devices are refused: they may have no end, or keep the
+/// reader waiting.
 pub fn open_file(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true);

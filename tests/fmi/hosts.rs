@@ -259,8 +259,8 @@ fn a_forked_process_goes_on_and_begins_anew() {
     expect_the_same_bits(&[("fork", 5), ("fork within calls", 8)]);
 }
 
-/// Another thread is in a call at each of these moments, holds what is shared and makes what others wait for; so does the C
-/// library, which frees what a thread before has left.
+/// Another thread is in a call at each of these moments, holds what is shared and makes what others wait for;
+/// so does the C library, which frees what a thread before has left.
 #[test]
 fn a_fork_at_any_start_of_a_thread_leaves_a_child_that_runs() {
     expect_the_same_bits(&[("fork at starts", 1)]);

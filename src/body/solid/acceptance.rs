@@ -7,8 +7,9 @@ use crate::method::fem::ThermalFace;
 const BALANCE: f64 = 1e-6;
 /// Part of the heat that was there at time zero which it may miss: enthalpies round to 1e-16 of it.
 const ROUNDING: f64 = 1e-9;
-/// Part of the range of nodal temperatures by which the lowest may lie below absolute zero. Consistent capacities place a
-/// node beside one that was just heated below its surroundings, by 2 − √3 of the jump along one axis.
+/// Part of the range of nodal temperatures by which the lowest may lie below absolute zero. Consistent
+/// capacities place a node beside one that was just heated below its surroundings, by 2 − √3 of the jump
+/// along one axis.
 const UNDERSHOOT: f64 = 0.4;
 /// The same at corners between faces of prescribed temperature, where jumps along three axes meet.
 const UNDERSHOOT_AT_CORNERS: f64 = 0.55;
