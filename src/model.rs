@@ -24,7 +24,7 @@ pub use start_rates::start_rates;
 pub use tangent::Tangent;
 pub use timeline::Timeline;
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use crate::body::{Assembly, Body, Fields, Joint, Link, Reading, Readings};
 pub use crate::body::{
@@ -34,6 +34,7 @@ pub use crate::body::{
 pub use crate::inputs::HIGHEST_INPUT_DERIVATIVE;
 use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::{Allowance, Interrupt};
+use crate::math::made_once::MadeOnce;
 use crate::math::thread::aside;
 use crate::method::fem::ElasticProblem;
 pub use crate::method::fem::NodalFields;
@@ -62,7 +63,7 @@ pub struct Model {
     #[expect(dead_code, reason = "held for others")]
     choices: Vec<Arc<Choice>>,
     /// What the outputs of each body err by, estimated when first asked for.
-    errors: Vec<OnceLock<f64>>,
+    errors: Vec<MadeOnce<f64>>,
 }
 
 /// All that changes, as plain data: a saved state is a clone of this.
@@ -129,7 +130,7 @@ impl Model {
             peaks,
             memory_of_droplets: memory_of_droplets as usize,
             choices: Vec::new(),
-            errors: scene.body.keys().map(|_| OnceLock::new()).collect(),
+            errors: scene.body.keys().map(|_| MadeOnce::new()).collect(),
         })
     }
 
@@ -340,7 +341,7 @@ impl Model {
     pub fn estimated_error(&self, place: usize) -> f64 {
         let Some(name) = self.scene.body.keys().nth(place) else { return NO_ESTIMATE };
         let known = self.scene.refinement.get(name).and_then(|factors| factors.estimated_error);
-        *self.errors[place].get_or_init(|| {
+        *self.errors[place].get_or_make(|| {
             known
                 .or_else(|| tolerance::estimate_of(&self.scene, name).worst())
                 .unwrap_or(NO_ESTIMATE)

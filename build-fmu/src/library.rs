@@ -1,9 +1,9 @@
 //! The prebuilt library that serves every scene.
 
 use std::env::{self, consts};
-use std::fs;
-use std::io::Read;
 use std::path::{Path, PathBuf};
+
+use impinge::scene::bytes_of;
 
 use crate::version::Version;
 
@@ -22,9 +22,7 @@ pub fn path(path: Option<&Path>) -> Result<PathBuf, String> {
 
 /// Reads a library, which must serve units of this version.
 pub fn read(path: &Path, fmi: Version) -> Result<Vec<u8>, String> {
-    let mut bytes = Vec::new();
-    let read = fs::File::open(path).and_then(|file| file.take(LARGEST).read_to_end(&mut bytes));
-    read.map_err(|error| {
+    let bytes = bytes_of(path, LARGEST).map_err(|error| {
         format!(
             "cannot read the library {}: {error}\n\
              Build it with `cargo build --release`, or name one with --library PATH.",
@@ -98,6 +96,7 @@ fn beside_this_program() -> Result<PathBuf, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::fs;
 
     #[test]
     fn a_missing_library_is_refused_with_the_way_to_build_it() {

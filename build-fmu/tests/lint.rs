@@ -323,6 +323,19 @@ fn the_library_itself_says_that_a_guid_is_wrong() {
     finds(change, ("error", "guid"), &fragments);
 }
 
+#[cfg(unix)]
+#[test]
+fn pipes_and_devices_are_refused_at_once() {
+    let folder = TempDir::new().unwrap();
+    let pipe = folder.path().join("pipe.fmu");
+    assert!(Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    for path in [pipe.as_path(), Path::new("/dev/zero")] {
+        let ran = Command::new(PROGRAM).args(["--lint", "--no-run"]).arg(path).output().unwrap();
+        let said = String::from_utf8_lossy(&ran.stderr);
+        assert!(!ran.status.success() && said.contains("a pipe, socket or device"), "{said}");
+    }
+}
+
 #[test]
 fn a_library_is_left_alone_where_it_must_not_run() {
     let mut unit = good();

@@ -47,8 +47,9 @@ pub trait Body: Send + Sync {
     /// The fields of a state; nothing if it has a length that no state of this body has.
     fn layout(&self, state: &[f64]) -> Option<Layout>;
 
-    /// Refuses a vector that no run of this body leads to, with what is wrong with it.
-    fn check_state(&self, state: &[f64]) -> Result<(), String>;
+    /// Refuses a vector that no run of this body leads to, with what is wrong with it; `inputs` are those of
+    /// the moment.
+    fn check_state(&self, state: &[f64], inputs: &[f64]) -> Result<(), String>;
 
     /// Refuses inputs that make no sense for this body.
     fn check_inputs(&self, inputs: &[f64]) -> Result<(), BodyError>;

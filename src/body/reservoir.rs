@@ -37,6 +37,9 @@ pub struct ReservoirBody {
 /// Of a state: temperature above the initial one [K], heat brought in and heat lost since time zero [J].
 const LEN: usize = 3;
 
+/// Part of the heat in a reservoir and of the heat that passed which a balance may miss: runs keep it to rounding.
+const BALANCE: f64 = 1e-6;
+
 /// How well heat passes along a reservoir, beside all that conducts [m²/s]: it is the same all over.
 const EVEN: f64 = 1e3;
 
@@ -188,13 +191,22 @@ impl Body for ReservoirBody {
         Some(layout).filter(|layout| layout.len() == state.len())
     }
 
-    fn check_state(&self, state: &[f64]) -> Result<(), String> {
-        match state {
-            [rise, ..] if state.len() == LEN && self.initial_temperature + rise > 0.0 => Ok(()),
-            [rise, ..] if state.len() == LEN => {
-                Err(format!("{} is {rise} K above its initial temperature", self.name))
+    fn check_state(&self, state: &[f64], _inputs: &[f64]) -> Result<(), String> {
+        let (name, start) = (&self.name, self.initial_temperature);
+        let &[rise, brought_in, lost] = state else {
+            return Err(format!("{} unknowns of {name}; this body has {LEN}", state.len()));
+        };
+        if start + rise <= 0.0 {
+            return Err(format!("{name} is {rise} K above its initial temperature"));
+        }
+        let stored = self.heat_capacity * rise;
+        let missing = stored - (brought_in - lost);
+        let scale = self.heat_capacity * (start + rise) + brought_in.abs() + lost.abs();
+        match missing.abs() <= BALANCE * scale {
+            true => Ok(()),
+            false => {
+                Err(format!("{missing:e} J more heat in {name} than was brought in and not lost"))
             }
-            _ => Err(format!("{} unknowns of {}; this body has {LEN}", state.len(), self.name)),
         }
     }
 

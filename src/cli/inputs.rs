@@ -1,14 +1,13 @@
 //! Inputs over time from a table of comma-separated values.
 
 use std::collections::BTreeSet;
-use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
 use impinge::machine::available_memory;
 use impinge::model::State;
-use impinge::scene::Scene;
+use impinge::scene::{self, Scene};
 use impinge::variables::{Quantity, Registry, Slot, Variable};
 
 use super::set::{self, InputValue, SetError};
@@ -217,18 +216,15 @@ const LARGEST: u64 = 100_000_000;
 /// Memory that a table takes over its bytes, at most.
 const SPREAD: u64 = 8;
 
-/// The bytes of a file, or of what is no file, which are not more than the machine has room for.
+/// The bytes of a file, which are not more than the machine has room for.
 fn text_of(path: &Path) -> Result<Vec<u8>, TableError> {
     let unopened = |reason| TableError::Unopened { path: path.to_owned(), reason };
     let most = LARGEST.min(available_memory() as u64 / SPREAD);
     let too_large = || TableError::TooLarge { path: path.to_owned(), most };
-    let file = File::open(path).map_err(unopened)?;
-    if file.metadata().map_err(unopened)?.len() > most {
-        return Err(too_large());
-    }
-    let mut text = Vec::new();
-    file.take(most + 1).read_to_end(&mut text).map_err(unopened)?;
-    if text.len() as u64 > most { Err(too_large()) } else { Ok(text) }
+    scene::bytes_of(path, most).map_err(|reason| match reason.kind() {
+        ErrorKind::FileTooLarge => too_large(),
+        _ => unopened(reason),
+    })
 }
 
 /// Part of a step by which times may differ that were computed.

@@ -5,13 +5,14 @@ use std::collections::VecDeque;
 use std::ptr;
 use std::slice;
 use std::sync::atomic::{AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError, TryLockError};
 
 use super::legality::{Function, Phase};
 use super::panics;
 use super::types::{Answer, Handle, Refusal, Status};
 use super::unit::Unit;
 use crate::math::allowance::Interrupt;
+use crate::math::fork_lock::ForkLock;
 use crate::model::Model;
 
 /// What a `fmi2Component` or `fmi3Instance` points to. It is never freed but serves a later unit, so
@@ -34,20 +35,42 @@ struct Spare(&'static Instance);
 unsafe impl Send for Spare {}
 
 /// The one that was taken back first is in front.
-static SPARE: Mutex<VecDeque<Spare>> = Mutex::new(VecDeque::new());
+static SPARE: ForkLock<VecDeque<Spare>> = ForkLock::new(VecDeque::new());
 /// How many of them rest: a pointer that was freed leads to no unit before so many others were freed.
 const RESTING: usize = 64;
 
 /// Hands a unit over to the master, for calls of the functions `F`.
 pub fn hand_out<F: Function>(mut unit: Unit) -> Handle {
-    // Nobody waits for another thread here, which may be gone after a fork.
-    let spare = SPARE.try_lock().ok();
-    let spare = spare.and_then(|mut all| if all.len() > RESTING { all.pop_front() } else { None });
-    let instance = spare.map_or_else(|| &*Box::leak(Box::default()), |Spare(instance)| instance);
+    let instance = vacant_place();
     unit.interrupt = instance.interrupt.clone();
+    // Nobody else has a place that is new or has just been found unlocked.
     *instance.unit.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(unit));
     instance.marker.store(F::MARKER, Ordering::Release);
     ptr::from_ref(instance).cast_mut().cast()
+}
+
+/// The place that has rested longest, or a new one: nobody waits for a thread that still calls the unit which
+/// had the place, as a forked process may not have that thread.
+fn vacant_place() -> &'static Instance {
+    let mut all = SPARE.lock();
+    let rested = if all.len() > RESTING { all.pop_front() } else { None };
+    match rested {
+        Some(Spare(place)) if !matches!(place.unit.try_lock(), Err(TryLockError::WouldBlock)) => {
+            place
+        }
+        _ => Box::leak(Box::default()),
+    }
+}
+
+/// Frees the places of units that were taken back, when the library goes.
+#[cfg(target_os = "linux")]
+pub fn free_spares() {
+    // A process may end by a signal that came while a thread was here.
+    let Some(mut spares) = SPARE.try_lock() else { return };
+    for Spare(place) in std::mem::take(&mut *spares) {
+        // SAFETY: comes from a box, and no unit is in it.
+        drop(unsafe { Box::from_raw(ptr::from_ref(place).cast_mut()) });
+    }
 }
 
 /// The instance behind a pointer, if it is one of this version.
@@ -135,9 +158,7 @@ pub unsafe fn take_back(handle: Handle, function: impl Function) {
         drop(unit);
         Model::forget_unused();
     });
-    if let Ok(mut spare) = SPARE.try_lock() {
-        spare.push_back(Spare(instance));
-    }
+    SPARE.lock().push_back(Spare(instance));
 }
 
 /// A C array as a slice.

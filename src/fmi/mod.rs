@@ -19,6 +19,7 @@ mod panics;
 mod rates;
 mod refused;
 mod saved;
+mod set_up;
 mod state_bytes;
 mod states;
 mod step;

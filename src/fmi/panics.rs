@@ -3,9 +3,11 @@
 use std::any::Any;
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
-use std::sync::{Mutex, Once, PoisonError};
+use std::thread;
 
 use super::float_environment;
+use super::set_up::SetUpOnce;
+use crate::math::fork_lock::ForkLock;
 use crate::math::thread::is_ours;
 
 thread_local! {
@@ -15,17 +17,19 @@ thread_local! {
 }
 
 /// What the hook saw last: message and place.
-static SEEN: Mutex<Option<String>> = Mutex::new(None);
+static SEEN: ForkLock<Option<String>> = ForkLock::new(None);
+
+static HOOK: SetUpOnce = SetUpOnce::new();
 
 /// Runs `work` in the floating-point environment that it is written for; a panic becomes its message.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
-    install_hook();
+    HOOK.ensure(install_hook).map_err(|cut_off| cut_off.to_string())?;
     let outer = INSIDE.replace(true);
     let result = float_environment::standard(|| panic::catch_unwind(AssertUnwindSafe(work)));
     INSIDE.set(outer);
     result.map_err(|payload| {
         let text = text_of(payload.as_ref());
-        let seen = SEEN.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let seen = SEEN.lock().take();
         // Another instance may have panicked meanwhile.
         seen.filter(|seen| seen.contains(&text)).unwrap_or(text)
     })
@@ -34,19 +38,25 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
 /// A host's terminal is not ours to write on. The hook belongs to this library's own copy of the
 /// standard library; panics outside of the ABI go to the hook that was there before.
 fn install_hook() {
-    static ONCE: Once = Once::new();
-    ONCE.call_once(|| {
-        let previous = panic::take_hook();
-        panic::set_hook(Box::new(move |info| {
-            // A panic of one of our threads is passed on to the one that waits for it.
-            if INSIDE.get() || is_ours() {
-                let seen = info.to_string().replace('\n', " ");
-                *SEEN.lock().unwrap_or_else(PoisonError::into_inner) = Some(seen);
-            } else {
-                previous(info);
-            }
-        }));
-    });
+    let previous = panic::take_hook();
+    panic::set_hook(Box::new(move |info| {
+        // A panic of one of our threads is passed on to the one that waits for it.
+        if INSIDE.get() || is_ours() {
+            let seen = info.to_string().replace('\n', " ");
+            *SEEN.lock() = Some(seen);
+        } else {
+            previous(info);
+        }
+    }));
+}
+
+/// Gives back the memory of the hook.
+#[cfg(target_os = "linux")]
+pub fn remove_hook() {
+    if HOOK.is_done() && !thread::panicking() {
+        drop(panic::take_hook());
+        drop(SEEN.try_lock().and_then(|mut seen| seen.take()));
+    }
 }
 
 fn text_of(payload: &(dyn Any + Send)) -> String {

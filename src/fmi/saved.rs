@@ -5,8 +5,8 @@ use std::collections::hash_map::RandomState;
 use std::hash::BuildHasher;
 use std::process;
 use std::ptr;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::{Arc, OnceLock};
 use std::time::SystemTime;
 
 use super::legality::Phase;
@@ -26,7 +26,8 @@ pub struct Snapshot {
     pub phase: Phase,
     /// The scene with its parameters.
     pub scene: Scene,
-    pub directory: String,
+    /// Where fields are written; nothing in states from bytes, which leave the instance's own.
+    pub directory: Option<String>,
     pub experiment: Experiment,
     pub state: State,
     pub has_set_derivatives: bool,
@@ -46,17 +47,24 @@ pub struct SavedStates(BTreeMap<usize, Snapshot>);
 /// Numbers given out after the first one.
 static COUNT: AtomicUsize = AtomicUsize::new(0);
 
+/// The number given out first, once it is known; until then zero.
+static FIRST: AtomicUsize = AtomicUsize::new(0);
+
 /// The number given out first, odd so that none is null or could be an address of an aligned value.
 ///
 /// It follows from where this copy of the library lies, from the process and from the time of the first
 /// call, by a hash whose keys are drawn by the system.
 fn first() -> usize {
-    static FIRST: OnceLock<usize> = OnceLock::new();
-    *FIRST.get_or_init(|| {
-        let place = (&raw const COUNT).addr();
-        let of = (place, process::id(), SystemTime::now());
-        RandomState::new().hash_one(of) as usize | 1
-    })
+    let known = FIRST.load(Ordering::Relaxed);
+    if known != 0 {
+        return known;
+    }
+    let place = (&raw const COUNT).addr();
+    let of = (place, process::id(), SystemTime::now());
+    let drawn = RandomState::new().hash_one(of) as usize | 1;
+    // Of several threads one draws for all.
+    let set = FIRST.compare_exchange(0, drawn, Ordering::Relaxed, Ordering::Relaxed);
+    set.map_or_else(|earlier| earlier, |_| drawn)
 }
 
 impl SavedStates {
@@ -95,7 +103,7 @@ impl Unit {
         let snapshot = Snapshot {
             phase: self.phase,
             scene: self.scene.clone(),
-            directory: self.directory.clone(),
+            directory: Some(self.directory.clone()),
             experiment: self.experiment,
             state: self.state.clone(),
             has_set_derivatives: self.has_set_derivatives,
@@ -114,10 +122,11 @@ impl Unit {
             expect_room(model.room(&snapshot.state))?;
         }
         let snapshot = snapshot.clone();
-        let same_files = snapshot.directory == self.directory;
+        let directory = snapshot.directory.unwrap_or_else(|| self.directory.clone());
+        let same_files = directory == self.directory;
         self.phase = snapshot.phase;
         self.scene = snapshot.scene;
-        self.directory = snapshot.directory;
+        self.directory = directory;
         self.experiment = snapshot.experiment;
         self.forget_answers();
         self.state = snapshot.state;

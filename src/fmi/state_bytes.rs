@@ -9,7 +9,9 @@
 //! | … | contents: phase, parameters, experiment, time, inputs, their derivatives, unknowns, running maxima |
 //! | 16 | first half of the SHA-256 of everything before |
 //!
-//! Numbers are little-endian, counts 64 bits wide, and each body's unknowns carry their own count:
+//! Names of folders are left out, as bytes may come from anywhere: fields are written where the instance that
+//! goes on has been set to write. Numbers are little-endian, counts 64 bits wide, and each body's unknowns
+//! carry their own count:
 //! how many there may be is for the model to say.
 
 use sha2::{Digest, Sha256};
@@ -17,14 +19,15 @@ use sha2::{Digest, Sha256};
 use super::legality::{Fmi2, Function, Phase};
 use super::saved::Snapshot;
 use super::types::{Answer, Refusal};
-use super::unit::{Experiment, Unit};
+use super::unit::{Experiment, Unit, expect_room};
 use crate::model::{Peak, State};
-use crate::scene::Scene;
+use crate::scene::{MOST_THREADS, Scene};
 use crate::variables::{Parameter, Registry, Slot};
 
 const MARK: &[u8; 8] = b"impinge\n";
-/// To be raised whenever what bodies keep in their states changes.
-const VERSION: u32 = 3;
+/// To be raised whenever what bodies keep in their states changes. Those of earlier versions are refused: 3
+/// named a folder.
+const VERSION: u32 = 4;
 const GUID_LENGTH: usize = 38;
 const HEAD: usize = MARK.len() + 4 + 8 + GUID_LENGTH;
 const CHECKSUM: usize = 16;
@@ -71,6 +74,7 @@ impl Unit {
             };
         }
         let model = self.model_of(&snapshot.scene)?;
+        expect_room(model.room(&snapshot.state))?;
         model.check_state(&snapshot.state).map_err(|error| contradicts(error.to_string()))?;
         snapshot.model = Some(model);
         Ok(snapshot)
@@ -133,8 +137,6 @@ fn write_snapshot(out: &mut Writer, snapshot: &Snapshot, registry: &Registry) {
     let Snapshot { scene, state, experiment, .. } = snapshot;
     out.count(snapshot.phase as usize);
     out.count(scene.solver.threads);
-    out.count(snapshot.directory.len());
-    out.0.extend(snapshot.directory.as_bytes());
     out.numbers(&parameters(registry).map(|p| p.get(scene)).collect::<Vec<_>>());
     out.numbers(&[experiment.start]);
     out.numbers(experiment.stop.as_slice());
@@ -186,11 +188,8 @@ impl Reader<'_> {
         let known = Phase::ALL.get(phase).filter(|phase| Fmi2::GetFMUstate.allowed_in(**phase));
         let phase = *known.ok_or_else(|| format!("phase {phase}, in which nothing is saved"))?;
         let threads = self.count()?;
-        let length = self.count()?;
-        let directory = String::from_utf8(self.take(length)?.to_vec())
-            .map_err(|_| "a folder that is not UTF-8".to_owned())?;
-        if directory.contains('\0') {
-            return Err("a folder whose name has a null character".to_owned());
+        if threads > MOST_THREADS {
+            return Err(format!("{threads} threads, of at most {MOST_THREADS}"));
         }
         let mut scene = packed.clone();
         scene.solver.threads = threads;
@@ -231,7 +230,7 @@ impl Reader<'_> {
         Ok(Snapshot {
             phase,
             scene,
-            directory,
+            directory: None,
             experiment,
             state,
             has_set_derivatives,
@@ -333,11 +332,11 @@ mod tests {
     fn another_version_of_the_format_is_refused_with_both() {
         let (unit, snapshot) = running();
         let mut bytes = unit.serialize(&snapshot);
-        bytes[MARK.len()] = 1;
+        bytes[MARK.len()] = 3;
         let end = bytes.len() - CHECKSUM;
         let sum = checksum(&bytes[..end]);
         bytes[end..].copy_from_slice(&sum);
         let refusal = unit.deserialize(&bytes).err().unwrap();
-        assert!(refusal.message.contains("version 1; this program reads 3"), "{}", refusal.message);
+        assert!(refusal.message.contains("version 3; this program reads 4"), "{}", refusal.message);
     }
 }

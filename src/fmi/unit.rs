@@ -1,17 +1,17 @@
 //! What an instance is and does, in safe Rust: its life from instantiation to the last step.
 
 use std::cell::OnceCell;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::ffi::CString;
-use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::rc::Rc;
 use std::sync::Arc;
 
+mod packed;
 mod warnings;
 
-use super::MARK;
-use super::guid;
+pub use packed::{Packed, read};
+
 use super::legality::{Function, Phase};
 use super::log::Log;
 use super::saved::SavedStates;
@@ -23,7 +23,7 @@ use crate::math::allowance::{Halt, Interrupt};
 use crate::math::thread::{STACK, aside};
 use crate::model::{
     BodyError, Cache, Kept, KeptReduction, Model, ModelError, State, Stiffness, Tangent,
-    initial_inputs, keep_record, keep_reduction, to_be_recorded,
+    initial_inputs, to_be_recorded,
 };
 use crate::output::{FieldSeries, FolderLock};
 use crate::scene::{self, Scene, Warning};
@@ -107,79 +107,10 @@ impl Run {
     }
 }
 
-/// What a unit's resources hold, and what follows from it.
-pub struct Packed {
-    scene: Scene,
-    warnings: Vec<Warning>,
-    registry: Registry,
-    guid: String,
-    /// At the start of time.
-    state: State,
-    records: Vec<Kept>,
-    reductions: Vec<(String, KeptReduction)>,
-}
-
-impl Packed {
-    fn of((scene, warnings): (Scene, Vec<Warning>), text: &str) -> Self {
-        let registry = Registry::of(&scene);
-        let guid = guid::guid(text, &registry);
-        let state = start_state(&scene);
-        let (records, reductions) = (Vec::new(), Vec::new());
-        Self { scene, warnings, registry, guid, state, records, reductions }
-    }
-}
-
 /// Time and inputs at their start, without unknowns.
 fn start_state(packed: &Scene) -> State {
     let inputs = initial_inputs(packed);
     State { time: 0.0, inputs, derivatives: Vec::new(), bodies: Vec::new(), peaks: Vec::new() }
-}
-
-/// Reads the scene in a unit's folder of resources and compares the GUID, in FMI 3.0 the
-/// instantiation token. Nothing heavy: parameters may still change.
-pub fn read(resources: &Path, guid: &str) -> Result<Packed, String> {
-    address_space::expect(STACK + SPARE).map_err(|error| error.to_string())?;
-    aside(|| read_here(resources, guid))
-}
-
-fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
-    let path = resources.join("scene.toml");
-    let file = path.display().to_string();
-    let text = scene::text_of(&path, &file)
-        .map_err(|error| format!("cannot read the unit's scene: {error}"))?;
-    let scene = scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
-    let mut packed = Packed::of(scene, &text);
-    if guid != packed.guid {
-        let own = &packed.guid;
-        return Err(format!(
-            "the master's GUID {guid} is not {own}, which belongs to {file} and {MARK}: \
-             modelDescription.xml, scene and library are not of one unit"
-        ));
-    }
-    packed.records = kept_in(&resources.join(RECORDS), keep_record)?.into_values().collect();
-    packed.reductions = kept_in(&resources.join(REDUCTIONS), keep_reduction)?.into_iter().collect();
-    Ok(packed)
-}
-
-/// Folders among a unit's resources, which not every unit has: of recorded drops, and of reduced solids.
-const RECORDS: &str = "records";
-const REDUCTIONS: &str = "reduced";
-
-/// What the files of a folder hold, by the names of bodies.
-fn kept_in<T>(
-    folder: &Path,
-    keep: impl Fn(&[u8]) -> Result<T, String>,
-) -> Result<BTreeMap<String, T>, String> {
-    let Ok(files) = fs::read_dir(folder) else { return Ok(BTreeMap::new()) };
-    let mut paths: Vec<_> = files.filter_map(|file| Some(file.ok()?.path())).collect();
-    paths.sort();
-    let kept = |path: PathBuf| {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let bytes = fs::read(&path).map_err(|reason| reason.to_string());
-        let kept = bytes.and_then(|bytes| keep(&bytes));
-        Ok((name, kept.map_err(|reason| format!("{}: {reason}", path.display()))?))
-    };
-    paths.into_iter().map(kept).collect()
 }
 
 impl Unit {

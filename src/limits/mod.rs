@@ -53,7 +53,7 @@ pub struct Limits {
 /// Smallest and largest magnitude of constants: products of a few of them and their squares stay well
 /// within the range of numbers.
 const SMALLEST: f64 = 1e-60;
-const LARGEST: f64 = 1e60;
+pub const LARGEST: f64 = 1e60;
 
 /// Largest number of points, rings or tiles along an axis.
 const MOST_CELLS: f64 = 1000.0;

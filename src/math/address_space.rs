@@ -1,5 +1,5 @@
-//! Address space, where the process may have only so much of it (`RLIMIT_AS`): what is set aside counts
-//! there, used or not. Where there is no such limit, everything fits.
+//! Address space, where the process may have only so much of it, of any kind (`RLIMIT_AS`) or to write to
+//! (`RLIMIT_DATA`): what is set aside counts there, used or not. Where there is no such limit, everything fits.
 
 /// What the C library sets aside for a thread that allocates, where it can [B].
 pub const ARENA: usize = 64 << 20;
@@ -16,7 +16,7 @@ const SMALL: usize = 256 << 10;
 /// The process may not take as much as is needed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "this takes up to {:.3} MB of address space; the limit of this process (RLIMIT_AS) leaves {:.3} MB",
+    "this takes up to {:.3} MB of address space; the limit of this process ({limit}) leaves {:.3} MB",
     *needed as f64 / 1e6,
     *left as f64 / 1e6
 )]
@@ -24,6 +24,8 @@ pub struct TooLittle {
     /// [B]
     pub needed: usize,
     pub left: usize,
+    /// Name of the limit.
+    pub limit: &'static str,
 }
 
 /// Refuses what might take more than the process may have.
@@ -31,7 +33,8 @@ pub fn expect(bytes: usize) -> Result<(), TooLittle> {
     if fits(bytes) {
         return Ok(());
     }
-    Err(TooLittle { needed: bytes, left: left().unwrap_or(usize::MAX) })
+    let (left, limit) = (left().unwrap_or(usize::MAX), system::limits());
+    Err(TooLittle { needed: bytes, left, limit })
 }
 
 /// Whether the process may take so many bytes more.
@@ -60,21 +63,48 @@ mod system {
     use std::mem::MaybeUninit;
     use std::ptr;
 
+    /// The number of a resource has another type in each C library.
+    fn has_limit(read: impl FnOnce(*mut libc::rlimit) -> i32) -> bool {
+        let mut limit = MaybeUninit::uninit();
+        // SAFETY: the limit is looked at only where the system has written it.
+        read(limit.as_mut_ptr()) == 0
+            && unsafe { limit.assume_init() }.rlim_cur != libc::RLIM_INFINITY
+    }
+
+    fn has_limit_of_space() -> bool {
+        // SAFETY: writes a limit where one may stand.
+        has_limit(|limit| unsafe { libc::getrlimit(libc::RLIMIT_AS, limit) })
+    }
+
+    fn has_limit_of_data() -> bool {
+        // SAFETY: as above.
+        has_limit(|limit| unsafe { libc::getrlimit(libc::RLIMIT_DATA, limit) })
+    }
+
     pub fn is_limited() -> bool {
-        let mut limit = MaybeUninit::<libc::rlimit>::uninit();
-        // SAFETY: the limit is read only where the system has written it.
-        unsafe {
-            libc::getrlimit(libc::RLIMIT_AS, limit.as_mut_ptr()) == 0
-                && limit.assume_init().rlim_cur != libc::RLIM_INFINITY
+        has_limit_of_space() || has_limit_of_data()
+    }
+
+    /// Names of the limits that there are.
+    pub fn limits() -> &'static str {
+        match [has_limit_of_space(), has_limit_of_data()] {
+            [true, true] => "RLIMIT_AS, RLIMIT_DATA",
+            [false, true] => "RLIMIT_DATA",
+            _ => "RLIMIT_AS",
         }
     }
 
-    /// Takes it for a moment and gives it back: the system alone knows what counts.
+    /// Takes it for a moment and gives it back: the system alone knows what counts. Only what may be written
+    /// to counts as data.
     pub fn is_to_be_had(bytes: usize) -> bool {
         let flags = libc::MAP_PRIVATE | libc::MAP_ANONYMOUS | libc::MAP_NORESERVE;
+        let access = match has_limit_of_data() {
+            true => libc::PROT_READ | libc::PROT_WRITE,
+            false => libc::PROT_NONE,
+        };
         // SAFETY: a new mapping, which nobody else knows of, is given back.
         unsafe {
-            let place = libc::mmap(ptr::null_mut(), bytes, libc::PROT_NONE, flags, -1, 0);
+            let place = libc::mmap(ptr::null_mut(), bytes, access, flags, -1, 0);
             place != libc::MAP_FAILED && libc::munmap(place, bytes) == 0
         }
     }
@@ -84,6 +114,10 @@ mod system {
 mod system {
     pub fn is_limited() -> bool {
         false
+    }
+
+    pub fn limits() -> &'static str {
+        "none"
     }
 
     pub fn is_to_be_had(_bytes: usize) -> bool {

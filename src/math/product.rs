@@ -3,8 +3,18 @@
 //! General libraries keep their scratch memory per thread. On a host's thread that would stay after the
 //! last instance of a unit is gone, and with it the library.
 
-use faer::MatRef;
+use faer::{Mat, MatRef};
 use num_traits::Float;
+
+/// Lets the library that other methods multiply with look up the sizes of the caches, which it does once per process.
+///
+/// Threads that multiply meanwhile wait for it, so it is called before a fork may find it half done.
+pub fn look_up_caches() {
+    // The smallest that is cut into blocks.
+    let square = Mat::<f64>::identity(32, 32);
+    let product = &square * &square;
+    debug_assert_eq!(product, square);
+}
 
 /// `out = left right`, by columns, in single or double precision. Every entry is the sum of its terms in ascending order, whatever
 /// vectors the processor has; rounding differs only where it cannot multiply and add at once.

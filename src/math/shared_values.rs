@@ -1,31 +1,22 @@
 //! Values of one process that are made once for equal keys and live as long as somebody holds them.
 
-use std::process;
-use std::ptr;
-use std::sync::atomic::{AtomicPtr, Ordering};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
+use std::sync::{Arc, Weak};
 
-use super::thread::is_alone;
+use super::fork_lock::ForkLock;
 
 /// A key and the value that lives for it, if anyone still holds it.
-type Entry<K, V> = (K, Arc<Mutex<Weak<V>>>);
+type Entry<K, V> = (K, Arc<ForkLock<Weak<V>>>);
 
-/// The values of one process. Holds none alive and nothing that changes.
-struct Known<K, V> {
-    process: u32,
-    entries: Mutex<Vec<Entry<K, V>>>,
-}
-
-/// Values by their keys; as a `static`, those of this process, or of the one that it has been forked from, whose
-/// threads are gone and may have left locks behind.
+/// Values by their keys, none of which is kept alive here. A forked process goes on with those of its parent,
+/// but for those that one of the parent's threads was making then: these it makes itself.
 pub struct SharedValues<K, V> {
-    known: AtomicPtr<Known<K, V>>,
+    entries: ForkLock<Vec<Entry<K, V>>>,
 }
 
 impl<K: Clone + PartialEq, V> SharedValues<K, V> {
     #[expect(clippy::new_without_default, reason = "a static wants a constant")]
     pub const fn new() -> Self {
-        Self { known: AtomicPtr::new(ptr::null_mut()) }
+        Self { entries: ForkLock::new(Vec::new()) }
     }
 
     /// The value of a key, made unless another holder in this process already has it. Those who ask for the same one
@@ -36,7 +27,7 @@ impl<K: Clone + PartialEq, V> SharedValues<K, V> {
         make: impl FnOnce() -> Result<V, E>,
     ) -> Result<Arc<V>, E> {
         let slot = self.slot_of(key);
-        let mut weak = slot.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut weak = slot.lock();
         if let Some(value) = weak.upgrade() {
             return Ok(value);
         }
@@ -52,48 +43,25 @@ impl<K: Clone + PartialEq, V> SharedValues<K, V> {
 
     /// The value of a key, if somebody holds it.
     pub fn get(&self, key: &K) -> Option<Arc<V>> {
-        let entries = self.entries();
+        let entries = self.entries.lock();
         let (_, slot) = entries.iter().find(|(other, _)| other == key)?;
-        slot.try_lock().ok()?.upgrade()
+        slot.try_lock()?.upgrade()
     }
 
     /// Forgets keys whose values nobody holds any more.
     pub fn forget_unused(&self) {
-        let mut entries = self.entries();
+        let mut entries = self.entries.lock();
         remove_stale(&mut entries);
         entries.shrink_to_fit();
     }
 
-    /// Those of this process. What a process inherits when it is forked is taken over, unless somebody was making a
-    /// value then.
-    fn entries(&self) -> MutexGuard<'_, Vec<Entry<K, V>>> {
-        let process = process::id();
-        loop {
-            let last = self.known.load(Ordering::Acquire);
-            // SAFETY: null, or leaked below.
-            let known = unsafe { last.as_ref() };
-            if let Some(known) = known.filter(|known| known.process == process) {
-                return known.entries.lock().unwrap_or_else(PoisonError::into_inner);
-            }
-            let inherited =
-                known.filter(|_| is_alone()).and_then(|known| known.entries.try_lock().ok());
-            let entries = Mutex::new(inherited.map_or_else(Vec::new, |entries| entries.clone()));
-            let own = Box::into_raw(Box::new(Known { process, entries }));
-            let (set, missed) = (Ordering::AcqRel, Ordering::Relaxed);
-            if self.known.compare_exchange(last, own, set, missed).is_err() {
-                // SAFETY: nobody else has got it.
-                drop(unsafe { Box::from_raw(own) });
-            }
-        }
-    }
-
-    fn slot_of(&self, key: &K) -> Arc<Mutex<Weak<V>>> {
-        let mut entries = self.entries();
+    fn slot_of(&self, key: &K) -> Arc<ForkLock<Weak<V>>> {
+        let mut entries = self.entries.lock();
         if let Some((_, slot)) = entries.iter().find(|(other, _)| other == key) {
             return slot.clone();
         }
         remove_stale(&mut entries);
-        let slot = Arc::new(Mutex::new(Weak::new()));
+        let slot = Arc::new(ForkLock::new(Weak::new()));
         entries.push((key.clone(), slot.clone()));
         slot
     }
@@ -102,7 +70,7 @@ impl<K: Clone + PartialEq, V> SharedValues<K, V> {
 /// A slot that only this list holds has no maker and no waiter; without a value it is stale.
 fn remove_stale<K, V>(entries: &mut Vec<Entry<K, V>>) {
     entries.retain(|(_, slot)| {
-        let stale = || slot.try_lock().is_ok_and(|weak| weak.strong_count() == 0);
+        let stale = || slot.try_lock().is_some_and(|weak| weak.strong_count() == 0);
         Arc::strong_count(slot) > 1 || !stale()
     });
 }
@@ -125,9 +93,24 @@ mod tests {
         drop((first, second));
         assert!(!values.has(&1));
         values.forget_unused();
-        assert_eq!(values.entries().len(), 1);
+        assert_eq!(values.entries.lock().len(), 1);
         let Ok(again) = values.get_or_make(&1, make(12));
         assert_eq!(*again, 12);
+    }
+
+    #[test]
+    fn a_forked_process_makes_what_its_parent_was_making_and_finds_the_rest() {
+        let values: SharedValues<u32, u32> = SharedValues::new();
+        let make = |value: u32| move || Ok::<_, Infallible>(value);
+        let Ok(held) = values.get_or_make(&1, make(10));
+        values.slot_of(&2).hold_by_another_process();
+        let Ok(found) = values.get_or_make(&1, make(11));
+        let Ok(made) = values.get_or_make(&2, make(20));
+        assert!(Arc::ptr_eq(&held, &found));
+        assert_eq!(*made, 20);
+        values.entries.hold_by_another_process();
+        let Ok(anew) = values.get_or_make(&1, make(12));
+        assert_eq!(*anew, 12, "a list that may be half changed is begun anew");
     }
 
     #[test]

@@ -8,7 +8,7 @@
 use std::cell::Cell;
 use std::mem::transmute;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::address_space::{self, ARENA, PRODUCTS, SPARE};
 
@@ -17,9 +17,6 @@ pub const STACK: usize = 2 << 20;
 
 /// Address space that each of our threads may come to take [B].
 pub const SPACE: usize = STACK + ARENA + PRODUCTS;
-
-/// How many threads of the process run work aside.
-static ASIDE: AtomicUsize = AtomicUsize::new(0);
 
 /// How many threads of ours there are.
 static LIVING: Count = Count(AtomicU64::new(0));
@@ -79,9 +76,7 @@ pub fn aside<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     let mut result = None;
     let run: Box<dyn FnOnce() + Send> = Box::new(|| {
         let work = work.take().expect("runs once");
-        ASIDE.fetch_add(1, Ordering::Relaxed);
         result = Some(catch_unwind(AssertUnwindSafe(work)));
-        ASIDE.fetch_sub(1, Ordering::Relaxed);
     });
     // SAFETY: what it borrows outlives the thread, which is waited for right here.
     let started = system::start(unsafe { transmute::<Box<_>, Box<dyn FnOnce() + Send>>(run) });
@@ -93,12 +88,6 @@ pub fn aside<R: Send>(work: impl FnOnce() -> R + Send) -> R {
         Ok(result) => result,
         Err(panic) => resume_unwind(panic),
     }
-}
-
-/// Whether nothing runs aside but what calls this, which does. In a process that has been forked, what
-/// ran aside then is never done.
-pub fn is_alone() -> bool {
-    ASIDE.load(Ordering::Relaxed) <= 1
 }
 
 /// A running thread, to be joined.
@@ -132,14 +121,55 @@ fn serve(work: Box<dyn FnOnce() + Send>) {
 #[cfg(unix)]
 mod system {
     use std::ffi::c_void;
-    use std::mem::MaybeUninit;
+    use std::mem::{ManuallyDrop, MaybeUninit};
     use std::ptr;
 
     use super::{LIVING, STACK, serve};
 
     type Work = Box<dyn FnOnce() + Send>;
 
-    pub struct Thread(libc::pthread_t);
+    /// A thread and its stack, which stays where nobody waits for the thread.
+    pub struct Thread(libc::pthread_t, ManuallyDrop<Stack>);
+
+    /// Memory of a stack above a page that nothing may touch. The C library would keep the stacks of threads
+    /// that have ended for later ones, with what they held per thread. A fork while another thread takes one
+    /// of these leaves the child a stack whose blocks are freed twice (glibc 2.36, `get_cached_stack`).
+    struct Stack {
+        place: *mut c_void,
+        guard: usize,
+    }
+
+    impl Stack {
+        /// Nothing where there is no memory for it.
+        fn new() -> Option<Self> {
+            // SAFETY: asks for a number.
+            let guard = usize::try_from(unsafe { libc::sysconf(libc::_SC_PAGESIZE) }).ok()?;
+            let flags = libc::MAP_PRIVATE | libc::MAP_ANONYMOUS | libc::MAP_NORESERVE;
+            // SAFETY: a new mapping, which nobody else knows of; the page below stays closed.
+            unsafe {
+                let size = guard + STACK;
+                let place = libc::mmap(ptr::null_mut(), size, libc::PROT_NONE, flags, -1, 0);
+                if place == libc::MAP_FAILED {
+                    return None;
+                }
+                let stack = Self { place, guard };
+                let open = libc::PROT_READ | libc::PROT_WRITE;
+                (libc::mprotect(stack.lowest(), STACK, open) == 0).then_some(stack)
+            }
+        }
+
+        /// Lowest address that the thread may use.
+        fn lowest(&self) -> *mut c_void {
+            self.place.wrapping_byte_add(self.guard)
+        }
+    }
+
+    impl Drop for Stack {
+        fn drop(&mut self) {
+            // SAFETY: made in `new`, and its thread has ended or never began.
+            unsafe { libc::munmap(self.place, self.guard + STACK) };
+        }
+    }
 
     /// A host that cancels a thread of its own while that waits for one of ours must not unwind it: the
     /// work borrows from its stack.
@@ -168,10 +198,12 @@ mod system {
             // SAFETY: the thread has been started, and is joined once.
             let failed = uncancelled(|| unsafe { libc::pthread_join(self.0, ptr::null_mut()) });
             assert_eq!(failed, 0, "a thread of ours can be joined");
+            drop(ManuallyDrop::into_inner(self.1));
         }
     }
 
     pub fn start(work: Work) -> Option<Thread> {
+        let stack = Stack::new()?;
         LIVING.add();
         let work = Box::into_raw(Box::new(work));
         with_faults_alone(|| {
@@ -182,7 +214,8 @@ mod system {
             unsafe {
                 let mut failed = libc::pthread_attr_init(attributes.as_mut_ptr());
                 if failed == 0 {
-                    failed = libc::pthread_attr_setstacksize(attributes.as_mut_ptr(), STACK);
+                    let attributes_set = attributes.as_mut_ptr();
+                    failed = libc::pthread_attr_setstack(attributes_set, stack.lowest(), STACK);
                     if failed == 0 {
                         let (thread, attributes) = (thread.as_mut_ptr(), attributes.as_ptr());
                         failed = libc::pthread_create(thread, attributes, run, work.cast());
@@ -194,7 +227,7 @@ mod system {
                     drop(Box::from_raw(work));
                     return None;
                 }
-                Some(Thread(thread.assume_init()))
+                Some(Thread(thread.assume_init(), ManuallyDrop::new(stack)))
             }
         })
     }

@@ -1,11 +1,12 @@
 //! Whether a state that comes from elsewhere belongs to a model.
 
 use super::{HIGHEST_INPUT_DERIVATIVE, Model, ModelError, State};
+use crate::limits::LARGEST;
 
 impl Model {
     /// Refuses a state that this model cannot go on from: a wrong number of inputs or bodies,
-    /// unknowns of a length that a body does not take, numbers that are not finite, or particles and running maxima that
-    /// no run leads to.
+    /// unknowns of a length that a body does not take, numbers that are not finite or beyond all constants of
+    /// scenes, or heat, particles and running maxima that no run leads to.
     pub fn check_state(&self, state: &State) -> Result<(), ModelError> {
         let refuse = |message: String| Err(ModelError::State(message));
         let orders = state.derivatives.len();
@@ -33,12 +34,17 @@ impl Model {
             return refuse(format!("unknowns of {found} bodies; the scene has {wanted}"));
         }
         for (body, unknowns) in self.bodies.iter().zip(&state.bodies) {
-            if let Some(at) = unknowns.iter().position(|number| !number.is_finite()) {
+            let is_beyond = |number: &f64| !number.is_finite() || number.abs() > LARGEST;
+            if let Some(at) = unknowns.iter().position(is_beyond) {
                 let place = body.layout(unknowns).and_then(|layout| layout.place(at));
                 let place = place.map_or("a number".to_owned(), |place| place.to_string());
-                return refuse(format!("{}: {place} is not finite", body.name()));
+                let wrong = match unknowns[at].is_finite() {
+                    true => format!("of {:e} is larger than any run leads to", unknowns[at]),
+                    false => "is not finite".to_owned(),
+                };
+                return refuse(format!("{}: {place} {wrong}", body.name()));
             }
-            body.check_state(unknowns).or_else(refuse)?;
+            body.check_state(unknowns, &state.inputs).or_else(refuse)?;
         }
         self.check_peaks(state)
     }

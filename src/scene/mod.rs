@@ -9,6 +9,7 @@ mod decode;
 mod droplet;
 mod droplet_symmetry;
 mod error;
+mod file;
 mod footprint;
 mod grid;
 mod load;
@@ -25,8 +26,7 @@ mod schema;
 mod spelling;
 mod types;
 
-use std::fs::File;
-use std::io::{self, Read};
+use std::io;
 use std::path::Path;
 
 pub use cells::Cells;
@@ -36,6 +36,7 @@ pub use droplet::{
     Precision, ReleaseBy, Wall, WallStart, velocity,
 };
 pub use error::{Problem, SceneError};
+pub use file::{bytes_of, open_file};
 pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
 pub use lookup::{BodyInput, Place};
@@ -74,14 +75,13 @@ pub fn text_of(path: &Path, file: &str) -> Result<String, SceneError> {
     let unreadable = |error: io::Error| {
         problem(format!("cannot be read: {error}"), "a readable text file in UTF-8".to_owned())
     };
-    let mut bytes = Vec::new();
-    // What the system says of its size need not be true.
-    let mut start = File::open(path).map_err(unreadable)?.take(LARGEST_FILE + 1);
-    start.read_to_end(&mut bytes).map_err(unreadable)?;
-    if bytes.len() as u64 > LARGEST_FILE {
-        let message = "the file is too large for a scene".to_owned();
-        return Err(problem(message, format!("at most {LARGEST_FILE} bytes")).into());
-    }
+    let bytes = match bytes_of(path, LARGEST_FILE) {
+        Err(error) if error.kind() == io::ErrorKind::FileTooLarge => {
+            let message = "the file is too large for a scene".to_owned();
+            return Err(problem(message, format!("at most {LARGEST_FILE} bytes")).into());
+        }
+        read => read.map_err(unreadable)?,
+    };
     let text = String::from_utf8(bytes);
     Ok(text.map_err(|error| unreadable(io::Error::new(io::ErrorKind::InvalidData, error)))?)
 }

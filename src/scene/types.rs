@@ -569,12 +569,15 @@ pub enum FidelityLevel {
     Auto,
 }
 
+/// Threads that a unit may be told to use.
+pub const MOST_THREADS: usize = 1024;
+
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Solver {
     /// Threads that a unit may use; results do not depend on them.
     #[serde(default)]
-    #[schemars(transform = whole(0, 1024, "too many threads", "0 to 1024 (0 lets the program choose)")
+    #[schemars(transform = whole(0, MOST_THREADS as u32, "too many threads", "0 to 1024 (0 lets the program choose)")
         .otherwise("0: the program chooses"))]
     pub threads: usize,
     /// How the heat of solids advances: exactly in time by modes, or in inner steps by Newton's method.

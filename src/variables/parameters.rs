@@ -3,7 +3,7 @@
 use super::registry::{Slot, Value, Variable};
 use super::{DropletConstant, MaterialConstant, Parameter, layers};
 use crate::quantity::Quantity;
-use crate::scene::{Droplet, Scene};
+use crate::scene::{Droplet, MOST_THREADS, Scene};
 
 /// Constants of the scene that may be set until initialisation ends.
 pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
@@ -73,7 +73,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
         quantity: None,
         start: Some(Value::Integer(scene.solver.threads as i32)),
         min: Some(0.0),
-        max: Some(1024.0),
+        max: Some(MOST_THREADS as f64),
         is_tunable: false,
     });
     list.push(Variable {

@@ -1,7 +1,9 @@
 //! Recorded drops among a unit's resources: found, refused where they are damaged, and computed where they do not fit.
 
 use std::ffi::CString;
-use std::fs;
+use std::fs::{self, File};
+use std::path::Path;
+use std::process::Command;
 use std::time::Instant;
 
 use impinge::fmi::guid;
@@ -34,10 +36,15 @@ start = { temperature = 300.0 }
 
 /// Whether a unit is made with these bytes as its record, and what is said.
 fn made_with(bytes: &[u8]) -> (bool, String) {
+    made_in("records", |records| fs::write(records.join("drop.record"), bytes).unwrap())
+}
+
+/// The same of a folder of resources that is filled otherwise.
+fn made_in(name: &str, fill: impl FnOnce(&Path)) -> (bool, String) {
     let folder = Folder::with_scene("records", DROPS);
-    let records = folder.0.join("records");
+    let records = folder.0.join(name);
     fs::create_dir(&records).unwrap();
-    fs::write(records.join("drop.record"), bytes).unwrap();
+    fill(&records);
     let messages = Box::<Messages>::default();
     let registry = Registry::of(&scene::parse(DROPS, "scene.toml").unwrap());
     let guid = Some(CString::new(guid::guid(DROPS, &registry)).unwrap());
@@ -64,6 +71,37 @@ fn damaged_records_are_refused() {
     assert!(!is_made && said.contains("drop.record: the record is damaged"), "{said}");
     let (is_made, said) = made_with(&bytes[..bytes.len() - 9]);
     assert!(!is_made && said.contains("drop.record"), "{said}");
+}
+
+/// Not even the size of a file says how much is to be read of it.
+#[cfg(unix)]
+#[test]
+fn resources_that_are_no_files_of_the_unit_are_refused_at_once() {
+    use std::os::unix::fs::symlink;
+    for folder in ["records", "reduced"] {
+        let refused = |fill: &dyn Fn(&Path), words: &str| {
+            let (is_made, said) = made_in(folder, |place| fill(&place.join("z.bytes")));
+            assert!(!is_made && said.contains("z.bytes: ") && said.contains(words), "{said}");
+        };
+        refused(&|path| symlink("/dev/zero", path).unwrap(), "leads to /dev/zero");
+        refused(&|path| symlink("nowhere", path).unwrap(), "No such file");
+        refused(&|path| symlink("/etc/passwd", path).unwrap(), "leads to /etc/passwd");
+        refused(&|path| fs::create_dir(path).unwrap(), "it is a folder");
+        let pipe = |path: &Path| {
+            assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
+        };
+        refused(&pipe, "a pipe, socket or device");
+        // It takes no room on the disc.
+        let large = |path: &Path| File::create(path).unwrap().set_len(300_000_000).unwrap();
+        refused(&large, "too large (allowed: at most 256000000 bytes)");
+    }
+    let scene = Folder::with_scene("pipe", DROPS);
+    fs::remove_file(scene.0.join("scene.toml")).unwrap();
+    assert!(Command::new("mkfifo").arg(scene.0.join("scene.toml")).status().unwrap().success());
+    let messages = Box::<Messages>::default();
+    assert!(Arguments::good(&scene).instantiate(&messages).is_null());
+    let said = messages.take();
+    assert!(said[0].text.contains("a pipe, socket or device"), "{said:?}");
 }
 
 #[test]

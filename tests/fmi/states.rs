@@ -308,18 +308,43 @@ fn fields_go_on_from_the_restored_time() {
     let times: Vec<&str> =
         list.split("timestep=\"").skip(1).map(|rest| rest.split('"').next().unwrap()).collect();
     assert_eq!(times, ["0.0", "1e-8", "4e-8"]);
-    // Another instance goes on in the same folder, once the first one writes there no more.
-    let (bytes, directory) = (unit.serialize(state), unit.directory());
+    // Another instance that has been set to go on in the same folder does, once the first one writes there no more.
+    let bytes = unit.serialize(state);
     let other = Unit::instantiated();
+    assert_eq!(other.set_directory(&folder.0), OK);
     let state = other.deserialize(&bytes);
     assert_eq!(other.restore(state), WARNING);
     assert_eq!(fs::read_to_string(folder.0.join("plate.pvd")).unwrap(), list);
     drop(unit);
     assert_eq!(other.restore(state), OK);
-    assert_eq!(other.directory(), directory);
+    assert_eq!(other.directory(), folder.0.to_str().unwrap());
     assert_eq!(other.step(1e-8, 1e-8), OK);
     let list = fs::read_to_string(folder.0.join("plate.pvd")).unwrap();
     assert_eq!(list.matches("timestep=").count(), 2, "{list}");
+}
+
+/// Bytes may come from anywhere, and must not have an instance write where it was not set to.
+#[test]
+fn a_state_from_bytes_names_no_folder() {
+    let [folder, own] = ["elsewhere", "own"].map(Folder::new);
+    let unit = Unit::initializing();
+    assert_eq!(unit.set_directory(&folder.0), OK);
+    assert_eq!(unit.exit(), OK);
+    assert_eq!(unit.step(0.0, 1e-8), OK);
+    let bytes = unit.serialize(unit.save());
+    let name = folder.0.to_str().unwrap().as_bytes();
+    assert!(!bytes.windows(name.len()).any(|part| part == name));
+    drop(unit);
+    fs::remove_dir_all(&folder.0).unwrap();
+    let other = Unit::instantiated();
+    assert_eq!(other.restore(other.deserialize(&bytes)), OK);
+    assert_eq!((other.step(1e-8, 1e-8), other.directory()), (OK, String::new()));
+    assert!(!folder.0.exists());
+    let third = Unit::instantiated();
+    assert_eq!(third.set_directory(&own.0), OK);
+    assert_eq!(third.restore(third.deserialize(&bytes)), OK);
+    assert_eq!(third.step(1e-8, 1e-8), OK);
+    assert!(own.0.join("plate.pvd").exists() && !folder.0.exists());
 }
 
 /// Two copies of the library in one process, as two units of different names are loaded.

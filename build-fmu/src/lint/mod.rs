@@ -23,6 +23,7 @@ use std::path::Path;
 use description::Description;
 use document::Document;
 use finding::{Finding, Report, Severity};
+use impinge::scene::bytes_of;
 use package::Package;
 use rules::{Check, Rule};
 
@@ -53,11 +54,7 @@ pub struct Verdict {
 pub fn lint(path: &Path, may_run: bool) -> Result<Verdict, String> {
     let file = path.display();
     let cannot = |error: std::io::Error| format!("cannot read {file}: {error}");
-    let size = std::fs::metadata(path).map_err(cannot)?.len();
-    if size > LARGEST_FILE {
-        return Err(format!("{file} has {size} bytes; allowed: at most {LARGEST_FILE}"));
-    }
-    let bytes = std::fs::read(path).map_err(cannot)?;
+    let bytes = bytes_of(path, LARGEST_FILE).map_err(cannot)?;
     let findings = findings(bytes, may_run);
     let count = |severity| findings.iter().filter(|f| f.severity == severity).count();
     let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));

@@ -270,7 +270,7 @@ impl Body for DropletBody {
         self.droplet.layout(state)
     }
 
-    fn check_state(&self, state: &[f64]) -> Result<(), String> {
+    fn check_state(&self, state: &[f64], _inputs: &[f64]) -> Result<(), String> {
         let checked = self.droplet.check_state(state);
         checked.map_err(|error| format!("{}: {error}", self.name))
     }

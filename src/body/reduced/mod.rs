@@ -296,7 +296,7 @@ impl Body for ReducedBody {
         Some(layout).filter(|layout| layout.len() == state.len())
     }
 
-    fn check_state(&self, state: &[f64]) -> Result<(), String> {
+    fn check_state(&self, state: &[f64], _inputs: &[f64]) -> Result<(), String> {
         let (name, wanted) = (&self.name, self.len());
         if state.len() != wanted {
             return Err(format!("{} unknowns of {name}; this body has {wanted}", state.len()));

@@ -1,5 +1,6 @@
 //! Solids: heat that is linear and exact in time, thermo-elasticity at every moment.
 
+mod acceptance;
 mod advance;
 mod doubts;
 mod forecast;
@@ -184,9 +185,9 @@ impl Body for SolidBody {
         Some(self.own_layout()).filter(|layout| layout.len() == state.len())
     }
 
-    fn check_state(&self, state: &[f64]) -> Result<(), String> {
+    fn check_state(&self, state: &[f64], inputs: &[f64]) -> Result<(), String> {
         match self.own_layout().len() {
-            wanted if wanted == state.len() => Ok(()),
+            wanted if wanted == state.len() => self.check_heat(state, inputs),
             wanted => {
                 Err(format!("{} unknowns of {}; this body has {wanted}", state.len(), self.name))
             }

@@ -8,7 +8,6 @@
 //! drives them.
 
 use std::collections::{HashMap, HashSet};
-use std::sync::OnceLock;
 
 use super::SolidBody;
 use super::memo::SolidMemo;
@@ -16,6 +15,7 @@ use super::point::PointQuantity;
 use crate::body::BodyError;
 use crate::coupling::FaceMeans;
 use crate::math::cholesky::SolverError;
+use crate::math::made_once::MadeOnce;
 use crate::method::fem::{
     ClassRow, Component, Functional, Geometry, Plan, SolidFem, Term, memory_of_row,
     most_memory_of_rows,
@@ -60,7 +60,7 @@ pub struct Rows {
 /// The rows of one reading, one for each symmetry class.
 struct LazyRow {
     functional: Functional,
-    classes: [OnceLock<ClassRow>; CLASSES],
+    classes: [MadeOnce<ClassRow>; CLASSES],
 }
 
 /// All components along x, y, z in the order of [`PartsOfAll`].
@@ -251,7 +251,7 @@ impl LazyRow {
         }
         let row = solid.row(&self.functional, class);
         let row = row.expect("rows are chosen where mechanics is linear")?;
-        Ok(lock.get_or_init(|| row))
+        Ok(lock.get_or_make(|| row))
     }
 }
 

@@ -6,7 +6,7 @@ mod thermal_row;
 
 use std::convert::Infallible;
 use std::ops::Range;
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::Arc;
 
 use super::assembly::{Part, assemble, lower_triangle};
 use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
@@ -17,6 +17,8 @@ use super::solver_choice::{solver_memory, suits_conjugate_gradients};
 use crate::material::Thermoelastic;
 use crate::math::address_space::{self, PRODUCTS};
 use crate::math::cholesky::{SolverError, SparseCholesky};
+use crate::math::fork_lock::ForkLock;
+use crate::math::made_once::MadeOnce;
 use crate::math::nested_dissection::nested_dissection;
 use crate::math::parallel;
 use crate::math::shared_values::SharedValues;
@@ -67,9 +69,9 @@ pub struct ElasticProblem {
     threads: usize,
     supports: Vec<(MeshFace, Support)>,
     /// Nodal force per nodal degree of each layer, made when first needed.
-    thermal: OnceLock<Vec<StencilMatrix>>,
-    classes: Vec<(Parity, OnceLock<Result<Solver, SolverError>>)>,
-    rows: Mutex<KeptRows>,
+    thermal: MadeOnce<Vec<StencilMatrix>>,
+    classes: Vec<(Parity, MadeOnce<Result<Solver, SolverError>>)>,
+    rows: ForkLock<KeptRows>,
 }
 
 /// How displacements of one symmetry class are found.
@@ -113,9 +115,17 @@ impl ElasticProblem {
     }
 
     pub fn new(ElasticSetup { mesh, laws, supports, threads }: ElasticSetup) -> Self {
-        let thermal = OnceLock::new();
-        let classes = mesh.parities().into_iter().map(|p| (p, OnceLock::new())).collect();
-        Self { mesh, laws, threads, supports, thermal, classes, rows: Mutex::default() }
+        let thermal = MadeOnce::new();
+        let classes = mesh.parities().into_iter().map(|p| (p, MadeOnce::new())).collect();
+        Self {
+            mesh,
+            laws,
+            threads,
+            supports,
+            thermal,
+            classes,
+            rows: ForkLock::new(KeptRows::default()),
+        }
     }
 
     /// That of a layer, counted from the lowest.
@@ -128,7 +138,7 @@ impl ElasticProblem {
             let (mesh, law) = (self.mesh.layer_mesh(layer), std::slice::from_ref(law));
             assemble(&mesh, law, [self.degrees(), 1], Part::Thermal, self.threads)
         };
-        self.thermal.get_or_init(|| self.laws.iter().enumerate().map(of_layer).collect())
+        self.thermal.get_or_make(|| self.laws.iter().enumerate().map(of_layer).collect())
     }
 
     /// Adds the forces of heated material that is held back. Each layer has temperatures of its own on interfaces.
@@ -221,7 +231,7 @@ impl ElasticProblem {
             let memory = solver_memory(&self.mesh, &self.laws);
             address_space::expect(memory as usize + PRODUCTS + STACK)?;
         }
-        lock.get_or_init(|| aside(|| self.make_solver(*parity))).as_ref().map_err(Clone::clone)
+        lock.get_or_make(|| aside(|| self.make_solver(*parity))).as_ref().map_err(Clone::clone)
     }
 
     fn make_solver(&self, parity: Parity) -> Result<Solver, SolverError> {

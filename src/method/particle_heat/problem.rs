@@ -1,12 +1,11 @@
 //! The heat problem of a body of particles, from its faces and loads to steps in time.
 
-use std::sync::OnceLock;
-
 use super::edges::{Edges, Inlet, face_particles};
 use super::lattice::{End, LatticeAxis};
 use super::rows::{Lattice, Settings};
 use crate::math::allowance::{Allowance, Halt};
 use crate::math::chebyshev::Evolution;
+use crate::math::made_once::MadeOnce;
 use crate::math::parallel;
 use crate::math::separable::dot;
 use crate::math::sparse_rows::SparseRows;
@@ -73,7 +72,7 @@ pub struct ParticleHeat {
     setup: Setup,
     threads: usize,
     /// Made when first needed, the even one at once.
-    classes: Vec<OnceLock<Class>>,
+    classes: Vec<MadeOnce<Class>>,
 }
 
 /// The part of one symmetry class.
@@ -94,7 +93,7 @@ const BATCH: usize = 4096;
 impl ParticleHeat {
     /// Finds neighbours and coefficients on at most `threads` threads.
     pub fn new(setup: Setup, threads: usize) -> Self {
-        let classes = setup.classes.iter().map(|_| OnceLock::new()).collect();
+        let classes = setup.classes.iter().map(|_| MadeOnce::new()).collect();
         let problem = Self { setup, threads, classes };
         problem.class(0);
         problem
@@ -228,7 +227,7 @@ impl ParticleHeat {
     }
 
     fn class(&self, index: usize) -> &Class {
-        self.classes[index].get_or_init(|| {
+        self.classes[index].get_or_make(|| {
             let make = || lattice(&self.setup, self.setup.classes[index]);
             aside(|| Class::new(&self.setup, make(), self.threads))
         })

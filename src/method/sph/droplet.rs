@@ -4,8 +4,6 @@ mod demand;
 mod half_space;
 mod totals;
 
-use std::sync::OnceLock;
-
 use super::acceptance::{self, Released};
 use super::cloud::{
     Cloud, HeadNumbers, Ledger, cloud_of, flatten, layout, ledger_of, particles_in,
@@ -22,6 +20,7 @@ use super::units::{density, pressure};
 use super::wall::WallExchange;
 use super::wall_points::WallPoints;
 use crate::math::allowance::Allowance;
+use crate::math::made_once::MadeOnce;
 use crate::math::parallel::Team;
 use crate::state::{Layout, store};
 
@@ -38,7 +37,7 @@ pub struct DropletSph {
     below: SurfaceResponse,
     /// What there is after each release, found when a state from elsewhere is looked at; of drops on demand, which
     /// are all alike, after none and one.
-    released: OnceLock<Vec<Released>>,
+    released: MadeOnce<Vec<Released>>,
 }
 
 /// The particles of a state, images at mirrors left out.
@@ -71,7 +70,7 @@ impl DropletSph {
     pub fn with_shares(plan: DropletPlan, threads: usize, shares: StepShares) -> Self {
         let method = Method::with_shares(&plan, shares);
         let below = response_below(&plan, &method);
-        Self { plan, method, threads, below, released: OnceLock::new() }
+        Self { plan, method, threads, below, released: MadeOnce::new() }
     }
 
     pub fn plan(&self) -> &DropletPlan {
@@ -132,7 +131,7 @@ impl DropletSph {
 
     /// What there is after none, one, … of the releases.
     fn released(&self) -> &[Released] {
-        self.released.get_or_init(|| {
+        self.released.get_or_make(|| {
             let (mut ledger, mut cloud) = (Ledger::default(), Cloud::default());
             let mut all = vec![Released::default()];
             let expected = self.plan.demand.as_ref().map(|demand| &demand.expected);

@@ -13,6 +13,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fenv.h>
+#include <malloc.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
@@ -53,6 +54,44 @@ static void load(void) {
 /* The system's threads, until there are to be no more of them. */
 static int threads_left = 1 << 30;
 
+/* A place where a thread waits for another one to fork: none, waited for, reached, left. */
+enum { NOWHERE, AWAITED, REACHED, LEFT };
+static int place = NOWHERE;
+/* How many starts of threads come before the place; none is one if it is below zero. */
+static int starts_before = -1;
+/* Whether this thread is starting one, and whether what is freed then is the place. */
+static __thread int starting;
+static int freeing;
+
+static void wait_for_a_fork(void) {
+  int expected = AWAITED;
+  if (__atomic_compare_exchange_n(&place, &expected, REACHED, 0, __ATOMIC_SEQ_CST,
+                                  __ATOMIC_SEQ_CST)) {
+    while (__atomic_load_n(&place, __ATOMIC_SEQ_CST) != LEFT) {
+      usleep(100);
+    }
+  }
+}
+
+static int is_forked;
+
+#ifdef __GLIBC__
+extern void __libc_free(void *);
+
+/* What was freed last at the place, whose thread a forked process does not have: who frees it there does so again. */
+static void *freed;
+
+void free(void *block) {
+  EXPECT(!is_forked || block == NULL || block != freed);
+  __libc_free(block);
+  if (block != NULL && starting && __atomic_load_n(&freeing, __ATOMIC_SEQ_CST) &&
+      __atomic_load_n(&place, __ATOMIC_SEQ_CST) == AWAITED) {
+    freed = block;
+    wait_for_a_fork();
+  }
+}
+#endif
+
 int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*body)(void *),
                    void *argument) {
   __typeof__(pthread_create) *real =
@@ -60,7 +99,14 @@ int pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*
   if (__atomic_sub_fetch(&threads_left, 1, __ATOMIC_SEQ_CST) < 0) {
     return EAGAIN;
   }
-  return real(thread, attributes, body, argument);
+  if (__atomic_load_n(&place, __ATOMIC_SEQ_CST) == AWAITED &&
+      __atomic_fetch_sub(&starts_before, 1, __ATOMIC_SEQ_CST) == 0) {
+    wait_for_a_fork();
+  }
+  starting = 1;
+  const int failed = real(thread, attributes, body, argument);
+  starting = 0;
+  return failed;
 }
 
 /* What the logger has found the rounding to be. */
@@ -262,18 +308,21 @@ static void unload(void) {
   }
 }
 
+/* What is limited: address space, or that part of it which may be written to. */
+static int limited = RLIMIT_AS;
+
 static size_t address_space(void) {
-  size_t pages = 0;
+  size_t all = 0, writable = 0;
   FILE *sizes = fopen("/proc/self/statm", "r");
-  EXPECT(fscanf(sizes, "%zu", &pages) == 1);
+  EXPECT(fscanf(sizes, "%zu %*u %*u %*u %*u %zu", &all, &writable) == 2);
   fclose(sizes);
-  return pages * (size_t)sysconf(_SC_PAGESIZE);
+  return (limited == RLIMIT_DATA ? writable : all) * (size_t)sysconf(_SC_PAGESIZE);
 }
 
 static void in_little_space(size_t more) {
   const size_t most = address_space() + more;
   const struct rlimit limit = {most, most};
-  EXPECT(setrlimit(RLIMIT_AS, &limit) == 0);
+  EXPECT(setrlimit(limited, &limit) == 0);
   live(NULL);
 }
 
@@ -292,7 +341,7 @@ static void limit_space(int place) {
   const size_t most = address_space() + space_left;
   const struct rlimit limit = {most, most};
   if (place == space_from) {
-    EXPECT(setrlimit(RLIMIT_AS, &limit) == 0);
+    EXPECT(setrlimit(limited, &limit) == 0);
     space_from = -1;
   }
 }
@@ -370,12 +419,24 @@ static void sweep(void) {
   printf("%d\n", complete);
 }
 
-/* Expects that no load leaves a key behind for what threads keep: a process has few. */
+/* Bytes that the C library has handed out and not got back. */
+static size_t allocated(void) {
+  const struct mallinfo2 memory = mallinfo2();
+  return memory.uordblks + memory.hblkhd;
+}
+
+/* Expects that no load leaves memory behind, nor a key for what threads keep: a process has few. */
 static void again_and_again(void) {
   pthread_key_t before, after;
+  size_t bytes[8];
   EXPECT(pthread_key_create(&before, NULL) == 0 && pthread_key_delete(before) == 0);
   for (int k = 0; k < 8; k++) {
     live_and_unload(NULL);
+    bytes[k] = allocated();
+  }
+  if (bytes[7] != bytes[3]) {
+    fprintf(stderr, "%zu bytes are lost in four loads\n", bytes[7] - bytes[3]);
+    exit(1);
   }
   EXPECT(pthread_key_create(&after, NULL) == 0);
   EXPECT(after == before);
@@ -429,6 +490,97 @@ static void forked_within_calls(void) {
     expect_success(child);
   }
   EXPECT(pthread_join(thread, NULL) == 0);
+}
+
+static void *live_quietly(void *finished) {
+  double values[64];
+  void *unit = begin();
+  steps(unit, values);
+  end(unit);
+  __atomic_store_n((int *)finished, 1, __ATOMIC_SEQ_CST);
+  return NULL;
+}
+
+static void *stay(void *until) {
+  while (!__atomic_load_n((int *)until, __ATOMIC_SEQ_CST)) {
+    usleep(100);
+  }
+  return NULL;
+}
+
+/* Starts so many threads at once that all stacks are taken that the C library keeps for later ones. */
+static void take_kept_stacks(void) {
+  pthread_attr_t attributes;
+  pthread_t all[16];
+  int over = 0;
+  EXPECT(pthread_attr_init(&attributes) == 0);
+  EXPECT(pthread_attr_setstacksize(&attributes, (size_t)2 << 20) == 0);
+  for (int k = 0; k < 16; k++) {
+    EXPECT(pthread_create(&all[k], &attributes, stay, &over) == 0);
+  }
+  __atomic_store_n(&over, 1, __ATOMIC_SEQ_CST);
+  for (int k = 0; k < 16; k++) {
+    EXPECT(pthread_join(all[k], NULL) == 0);
+  }
+}
+
+/* Forks while another thread, which lives a life meanwhile, is at the place. The child goes on with an instance that nobody
+ * calls, frees it and begins its own. Answers whether the place was reached. */
+static int forked_at_place(const double *expected) {
+  double values[64];
+  pthread_t thread;
+  int finished = 0;
+  void *idle = begin();
+  EXPECT(pthread_create(&thread, NULL, live_quietly, &finished) == 0);
+  __atomic_store_n(&place, AWAITED, __ATOMIC_SEQ_CST);
+  while (__atomic_load_n(&place, __ATOMIC_SEQ_CST) != REACHED &&
+         !__atomic_load_n(&finished, __ATOMIC_SEQ_CST)) {
+    usleep(100);
+  }
+  const int reached = __atomic_load_n(&place, __ATOMIC_SEQ_CST) == REACHED;
+  const pid_t child = reached ? fork() : 0;
+  if (reached && child == 0) {
+    place = NOWHERE;
+    is_forked = 1;
+    alarm(60);
+    take_kept_stacks();
+    steps(idle, values);
+    EXPECT(memcmp(values, expected, count * sizeof *values) == 0);
+    end(idle);
+    void *unit = begin();
+    steps(unit, values);
+    EXPECT(memcmp(values, expected, count * sizeof *values) == 0);
+    end(unit);
+    _exit(0);
+  }
+  if (reached) {
+    expect_success(child);
+  }
+  __atomic_store_n(&place, LEFT, __ATOMIC_SEQ_CST);
+  EXPECT(pthread_join(thread, NULL) == 0);
+  end(idle);
+  return reached;
+}
+
+/* Forks at every moment at which another thread has the library start one, and where the C library frees something then. */
+static void forked_at_starts(void) {
+  double expected[64];
+  int starts = 0;
+  void *unit = begin();
+  steps(unit, expected);
+  end(unit);
+  while (starts < 40) {
+    starts_before = starts;
+    if (!forked_at_place(expected)) {
+      break;
+    }
+    starts++;
+  }
+  EXPECT(starts > 2);
+  starts_before = -1;
+  freeing = 1;
+  forked_at_place(expected);
+  print(expected);
 }
 
 /* Runs with what is set up before, and expects to find it afterwards and in the logger. */
@@ -501,6 +653,9 @@ int main(int argc, char **argv) {
     in_little_space((size_t)64 << 20);
   } else if (strcmp(play, "sweep") == 0) {
     sweep();
+  } else if (strcmp(play, "sweep of data") == 0) {
+    limited = RLIMIT_DATA;
+    sweep();
   } else if (strcmp(play, "little stack") == 0) {
     on_thread(24 << 10);
   } else if (strcmp(play, "no threads") == 0) {
@@ -510,6 +665,8 @@ int main(int argc, char **argv) {
     live(NULL);
   } else if (strcmp(play, "fork") == 0) {
     forked();
+  } else if (strcmp(play, "fork at starts") == 0) {
+    forked_at_starts();
   } else if (strcmp(play, "fork within calls") == 0) {
     forked_within_calls();
   } else if (strcmp(play, "traps") == 0) {

@@ -174,6 +174,19 @@ fn a_folder_that_another_run_is_writing_to_is_left_alone() {
     place.run(&["--until", "1e-7"]).succeeds();
 }
 
+/// Who reads a pipe that nobody writes to waits for ever.
+#[test]
+fn pipes_and_devices_as_scenes_and_tables_are_refused_at_once() {
+    let place = Workplace::new();
+    assert!(Command::new("mkfifo").arg(place.path("pipe")).status().unwrap().success());
+    for path in ["pipe", "/dev/zero"] {
+        let words = ["a pipe, socket or device (allowed: a regular file)"];
+        place.call(&["check", path]).fails(1, &words);
+        place.call(&["run", path]).fails(1, &words);
+        place.run(&["--inputs", path]).fails(1, &words);
+    }
+}
+
 #[test]
 fn files_that_vanish_while_a_run_goes_on_are_noticed() {
     let place = Workplace::new();

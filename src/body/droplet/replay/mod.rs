@@ -152,7 +152,7 @@ impl Body for ReplayBody {
         self.replay.layout(state)
     }
 
-    fn check_state(&self, state: &[f64]) -> Result<(), String> {
+    fn check_state(&self, state: &[f64], _inputs: &[f64]) -> Result<(), String> {
         self.replay.check_state(state).map_err(|error| format!("{}: {error}", self.name))
     }
 

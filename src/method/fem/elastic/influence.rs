@@ -132,16 +132,15 @@ impl ElasticProblem {
         Ok(row)
     }
 
-    /// Rows are kept for others where nobody is at the list; who finds it taken, as in a process that was forked
-    /// meanwhile, solves anew, which gives the same bits.
+    /// Rows are kept for others where nobody is at the list; who finds it taken solves anew, which gives the same bits.
     fn kept_row(&self, functional: &Functional, class: usize) -> Option<NodalRow> {
-        let rows = self.rows.try_lock().ok()?;
+        let rows = self.rows.try_lock()?;
         let found = rows.list.iter().find(|(known, of, _)| *of == class && known == functional);
         found.map(|(.., row)| row.clone())
     }
 
     fn keep_row(&self, functional: &Functional, class: usize, row: &NodalRow) {
-        let Ok(mut rows) = self.rows.try_lock() else { return };
+        let Some(mut rows) = self.rows.try_lock() else { return };
         let rows = &mut *rows;
         rows.bytes += row.bytes();
         rows.list.push_back((functional.clone(), class, row.clone()));

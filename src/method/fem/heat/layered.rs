@@ -7,7 +7,6 @@
 
 use std::borrow::Cow;
 use std::collections::HashMap;
-use std::sync::OnceLock;
 
 use faer::Mat;
 
@@ -15,6 +14,7 @@ use super::class::Class;
 use super::depth::DepthModes;
 use super::{HeatProblem, ThermalFace, end_conditions};
 use crate::material::Constants;
+use crate::math::made_once::MadeOnce;
 use crate::math::parallel;
 use crate::method::fem::columns::{Column, DepthProblem};
 use crate::method::fem::modes::{AxisModes, EndCondition};
@@ -60,15 +60,15 @@ impl HeatProblem<Layered> {
 
 impl Layered {
     /// The modes of a class, made when it is first driven.
-    fn columns<'c>(&self, class: &'c Class<OnceLock<Columns>>) -> &'c Columns {
+    fn columns<'c>(&self, class: &'c Class<MadeOnce<Columns>>) -> &'c Columns {
         let conserves = class.parity.is_even() && self.insulated;
         let make = || Columns::new(&class.lateral, &self.depth, conserves, self.threads);
-        class.columns.get_or_init(make)
+        class.columns.get_or_make(make)
     }
 }
 
 impl DepthModes for Layered {
-    type Columns = OnceLock<Columns>;
+    type Columns = MadeOnce<Columns>;
 
     fn capacity(&self) -> f64 {
         1.0
