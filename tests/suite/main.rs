@@ -51,4 +51,6 @@ mod solid;
 mod tension;
 mod tolerance;
 mod walls;
+mod yield_estimates;
+mod yield_readings;
 mod yielding;
