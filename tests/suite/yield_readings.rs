@@ -20,7 +20,7 @@ struct Metal {
 
 const START: f64 = 300.0;
 
-const METALS: [Metal; 5] = [
+static METALS: [Metal; 5] = [
     Metal {
         text: "density = 7800.0, specific_heat = 500.0, conductivity = 45.0, young = 200e9, poisson = 0.3, \
                expansion = 1.2e-5",
@@ -140,24 +140,29 @@ fn probes() -> String {
     places().into_iter().enumerate().map(probe).collect()
 }
 
+/// All metals on discs, the first and the last on boxes.
+fn spots() -> Vec<(&'static Metal, &'static str)> {
+    let [disc, brick] = SHAPES;
+    let ends = [&METALS[0], &METALS[4]].map(|metal| (metal, brick));
+    METALS.iter().map(|metal| (metal, disc)).chain(ends).collect()
+}
+
 /// Calls `check` with bodies that are heated and, at last, cooled for a while.
 fn for_spots(mut check: impl FnMut(&Metal, &str, &mut Trial)) {
-    for metal in &METALS {
-        for shape in SHAPES {
-            for order in [1, 2] {
-                let material = metal.material();
-                let text = plate(shape, order, &material, metal.flux, "clamped = true", &probes());
-                let mut trial = Trial::new(&text);
-                let what = format!("{shape}, order {order}, {material}");
-                for step in 0..4 {
-                    if step == 2 {
-                        trial.set("spot.heat_flux", 0.0);
-                    }
-                    trial.step(if step < 2 { 0.01 } else { 0.02 });
-                    check(metal, &what, &mut trial);
+    for (metal, shape) in spots() {
+        for order in [1, 2] {
+            let material = metal.material();
+            let text = plate(shape, order, &material, metal.flux, "clamped = true", &probes());
+            let mut trial = Trial::new(&text);
+            let what = format!("{shape}, order {order}, {material}");
+            for dt in [0.01, 0.01, 0.04] {
+                if dt > 0.01 {
+                    trial.set("spot.heat_flux", 0.0);
                 }
-                assert!(trial.get("plate.max_plastic_strain") > 1e-5, "{what}");
+                trial.step(dt);
+                check(metal, &what, &mut trial);
             }
+            assert!(trial.get("plate.max_plastic_strain") > 1e-5, "{what}");
         }
     }
 }
@@ -199,7 +204,7 @@ fn extremes_are_the_largest_of_what_can_be_read() {
         let fields = trial.fields("plate").stress;
         for (extreme, key, measure) in [
             ("max_von_mises", "von_mises", von_mises as fn([f64; 6]) -> f64),
-            ("max_principal", "max_principal", max_principal),
+            ("max_principal", "max_principal", max_principal as _),
         ] {
             let most = trial.get(&format!("plate.{extreme}"));
             let of_nodes = fields.iter().map(|stress| measure(*stress)).fold(f64::MIN, f64::max);
@@ -322,7 +327,7 @@ fn coarse_meshes_read_what_a_held_plate_bears() {
 /// Where nothing has yielded, stress is that of the same body with a yield stress out of reach, to the bit.
 #[test]
 fn a_yield_stress_above_all_that_a_body_bears_changes_no_bit() {
-    for metal in &METALS[..1] {
+    for metal in [&METALS[0], &METALS[2]] {
         for shape in SHAPES {
             for order in [1, 2] {
                 let read = |yield_stress: f64| {
@@ -331,15 +336,13 @@ fn a_yield_stress_above_all_that_a_body_bears_changes_no_bit() {
                         plate(shape, order, &material, metal.flux, "roller = true", &probes());
                     let mut trial = Trial::new(&text);
                     (0..2).for_each(|_| trial.step(5e-3));
-                    let names = trial.outputs();
-                    names.iter().map(|name| (name.clone(), trial.get(name))).collect::<Vec<_>>()
+                    let names = trial.outputs().into_iter();
+                    let names = names.filter(|name| !name.ends_with("estimated_error"));
+                    names.map(|name| (name.clone(), trial.get(&name))).collect::<Vec<_>>()
                 };
                 let out_of_reach = read(1e13);
                 let most = |name: &str| out_of_reach.iter().find(|(own, _)| own == name).unwrap().1;
-                assert!(
-                    read(1.01 * most("plate.max_von_mises")) == out_of_reach,
-                    "{shape} {order}"
-                );
+                assert!(read(1.2 * most("plate.max_von_mises")) == out_of_reach, "{shape} {order}");
             }
         }
     }
@@ -403,7 +406,7 @@ fn stress_of_what_creeps_is_not_extrapolated_beyond_what_flow_leaves() {
         let all = (0..places().len()).flat_map(|n| keys.map(|key| format!("q{n}.{key}")));
         (all.map(|name| trial.get(&name)).collect::<Vec<f64>>(), most)
     };
-    let (fine, largest) = read(2, 4.0);
+    let (fine, largest) = read(2, 2.5);
     for order in [1, 2] {
         let (coarse, most) = read(order, 1.0);
         let pairs = coarse.iter().zip(&fine);

@@ -297,8 +297,8 @@ impl SolidBody {
         Ok(Some(Deformation::of_nodes(displacement, remembered)))
     }
 
-    /// Largest accumulated plastic strain [1], as the highest stress at the points where the law holds: at nodes of
-    /// edges where strain is singular, what is extrapolated goes on without end. Zero where nothing yields.
+    /// Largest accumulated plastic strain of all points at which the law holds [1]: nothing that is read exceeds it. Zero
+    /// where nothing yields.
     pub(super) fn max_plastic_strain(&self, state: &[f64]) -> f64 {
         let largest =
             |yielding: &Yielding| yielding.problem.max_plastic_strain(&state[self.heat_len..]);

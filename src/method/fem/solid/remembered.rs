@@ -1,12 +1,12 @@
 //! Stress and plastic strain of bodies whose stress depends on their history, from values at the nodes.
 //!
-//! Plastic strain is linear between neighbouring nodes, so it never leaves their range. Stress follows the shape
+//! Plastic strain and back strain are linear between neighbouring nodes, so they never leave the range there. Stress follows the shape
 //! functions, then returns to the yield surface at the plastic strain and temperature of its place. It never exceeds the
 //! largest values at the nodes, which are those of the whole body.
 
 use super::{SolidFem, Temperatures, Weights, weighted};
 use crate::material::stress::{max_principal, von_mises};
-use crate::material::{FlowLaw, Overstress, PointConstants, admissible};
+use crate::material::{FlowLaw, Overstress, admissible};
 use crate::method::mesh::Axis;
 
 /// Stress at the nodes, those on interfaces twice, even about planes of symmetry.
@@ -65,33 +65,34 @@ impl SolidFem {
             weighted(field, nodes.each_ref(), self.mesh.sided_counts(), (0, 1))
         });
         let temperature = self.initial_temperature + self.stress_free_rise + rise;
-        let radius = |own: &PointConstants| match own.overstress {
-            Overstress::NONE => own.radius(self.flowed_at(flow, place)),
+        let Some(own) = law.over_step(temperature, 0.0) else { return stress };
+        let neighbours = self.neighbours(place);
+        let radius = match own.overstress {
+            Overstress::NONE => own.radius(self.plastic_strain_of(flow, &neighbours)),
             // What creeps has no surface that stress could not leave.
             _ => f64::INFINITY,
         };
-        let bounded = match law.over_step(temperature, 0.0) {
-            Some(own) => {
-                let back = own.back_stress(&self.tensor_at(&flow.back_strain, &nodes));
-                admissible(stress, &back, radius(&own), self.free_faces.normal_at(place))
-            }
-            None => stress,
-        };
-        capped(bounded, flow.most)
+        let back = own.back_stress(&self.tensor_at(&flow.back_strain, &neighbours));
+        let face = self.free_faces.normal_at(place);
+        capped(admissible(stress, &back, radius, face), flow.most)
     }
 
     /// Accumulated plastic strain at a place of the mesh [1].
     pub(super) fn flowed_at(&self, flow: &NodalFlow, place: [f64; 3]) -> f64 {
+        self.plastic_strain_of(flow, &self.neighbours(place))
+    }
+
+    fn plastic_strain_of(&self, flow: &NodalFlow, neighbours: &[Weights; 3]) -> f64 {
+        weighted(&flow.plastic_strain, neighbours.each_ref(), self.mesh.sided_counts(), (0, 1))
+    }
+
+    /// Weights of the two nodes beside a place along each axis.
+    fn neighbours(&self, place: [f64; 3]) -> [Weights; 3] {
         let [x, y, z] = self.sided_weights(place);
         let along_z: Vec<f64> =
             self.nodes_of_sided.iter().map(|&node| self.mesh.axes[2].nodes[node]).collect();
-        let [columns, rows] = [0, 1].map(|axis: usize| &self.mesh.axes[axis]);
-        let weights = [
-            linear(&columns.nodes, x, place[0]),
-            linear(&rows.nodes, y, place[1]),
-            linear(&along_z, z, place[2]),
-        ];
-        weighted(&flow.plastic_strain, weights.each_ref(), self.mesh.sided_counts(), (0, 1))
+        let [columns, rows] = [0, 1].map(|axis: usize| &self.mesh.axes[axis].nodes);
+        [linear(columns, x, place[0]), linear(rows, y, place[1]), linear(&along_z, z, place[2])]
     }
 
     /// The law of flow at a height; that of the layer above on interfaces.
