@@ -12,8 +12,8 @@ use std::sync::Arc;
 
 use super::elastic::{ElasticProblem, ElasticSetup, Strains};
 use super::end_response::EndResponse;
-use super::heat::HeatLoads;
 use super::free_faces::FreeFaces;
+use super::heat::HeatLoads;
 use super::plan::Plan;
 use crate::material::{FlowLaw, Thermoelastic};
 use crate::math::allowance::Allowance;
