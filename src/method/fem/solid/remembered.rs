@@ -1,8 +1,9 @@
 //! Stress and plastic strain of bodies whose stress depends on their history, from values at the nodes.
 //!
-//! Plastic strain and back strain are linear between neighbouring nodes, so they never leave the range there. Stress follows the shape
-//! functions, then returns to the yield surface at the plastic strain and temperature of its place. It never exceeds the
-//! largest values at the nodes, which are those of the whole body.
+//! Plastic strain and back strain are linear between neighbouring nodes, so they never leave the range there. Stress
+//! follows the shape functions, then returns to the yield surface at the plastic strain and temperature of its place.
+//! Once a part of the body has flowed, stress never exceeds the largest values at the nodes, which are those of the
+//! whole body.
 
 use super::{SolidFem, Temperatures, Weights, weighted};
 use crate::material::stress::{max_principal, von_mises};
@@ -25,7 +26,7 @@ pub struct NodalFlow {
     pub plastic_strain: Vec<f64>,
     /// Strain that the back stress follows from, engineering shears [1].
     pub back_strain: Vec<[f64; 6]>,
-    /// Highest von Mises and largest principal stress of all nodes [Pa].
+    /// Bounds of von Mises and largest principal stress between nodes [Pa]: the largest of all nodes.
     pub most: [f64; 2],
 }
 
@@ -44,7 +45,11 @@ impl Remembered {
         let most = |measure: fn([f64; 6]) -> f64| {
             stress.iter().map(|own| measure(*own)).fold(f64::NEG_INFINITY, f64::max)
         };
-        let most = [most(von_mises), most(max_principal)];
+        let most = match plastic_strain.iter().any(|&strain| strain > 0.0) {
+            true => [most(von_mises), most(max_principal)],
+            // Elastic as yet: shapes between nodes count as in elasticity.
+            false => [f64::INFINITY; 2],
+        };
         Self { stress, flow: Some(NodalFlow { plastic_strain, back_strain, most }) }
     }
 }
