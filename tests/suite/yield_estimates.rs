@@ -60,7 +60,7 @@ fn text(case: &Case, refined: f64) -> String {
         "name = \"Spot\"\nstop_time = 0.01\nstep = 0.0025\n[body.plate]\nkind = \"solid\"\n\
          shape = {{ {} }}\n{}initial_temperature = 300.0\nmaterial = {{ {} }}\n\
          mesh = {{ spacing = {spacing:e}, depth_spacing = {:e}, growth = {:?}, order = {} }}\n[body.plate.faces]\n\
-         bottom = {{ roller = true, convection = {{ coefficient = 1e3, ambient = 300.0 }} }}\n[[load]]\nname = \"spot\"\n\
+         bottom = {{ {} = true, convection = {{ coefficient = 1e3, ambient = 300.0 }} }}\n[[load]]\nname = \"spot\"\n\
          on = \"plate.top\"\nfootprint = {{ gaussian = {{ radius = {RADIUS:e} }} }}\ncarries = [\"heat_flux\"]\n\
          start = {{ heat_flux = {:e} }}\n{probes}",
         case.shape,
@@ -69,6 +69,7 @@ fn text(case: &Case, refined: f64) -> String {
         0.6 * spacing,
         1.0 + 0.4 / refined,
         case.order,
+        if case.shape == BOX { "clamped" } else { "roller" },
         case.flux,
     )
 }

@@ -332,7 +332,7 @@ fn a_yield_stress_above_all_that_a_body_bears_changes_nothing() {
                 let read = |yield_stress: f64| {
                     let material = Metal { yield_stress, ..*metal }.material();
                     let text =
-                        plate(shape, order, &material, metal.flux, "roller = true", &probes());
+                        plate(shape, order, &material, metal.flux, "clamped = true", &probes());
                     let mut trial = Trial::new(&text);
                     (0..2).for_each(|_| trial.step(5e-3));
                     let is_stress = |name: &String| {
