@@ -161,10 +161,10 @@ impl PointConstants {
         let mut tangent = self.elastic_tangent();
         let (e, plastic) = (tensor(shape), tensor(&old.plastic_strain));
         let trial: [f64; 6] = std::array::from_fn(|i| 2.0 * self.shear * (e[i] - plastic[i]));
-        let back = self.back_stress(old);
+        let back = self.back_stress(&old.back_strain);
         let xi: [f64; 6] = std::array::from_fn(|i| trial[i] - back[i]);
         let size = norm(&xi);
-        let excess = size - ROOT * (self.yield_stress + self.isotropic * old.accumulated);
+        let excess = size - self.radius(old.accumulated);
         // Not `excess <= 0`: what is no number goes on as it is.
         if excess.is_nan() || excess <= 0.0 || !size.is_finite() {
             return (trial, tangent);
@@ -180,8 +180,8 @@ impl PointConstants {
         new.accumulated += ROOT * flow;
         new.dissipated += (self.yield_stress * ROOT + overstress) * flow;
         // From the surface of flow, not from the trial, which may be far beyond it.
-        let radius = ROOT * (self.yield_stress + self.isotropic * new.accumulated) + overstress;
-        let back = self.back_stress(new);
+        let radius = self.radius(new.accumulated) + overstress;
+        let back = self.back_stress(&new.back_strain);
         let stress = std::array::from_fn(|i| back[i] + radius * direction[i]);
         let kept = 1.0 - 2.0 * self.shear * flow / size;
         tangent.all *= kept;
@@ -190,21 +190,30 @@ impl PointConstants {
         (stress, tangent)
     }
 
+    /// Radius of the yield surface at an accumulated plastic strain, `√⅔ (σ_y + H_i p)` [Pa].
+    pub fn radius(&self, accumulated: f64) -> f64 {
+        ROOT * (self.yield_stress + self.isotropic * accumulated)
+    }
+
+    /// Distance of a stress [Pa] beyond the yield surface, `‖ξ‖ − √⅔ (σ_y + H_i p)` [Pa]; negative within it.
+    pub fn beyond_yield(&self, stress: &[f64; 6], history: &History) -> f64 {
+        let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
+        let back = self.back_stress(&history.back_strain);
+        let xi = std::array::from_fn(|i| stress[i] - back[i] - if i < 3 { mean } else { 0.0 });
+        norm(&xi) - self.radius(history.accumulated)
+    }
+
     /// Plastic strain that would accumulate over the step if a stress [Pa] stayed; nothing where flow takes no time.
     pub fn flow_at(&self, stress: &[f64; 6], history: &History) -> Option<f64> {
         if self.overstress == Overstress::NONE {
             return None;
         }
-        let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
-        let back = self.back_stress(history);
-        let xi = std::array::from_fn(|i| stress[i] - back[i] - if i < 3 { mean } else { 0.0 });
-        let radius = ROOT * (self.yield_stress + self.isotropic * history.accumulated);
-        Some(ROOT * self.overstress.flow(norm(&xi) - radius))
+        Some(ROOT * self.overstress.flow(self.beyond_yield(stress, history)))
     }
 
-    /// Back stress β [Pa].
-    pub fn back_stress(&self, history: &History) -> [f64; 6] {
-        tensor(&history.back_strain).map(|a| self.kinematic / 1.5 * a)
+    /// Back stress β of a back strain [Pa].
+    pub fn back_stress(&self, back_strain: &[f64; 6]) -> [f64; 6] {
+        tensor(back_strain).map(|a| self.kinematic / 1.5 * a)
     }
 
     /// Energy that hardening keeps per volume, `½ H_i p² + ⅓ H_k a:a` [J/m³].

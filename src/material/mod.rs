@@ -1,5 +1,6 @@
 //! Constitutive laws, one a file. The enum is also the parser of a scene's `material` table.
 
+mod admissible;
 mod constants;
 mod elastoplastic;
 mod enthalpy;
@@ -15,6 +16,7 @@ mod substance;
 mod thermoelastic;
 mod viscoplastic;
 
+pub use admissible::admissible;
 pub use constants::Constants;
 pub use elastoplastic::{Elastoplastic, OfTemperature, PointConstants, PointTangent, constant};
 pub use enthalpy::{Enthalpy, EnthalpyPoint};

@@ -91,6 +91,20 @@ impl Overstress {
         }
     }
 
+    /// Logarithm of the flow at an overstress [Pa] that stays; minus infinity where nothing flows.
+    pub fn logarithm_of_flow(&self, overstress: f64) -> f64 {
+        if overstress > 0.0 {
+            self.logarithm + self.exponent * overstress.ln()
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+
+    /// Overstress [Pa] at which flow has a logarithm.
+    pub fn of_flow(&self, logarithm: f64) -> f64 {
+        ((logarithm - self.logarithm) / self.exponent).exp()
+    }
+
     /// Parts an excess e > 0 [Pa] by `e = s + m γ`, with a modulus m [Pa].
     ///
     /// With `s = e x`, `x + β xⁿ = 1` where `β = m c eⁿ⁻¹`. The root lies below both 1 and β^(−1/n); over the smaller

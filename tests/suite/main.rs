@@ -52,4 +52,6 @@ mod solid;
 mod tension;
 mod tolerance;
 mod walls;
+mod yield_estimates;
+mod yield_readings;
 mod yielding;

@@ -115,7 +115,8 @@ fn a_clamped_bar_and_film_go_the_bilinear_way_when_heated_and_cooled() {
                     before = now;
                     let temperatures = uniform(&mesh, FREE_OF_STRESS + rise);
                     problem.advance(&mut state, &temperatures, &[]).unwrap();
-                    for stress in problem.nodal_stress(&state, &temperatures).unwrap() {
+                    let values = problem.nodal_values(&state, &temperatures).unwrap();
+                    for stress in values.stress {
                         let off = (stress[component] - wanted).abs();
                         let scale = exact.modulus * expansion * first_yield;
                         assert!(
@@ -126,7 +127,7 @@ fn a_clamped_bar_and_film_go_the_bilinear_way_when_heated_and_cooled() {
                             .max(stress[if component == 2 { 0 } else { 2 }].abs());
                         assert!(other < 1e-9 * scale, "{young:e}: {stress:?}");
                     }
-                    let plastic = problem.nodal_plastic_strain(&state);
+                    let plastic = values.plastic_strain;
                     // What does not harden leaves strain to what is left of the forces.
                     let bound = 1e-8 * expansion * first_yield;
                     let off = plastic.iter().map(|p| (p - accumulated).abs()).fold(0.0, f64::max);
@@ -219,7 +220,7 @@ fn a_thick_cylinder_yields_as_hill_found_and_nothing_locks() {
                     .iter()
                     .enumerate()
                     .map(|(i, &r)| (u[2 * i] / CYLINDER.radial_displacement(r) - 1.0).abs());
-                let stress = problem.nodal_stress(&state, &temperatures).unwrap();
+                let stress = problem.nodal_values(&state, &temperatures).unwrap().stress;
                 // Away from the front, where the hoop stress has a kink.
                 for (i, &r) in
                     mesh.axes[0].nodes.iter().enumerate().filter(|(_, r)| (*r - 0.15).abs() > 0.015)
@@ -399,7 +400,8 @@ fn the_number_of_threads_changes_no_bit() {
             for rise in [800.0, 0.0] {
                 problem.advance(&mut state, &spot(&mesh, rise), &[]).unwrap();
             }
-            let stress = problem.nodal_stress(&state, &uniform(&mesh, FREE_OF_STRESS)).unwrap();
+            let values = problem.nodal_values(&state, &uniform(&mesh, FREE_OF_STRESS));
+            let stress = values.unwrap().stress;
             (state, stress)
         };
         let one = run(1);
@@ -432,7 +434,7 @@ fn half_and_quarter_bodies_are_parts_of_the_whole() {
             problem.advance(&mut state, &hot, &[]).unwrap();
             let cold = uniform(mesh, 300.0);
             problem.advance(&mut state, &cold, &[]).unwrap();
-            let stress = problem.nodal_stress(&state, &cold).unwrap();
+            let stress = problem.nodal_values(&state, &cold).unwrap().stress;
             let list: Vec<([f64; 3], [f64; 6])> =
                 (0..mesh.nodes()).map(|n| (at(n), stress[n])).collect();
             (list, problem.dissipated_energy(&state))

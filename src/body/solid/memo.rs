@@ -213,13 +213,8 @@ impl SolidMemo {
         if let Some(known) = self.most_stressed {
             return Ok(known);
         }
-        let found = match body.most_borne(state, self.heat(body, state))? {
-            Some(found) => found,
-            None => {
-                let (temperatures, deformation) = self.solve(body, state)?;
-                body.solid.most_stressed(temperatures, deformation)
-            }
-        };
+        let (temperatures, deformation) = self.solve(body, state)?;
+        let found = body.solid.most_stressed(temperatures, deformation);
         self.most_stressed = Some(found);
         Ok(found)
     }

@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use super::SolidBody;
-use crate::body::{Acts, BodyError, Extreme};
+use crate::body::{Acts, BodyError};
 use crate::material::FlowLaw;
-use crate::material::stress::{max_principal, von_mises};
 use crate::math::allowance::Allowance;
 use crate::math::cholesky::SolverError;
-use crate::method::fem::{Deformation, Plan, SolidLoads, Temperatures};
-use crate::method::inelastic::{Increment, InelasticError, InelasticProblem, StateLayout};
+use crate::method::fem::{Deformation, Plan, Remembered, SolidLoads, Temperatures};
+use crate::method::inelastic::{
+    Increment, InelasticError, InelasticProblem, NodalValues, StateLayout,
+};
 use crate::state::{Field, Layout, Per};
 
 /// The mechanics of a solid that yields, or whose elastic constants depend on the temperature.
@@ -285,38 +286,19 @@ impl SolidBody {
         };
         let mechanics = &state[self.heat_len..];
         let nodal = self.nodal_temperatures(yielding, temperatures);
-        let stress = yielding.problem.nodal_stress(mechanics, &nodal);
-        let stress = stress.map_err(|error| self.inelastic_error(error))?;
+        let values = yielding.problem.nodal_values(mechanics, &nodal);
+        let NodalValues { stress, plastic_strain, back_strain } =
+            values.map_err(|error| self.inelastic_error(error))?;
+        let remembered = match yielding.yields {
+            true => Remembered::flowing(stress, plastic_strain, back_strain),
+            false => Remembered::elastic(stress),
+        };
         let displacement = yielding.problem.displacement(mechanics).to_vec();
-        let plastic_strain = match yielding.yields {
-            true => yielding.problem.nodal_plastic_strain(mechanics),
-            false => Vec::new(),
-        };
-        Ok(Some(Deformation::of_nodes(displacement, stress, plastic_strain)))
+        Ok(Some(Deformation::of_nodes(displacement, remembered)))
     }
 
-    /// Highest von Mises and largest principal stress of a body that yields [Pa], at the points where its law holds:
-    /// extrapolated to nodes, stress goes beyond what the body bears. Nothing of other bodies.
-    pub(super) fn most_borne(
-        &self,
-        state: &[f64],
-        temperatures: &Temperatures,
-    ) -> Result<Option<[Extreme; 2]>, BodyError> {
-        let Some(yielding) = self.yielding.as_ref().filter(|yielding| yielding.yields) else {
-            return Ok(None);
-        };
-        let nodal = self.nodal_temperatures(yielding, temperatures);
-        let points = yielding.problem.points(&state[self.heat_len..], &nodal);
-        let points = points.map_err(|error| self.inelastic_error(error))?;
-        let highest = |measure: fn([f64; 6]) -> f64| {
-            let values: Vec<f64> = points.iter().map(|point| measure(point.stress)).collect();
-            Extreme::of(&values, |point| yielding.problem.place_of_point(point))
-        };
-        Ok(Some([highest(von_mises), highest(max_principal)]))
-    }
-
-    /// Largest accumulated plastic strain [1], as the highest stress at the points where the law holds: at nodes of
-    /// edges where strain is singular, what is extrapolated goes on without end. Zero where nothing yields.
+    /// Largest accumulated plastic strain of all points at which the law holds [1]: nothing that is read exceeds it. Zero
+    /// where nothing yields.
     pub(super) fn max_plastic_strain(&self, state: &[f64]) -> f64 {
         let largest =
             |yielding: &Yielding| yielding.problem.max_plastic_strain(&state[self.heat_len..]);

@@ -13,6 +13,7 @@ mod dilatation;
 pub mod elastic;
 mod end_response;
 mod fineness;
+pub mod free_faces;
 mod grading;
 mod heat;
 pub mod hexahedron;
@@ -33,7 +34,9 @@ pub use elastic::{
 pub use heat::{HeatLoads, HeatProblem, ModalRow, ThermalFace};
 pub use nonlinear::{NonlinearFailure, heat_mesh};
 pub use plan::{Mechanics, Plan, PlanRequest, Refinement};
-pub use solid::{ClassRow, Deformation, Extreme, NodalFields, SolidFem, SolidLoads, Temperatures};
+pub use solid::{
+    ClassRow, Deformation, Extreme, NodalFields, Remembered, SolidFem, SolidLoads, Temperatures,
+};
 pub use solver_choice::{
     expected_entries, factor_memory, solver_memory, suits_conjugate_gradients,
 };

@@ -4,6 +4,7 @@ mod extremes;
 mod influence;
 mod modal;
 mod recovered;
+mod remembered;
 mod tangent;
 
 use super::conduction::{Conduction, HeatFailure};
@@ -11,9 +12,10 @@ use std::sync::Arc;
 
 use super::elastic::{ElasticProblem, ElasticSetup, Strains};
 use super::end_response::EndResponse;
+use super::free_faces::FreeFaces;
 use super::heat::HeatLoads;
 use super::plan::Plan;
-use crate::material::Thermoelastic;
+use crate::material::{FlowLaw, Thermoelastic};
 use crate::math::allowance::Allowance;
 use crate::math::cholesky::SolverError;
 use crate::method::heat_totals::HeatTotals;
@@ -23,6 +25,7 @@ use crate::state::Layout;
 pub use extremes::Extreme;
 pub use influence::ClassRow;
 use recovered::{FaceStresses, Recoveries};
+pub use remembered::Remembered;
 
 /// Everything known of a solid before time starts.
 pub struct SolidFem {
@@ -38,6 +41,9 @@ pub struct SolidFem {
     elastic: Option<Arc<ElasticProblem>>,
     recoveries: Recoveries,
     parities: Vec<Parity>,
+    /// Of each element along z; empty where stress follows from deformation alone.
+    flow_laws: Vec<Arc<dyn FlowLaw>>,
+    free_faces: FreeFaces,
 }
 
 /// What acts on a solid, or a derivative of it; every list has an entry for each symmetry class.
@@ -63,22 +69,21 @@ pub struct Deformation {
     /// The recovered quantities at the sampling points.
     strains: Vec<Strains>,
     tractions: Vec<FaceStresses>,
-    /// Stress at the nodes, those on interfaces twice, of a body whose stress remembers more than its strain [Pa]: xx, yy,
-    /// zz, xy, yz, xz, of a section rr, tt, zz, 0, 0, rz.
-    stress: Option<Vec<[f64; 6]>>,
-    /// Accumulated plastic strain at these nodes [1]; empty where nothing yields.
-    plastic_strain: Vec<f64>,
+    /// Of a body whose stress depends on its history.
+    remembered: Option<Remembered>,
 }
 
 impl Deformation {
-    /// Displacements, stress and plastic strain that are known at the nodes, even about planes of symmetry.
-    pub fn of_nodes(
-        displacement: Vec<f64>,
-        stress: Vec<[f64; 6]>,
-        plastic_strain: Vec<f64>,
-    ) -> Self {
-        let (displacement, stress) = (vec![displacement], Some(stress));
-        Self { displacement, stress, plastic_strain, ..Self::default() }
+    /// Displacements and stress that are known at the nodes, even about planes of symmetry.
+    pub fn of_nodes(displacement: Vec<f64>, remembered: Remembered) -> Self {
+        let (displacement, remembered) = (vec![displacement], Some(remembered));
+        Self { displacement, remembered, ..Self::default() }
+    }
+
+    /// Accumulated plastic strain at the nodes [1]; empty where nothing yields.
+    fn plastic_strain(&self) -> &[f64] {
+        let flow = self.remembered.as_ref().and_then(|remembered| remembered.flow.as_ref());
+        flow.map_or(&[], |flow| &flow.plastic_strain)
     }
 }
 
@@ -170,6 +175,8 @@ impl SolidFem {
             elastic,
             recoveries,
             parities,
+            flow_laws: plan.inelastic.clone().unwrap_or_default(),
+            free_faces: FreeFaces::of(&plan.mesh, &plan.supports),
         }
     }
 
@@ -360,10 +367,8 @@ impl SolidFem {
 
     /// Accumulated plastic strain at a point [1]; zero where nothing yields.
     pub fn plastic_strain_at(&self, deformation: &Deformation, point: [f64; 3]) -> f64 {
-        let (place, _) = self.mesh.locate(point);
-        let weights = self.sided_weights(place);
-        let counts = self.mesh.sided_counts();
-        weighted(&deformation.plastic_strain, weights.each_ref(), counts, (0, 1))
+        let flow = deformation.remembered.as_ref().and_then(|remembered| remembered.flow.as_ref());
+        flow.map_or(0.0, |flow| self.flowed_at(flow, self.mesh.locate(point).0))
     }
 
     /// Values at all nodes of the whole body, from temperatures above the initial one, those above the one without stress
@@ -409,7 +414,7 @@ impl SolidFem {
                         fields.displacement.push(part.displacement[node_of(layer)]);
                         fields.stress.push(part.stress[node]);
                     }
-                    fields.plastic_strain.extend(deformation.plastic_strain.get(node));
+                    fields.plastic_strain.extend(deformation.plastic_strain().get(node));
                 }
             }
         }
@@ -425,7 +430,7 @@ impl SolidFem {
     ) -> NodalFields {
         let temperature = self.rise_of_image(temperatures, image);
         let (mut displacement, mut stress) = (Vec::new(), Vec::new());
-        if self.elastic.is_some() || deformation.stress.is_some() {
+        if self.elastic.is_some() || deformation.remembered.is_some() {
             stress = self.stress_in(thermal, deformation, nodal_strains, image);
             displacement = self.displacement_of_image(deformation, image);
         }
@@ -440,12 +445,15 @@ impl SolidFem {
         nodal_strains: &[Vec<Vec<f64>>],
         image: [bool; 2],
     ) -> Vec<[f64; 6]> {
-        let Some(stress) = &deformation.stress else {
+        let Some(Remembered { stress, .. }) = &deformation.remembered else {
             return self.stress_of_image(thermal, nodal_strains, image);
         };
-        let even = self.parities[0];
-        let signs: [f64; 6] = std::array::from_fn(|slot| even.tensor_sign(image, slot));
-        stress.iter().map(|stress| std::array::from_fn(|slot| signs[slot] * stress[slot])).collect()
+        stress.iter().map(|stress| self.imaged(*stress, image)).collect()
+    }
+
+    /// The image of a stress that is even about planes of symmetry.
+    fn imaged(&self, stress: [f64; 6], image: [bool; 2]) -> [f64; 6] {
+        std::array::from_fn(|slot| self.parities[0].tensor_sign(image, slot) * stress[slot])
     }
 
     fn displacement_of_image(&self, deformation: &Deformation, image: [bool; 2]) -> Vec<[f64; 3]> {

@@ -9,6 +9,7 @@ mod locking;
 mod newton;
 mod nodal;
 mod problem;
+mod reading;
 mod ring;
 mod shapes;
 mod substeps;
@@ -16,4 +17,5 @@ mod tangent;
 
 pub use newton::Progress;
 pub use problem::{InelasticError, InelasticProblem, PointState, StateLayout};
+pub use reading::NodalValues;
 pub use substeps::Increment;

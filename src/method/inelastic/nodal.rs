@@ -1,4 +1,4 @@
-//! Stress and plastic strain at points and, recovered, at nodes.
+//! Values at points and, recovered, at nodes.
 //!
 //! Values at the quadrature points of an element are taken to its sampling points by the polynomial of one order less
 //! that fits them best, which leaves out the part in which strains of Lagrange elements are least accurate, and from
@@ -8,7 +8,7 @@ use faer::Mat;
 
 use super::element::Given;
 use super::grid::{Grid, Iterate};
-use super::problem::{InelasticError, InelasticProblem, PointState};
+use super::problem::{InelasticProblem, PointState};
 use super::shapes::Scratch;
 use crate::material::{History, PointConstants};
 use crate::math::gauss::gauss_legendre;
@@ -49,68 +49,37 @@ impl Grid {
 }
 
 impl InelasticProblem {
-    /// Where a point lies, by its number in [`Self::points`] [m]; mirror images are left out.
-    pub fn place_of_point(&self, number: usize) -> [f64; 3] {
-        let shapes = &self.grid.kit.shapes;
-        let (element, point) = (number / shapes.points, number % shapes.points);
-        let per_layer = self.grid.per_layer();
-        let element = self.grid.place(element / per_layer, element % per_layer);
-        let local = shapes.places[point].0;
-        [0, 1, 2].map(|axis: usize| match self.mesh.axes[axis].elements() {
-            0 => 0.0,
-            _ => {
-                let [low, high] = self.mesh.axes[axis].bounds(element[axis]);
-                0.5 * ((1.0 - local[axis]) * low + (1.0 + local[axis]) * high)
-            }
-        })
-    }
-
-    /// Stress at the nodes, those on interfaces between layers twice: xx, yy, zz, xy, yz, xz, of a section rr, tt, zz, 0,
-    /// 0, rz [Pa].
-    pub fn nodal_stress(
-        &self,
-        state: &[f64],
-        temperatures: &[f64],
-    ) -> Result<Vec<[f64; 6]>, InelasticError> {
-        let points = self.points(state, temperatures)?;
+    /// Values of a tensor at the nodes, those on interfaces between layers twice, from its values at the points.
+    pub(super) fn recover_tensor(&self, values: Vec<[f64; 6]>) -> Vec<[f64; 6]> {
         let is_ring = self.mesh.geometry == Geometry::Axisymmetric;
         // On the axis rr and tt are one: their mean is even, half their difference vanishes.
-        let parted = |s: &PointState| match (is_ring, s.stress) {
-            (true, [a, b, rest @ ..]) => {
-                let [zz, xy, yz, xz] = rest;
-                [0.5 * (a + b), 0.5 * (a - b), zz, xy, yz, xz]
-            }
-            (false, stress) => stress,
+        let parted = |values: [f64; 6]| match (is_ring, values) {
+            (true, [a, b, zz, xy, yz, xz]) => [0.5 * (a + b), 0.5 * (a - b), zz, xy, yz, xz],
+            (false, values) => values,
         };
-        let parted: Vec<[f64; 6]> = points.iter().map(parted).collect();
+        let parted: Vec<[f64; 6]> = values.into_iter().map(parted).collect();
         let mut out = vec![[0.0; 6]; self.mesh.sided_nodes()];
         for component in 0..6 {
             if is_ring && (component == 3 || component == 4) {
                 continue;
             }
-            let values: Vec<f64> = parted.iter().map(|stress| stress[component]).collect();
+            let values: Vec<f64> = parted.iter().map(|tensor| tensor[component]).collect();
             let beyond = [0, 1].map(|axis| self.beyond(axis, component));
-            for (stress, value) in out.iter_mut().zip(recover(&self.mesh, &values, beyond)) {
-                stress[component] = value;
+            for (tensor, value) in out.iter_mut().zip(recover(&self.mesh, &values, beyond)) {
+                tensor[component] = value;
             }
         }
         if is_ring {
-            for stress in &mut out {
-                (stress[0], stress[1]) = (stress[0] + stress[1], stress[0] - stress[1]);
+            for tensor in &mut out {
+                (tensor[0], tensor[1]) = (tensor[0] + tensor[1], tensor[0] - tensor[1]);
             }
         }
-        Ok(out)
+        out
     }
 
-    /// Accumulated plastic strain at the nodes, those on interfaces between layers twice [1]. Where it falls to nothing
-    /// within an element, polynomials go below zero.
-    pub fn nodal_plastic_strain(&self, state: &[f64]) -> Vec<f64> {
-        let histories = state[self.layout().history].chunks_exact(History::LEN);
-        let values: Vec<f64> =
-            histories.map(|history| History::read(history).accumulated).collect();
-        // Even, as xx is.
-        let beyond = [0, 1].map(|axis| self.beyond(axis, 0));
-        recover(&self.mesh, &values, beyond)
+    /// The same of a scalar, even about planes of symmetry as xx is.
+    pub(super) fn recover_scalar(&self, values: &[f64]) -> Vec<f64> {
+        recover(&self.mesh, values, [0, 1].map(|axis| self.beyond(axis, 0)))
     }
 
     /// What lies beyond the low end of x or y for a component of stress.

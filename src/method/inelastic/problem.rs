@@ -12,6 +12,7 @@ use crate::math::cholesky::SolverError;
 use crate::math::parallel::Team;
 use crate::math::thread::aside;
 use crate::method::fem::elastic::Support;
+use crate::method::fem::free_faces::FreeFaces;
 use crate::method::fem::{Mesh, MeshFace, expected_entries};
 
 /// Why a step was not made; the state is then as it was before.
@@ -79,6 +80,7 @@ pub struct InelasticProblem {
     pub(super) mesh: Mesh,
     laws: Vec<Arc<dyn FlowLaw>>,
     pub(super) grid: Grid,
+    pub(super) free_faces: FreeFaces,
     solver: TangentSolver,
     threads: usize,
 }
@@ -100,7 +102,8 @@ impl InelasticProblem {
         let grid = Grid::new(mesh);
         let reference = reference(&laws)?;
         let solver = aside(|| TangentSolver::new(mesh, &reference, supports, &Team::new(threads)));
-        Ok(Self { mesh: mesh.clone(), laws, grid, solver, threads })
+        let free_faces = FreeFaces::of(mesh, supports);
+        Ok(Self { mesh: mesh.clone(), laws, grid, free_faces, solver, threads })
     }
 
     /// Whether a part of the body creeps.
@@ -253,7 +256,7 @@ impl InelasticProblem {
         iterate
     }
 
-    fn law(&self, layer: usize) -> &dyn FlowLaw {
+    pub(super) fn law(&self, layer: usize) -> &dyn FlowLaw {
         if self.laws.len() == 1 { &*self.laws[0] } else { &*self.laws[layer] }
     }
 

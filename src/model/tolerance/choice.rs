@@ -4,11 +4,14 @@ use std::collections::BTreeMap;
 
 use super::estimate::{Estimate, OutputError, differences};
 use super::experiment::experiments;
+use super::order::{Finer, LINEAR, OF_HISTORY, Order};
 use super::responses::{Responses, Watched, responses, watched};
 use super::twin::{Physics, Twin};
 use crate::body::{BodyForecast, Reading, forecast};
 use crate::model::{ModelError, check_memory};
+use crate::quantity::Quantity;
 use crate::scene::{HeatMethod, Scene, Shape, Solid, takes_newton};
+use crate::variables::{Registry, Slot};
 
 /// Levels of fineness along the surface and through the thickness; each has √2 times as many elements as the one
 /// before, level 0 the usual ones.
@@ -20,6 +23,10 @@ const MOST_NODES: f64 = 2.5e5;
 const MOST_NODES_OF_SECTIONS: f64 = 3e4;
 const MOST_NODES_OF_BOXES: f64 = 5e4;
 const MOST_NODES_OF_LAYERS: f64 = 1.2e4;
+/// The same of bodies whose stress depends on their history, and part of these of bodies that creep: each moment takes
+/// Newton's method, and creep many inner steps.
+const MOST_NODES_WITH_HISTORY: f64 = 4e3;
+const PART_OF_CREEP: f64 = 0.25;
 /// Part of these that meshes may have that are far finer than the one to be judged: they tell of coarse ones.
 const FEW: f64 = 0.15;
 /// Most nodes along any axis: all modes along it are found, which takes the cube of their number.
@@ -29,12 +36,6 @@ const MOST_NODES_UNTRIED: f64 = 1.5e5;
 const BEYOND: i32 = 4;
 /// Finest level.
 const FINEST: i32 = 10;
-/// Levels beyond a mesh of those that tell what it errs by, and the error over the difference to them: of an order of
-/// about 1.6 along edges, where slopes have no limit.
-const TWICE: (i32, f64) = (2, 1.5);
-const FAR_FINER: [(i32, f64); 2] = [(4, 1.1), (8, 1.0)];
-/// The same where twice as fine is too large.
-const BARELY: (i32, f64) = (1, 2.4);
 /// Coarsest level of which what a finer mesh errs by is told.
 pub const COARSEST_TRIED: i32 = -8;
 /// Meshes tried after the first.
@@ -174,6 +175,7 @@ pub struct Trials<'a> {
     most_nodes: f64,
     /// Error over what coarser meshes tell of it.
     margin: f64,
+    order: &'static Order,
 }
 
 impl<'a> Trials<'a> {
@@ -187,17 +189,43 @@ impl<'a> Trials<'a> {
             (_, Some(solid)) if is_box(solid) => MOST_NODES_OF_BOXES,
             _ => MOST_NODES_OF_SECTIONS,
         };
+        let most_nodes = match twin.has_history {
+            true => most_with_history(twin.scene()).min(most_nodes),
+            false => most_nodes,
+        };
         let mut watched = watched(twin.scene(), is_mechanical);
         let is_extreme = |one: &Watched| matches!(one.output.reading, Reading::Total(_));
         watched.retain(|one| twin.reads_extremes || !is_extreme(one));
+        watched.extend(flow_of(twin));
         let count = experiments(twin.scene()).len().max(1) as f64;
         let margin = if is_mechanical { UNEVEN_STRESS } else { 1.0 };
-        Self { twin, watched, solved: BTreeMap::new(), most_nodes: most_nodes / count, margin }
+        let order = if twin.has_history { &OF_HISTORY } else { &LINEAR };
+        Self {
+            twin,
+            watched,
+            solved: BTreeMap::new(),
+            most_nodes: most_nodes / count,
+            margin,
+            order,
+        }
     }
 
     /// Whether nothing acts on the body by itself.
     pub fn is_idle(&self) -> bool {
         experiments(self.twin.scene()).is_empty()
+    }
+
+    /// Whether no output can be estimated.
+    pub fn is_blind(&self) -> bool {
+        !self.watched.iter().any(is_estimated)
+    }
+
+    /// Whether the body flows under any of the inputs that were tried on a mesh.
+    pub fn flows(&self, levels: Levels) -> bool {
+        let marks = self.watched.iter().enumerate().filter(|(_, one)| !is_estimated(one));
+        let solved = self.solved.get(&levels).into_iter().flatten().flatten();
+        let mut marks = marks.flat_map(|(place, _)| solved.clone().map(move |row| row[place]));
+        marks.any(|strain| strain > 0.0)
     }
 
     /// Whether a mesh is too large to be tried.
@@ -236,19 +264,19 @@ impl<'a> Trials<'a> {
             finer[way] += more;
             finer
         };
-        if self.nodes(finer(TWICE.0)) == self.nodes(levels) {
+        if self.nodes(finer(self.order.twice.0)) == self.nodes(levels) {
             return Ok(Some(vec![0.0; self.watched.len()]));
         }
-        let of = |(more, factor): (i32, f64), trials: &mut Self| {
+        let of = |(more, factor): Finer, trials: &mut Self| {
             let found = trials.beside(levels, finer(more))?;
             Ok::<_, ModelError>(found.into_iter().map(|part| factor * part).collect::<Vec<f64>>())
         };
-        if self.is_too_large(finer(TWICE.0)) {
-            let is_too_large = self.is_too_large(finer(BARELY.0));
-            return if is_too_large { Ok(None) } else { of(BARELY, self).map(Some) };
+        if self.is_too_large(finer(self.order.twice.0)) {
+            let is_too_large = self.is_too_large(finer(self.order.barely.0));
+            return if is_too_large { Ok(None) } else { of(self.order.barely, self).map(Some) };
         }
-        let mut errors = of(TWICE, self)?;
-        for far in FAR_FINER {
+        let mut errors = of(self.order.twice, self)?;
+        for far in self.order.far {
             let mesh = finer(far.0);
             if self.is_too_large(mesh) || self.nodes(mesh) > FEW * self.most_nodes {
                 break;
@@ -309,7 +337,7 @@ impl<'a> Trials<'a> {
             return Ok(found);
         }
         let [first, second] = [self.beside(levels, coarser(1))?, self.beside(levels, coarser(2))?];
-        Ok(if way == 0 { uneven(&first, &second) } else { smooth(&first, &second) })
+        Ok(self.order.from_coarser(way, &first, &second))
     }
 
     fn joined(&self, [along, through]: [Vec<f64>; 2]) -> Estimate {
@@ -319,33 +347,37 @@ impl<'a> Trials<'a> {
             along,
             through,
         };
+        let outputs = outputs.filter(|(one, _)| is_estimated(one));
         Estimate { outputs: outputs.map(error).collect() }
     }
+}
+
+/// Whether errors of an output are estimated: flow only shows whether there is any.
+fn is_estimated(one: &Watched) -> bool {
+    one.quantity != Quantity::Ratio
+}
+
+/// The largest plastic strain of a body with a history.
+fn flow_of(twin: &Twin) -> Option<Watched> {
+    let name =
+        twin.scene().solids().next().map(|(name, _)| format!("{name}.max_plastic_strain"))?;
+    let variables = Registry::structured(twin.scene()).variables.into_iter();
+    let found = variables.filter(|_| twin.has_history).find(|variable| variable.name == name)?;
+    let Slot::Output(output) = found.slot else { return None };
+    Some(Watched { name, quantity: Quantity::Ratio, rest: 0.0, output })
 }
 
 fn nodes_of(bodies: &[BodyForecast]) -> f64 {
     bodies.iter().map(|body| body.unknowns[0] as f64).sum()
 }
 
-/// The error on a mesh from differences to one √2 and one twice as coarse along the surface, where edges of loads make it
-/// uneven: of an error of second order the first difference is equal to it, the second three times as large.
-fn uneven(first: &[f64], second: &[f64]) -> Vec<f64> {
-    first.iter().zip(second).map(|(a, b)| a.max(b / 3.0)).collect()
+/// Most nodes of trials of a body whose stress depends on its history.
+fn most_with_history(scene: &Scene) -> f64 {
+    let creeps = scene.solids().any(|(_, solid)| {
+        solid.materials_of_layers().iter().any(|own| own.properties().creep.is_some())
+    });
+    MOST_NODES_WITH_HISTORY * if creeps { PART_OF_CREEP } else { 1.0 }
 }
-
-/// The same through the thickness, where it is even enough to tell the order p: the differences are as 1 to `2^{p/2} + 1`,
-/// and the error is the first over `2^{p/2} − 1`.
-fn smooth(first: &[f64], second: &[f64]) -> Vec<f64> {
-    let error = |(a, b): (&f64, &f64)| {
-        let ratio = if *a > 0.0 { (b / a).clamp(FIRST_ORDER, THIRD_ORDER) } else { THIRD_ORDER };
-        (a / (ratio - 2.0)).max(b / 4.0)
-    };
-    first.iter().zip(second).map(error).collect()
-}
-
-/// `2^{p/2} + 1` of orders 1 and 3.
-const FIRST_ORDER: f64 = 2.414;
-const THIRD_ORDER: f64 = 3.828;
 
 /// The first mesh, from some levels on, whose estimate keeps a tolerance; with the estimate, as far as there is one.
 pub fn search(

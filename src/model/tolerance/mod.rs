@@ -8,6 +8,7 @@ pub mod choice;
 pub mod estimate;
 pub mod experiment;
 mod levels;
+mod order;
 mod report;
 pub mod responses;
 mod sample;

@@ -85,7 +85,7 @@ fn of_physics(twin: &Twin, physics: Physics, found: &mut BodyEstimate) {
         Physics::Deformation => "stress and displacement",
     };
     let mut trials = Trials::new(twin, physics);
-    if trials.watched.is_empty() || trials.is_idle() {
+    if trials.is_blind() || trials.is_idle() {
         let why = if trials.is_idle() {
             "nothing acts on the body by itself"
         } else {
@@ -96,19 +96,34 @@ fn of_physics(twin: &Twin, physics: Physics, found: &mut BodyEstimate) {
     }
     // A mesh too large to be tried is judged by coarser ones.
     let down = (0..=-COARSEST_TRIED).find(|&down| !trials.is_too_large([-down; 2]));
-    let estimate = down.and_then(|down| Some((down, trials.judge([-down; 2]).ok()?)));
-    let Some((down, estimate)) = estimate else {
+    let Some(down) = down else {
         found.notes.push(format!("no estimate of {what}: the mesh is too large to be tried"));
         return;
     };
+    let levels = [-down; 2];
+    let estimate = match trials.judge(levels) {
+        Ok(estimate) => estimate,
+        Err(error) => {
+            found.notes.push(format!("no estimate of {what}: {error}"));
+            return;
+        }
+    };
+    let may_flow = twin.scene().solids().any(|(_, solid)| solid.yields());
+    if twin.has_history && may_flow && !trials.flows(levels) {
+        found.notes.push(
+            "nothing flows under the inputs that the estimate tries: once the body does, errors of stress are larger"
+                .to_owned(),
+        );
+    }
+    // An error of second order falls by a half with each level, one of first order by √½.
+    let (power, order) = if twin.has_history { (0.5, "that") } else { (1.0, "the square of that") };
     if down > 0 {
         found.notes.push(format!(
-            "errors of {what} are those of a mesh {:.1} times as coarse over the square of that",
+            "errors of {what} are those of a mesh {:.1} times as coarse over {order}",
             2f64.powf(0.5 * f64::from(down))
         ));
     }
-    // An error of second order falls by a half with each level.
-    let scale = 0.5f64.powi(down);
+    let scale = 0.5f64.powf(power * f64::from(down));
     found.outputs.extend(estimate.outputs.into_iter().map(|one| OutputError {
         along: one.along * scale,
         through: one.through * scale,

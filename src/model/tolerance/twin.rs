@@ -1,4 +1,4 @@
-//! A body by itself, linear, with what is read of it and without what does not matter to that.
+//! A body by itself, its heat linear, with what is read of it and without what does not matter to that.
 
 use super::experiment::tries_least_radii;
 use super::sample::sample;
@@ -28,6 +28,8 @@ pub struct Twin {
     /// Whether extremes of the body count: those of stress, which may lie at edges where no mesh finds them, count where
     /// running maxima ask for them.
     pub reads_extremes: bool,
+    /// Whether stress depends on the history of the body, as it yields, creeps or has constants that are tables.
+    pub has_history: bool,
     /// What differs from the body itself.
     pub simplified: Vec<String>,
 }
@@ -84,9 +86,6 @@ impl Twin {
                 );
             }
         }
-        if !solid.deforms_linearly() && is_mechanical {
-            simplified.push("nothing yields or creeps".to_owned());
-        }
         if scene.couplings_to(name).next().is_some() {
             simplified.push(
                 "a disc as wide as the drop is expected to spread stands for it where it lands"
@@ -95,7 +94,8 @@ impl Twin {
         }
         twin.solver.method = Default::default();
         let Some(Body::Solid(solid)) = twin.body.get_mut(name) else { return None };
-        linearise(solid);
+        let has_history = is_mechanical && !solid.deforms_linearly();
+        linearise(solid, has_history);
         solid.peaks.clear();
         if is_mechanical && !reads {
             solid.peaks.push(PeakOf::VonMises);
@@ -111,6 +111,7 @@ impl Twin {
             name: name.to_owned(),
             own: own_factors,
             reads_extremes,
+            has_history,
             simplified,
         })
     }
@@ -181,8 +182,9 @@ fn convect(face: &mut Face, temperature: f64) {
     }
 }
 
-/// Makes constants numbers, those at the temperature at time zero.
-fn linearise(solid: &mut Solid) {
+/// Makes constants of heat numbers, those at the temperature at time zero; those of deformation, too, where the body
+/// does not have its history.
+fn linearise(solid: &mut Solid, has_history: bool) {
     let temperature = solid.initial_temperature;
     solid.faces.values_mut().for_each(|face| convect(face, temperature));
     let choices = solid
@@ -193,18 +195,25 @@ fn linearise(solid: &mut Solid) {
         let own = choice.properties();
         let number = |property: &Property| Property::Constant(property.value(temperature));
         let constants = Properties {
-            density: own.density,
             specific_heat: number(&own.specific_heat),
             conductivity: number(&own.conductivity),
-            young: own.young.as_ref().map(number),
-            poisson: own.poisson.as_ref().map(number),
-            expansion: own.expansion.as_ref().map(number),
             melting: None,
-            yield_stress: None,
-            isotropic_hardening: None,
-            kinematic_hardening: None,
-            creep: None,
+            ..own.clone()
         };
-        *choice = MaterialChoice::of(Material::Thermoelastic(constants));
+        *choice = MaterialChoice::of(match (has_history, choice.material()) {
+            (true, Material::Elastoplastic(_)) => Material::Elastoplastic(constants),
+            (true, Material::Viscoplastic(_)) => Material::Viscoplastic(constants),
+            (true, Material::Thermoelastic(_)) => Material::Thermoelastic(constants),
+            (false, _) => Material::Thermoelastic(Properties {
+                young: own.young.as_ref().map(number),
+                poisson: own.poisson.as_ref().map(number),
+                expansion: own.expansion.as_ref().map(number),
+                yield_stress: None,
+                isotropic_hardening: None,
+                kinematic_hardening: None,
+                creep: None,
+                ..constants
+            }),
+        });
     });
 }

@@ -24,7 +24,7 @@ struct Candidate {
 
 impl Extreme {
     /// Of values with places by their numbers; what is no number is the highest.
-    pub fn of(values: &[f64], place: impl Fn(usize) -> [f64; 3]) -> Self {
+    fn of(values: &[f64], place: impl Fn(usize) -> [f64; 3]) -> Self {
         Candidate::of(values, place).extreme
     }
 }

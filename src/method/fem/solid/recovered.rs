@@ -136,10 +136,11 @@ impl SolidFem {
         point: [f64; 3],
     ) -> [f64; 6] {
         let (place, image) = self.mesh.locate(point);
-        let nodes = self.sided_weights(place);
-        if let Some(stress) = &deformation.stress {
-            return self.turned(self.nodal_at(stress, &nodes, image), point);
+        if let Some(remembered) = &deformation.remembered {
+            let stress = self.remembered_at(remembered, temperatures, place);
+            return self.turned(self.imaged(stress, image), point);
         }
+        let nodes = self.sided_weights(place);
         let counts = self.mesh.node_counts();
         let quantities = quantities(self.mesh.geometry);
         let mut recovered = [0.0; 6];
@@ -175,16 +176,6 @@ impl SolidFem {
                 from_cylindrical([rr, tt, zz, rz], point[0], point[1])
             }
         }
-    }
-
-    /// Stress between the nodes where it is known.
-    fn nodal_at(&self, stress: &[[f64; 6]], nodes: &[Weights; 3], image: [bool; 2]) -> [f64; 6] {
-        let counts = self.mesh.sided_counts();
-        let field = stress.as_flattened();
-        std::array::from_fn(|slot| {
-            let value = weighted(field, nodes.each_ref(), counts, (slot, 6));
-            self.parities[0].tensor_sign(image, slot) * value
-        })
     }
 
     /// Recovered quantities at the nodes: class, quantity, node.
