@@ -1,3 +1,4 @@
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -113,6 +114,7 @@ impl Run {
             timeline,
             table,
             told_of_length: false,
+            told_of_phases: BTreeSet::new(),
             balances: Vec::new(),
             model: &model,
         };
@@ -286,6 +288,8 @@ struct Running<'a> {
     table: Option<InputTable>,
     /// Whether a part of a step that is too short for a mesh was told of.
     told_of_length: bool,
+    /// Fluids and changes of phase that were warned of.
+    told_of_phases: BTreeSet<String>,
     /// Of the last row that was written.
     balances: Vec<Balance>,
 }
@@ -320,6 +324,7 @@ impl Running<'_> {
             }
             self.advance((from, to), length)?;
             self.state.set_time(to);
+            self.warn_of_phases();
             if to < end && part.is_multiple_of(looks_every) {
                 // Heat that comes and goes within a step counts, too.
                 self.look_at_balances().map_err(CliError::Model)?;
@@ -334,6 +339,16 @@ impl Running<'_> {
         if let Some(warning) = self.model.warning_on_step(length).filter(|_| !self.told_of_length) {
             super::print_message("warning", &warning);
             self.told_of_length = true;
+        }
+    }
+
+    /// Warns once of each fluid that is beyond a point at which it freezes or boils.
+    fn warn_of_phases(&mut self) {
+        let told = &self.told_of_phases;
+        let warnings = self.model.phase_warnings(&self.state, |subject| told.contains(subject));
+        for warning in warnings {
+            super::print_message("warning", &warning.message);
+            self.told_of_phases.insert(warning.subject);
         }
     }
 

@@ -24,6 +24,7 @@ mod sampling;
 mod schema;
 mod spelling;
 mod types;
+mod whole;
 
 use std::fs::File;
 use std::io::{self, Read};
