@@ -41,6 +41,7 @@ pub struct Scene {
     /// Whether the scene is meant to be cold: temperatures below 200 K, or below 250 K beside warmer ones, are else taken
     /// for °C and warned of.
     #[serde(default, skip_serializing_if = "is_false")]
+    #[schemars(extend("otherwise" = "false"))]
     pub cryogenic: bool,
     /// Tables `[material.NAME]` that solids and layers name.
     #[serde(default)]

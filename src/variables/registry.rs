@@ -109,7 +109,7 @@ impl Variable {
         let (why, allowed) = match value.is_finite() {
             true if value.abs() <= steepest => return None,
             true => {
-                ("is steeper than any step resolves", format!(" (allowed: up to ±{steepest:e})"))
+                ("is steeper than any step resolves", format!(" (allowed: up to ±{})", limits::number(steepest)))
             }
             false => ("must be finite", String::new()),
         };
