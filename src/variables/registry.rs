@@ -108,9 +108,10 @@ impl Variable {
         let steepest = self.bounds.span() / shortest.powi(order);
         let (why, allowed) = match value.is_finite() {
             true if value.abs() <= steepest => return None,
-            true => {
-                ("is steeper than any step resolves", format!(" (allowed: up to ±{})", limits::number(steepest)))
-            }
+            true => (
+                "is steeper than any step resolves",
+                format!(" (allowed: up to ±{})", limits::number(steepest)),
+            ),
             false => ("must be finite", String::new()),
         };
         let name = &self.name;

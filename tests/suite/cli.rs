@@ -313,7 +313,10 @@ fn settings_that_cannot_be_are_refused_by_name() {
     let twice = ["--set", "spot.heat_flux=1", "--set", "spot.heat_flux=2"];
     place.run(&twice).fails(1, &["spot.heat_flux: it is set twice"]);
     for (setting, words) in [
-        ("spot.heat_flux=1e308", "spot.heat_flux = 1e308: expected a number in W/m2, -1e60 to 1e60"),
+        (
+            "spot.heat_flux=1e308",
+            "spot.heat_flux = 1e308: expected a number in W/m2, -1e60 to 1e60",
+        ),
         ("spot.pressure=-1e61", "spot.pressure = -1e61: expected a number in Pa, -1e60 to 1e60"),
         ("plate.bottom.temperature=1e12", "expected a number in K, above 0 and at most 1e9"),
         ("plate.bottom.temperature=0", "expected a number in K, above 0 and at most 1e9"),
@@ -334,7 +337,9 @@ fn steps_and_times_beyond_those_of_scenes_are_refused() {
     }
     let text = SCENE.replace("stop_time = 1e-6", "stop_time = 1e305");
     fs::write(place.path("scene.toml"), text.replace("step = 1e-7", "step = 1e304")).unwrap();
-    place.call(&["check", "scene.toml"]).fails(1, &["scene.toml:4", "scene.toml:5", "1e-30 to 1e12"]);
+    place
+        .call(&["check", "scene.toml"])
+        .fails(1, &["scene.toml:4", "scene.toml:5", "1e-30 to 1e12"]);
 }
 
 #[test]

@@ -177,7 +177,8 @@ fn a_run_warns_once_as_its_fluid_would_boil() {
     let place = Workplace::new();
     let text = super::DROP.replace("conductivity = 0.6", "conductivity = 0.6, boils_at = 373.15");
     fs::write(place.path("scene.toml"), text).unwrap();
-    let said = place.run(&["--fields-every", "0", "--set", "wall.temperature=900"]).succeeds().stderr();
+    let said =
+        place.run(&["--fields-every", "0", "--set", "wall.temperature=900"]).succeeds().stderr();
     assert_eq!(said.matches("above the 373.15 K at which it boils").count(), 1, "{said}");
     assert!(said.contains("warning: drop: at "), "{said}");
     let said = place.run(&["--overwrite", "--fields-every", "0"]).succeeds().stderr();
