@@ -522,7 +522,7 @@ fn a_scene_may_say_how_much_memory_it_takes() {
     }
     for (memory, words) in [
         ("1234567.5", ["scene.toml:1: solver.memory = 1234567.5", "whole number"]),
-        ("1e16", ["scene.toml:1: solver.memory = 1e16", "1e6 to 1e15"]),
+        ("2e15", ["scene.toml:1: solver.memory = 2e15", "1e6 to 1e15"]),
         ("\"1e6\"", ["scene.toml:1: solver.memory", "whole number"]),
     ] {
         fs::write(place.path("scene.toml"), limited(memory)).unwrap();

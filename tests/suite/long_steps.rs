@@ -20,21 +20,22 @@ const HELD: &str = "faces = { top = { flux = 0.0 }, bottom = { temperature = 300
 /// The steady rise is that of a flux through the slab, `q L/k`, after a step of any length.
 #[test]
 fn steady_states_are_reached_in_steps_of_any_length() {
-    for (what, more, keys) in [
-        ("full", "", HELD),
-        ("reduced", "fidelity = { level = \"reduced\" }\n", HELD),
-        ("nonlinear", "solver = { method = \"newton\" }\n", HELD),
+    // What is reduced keeps the scene's tolerance.
+    for (what, more, allowed) in [
+        ("full", "", 1e-4),
+        ("reduced", "fidelity = { level = \"reduced\" }\n", 1e-2),
+        ("nonlinear", "solver = { method = \"newton\" }\n", 1e-4),
     ] {
         for (conductivity, thickness) in [(10.0, 1e-4), (0.2, 1e-6), (400.0, 1e-3), (2000.0, 1e-8)]
         {
             let flux = conductivity / thickness;
             for step in [1e3, 1e12, 1e30, LONGEST] {
-                let mut trial = Trial::new(&slab(conductivity, thickness, more, keys));
+                let mut trial = Trial::new(&slab(conductivity, thickness, more, HELD));
                 trial.set("slab.top.flux", flux);
                 trial.step(step);
                 let rise = trial.get("p.temperature") - 300.0;
                 assert!(
-                    off(rise, 1.0) < 1e-4,
+                    off(rise, 1.0) < allowed,
                     "{what}, {conductivity}, {thickness}, {step}: {rise}"
                 );
                 assert_eq!(trial.state.time, step);
