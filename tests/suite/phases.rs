@@ -27,9 +27,14 @@ fn scene(method: &str, case: Case, points: bool) -> String {
         true => format!(", freezes_at = {freezes:?}, boils_at = {boils:?}"),
         false => String::new(),
     };
+    // A film has no particles.
+    let of_particles = match method {
+        "sph" => "symmetry = \"quarter\"\nspacing = 6e-6\n",
+        _ => "",
+    };
     format!(
         "name = \"Phases\"\nstop_time = 4e-5\nstep = 1e-6\n[body.drop]\nkind = \"droplet\"\nmethod = \
-         \"{method}\"\nsymmetry = \"quarter\"\ndiameter = 6e-5\nimpact_velocity = 10.0\ninitial_temperature = {drop:?}\nspacing = 6e-6\nfluid = \
+         \"{method}\"\n{of_particles}diameter = 6e-5\nimpact_velocity = 10.0\ninitial_temperature = {drop:?}\nfluid = \
          {{ density = {density:?}, viscosity = {viscosity:?}, specific_heat = {heat:?}, conductivity = {conductivity:?}, \
          surface_tension = {tension:?}{points} }}\n[body.plate]\nkind = \"solid\"\nshape = {{ box = [4e-4, 4e-4, 1e-4] \
          }}\nmaterial = {{ model = \"thermoelastic\", density = {:?}, specific_heat = {:?}, conductivity = {:?} \
