@@ -6,11 +6,13 @@ mod joints;
 mod memory;
 mod parts;
 mod peaks;
+mod phases;
 mod reader;
 mod schedule;
 mod sharing;
 mod start_rates;
 mod states;
+mod step_length;
 mod tangent;
 mod timeline;
 pub mod tolerance;
@@ -19,8 +21,10 @@ pub use cache::Cache;
 pub use error::ModelError;
 pub use memory::check_memory;
 pub use peaks::Peak;
+pub use phases::PhaseWarning;
 pub use reader::Reader;
 pub use start_rates::start_rates;
+pub use step_length::check_step_length;
 pub use tangent::Tangent;
 pub use timeline::Timeline;
 
@@ -186,6 +190,7 @@ impl Model {
         cache: &mut Cache,
         dt: f64,
     ) -> Result<(), ModelError> {
+        check_step_length(dt)?;
         self.expect_room_to_step(state)?;
         self.check_inputs(&state.inputs)?;
         let path = InputPath::new(&state.inputs, &state.derivatives);

@@ -29,10 +29,10 @@ use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::Allowance;
 pub use crate::method::fem::Extreme;
 use crate::method::fem::{ElasticProblem, NodalFields};
-use crate::method::sph::{ParticleFields, Surface, SurfaceResponse, WallCells};
+use crate::method::sph::{ParticleFields, Surface, SurfaceResponse, WallCells, WarmPlace};
 use crate::scene::{self, FaceName, Scene};
 use crate::state::Layout;
-use droplet::{DropletBody, ReplayBody};
+use droplet::{DropletBody, ReplayBody, Watch};
 use reduced::ReducedBody;
 use reservoir::ReservoirBody;
 use solid::SolidBody;
@@ -166,6 +166,16 @@ pub trait Body: Send + Sync {
 
     /// What a user should know of a state, quickly found.
     fn warning(&self, _state: &[f64]) -> Option<String> {
+        None
+    }
+
+    /// Points at which a fluid of the body would freeze or boil.
+    fn watch(&self) -> Option<&Watch> {
+        None
+    }
+
+    /// The coldest and the hottest place of a fluid in a state; nothing where there is none.
+    fn warm_places(&self, _state: &[f64]) -> Option<[WarmPlace; 2]> {
         None
     }
 

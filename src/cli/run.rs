@@ -1,3 +1,4 @@
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -114,6 +115,7 @@ impl Run {
             table,
             told_of_length: false,
             balance_outputs: BalanceOutputs::of(&scene),
+            told_of_phases: BTreeSet::new(),
             balances: Vec::new(),
             model: &model,
         };
@@ -288,6 +290,8 @@ struct Running<'a> {
     /// Whether a part of a step that is too short for a mesh was told of.
     told_of_length: bool,
     balance_outputs: Vec<BalanceOutputs>,
+    /// Fluids and changes of phase that were warned of.
+    told_of_phases: BTreeSet<String>,
     /// Of the last row that was written.
     balances: Vec<Balance>,
 }
@@ -322,6 +326,7 @@ impl Running<'_> {
             }
             self.advance((from, to), length)?;
             self.state.set_time(to);
+            self.warn_of_phases();
             if to < end && part.is_multiple_of(looks_every) {
                 // Heat that comes and goes within a step counts, too.
                 self.look_at_balances().map_err(CliError::Model)?;
@@ -336,6 +341,16 @@ impl Running<'_> {
         if let Some(warning) = self.model.warning_on_step(length).filter(|_| !self.told_of_length) {
             super::print_message("warning", &warning);
             self.told_of_length = true;
+        }
+    }
+
+    /// Warns once of each fluid that is beyond a point at which it freezes or boils.
+    fn warn_of_phases(&mut self) {
+        let told = &self.told_of_phases;
+        let warnings = self.model.phase_warnings(&self.state, |subject| told.contains(subject));
+        for warning in warnings {
+            super::print_message("warning", &warning.message);
+            self.told_of_phases.insert(warning.subject);
         }
     }
 

@@ -2,6 +2,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::str::FromStr;
 
+use impinge::limits::Bounds;
 use impinge::scene::Scene;
 use impinge::variables::{Causality, Registry, Slot, Value, Variable};
 
@@ -130,12 +131,8 @@ fn put(
 /// Reads a finite number, whole where the variable is, within the variable's bounds.
 pub fn number(variable: &Variable, text: &str) -> Result<f64, SetError> {
     let is_whole = matches!(variable.start, Some(Value::Integer(_)));
-    let (lowest, highest) =
-        (variable.min.unwrap_or(f64::NEG_INFINITY), variable.max.unwrap_or(f64::INFINITY));
     let fits = |value: &f64| {
-        value.is_finite()
-            && (lowest..=highest).contains(value)
-            && (!is_whole || value.fract() == 0.0)
+        value.is_finite() && variable.bounds.hold(*value) && (!is_whole || value.fract() == 0.0)
     };
     text.parse().ok().filter(fits).ok_or_else(|| SetError::Value {
         name: variable.name.clone(),
@@ -147,15 +144,10 @@ pub fn number(variable: &Variable, text: &str) -> Result<f64, SetError> {
 /// Words for what a variable accepts.
 fn expectation(variable: &Variable, is_whole: bool) -> String {
     let kind = if is_whole { "a whole number" } else { "a number" };
-    let unit = match variable.quantity.map(|quantity| quantity.unit()) {
-        None | Some("1") => String::new(),
-        Some(unit) => format!(" in {unit}"),
-    };
-    let bounds = match (variable.min, variable.max) {
-        (Some(min), Some(max)) => format!(" from {min} to {max}"),
-        (Some(min), None) => format!(", at least {min}"),
-        (None, Some(max)) => format!(", at most {max}"),
-        (None, None) => String::new(),
+    let unit = variable.unit().map_or(String::new(), |unit| format!(" in {unit}"));
+    let bounds = match variable.bounds {
+        none if none == Bounds::default() => String::new(),
+        bounds => format!(", {bounds}"),
     };
     format!("{kind}{unit}{bounds}")
 }

@@ -6,7 +6,8 @@ use super::legality::Phase;
 use super::types::{Answer, Integer, Reference, Refusal, Status};
 use super::unit::{Unit, explain};
 use super::values::{Kind, aside_if, find};
-use crate::model::{Cache, HIGHEST_INPUT_DERIVATIVE, ModelError, start_rates};
+use crate::inputs::InputPath;
+use crate::model::{BodyError, Cache, HIGHEST_INPUT_DERIVATIVE, ModelError, State, start_rates};
 use crate::scene::Scene;
 use crate::variables::{Output, Parameter, Registry, Slot, Variable};
 
@@ -128,7 +129,9 @@ impl Unit {
         let inputs = inputs(&registry, references)?;
         for ((_, variable), (&order, &value)) in inputs.iter().zip(orders.iter().zip(values)) {
             check_order(variable, order, HIGHEST_INPUT_DERIVATIVE)?;
-            check_finite(&format!("derivative of {}", variable.name), value)?;
+            if let Some(message) = variable.refusal_of_derivative(order, value) {
+                return Err(Refusal::error(message));
+            }
         }
         self.forget_past_derivatives();
         self.has_set_derivatives = true;
@@ -173,6 +176,26 @@ impl Unit {
             found.map_err(|error| explain(&registry, error))
         })
     }
+}
+
+/// Refuses a step of `dt` [s] over which an input leaves its bounds.
+pub(super) fn check_path(registry: &Registry, state: &State, dt: f64) -> Result<(), ModelError> {
+    let path = InputPath::new(&state.inputs, &state.derivatives);
+    if path.is_held() {
+        return Ok(());
+    }
+    for after in path.turns(dt).into_iter().chain([dt]) {
+        let inputs = path.at(0, after);
+        for variable in &registry.variables {
+            let Slot::Input(index) = variable.slot else { continue };
+            let value = inputs[index];
+            if let Some(why) = variable.objection(value) {
+                let message = format!("{value:?}: {why}");
+                return Err(BodyError::Underway { index, message, after }.into());
+            }
+        }
+    }
+    Ok(())
 }
 
 pub(super) fn outputs<'a>(

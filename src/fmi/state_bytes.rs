@@ -56,6 +56,9 @@ impl Unit {
             Refusal::error(format!("the saved state contradicts itself: {message}"))
         };
         let mut snapshot = read.map_err(contradicts)?;
+        if let Some(message) = out_of_bounds(&self.registry, &snapshot.state.inputs) {
+            return Err(contradicts(message));
+        }
         // After a panic, too, there may be none.
         let early = matches!(
             snapshot.phase,
@@ -79,6 +82,14 @@ impl Unit {
         snapshot.model = Some(model);
         Ok(snapshot)
     }
+}
+
+/// Why an input cannot have the value that it has among these.
+fn out_of_bounds(registry: &Registry, inputs: &[f64]) -> Option<String> {
+    registry.variables.iter().find_map(|variable| match variable.slot {
+        Slot::Input(index) => variable.refusal(*inputs.get(index)?),
+        _ => None,
+    })
 }
 
 /// The contents of bytes that are whole and of the unit with this GUID.

@@ -14,6 +14,7 @@ pub use packed::{Packed, read};
 
 use super::legality::{Function, Phase};
 use super::log::Log;
+use super::rates::check_path;
 use super::saved::SavedStates;
 use super::step_control::StepControl;
 use super::types::{Answer, Refusal, Status};
@@ -23,7 +24,7 @@ use crate::math::allowance::{Halt, Interrupt};
 use crate::math::thread::{STACK, aside};
 use crate::model::{
     BodyError, Cache, Kept, KeptReduction, Model, ModelError, State, Stiffness, Tangent,
-    initial_inputs, to_be_recorded,
+    check_step_length, initial_inputs, to_be_recorded,
 };
 use crate::output::{FieldSeries, FolderLock};
 use crate::scene::{self, Scene, Warning};
@@ -233,8 +234,9 @@ impl Unit {
         let on_answer = told.and_then(|before| run.model.warning_on_answer(state, &before));
         let told = listens.then(|| state.inputs.clone());
         let stepping = interrupt.begin();
-        let stepped =
-            control.advance((&*run.model, &mut run.cache), state, (point, step), &interrupt);
+        let stepped = check_path(&registry, state, step).and_then(|()| {
+            control.advance((&*run.model, &mut run.cache), state, (point, step), &interrupt)
+        });
         drop(stepping);
         if let Err(error) = stepped {
             let is_cancelled = error.halt() == Some(&Halt::Interrupted);
@@ -253,6 +255,7 @@ impl Unit {
         self.told = told;
         self.warn_once(warnings);
         self.warn_of_answer(on_answer);
+        self.warn_of_phases();
         self.warn_of_length(step);
         self.has_set_derivatives = false;
         Ok(self.write_fields())
@@ -272,6 +275,7 @@ impl Unit {
         if !(step.is_finite() && step > 0.0) {
             return Err(Refusal::error(format!("step size {step:?} s is not positive and finite")));
         }
+        check_step_length(step).map_err(|error| Refusal::error(error.to_string()))?;
         let time = self.time();
         // A step that is far too long may end early: what it asked for says nothing of how far it goes.
         let usual = step.min(self.scene.step);

@@ -241,17 +241,6 @@ fn wrong_kind(variable: &Variable, wanted: Kind) -> Refusal {
     Refusal::error(format!("{} is no {wanted:?} but a {kind:?}", variable.name))
 }
 
-fn check_bounds(variable: &Variable, value: f64) -> Answer<()> {
-    let name = &variable.name;
-    if !value.is_finite() {
-        return Err(Refusal::error(format!("{name} = {value}: must be finite")));
-    }
-    let refuse = |side: &str, bound: f64| {
-        Err(Refusal::error(format!("{name} = {value:?}: must be at {side} {bound:?}")))
-    };
-    match (variable.min, variable.max) {
-        (Some(min), _) if value < min => refuse("least", min),
-        (_, Some(max)) if value > max => refuse("most", max),
-        _ => Ok(()),
-    }
+pub(super) fn check_bounds(variable: &Variable, value: f64) -> Answer<()> {
+    variable.refusal(value).map_or(Ok(()), |message| Err(Refusal::error(message)))
 }

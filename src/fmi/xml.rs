@@ -175,7 +175,7 @@ fn typed(xml: &mut Xml, variable: &Variable) -> io::Result<()> {
     let declared = variable.quantity.map(|q| ("declaredType", q.type_name().to_owned()));
     let bound =
         |name, value: Option<f64>, write: fn(f64) -> String| value.map(|v| (name, write(v)));
-    let bounds = |write| [bound("min", variable.min, write), bound("max", variable.max, write)];
+    let bounds = |write| [bound("min", variable.min(), write), bound("max", variable.max(), write)];
     let start = |text: String| Some(("start", text));
     let (element, attributes) = match &variable.start {
         None => ("Real", [&[declared][..], &bounds(number)].concat()),

@@ -4,11 +4,15 @@
 //! scenes as its own keywords (`minimum`, `exclusiveMinimum`, …) and as those of [`keyword`]; checks, messages and
 //! tables read them from there.
 
+mod bounds;
+mod digits;
 pub mod plausible;
 
 use schemars::{Schema, transform::Transform};
 use serde_json::{Map, Value, json};
 
+pub use bounds::{Bounds, End, Side};
+pub use digits::number;
 use plausible::Range;
 
 /// Keywords beside those of JSON Schema.
@@ -27,8 +31,10 @@ pub mod keyword {
     pub const OTHERWISE: &str = "otherwise";
     /// The range beyond which a value is hardly meant.
     pub const PLAUSIBLE: &str = "plausible";
-    /// The lowest end of that range in scenes with liquids as light as hydrogen.
+    /// The lowest end of that range in scenes that are meant to be cold.
     pub const CRYOGENIC: &str = "cryogenic";
+    /// The lowest end of that range in scenes that hold something warmer, too.
+    pub const BESIDE_WARM: &str = "besideWarm";
 }
 
 /// A message and what is allowed instead.
@@ -39,21 +45,24 @@ type Words = (&'static str, &'static str);
 pub struct Limits {
     unit: Option<&'static str>,
     noun: Option<&'static str>,
-    /// Least and largest value, and whether these are allowed themselves.
-    low: Option<(f64, bool)>,
-    high: Option<(f64, bool)>,
+    bounds: Bounds,
     too_low: Option<Words>,
     too_high: Option<Words>,
     condition: Option<&'static str>,
     otherwise: Option<&'static str>,
     plausible: Option<&'static Range<'static>>,
-    is_cold: bool,
+    /// Lowest end of that range in scenes that are meant to be cold, and in those that hold something warmer, too.
+    cryogenic: Option<f64>,
+    beside_warm: Option<f64>,
 }
 
 /// Smallest and largest magnitude of constants: products of a few of them and their squares stay well
 /// within the range of numbers.
 const SMALLEST: f64 = 1e-60;
 pub const LARGEST: f64 = 1e60;
+
+/// Largest extent of a body [m].
+const LONGEST: f64 = 1e6;
 
 /// Largest number of points, rings or tiles along an axis.
 const MOST_CELLS: f64 = 1000.0;
@@ -63,31 +72,32 @@ pub const fn any(unit: &'static str) -> Limits {
     Limits {
         unit: Some(unit),
         noun: None,
-        low: None,
-        high: None,
+        bounds: Bounds { low: None, high: None },
         too_low: None,
         too_high: None,
         condition: None,
         otherwise: None,
         plausible: None,
-        is_cold: false,
+        cryogenic: None,
+        beside_warm: None,
     }
 }
 
 /// A number between two others, these included; a range from above zero on holds positive numbers, one from zero on
 /// numbers that are not negative.
 pub const fn within(low: f64, high: f64, unit: &'static str, noun: &'static str) -> Limits {
-    Limits { low: Some((low, true)), high: Some((high, true)), noun: Some(noun), ..any(unit) }
+    Limits { bounds: Bounds::between(low, high), noun: Some(noun), ..any(unit) }
 }
 
 /// A number above zero; other checks say what is wrong with one that is not.
 pub const fn above_zero(unit: &'static str) -> Limits {
-    Limits { low: Some((0.0, false)), ..any(unit) }
+    let limits = Limits { bounds: Bounds::from(0.0), ..any(unit) };
+    limits.low_open()
 }
 
 /// A length that a body has [m].
 pub const fn length(noun: &'static str) -> Limits {
-    within(1e-12, 1e6, "m", noun)
+    within(1e-12, LONGEST, "m", noun)
 }
 
 /// A time that a run can take [s].
@@ -101,9 +111,46 @@ pub const fn temperature() -> Limits {
     limits.low("a temperature is above absolute zero", "> 0 (kelvin)")
 }
 
-/// The temperature of something in the scene [K], which may be as cold as its liquids are.
+/// The temperature of something in the scene [K].
 pub const fn own_temperature() -> Limits {
-    temperature().plausible(&plausible::TEMPERATURE).cold()
+    temperature().plausible(&plausible::TEMPERATURE).guarded()
+}
+
+/// The temperature of what flows by or surrounds a body [K].
+pub const fn ambient() -> Limits {
+    temperature().plausible(&plausible::AMBIENT).guarded()
+}
+
+/// A temperature of a table of constants [K].
+pub const fn knot() -> Limits {
+    temperature().plausible(&plausible::KNOT).cold()
+}
+
+/// A heat flux into a body [W/m²].
+pub const fn heat_flux() -> Limits {
+    signed("W/m²", "a heat flux").plausible(&plausible::HEAT_FLUX)
+}
+
+/// A pressure or shear on a body [Pa].
+pub const fn traction() -> Limits {
+    signed("Pa", "a pressure or shear").plausible(&plausible::TRACTION)
+}
+
+/// The place of a footprint's centre along an axis of its face [m].
+pub const fn place() -> Limits {
+    within(-LONGEST, LONGEST, "m", "the place of a footprint")
+}
+
+/// The radius of a footprint [m].
+pub const fn footprint_radius() -> Limits {
+    length("the radius of a footprint")
+}
+
+/// A communication step that units take [s]: its products with rates of bodies, up to `k/(ρ c l²)` at the ends of the
+/// limits of these, and with the span of inputs stay numbers, and so do its cube and its inverse. Longer ones lose heat
+/// in modes whose exponents overflow.
+pub const fn step() -> Limits {
+    within(SMALLEST, LARGEST, "s", "a communication step")
 }
 
 /// A positive constant of a material.
@@ -132,7 +179,20 @@ pub const fn whole(low: u32, high: u32, why: &'static str, allowed: &'static str
     Limits { unit: None, noun: None, ..limits }
 }
 
+/// The same end of an interval, which no longer includes it.
+const fn excluded(end: Option<End>) -> Option<End> {
+    match end {
+        Some(End { value, .. }) => Some(End { value, is_included: false }),
+        None => None,
+    }
+}
+
 impl Limits {
+    /// The interval of allowed numbers.
+    pub const fn bounds(&self) -> Bounds {
+        self.bounds
+    }
+
     /// What to say of values beyond either end, with what is allowed.
     pub const fn says(self, why: &'static str, allowed: &'static str) -> Self {
         self.low(why, allowed).high(why, allowed)
@@ -150,18 +210,13 @@ impl Limits {
 
     /// The same without the least value.
     pub const fn low_open(self) -> Self {
-        match self.low {
-            Some((low, _)) => Self { low: Some((low, false)), ..self },
-            None => self,
-        }
+        Self { bounds: Bounds { low: excluded(self.bounds.low), ..self.bounds }, ..self }
     }
 
     /// The same without the least and the largest value.
     pub const fn open(self) -> Self {
-        match self.high {
-            Some((high, _)) => Self { high: Some((high, false)), ..self.low_open() },
-            None => self.low_open(),
-        }
+        let Bounds { low, high } = self.bounds;
+        Self { bounds: Bounds { low: excluded(low), high: excluded(high) }, ..self }
     }
 
     /// What else must hold, in words.
@@ -179,19 +234,25 @@ impl Limits {
         Self { plausible: Some(range), ..self }
     }
 
-    /// Plausible down to [`plausible::CRYOGENIC`] around liquids as light as hydrogen.
+    /// Plausible down to [`plausible::CRYOGENIC`] in scenes that are meant to be cold.
     pub const fn cold(self) -> Self {
-        Self { is_cold: true, ..self }
+        Self { cryogenic: Some(plausible::CRYOGENIC), ..self }
+    }
+
+    /// The same, and only down to [`plausible::BESIDE_WARM`] in scenes that hold something warmer, too.
+    pub const fn guarded(self) -> Self {
+        Self { beside_warm: Some(plausible::BESIDE_WARM), ..self.cold() }
     }
 
     /// Puts the limits of a number into its schema.
     fn put(&self, number: &mut Map<String, Value>) {
-        for (bound, closed, open) in
-            [(self.low, "minimum", "exclusiveMinimum"), (self.high, "maximum", "exclusiveMaximum")]
-        {
-            if let Some((value, is_closed)) = bound {
+        for (end, closed, open) in [
+            (self.bounds.low, "minimum", "exclusiveMinimum"),
+            (self.bounds.high, "maximum", "exclusiveMaximum"),
+        ] {
+            if let Some(End { value, is_included }) = end {
                 number.remove(closed);
-                number.insert(if is_closed { closed } else { open }.into(), plain(value));
+                number.insert(if is_included { closed } else { open }.into(), plain(value));
             }
         }
         let words = |words: Option<Words>| words.map(|(why, allowed)| json!([why, allowed]));
@@ -201,7 +262,8 @@ impl Limits {
             (keyword::TOO_LOW, words(self.too_low)),
             (keyword::TOO_HIGH, words(self.too_high)),
             (keyword::PLAUSIBLE, self.plausible.map(|range| json!(range))),
-            (keyword::CRYOGENIC, self.is_cold.then(|| json!(plausible::CRYOGENIC))),
+            (keyword::CRYOGENIC, self.cryogenic.map(plain)),
+            (keyword::BESIDE_WARM, self.beside_warm.map(plain)),
         ] {
             if let Some(value) = value {
                 number.insert(key.into(), value);

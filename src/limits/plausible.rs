@@ -79,7 +79,7 @@ pub static YIELD_STRESS: Range<'static> = Range {
 pub static MELTING: Range<'static> = Range {
     what: "a temperature of melting",
     unit: "K",
-    lowest: 50.0,    // nitrogen 63, mercury 234
+    lowest: 200.0,   // mercury 234; frozen gases, in scenes that say so
     highest: 4500.0, // tantalum hafnium carbide 4300
     mistakes: CELSIUS,
 };
@@ -104,19 +104,41 @@ pub static EXPANSION: Range<'static> = Range {
     highest: 1e-3, // paraffin 5e-4
     mistakes: Cow::Borrowed(&[scaled("10⁻⁶/K", 1e-6)]),
 };
-/// Of solids and of fluids, but around liquids as light as hydrogen.
+/// Of solids and of fluids.
 pub static TEMPERATURE: Range<'static> = Range {
     what: "a temperature",
     unit: "K",
-    lowest: 60.0,    // below liquid nitrogen
+    lowest: 200.0,   // the coldest places on Earth have 184
     highest: 6000.0, // above the boiling point of tungsten, 5828 K
     mistakes: CELSIUS,
 };
 pub static AMBIENT: Range<'static> = Range {
     what: "the temperature of what flows by",
     unit: "K",
-    lowest: 60.0,      // in the shade of space; 20 is meant in °C
+    lowest: 200.0,
     highest: 50_000.0, // plasma jets
+    mistakes: CELSIUS,
+};
+/// Of tables of constants, whatever the temperatures of the scene.
+pub static KNOT: Range<'static> = Range {
+    what: "a temperature of a table",
+    unit: "K",
+    lowest: 200.0,
+    highest: 50_000.0,
+    mistakes: CELSIUS,
+};
+pub static FREEZING: Range<'static> = Range {
+    what: "the temperature at which a liquid freezes",
+    unit: "K",
+    lowest: 10.0,    // hydrogen 14
+    highest: 4500.0, // tantalum hafnium carbide 4300
+    mistakes: CELSIUS,
+};
+pub static BOILING: Range<'static> = Range {
+    what: "the temperature at which a liquid boils",
+    unit: "K",
+    lowest: 4.0,     // helium 4.2
+    highest: 7000.0, // tungsten 5828
     mistakes: CELSIUS,
 };
 pub static HEAT_TRANSFER: Range<'static> = Range {
@@ -224,8 +246,21 @@ pub static SURFACE_TENSION: Range<'static> = Range {
 pub static TIME: Range<'static> =
     Range { what: "a time", unit: "s", lowest: 1e-13, highest: 1e7, mistakes: TIMES };
 
-/// Lowest plausible temperature around liquids as light as hydrogen and helium [K].
+/// Lowest plausible temperature in scenes that say that they are cold, or hold liquids as light as hydrogen [K].
 pub const CRYOGENIC: f64 = 1.0;
+/// Lowest plausible temperature in scenes that hold something warmer than this, too [K].
+pub const BESIDE_WARM: f64 = 250.0;
+
+/// How cold a scene is meant to be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Cold {
+    /// It says so.
+    Meant,
+    /// Nothing in it is as warm as [`BESIDE_WARM`].
+    Throughout,
+    /// Something is.
+    BesideWarm,
+}
 
 impl<'a> Range<'a> {
     pub fn holds(&self, value: f64) -> bool {

@@ -8,10 +8,10 @@ use crate::limits::{plausible, positive, temperature};
 #[serde(deny_unknown_fields)]
 pub struct Melting {
     /// Temperature at which melting begins [K].
-    #[schemars(transform = temperature().plausible(&plausible::MELTING))]
+    #[schemars(transform = temperature().plausible(&plausible::MELTING).guarded())]
     pub solidus: f64,
     /// Temperature at which it is over [K]; it may be the solidus.
-    #[schemars(transform = temperature().plausible(&plausible::MELTING).condition("from the solidus on"))]
+    #[schemars(transform = temperature().plausible(&plausible::MELTING).guarded().condition("from the solidus on"))]
     pub liquidus: f64,
     /// Heat that it takes, L [J/kg].
     #[schemars(transform = positive("J/kg", "the latent heat").plausible(&plausible::LATENT_HEAT))]

@@ -1,6 +1,7 @@
 //! Which constants of materials units offer as parameters: a row for each.
 
 use super::{Properties, Property};
+use crate::limits::Bounds;
 use crate::quantity::Quantity;
 
 /// A constant of materials that is a parameter of units where a scene gives it as a number.
@@ -11,7 +12,7 @@ pub struct MaterialConstant {
     pub description: &'static str,
     pub quantity: Quantity,
     /// Declared least and largest value; the scene's own check also refuses the open ends.
-    pub bounds: (Option<f64>, Option<f64>),
+    pub bounds: Bounds,
     pub start: AtStart,
     number: fn(&mut Properties) -> Option<&mut f64>,
 }
@@ -28,7 +29,7 @@ pub enum AtStart {
     Polynomial,
 }
 
-const ABOVE_ZERO: (Option<f64>, Option<f64>) = (Some(0.0), None);
+const ABOVE_ZERO: Bounds = Bounds::from(0.0);
 
 impl MaterialConstant {
     pub const ALL: &[Self] = &[
@@ -68,7 +69,7 @@ impl MaterialConstant {
             key: "poisson",
             description: "Poisson's ratio",
             quantity: Quantity::Ratio,
-            bounds: (Some(-1.0), Some(0.5)),
+            bounds: Bounds::between(-1.0, 0.5),
             start: AtStart::PolesAt([-1.0, 0.5]),
             number: |properties| properties.poisson.as_mut()?.number(),
         },
@@ -76,7 +77,7 @@ impl MaterialConstant {
             key: "expansion",
             description: "coefficient of linear thermal expansion",
             quantity: Quantity::Expansion,
-            bounds: (None, None),
+            bounds: Bounds { low: None, high: None },
             start: AtStart::Polynomial,
             number: |properties| properties.expansion.as_mut()?.number(),
         },

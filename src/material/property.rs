@@ -5,7 +5,7 @@ use serde::de::value::MapAccessDeserializer;
 use serde::de::{MapAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::limits::temperature;
+use crate::limits::knot;
 
 /// A constant of a material that is a number or depends on the temperature.
 #[derive(Debug, Clone, PartialEq, Serialize, JsonSchema)]
@@ -22,7 +22,7 @@ pub enum Property {
 #[schemars(inline)]
 pub struct Table {
     /// Ascending temperatures [K].
-    #[schemars(length(min = 2), transform = temperature())]
+    #[schemars(length(min = 2), transform = knot())]
     pub temperature: Vec<f64>,
     /// One value for each.
     #[schemars(length(min = 2))]

@@ -1,4 +1,5 @@
 use crate::body::BodyError;
+use crate::limits::Bounds;
 use crate::math::address_space::TooLittle;
 use crate::math::allowance::Halt;
 use crate::scene::SceneError;
@@ -13,6 +14,9 @@ pub enum ModelError {
     State(String),
     #[error("{0}")]
     Scene(#[from] SceneError),
+    /// A step of a length that arithmetic does not bear.
+    #[error("step size {step:e} s {requirement} (allowed: {bounds} s)")]
+    StepLength { step: f64, requirement: String, bounds: Bounds },
     /// A scene is too large for the machine.
     #[error(
         "this needs about {:.3e} MB of memory, most of it for `{body}` with its {size}; this process can \

@@ -10,7 +10,9 @@ use super::recording::Recording;
 use super::types::{CellValues, Footprint, IDENTIFIER};
 use crate::closed_form::DropImpact;
 use crate::kernel::Kernel;
-use crate::limits::{above_zero, length, own_temperature, plausible, whole, within};
+use crate::limits::{
+    Bounds, Limits, above_zero, length, own_temperature, plausible, temperature, whole, within,
+};
 use crate::quantity::Quantity;
 
 /// Round drops of one fluid that arrive, along −z, above the plane z = 0.
@@ -24,18 +26,15 @@ pub struct Droplet {
     #[schemars(transform = within(1e-9, 1e2, "m", "the diameter of a drop").plausible(&plausible::DIAMETER))]
     pub diameter: f64,
     /// Speed at the release, straight towards the wall unless there is an angle [m/s].
-    #[schemars(transform = within(0.0, 1e5, "m/s", "the speed towards the wall").plausible(&plausible::SPEED))]
+    #[schemars(transform = speed())]
     pub impact_velocity: f64,
     /// Angle between the way of a drop at its release and the way straight down [rad].
     #[serde(default)]
-    #[schemars(transform = within(-FRAC_PI_2, FRAC_PI_2, "rad", "").open()
-        .says("at this angle a drop does not come down", "-1.5708 to 1.5708 (rad), without these ends")
-        .otherwise("0: straight down"))]
+    #[schemars(transform = angle().otherwise("0: straight down"))]
     pub impact_angle: f64,
     /// Direction along the wall of drops that come at an angle, from x towards y [rad].
     #[serde(default)]
-    #[schemars(transform = within(-TAU, TAU, "rad", "")
-        .says("the direction is more than a full turn", "-6.28319 to 6.28319 (rad)")
+    #[schemars(transform = direction()
         .condition("0 in a plane model")
         .otherwise("0: along x"))]
     pub impact_direction: f64,
@@ -199,6 +198,17 @@ pub struct Fluid {
         .otherwise("ten times the fastest flow or √(2σ/(ρΔx))")
         .condition("at least five times these"))]
     pub sound_speed: Option<f64>,
+    /// Temperature at which the fluid would freeze, which the model leaves out: a step that goes below warns [K].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = temperature().plausible(&plausible::FREEZING)
+        .otherwise("none: nothing is watched")
+        .condition("below `boils_at`"))]
+    pub freezes_at: Option<f64>,
+    /// Temperature at which the fluid would boil, which the model leaves out: a step that goes above warns [K].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(transform = temperature().plausible(&plausible::BOILING)
+        .otherwise("none: nothing is watched"))]
+    pub boils_at: Option<f64>,
 }
 
 /// How particles are laid out at first.
@@ -234,12 +244,37 @@ pub struct Arrival {
     pub time: f64,
     /// Place of the centre [m].
     #[serde(default)]
-    #[schemars(transform = within(-1e3, 1e3, "m", "the place of an arrival"))]
+    #[schemars(transform = arrival())]
     pub x: f64,
     /// Place of the centre [m].
     #[serde(default)]
-    #[schemars(transform = within(-1e3, 1e3, "m", "the place of an arrival").condition("0 in a plane model"))]
+    #[schemars(transform = arrival().condition("0 in a plane model"))]
     pub y: f64,
+}
+
+/// Speed of a drop at its release [m/s].
+const fn speed() -> Limits {
+    within(0.0, 1e5, "m/s", "the speed towards the wall").plausible(&plausible::SPEED)
+}
+
+/// Angle between the way of a drop and the way straight down [rad].
+const fn angle() -> Limits {
+    let limits = within(-FRAC_PI_2, FRAC_PI_2, "rad", "").open();
+    limits.says(
+        "at this angle a drop does not come down",
+        "-1.5708 to 1.5708 (rad), without these ends",
+    )
+}
+
+/// Direction along the wall of a drop that comes at an angle [rad].
+const fn direction() -> Limits {
+    let limits = within(-TAU, TAU, "rad", "");
+    limits.says("the direction is more than a full turn", "-6.28319 to 6.28319 (rad)")
+}
+
+/// Place of a drop's centre at its release along an axis [m].
+const fn arrival() -> Limits {
+    within(-1e3, 1e3, "m", "the place of an arrival")
 }
 
 /// A wall below a droplet whose temperatures are inputs, and heat fluxes and tractions outputs.
@@ -458,42 +493,45 @@ impl Droplet {
         }
         let input =
             |key, words, quantity, start, bounds| BodyInput { key, words, quantity, start, bounds };
-        let [any, count] = [[None; 2], [Some(0.0), self.most.map(|most| most as f64)]];
+        let count = Bounds::between(0.0, self.drops() as f64);
         let release =
             "drops asked for so far: each that is added starts with the next step, or waits";
-        let mut inputs = vec![
-            input("release", release, Quantity::Count, 0.0, count),
-            input("x", "x of the centre at the release", Quantity::Length, 0.0, any),
-            input("y", "y of the centre at the release", Quantity::Length, 0.0, any),
+        let places =
+            [("x", "x of the centre at the release"), ("y", "y of the centre at the release")];
+        let mut inputs = vec![input("release", release, Quantity::Count, 0.0, count)];
+        inputs.extend(
+            places.map(|(key, words)| input(key, words, Quantity::Length, 0.0, arrival().bounds())),
+        );
+        inputs.extend([
             input(
                 "speed",
                 "speed at the release",
                 Quantity::Velocity,
                 self.impact_velocity,
-                [Some(0.0), None],
+                speed().bounds(),
             ),
             input(
                 "temperature",
                 "temperature at the release",
                 Quantity::Temperature,
                 self.initial_temperature,
-                [Some(0.0), Some(1e9)],
+                temperature().bounds(),
             ),
             input(
                 "angle",
                 "angle at the release between the way of the drop and the way straight down",
                 Quantity::Angle,
                 self.impact_angle,
-                any,
+                angle().bounds(),
             ),
             input(
                 "direction",
                 "direction along the wall of a drop that comes at an angle, from x towards y",
                 Quantity::Angle,
                 self.impact_direction,
-                [Some(-TAU), Some(TAU)],
+                direction().bounds(),
             ),
-        ];
+        ]);
         inputs.retain(|input| self.dimension == 3 || !["y", "direction"].contains(&input.key));
         inputs
     }

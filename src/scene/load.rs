@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::types::{IDENTIFIER, Role};
-use crate::limits::{any, count, length, plausible};
+use crate::limits::{count, footprint_radius, heat_flux, length, place, traction};
 
 /// Heat and traction on a part of a face.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -41,13 +41,13 @@ pub enum Footprint {
     /// `{ radius = R }`: uniform inside.
     #[schemars(extend("unit" = "m", "condition" = "of loads"))]
     Disc {
-        #[schemars(transform = length("the radius of a footprint"))]
+        #[schemars(transform = footprint_radius())]
         radius: f64,
     },
     /// `{ radius = R }`: the peak at the centre, 1/e² of it at R.
     #[schemars(extend("unit" = "m", "condition" = "of loads"))]
     Gaussian {
-        #[schemars(transform = length("the radius of a footprint"))]
+        #[schemars(transform = footprint_radius())]
         radius: f64,
     },
     /// `{ inner = R1, outer = R2 }`: uniform between both; the input `NAME.radius` is the outer one, with which the inner
@@ -56,7 +56,7 @@ pub enum Footprint {
     Ring {
         #[schemars(transform = length("the inner radius of a ring"))]
         inner: f64,
-        #[schemars(transform = length("the radius of a footprint"))]
+        #[schemars(transform = footprint_radius())]
         outer: f64,
     },
     /// `{ count = N, radius = R }`: concentric, of equal width, a value each.
@@ -64,7 +64,7 @@ pub enum Footprint {
     Rings {
         #[schemars(transform = count())]
         count: usize,
-        #[schemars(transform = length("the radius of a footprint"))]
+        #[schemars(transform = footprint_radius())]
         radius: f64,
     },
     /// `{ count = [NX, NY], size = [LX, LY] }`: rectangles, a value each.
@@ -100,28 +100,28 @@ pub enum Carries {
 #[serde(deny_unknown_fields)]
 pub struct LoadStart {
     /// Heat flux into the body [W/m²].
-    #[schemars(transform = any("W/m²").plausible(&plausible::HEAT_FLUX).otherwise("0").condition(CARRIED))]
+    #[schemars(transform = heat_flux().otherwise("0").condition(CARRIED))]
     pub heat_flux: Option<CellValues>,
     /// Pressure into the body [Pa].
-    #[schemars(transform = any("Pa").plausible(&plausible::TRACTION).otherwise("0").condition(CARRIED))]
+    #[schemars(transform = traction().otherwise("0").condition(CARRIED))]
     pub pressure: Option<CellValues>,
     /// Shear along x [Pa].
-    #[schemars(transform = any("Pa").plausible(&plausible::TRACTION).otherwise("0").condition("not on rings"))]
+    #[schemars(transform = traction().otherwise("0").condition("not on rings"))]
     pub shear_x: Option<CellValues>,
     /// Shear along y [Pa].
-    #[schemars(transform = any("Pa").plausible(&plausible::TRACTION).otherwise("0").condition("not on rings"))]
+    #[schemars(transform = traction().otherwise("0").condition("not on rings"))]
     pub shear_y: Option<CellValues>,
     /// Shear outward [Pa].
-    #[schemars(transform = any("Pa").plausible(&plausible::TRACTION).otherwise("0").condition("on rings"))]
+    #[schemars(transform = traction().otherwise("0").condition("on rings"))]
     pub shear_r: Option<CellValues>,
     /// Place of the centre [m].
-    #[schemars(transform = any("m").otherwise("0").condition(ON_THE_FACE))]
+    #[schemars(transform = place().otherwise("0").condition(ON_THE_FACE))]
     pub x: Option<f64>,
     /// Place of the centre [m].
-    #[schemars(transform = any("m").otherwise("0").condition(ON_THE_FACE))]
+    #[schemars(transform = place().otherwise("0").condition(ON_THE_FACE))]
     pub y: Option<f64>,
     /// Radius of a round footprint [m].
-    #[schemars(transform = length("the radius of a footprint")
+    #[schemars(transform = footprint_radius()
         .otherwise("that of the footprint")
         .condition("on the face"))]
     pub radius: Option<f64>,
@@ -148,17 +148,28 @@ pub enum CellValues {
     Tiles(Vec<Vec<f64>>),
 }
 
+impl CellValues {
+    /// All numbers, in the order of the cells.
+    pub fn numbers(&self) -> Box<dyn Iterator<Item = f64> + '_> {
+        match self {
+            Self::Uniform(value) => Box::new(std::iter::once(*value)),
+            Self::Rings(list) => Box::new(list.iter().copied()),
+            Self::Tiles(rows) => Box::new(rows.iter().flatten().copied()),
+        }
+    }
+}
+
 /// Bounds `[lowest, highest]` of the inputs that move a footprint [m].
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadRange {
     /// `[lowest, highest]` place of the centre [m].
-    #[schemars(transform = any("m").otherwise(UNBOUNDED).condition(ON_THE_FACE))]
+    #[schemars(transform = place().otherwise(UNBOUNDED).condition(ON_THE_FACE))]
     pub x: Option<[f64; 2]>,
     /// `[lowest, highest]` place of the centre [m].
-    #[schemars(transform = any("m").otherwise(UNBOUNDED).condition(ON_THE_FACE))]
+    #[schemars(transform = place().otherwise(UNBOUNDED).condition(ON_THE_FACE))]
     pub y: Option<[f64; 2]>,
     /// `[lowest, highest]` radius [m].
-    #[schemars(transform = length("the radius of a footprint").otherwise(UNBOUNDED).condition("on the face"))]
+    #[schemars(transform = footprint_radius().otherwise(UNBOUNDED).condition("on the face"))]
     pub radius: Option<[f64; 2]>,
 }

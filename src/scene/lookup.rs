@@ -3,6 +3,7 @@
 use super::droplet::{Coupling, Droplet};
 use super::reservoir::Reservoir;
 use super::types::*;
+use crate::limits::Bounds;
 use crate::quantity::Quantity;
 
 /// Where a field lies in its body.
@@ -20,8 +21,8 @@ pub struct BodyInput {
     pub words: &'static str,
     pub quantity: Quantity,
     pub start: f64,
-    /// Least and largest value, where the variable has them.
-    pub bounds: [Option<f64>; 2],
+    /// Values that the variable may have.
+    pub bounds: Bounds,
 }
 
 impl Body {

@@ -25,6 +25,7 @@ mod sampling;
 mod schema;
 mod spelling;
 mod types;
+mod whole;
 
 use std::io;
 use std::path::Path;

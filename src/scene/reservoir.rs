@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::lookup::BodyInput;
-use crate::limits::{own_temperature, plausible, temperature, within};
+use crate::limits::{Limits, ambient, own_temperature, signed, temperature, within};
 use crate::quantity::Quantity;
 
 /// A body that conducts so well that it has one temperature: a chuck, a heated bed, a bath.
@@ -19,7 +19,7 @@ pub struct Reservoir {
     pub initial_temperature: f64,
     /// Heat P brought in at the start; an input [W].
     #[serde(default)]
-    #[schemars(transform = within(-1e60, 1e60, "W", "the heating"))]
+    #[schemars(transform = heating())]
     pub heating: f64,
     /// Conductance G to the surroundings [W/K].
     #[schemars(transform = within(0.0, 1e30, "W/K", "the conductance")
@@ -27,12 +27,15 @@ pub struct Reservoir {
         .otherwise("no loss"))]
     pub conductance: Option<f64>,
     /// Temperature T∞ of the surroundings; an input [K].
-    #[schemars(transform = temperature()
-        .plausible(&plausible::AMBIENT)
-        .cold()
+    #[schemars(transform = ambient()
         .condition("with `conductance`")
         .otherwise("no loss"))]
     pub ambient: Option<f64>,
+}
+
+/// Heat brought into a reservoir [W].
+const fn heating() -> Limits {
+    signed("W", "the heating")
 }
 
 impl Reservoir {
@@ -43,14 +46,14 @@ impl Reservoir {
             words: "heat brought into the reservoir",
             quantity: Quantity::HeatFlow,
             start: self.heating,
-            bounds: [None; 2],
+            bounds: heating().bounds(),
         };
         let ambient = self.ambient.map(|start| BodyInput {
             key: "ambient",
             words: "temperature of what the reservoir loses heat to",
             quantity: Quantity::Temperature,
             start,
-            bounds: [Some(0.0), None],
+            bounds: temperature().bounds(),
         });
         std::iter::once(heating).chain(ambient).collect()
     }

@@ -8,8 +8,8 @@ use super::materials::MaterialChoice;
 use super::reservoir::Reservoir;
 use crate::kernel::Kernel;
 use crate::limits::{
-    Keys, above_zero, any, count, length, not_negative, own_temperature, plausible, tag,
-    temperature, time, whole, within,
+    Keys, above_zero, ambient, any, count, heat_flux, length, not_negative, own_temperature,
+    plausible, tag, time, whole, within,
 };
 use crate::material::Material;
 
@@ -38,6 +38,11 @@ pub struct Scene {
     /// How the unit's variables are named: `a.b[1,2]` or `a_b_1_2`.
     #[serde(default)]
     pub naming: Naming,
+    /// Whether the scene is meant to be cold: temperatures below 200 K, or below 250 K beside warmer ones, are else taken
+    /// for °C and warned of.
+    #[serde(default, skip_serializing_if = "is_false")]
+    #[schemars(extend("otherwise" = "false"))]
+    pub cryogenic: bool,
     /// Tables `[material.NAME]` that solids and layers name.
     #[serde(default)]
     pub material: BTreeMap<String, Material>,
@@ -78,6 +83,10 @@ pub struct Scene {
         "otherwise" = "`reduced` where that can be"
     ))]
     pub resolved: BTreeMap<String, ResolvedLevel>,
+}
+
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 /// What a solid is where a scene leaves it open.
@@ -385,7 +394,7 @@ pub struct Face {
     #[schemars(transform = own_temperature().otherwise("insulated"))]
     pub temperature: Option<f64>,
     /// Uniform heat flux into the body [W/m²]; an input.
-    #[schemars(transform = any("W/m²").plausible(&plausible::HEAT_FLUX).otherwise("insulated"))]
+    #[schemars(transform = heat_flux().otherwise("insulated"))]
     pub flux: Option<f64>,
     /// Heat flux by what flows by.
     #[schemars(extend("otherwise" = "insulated"))]
@@ -424,7 +433,7 @@ pub struct Convection {
         .plausible(&plausible::HEAT_TRANSFER))]
     pub coefficient: f64,
     /// Temperature T∞ of what flows by [K]; an input.
-    #[schemars(transform = temperature().plausible(&plausible::AMBIENT).cold())]
+    #[schemars(transform = ambient())]
     pub ambient: f64,
 }
 
@@ -436,7 +445,7 @@ pub struct Radiation {
     #[schemars(transform = within(0.0, 1.0, "1", "").says("an emissivity is a part", "0 to 1"))]
     pub emissivity: f64,
     /// Temperature of the surroundings T∞ [K].
-    #[schemars(transform = temperature().plausible(&plausible::AMBIENT))]
+    #[schemars(transform = ambient())]
     pub ambient: f64,
 }
 
@@ -585,6 +594,7 @@ pub struct Solver {
     #[schemars(extend("otherwise" = "`auto`: modes wherever heat is linear"))]
     pub method: SolverMethod,
     /// Memory that the scene may take of the process [B]: one that is forecast to need more is refused.
+    #[serde(default, deserialize_with = "super::whole::optional")]
     #[schemars(transform = within(1e6, 1e15, "B", "the memory of a scene").otherwise("all that there is"))]
     pub memory: Option<usize>,
 }

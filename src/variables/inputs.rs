@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use super::registry::{Slot, Value, Variable};
 use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
+use crate::limits::{self, Bounds};
 use crate::quantity::Quantity;
 use crate::scene::{
     BodyInput, CellShape, CellValues, FaceName, Load, LoadRange, Role, Scene, Solid,
@@ -34,42 +35,27 @@ fn body_variable(body: &str, input: &BodyInput, at: usize) -> Variable {
         slot: Slot::Input(at),
         quantity: Some(input.quantity),
         start: Some(Value::Real(input.start)),
-        min: input.bounds[0],
-        max: input.bounds[1],
+        bounds: input.bounds,
         is_tunable: false,
     }
 }
 
 fn amounts(load: &Load, places: &LoadInputs, list: &mut Vec<Variable>) {
     let start = &load.start;
-    type Kind<'a> = (&'a str, &'a str, Quantity, &'a Option<Range<usize>>, &'a Option<CellValues>);
+    type Kind<'a> = (&'a str, &'a str, &'a Option<Range<usize>>, &'a Option<CellValues>);
     let kinds: [Kind; 5] = [
-        (
-            "heat_flux",
-            "heat flux into the body",
-            Quantity::HeatFlux,
-            &places.heat_flux,
-            &start.heat_flux,
-        ),
-        (
-            "pressure",
-            "pressure that acts into the body",
-            Quantity::Stress,
-            &places.pressure,
-            &start.pressure,
-        ),
-        ("shear_x", "shear traction along x", Quantity::Stress, &places.shear_x, &start.shear_x),
-        ("shear_y", "shear traction along y", Quantity::Stress, &places.shear_y, &start.shear_y),
-        (
-            "shear_r",
-            "radial shear traction, outward positive",
-            Quantity::Stress,
-            &places.shear_r,
-            &start.shear_r,
-        ),
+        ("heat_flux", "heat flux into the body", &places.heat_flux, &start.heat_flux),
+        ("pressure", "pressure that acts into the body", &places.pressure, &start.pressure),
+        ("shear_x", "shear traction along x", &places.shear_x, &start.shear_x),
+        ("shear_y", "shear traction along y", &places.shear_y, &start.shear_y),
+        ("shear_r", "radial shear traction, outward positive", &places.shear_r, &start.shear_r),
     ];
-    for (key, meaning, quantity, range, start) in kinds {
+    for (key, meaning, range, start) in kinds {
         let Some(range) = range else { continue };
+        let (quantity, bounds) = match key {
+            "heat_flux" => (Quantity::HeatFlux, limits::heat_flux().bounds()),
+            _ => (Quantity::Stress, limits::traction().bounds()),
+        };
         let cells = cell_labels(load.footprint.cells());
         for (cell, at) in range.clone().enumerate() {
             let (label, place) = &cells[cell];
@@ -79,8 +65,7 @@ fn amounts(load: &Load, places: &LoadInputs, list: &mut Vec<Variable>) {
                 slot: Slot::Input(at),
                 quantity: Some(quantity),
                 start: Some(Value::Real(cell_start(start.as_ref(), load.footprint.cells(), cell))),
-                min: None,
-                max: None,
+                bounds,
                 is_tunable: false,
             });
         }
@@ -97,15 +82,15 @@ fn placement(load: &Load, places: &LoadInputs, list: &mut Vec<Variable>) {
     ];
     for (key, meaning, at, start, range) in kinds {
         let Some(at) = at else { continue };
-        let lowest = if key == "radius" { Some(0.0) } else { None };
+        let own = if key == "radius" { limits::footprint_radius() } else { limits::place() };
+        let bounds = range.map_or(own.bounds(), |[low, high]| Bounds::between(low, high));
         list.push(Variable {
             name: format!("{}.{key}", load.name),
             description: format!("{meaning} of the footprint of {} on {}", load.name, load.on),
             slot: Slot::Input(at),
             quantity: Some(Quantity::Length),
             start: Some(Value::Real(start)),
-            min: range.map(|r| r[0]).or(lowest),
-            max: range.map(|r| r[1]),
+            bounds,
             is_tunable: load.role == Role::Parameter,
         });
     }
@@ -161,14 +146,17 @@ fn face_variable(
             ("flux", "heat flux into the body", Quantity::HeatFlux, condition.flux)
         }
     };
+    let limits = match quantity {
+        Quantity::HeatFlux => limits::heat_flux(),
+        _ => limits::temperature(),
+    };
     Variable {
         name: format!("{body}.{name}.{key}"),
         description: format!("{meaning} at the {name} of {body}"),
         slot: Slot::Input(index),
         quantity: Some(quantity),
         start: start.map(Value::Real),
-        min: (quantity == Quantity::Temperature).then_some(0.0),
-        max: None,
+        bounds: limits.bounds(),
         is_tunable: condition.role == Role::Parameter,
     }
 }
@@ -187,8 +175,7 @@ fn walls(scene: &Scene, layout: &InputLayout, list: &mut Vec<Variable>) {
                 slot: Slot::Input(range.start + cell),
                 quantity: Some(Quantity::Temperature),
                 start: start.map(Value::Real),
-                min: Some(0.0),
-                max: None,
+                bounds: limits::temperature().bounds(),
                 is_tunable: false,
             });
         }

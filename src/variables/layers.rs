@@ -1,10 +1,8 @@
 //! The parameters of bodies that are made of layers.
 
 use super::{LayersOf, MaterialConstant, Parameter, Quantity};
+use crate::limits::Bounds;
 use crate::scene::{Layer, Solid};
-
-/// Least and greatest value.
-pub type Bounds = (Option<f64>, Option<f64>);
 
 /// Adds `body.material.constant` of named materials, `body.layer[n].constant` of others, and
 /// `body.layer[n].contact_resistance` where there is one; layers are counted from the top, from one on.
@@ -21,7 +19,7 @@ pub fn parameters(
                 format!("thermal resistance between the layers {i} and {} of {body}", i + 1),
                 Parameter::ContactResistance { body: body.to_owned(), layer: i },
                 Quantity::ThermalResistance,
-                (Some(0.0), None),
+                Bounds::from(0.0),
             );
         }
     }

@@ -5,6 +5,7 @@ use super::registry::{Output, Slot, Variable};
 use crate::body::{
     Descriptor, PeakPart, PointQuantity, Reading, peaks, point_quantities, totals, wall_quantities,
 };
+use crate::limits::Bounds;
 use crate::quantity::Quantity;
 use crate::scene::{Field, Gives, Probe, Sampling, Scene, Side, Wall};
 
@@ -49,8 +50,7 @@ fn variable(
         slot,
         quantity,
         start: None,
-        min: None,
-        max: None,
+        bounds: Bounds::default(),
         is_tunable: false,
     }
 }

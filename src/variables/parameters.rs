@@ -2,13 +2,13 @@
 
 use super::registry::{Slot, Value, Variable};
 use super::{DropletConstant, MaterialConstant, Parameter, layers};
+use crate::limits::Bounds;
 use crate::quantity::Quantity;
 use crate::scene::{Droplet, MOST_THREADS, Scene};
 
 /// Constants of the scene that may be set until initialisation ends.
 pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     let mut add = |name: String, description: String, parameter: Parameter, quantity, bounds| {
-        let (min, max): layers::Bounds = bounds;
         let start = Some(Value::Real(parameter.get(scene)));
         let slot = Slot::Parameter(parameter);
         list.push(Variable {
@@ -17,8 +17,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
             slot,
             quantity: Some(quantity),
             start,
-            min,
-            max,
+            bounds,
             is_tunable: false,
         });
     };
@@ -41,7 +40,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
             format!("uniform temperature of {body} at time zero, free of thermal stress"),
             Parameter::InitialTemperature { body: body.to_owned() },
             Quantity::Temperature,
-            (Some(0.0), None),
+            Bounds::from(0.0),
         );
         for (&face, _) in solid.faces.iter().filter(|(_, c)| c.convection.is_some()) {
             let name = face.as_str();
@@ -50,7 +49,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
                 format!("heat transfer coefficient of the {name} of {body}"),
                 Parameter::ConvectionCoefficient { body: body.to_owned(), face },
                 Quantity::HeatTransferCoefficient,
-                (Some(0.0), None),
+                Bounds::from(0.0),
             );
         }
     }
@@ -60,7 +59,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
             format!("temperature of {body} at time zero"),
             Parameter::InitialTemperature { body: body.to_owned() },
             Quantity::Temperature,
-            (Some(0.0), None),
+            Bounds::from(0.0),
         );
     }
     for (body, fluid) in scene.droplets() {
@@ -72,8 +71,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
         slot: Slot::Threads,
         quantity: None,
         start: Some(Value::Integer(scene.solver.threads as i32)),
-        min: Some(0.0),
-        max: Some(MOST_THREADS as f64),
+        bounds: Bounds::between(0.0, MOST_THREADS as f64),
         is_tunable: false,
     });
     list.push(Variable {
@@ -83,8 +81,7 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
         slot: Slot::OutputDirectory,
         quantity: None,
         start: Some(Value::Text(String::new())),
-        min: None,
-        max: None,
+        bounds: Bounds::default(),
         is_tunable: false,
     });
 }
@@ -102,8 +99,7 @@ fn of_droplet(body: &str, droplet: &Droplet, list: &mut Vec<Variable>) {
             slot: Slot::Parameter(Parameter::Droplet { body: body.to_owned(), constant }),
             quantity: Some(constant.quantity),
             start: Some(Value::Real(*constant.place(&mut copy))),
-            min: Some(0.0),
-            max: None,
+            bounds: Bounds::from(0.0),
             is_tunable: false,
         });
     }
@@ -116,8 +112,7 @@ fn of_droplet(body: &str, droplet: &Droplet, list: &mut Vec<Variable>) {
         slot: Slot::Parameter(Parameter::InitialTemperature { body: body.to_owned() }),
         quantity: Some(Quantity::Temperature),
         start: Some(Value::Real(droplet.initial_temperature)),
-        min: Some(0.0),
-        max: None,
+        bounds: Bounds::from(0.0),
         is_tunable: false,
     });
 }

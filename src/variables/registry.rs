@@ -2,6 +2,7 @@ use std::collections::HashMap;
 
 use super::{Parameter, inputs, outputs, parameters};
 use crate::body::Reading;
+use crate::limits::{self, Bounds};
 use crate::quantity::Quantity;
 use crate::scene::{Naming, Scene};
 
@@ -22,8 +23,8 @@ pub struct Variable {
     pub quantity: Option<Quantity>,
     /// Start value; none for outputs.
     pub start: Option<Value>,
-    pub min: Option<f64>,
-    pub max: Option<f64>,
+    /// Values that it may have.
+    pub bounds: Bounds,
     /// Whether it is an input that nothing may be connected to: a parameter that may be set between steps.
     pub is_tunable: bool,
 }
@@ -73,6 +74,57 @@ impl Variable {
             Slot::Input(_) => Causality::Input,
             Slot::Output(_) => Causality::Output,
         }
+    }
+
+    /// Least value, itself allowed or not.
+    pub fn min(&self) -> Option<f64> {
+        self.bounds.low.map(|end| end.value)
+    }
+
+    /// Largest value, itself allowed or not.
+    pub fn max(&self) -> Option<f64> {
+        self.bounds.high.map(|end| end.value)
+    }
+
+    /// Why the variable cannot have a value, with its name and what is allowed.
+    pub fn refusal(&self, value: f64) -> Option<String> {
+        let why = self.objection(value)?;
+        Some(format!("{} = {value:?}: {why}", self.name))
+    }
+
+    /// Why the variable cannot have a value, and what is allowed.
+    pub fn objection(&self, value: f64) -> Option<String> {
+        if !value.is_finite() {
+            return Some("must be finite".to_owned());
+        }
+        let required = self.bounds.requirement(self.bounds.side(value)?);
+        Some(format!("{required} (allowed: {}{})", self.bounds, self.unit_after()))
+    }
+
+    /// Why a time derivative of the variable cannot have a value: it would go through all of its values within the
+    /// shortest step.
+    pub fn refusal_of_derivative(&self, order: i32, value: f64) -> Option<String> {
+        let shortest = limits::step().bounds().low.map_or(0.0, |end| end.value);
+        let steepest = self.bounds.span() / shortest.powi(order);
+        let (why, allowed) = match value.is_finite() {
+            true if value.abs() <= steepest => return None,
+            true => (
+                "is steeper than any step resolves",
+                format!(" (allowed: up to ±{})", limits::number(steepest)),
+            ),
+            false => ("must be finite", String::new()),
+        };
+        let name = &self.name;
+        Some(format!("derivative of order {order} of {name} = {value:?}: {why}{allowed}"))
+    }
+
+    fn unit_after(&self) -> String {
+        self.unit().map_or(String::new(), |unit| format!(" {unit}"))
+    }
+
+    /// Unit of a value that is measured in one.
+    pub fn unit(&self) -> Option<&'static str> {
+        self.quantity.map(Quantity::unit).filter(|unit| *unit != "1")
     }
 
     /// The start value of a real.

@@ -286,14 +286,34 @@ fn a_step_that_cannot_be_completed_is_discarded_and_may_be_repeated() {
 }
 
 #[test]
-fn heat_beyond_all_numbers_is_discarded() {
+fn an_input_that_leaves_its_bounds_within_a_step_discards_it() {
     let unit = loaded();
-    assert_eq!(unit.set("spot.heat_flux", 1e308), OK);
-    unit.messages.take();
-    assert_eq!(unit.step(5e-8, 1e20), DISCARD);
-    unit.expect_message(DISCARD, &["fmi2DoStep", "plate", "beyond what numbers can hold"]);
-    assert_eq!(unit.time(), 5e-8);
-    assert_eq!(unit.terminate(), OK);
+    let before = unit.snapshot();
+    let state = unit.save();
+    for (order, value) in [(1, 1e100), (2, -1e130)] {
+        assert_eq!(unit.set_derivative("spot.heat_flux", order, value), OK);
+        assert_eq!(unit.step(5e-8, 1e-8), DISCARD);
+        let words = ["spot.heat_flux: ", "(allowed: -1e60 to 1e60 W/m2), 1e-8 s into the step"];
+        unit.expect_message(DISCARD, &words);
+        assert_eq!((unit.restore(state), unit.snapshot() == before), (OK, true));
+    }
+    assert_eq!(unit.step(5e-8, 1e-8), OK);
+}
+
+#[test]
+fn derivatives_beyond_what_steps_resolve_are_refused_and_change_nothing() {
+    let unit = loaded();
+    let before = unit.snapshot();
+    for (name, order, value, allowed) in [
+        ("spot.heat_flux", 1, 1e121, "±2e120"),
+        ("spot.pressure", 2, -1e181, "±2e180"),
+        ("plate.bottom.ambient", 1, 1e70, "±1e69"),
+        ("spot.x", 1, 1e57, "±2e56"),
+    ] {
+        assert_eq!(unit.set_derivative(name, order, value), ERROR, "{name}");
+        unit.expect_message(ERROR, &["derivative of order", name, allowed]);
+        assert_eq!(unit.snapshot(), before);
+    }
 }
 
 #[test]

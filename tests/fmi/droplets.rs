@@ -267,3 +267,41 @@ fn a_wall_that_would_cool_below_absolute_zero_is_discarded_and_may_be_repeated()
     assert_eq!(unit.restore(state), OK);
     assert_eq!(unit.step(0.0, STEP), OK, "{:?}", unit.messages.take());
 }
+
+#[test]
+fn fluid_that_would_boil_is_warned_of_once_and_leaves_states_alone() {
+    let watched = WALL.replace("conductivity = 0.6", "conductivity = 0.6, boils_at = 351.0");
+    let run = |text: &str| {
+        let unit = started(text);
+        let cells = ["[1,1]", "[1,2]", "[2,1]", "[2,2]"];
+        let said = |unit: &Unit| {
+            let messages = unit.messages.take();
+            let boils =
+                |text: &str| text.contains("above the 351 K at which it boils (`boils_at`)");
+            messages.iter().filter(|m| m.status == WARNING && boils(&m.text)).count()
+        };
+        assert_eq!(unit.step(0.0, STEP), OK);
+        assert_eq!(said(&unit), 0, "the wall is colder than the fluid");
+        for cell in cells {
+            assert_eq!(unit.set(&format!("wall.temperature{cell}"), 900.0), OK);
+        }
+        let saved = unit.save();
+        let mut counts = Vec::new();
+        for n in 1..12 {
+            assert_eq!(unit.step(f64::from(n) * STEP, STEP), OK);
+            counts.push(said(&unit));
+        }
+        let end = unit.snapshot();
+        // A step that is repeated says nothing again.
+        assert_eq!(unit.restore(saved), OK);
+        for n in 1..12 {
+            assert_eq!(unit.step(f64::from(n) * STEP, STEP), OK);
+            assert_eq!(said(&unit), 0);
+        }
+        assert_eq!(unit.snapshot(), end);
+        (counts.iter().sum::<usize>(), end)
+    };
+    let ((warned, watched), (silent, plain)) = (run(&watched), run(WALL));
+    assert_eq!([warned, silent], [1, 0]);
+    assert_eq!(watched, plain);
+}

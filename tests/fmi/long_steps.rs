@@ -25,7 +25,7 @@ const WORDS: [&str; 2] = ["more than a communication step may take", "shorter"];
 
 #[test]
 fn a_step_that_would_take_a_droplet_for_ever_is_discarded() {
-    for step in [1e3, 1e300] {
+    for step in [1e3, 1e60] {
         let unit = started(WALL);
         discarded(&unit, step, &[WORDS[0], WORDS[1], "drop: ", "time steps of a droplet"]);
     }

@@ -1,5 +1,6 @@
 //! The C ABI as a master sees it: the built library is loaded and driven through its symbols.
 
+mod bounds;
 mod derivatives;
 mod droplets;
 mod endurance;

@@ -65,10 +65,9 @@ def test_a_step_without_meaning_is_discarded(pack):
     with Unit(pack("drop")) as unit:
         unit.step(STEP)
         before = unit["drop.heat"]
-        unit.set(dict.fromkeys(rings("temperature"), 1e300))
         with pytest.raises(StepDiscarded):
-            unit.step(STEP)
-        assert any("drop: " in line and "t = " in line for line in unit.log), unit.log
+            unit.step(1e3)
+        assert any("drop: " in line and "time steps" in line for line in unit.log), unit.log
         assert unit["drop.heat"] == before
 
 

@@ -167,7 +167,8 @@ fn check_and_run_warn_of_what_is_hardly_meant() {
     for arguments in [["check", "scene.toml"], ["run", "scene.toml"]] {
         let said = place.call(&arguments).succeeds().stderr();
         let wanted = "warning: scene.toml:11: body.plate.initial_temperature = 20.0: a temperature is \
-                      plausible from 60 to 6000 K; did you mean 293.15 (20 °C)?";
+                      plausible from 250 to 6000 K beside warmer ones, and 20 K is −253.15 °C; did you mean 293.15 \
+                      (20 °C)? `cryogenic = true`";
         assert!(said.contains(wanted), "{arguments:?}: {said}");
     }
     let arguments = ["--overwrite", "--set", "plate.initial_temperature=25"];
@@ -180,8 +181,8 @@ fn inputs_are_judged_like_the_scenes_constants() {
     let place = Workplace::new();
     let run = |setting| place.run(&["--overwrite", "--set", setting]).succeeds().stderr();
     let said = run("plate.bottom.temperature=20");
-    let wanted = "warning: plate.bottom.temperature = 20: a temperature is plausible from 60 to 6000 K; did you \
-                  mean 293.15 (20 °C)?";
+    let wanted = "warning: plate.bottom.temperature = 20: a temperature is plausible from 250 to 6000 K \
+                  beside warmer ones, and 20 K is −253.15 °C; did you mean 293.15 (20 °C)?";
     assert!(said.contains(wanted), "{said}");
     assert!(run("spot.pressure=1e12").contains("a pressure or shear is plausible"));
     assert!(!run("plate.bottom.temperature=300").contains("plausible"));
@@ -311,8 +312,34 @@ fn settings_that_cannot_be_are_refused_by_name() {
     let place = Workplace::new();
     let twice = ["--set", "spot.heat_flux=1", "--set", "spot.heat_flux=2"];
     place.run(&twice).fails(1, &["spot.heat_flux: it is set twice"]);
-    let large = ["--set", "spot.heat_flux=1e308", "--set", "plate.expansion=1e-3"];
-    place.run(&large).fails(1, &["plate.max_", "far too large"]);
+    for (setting, words) in [
+        (
+            "spot.heat_flux=1e308",
+            "spot.heat_flux = 1e308: expected a number in W/m2, -1e60 to 1e60",
+        ),
+        ("spot.pressure=-1e61", "spot.pressure = -1e61: expected a number in Pa, -1e60 to 1e60"),
+        ("plate.bottom.temperature=1e12", "expected a number in K, above 0 and at most 1e9"),
+        ("plate.bottom.temperature=0", "expected a number in K, above 0 and at most 1e9"),
+        ("plate.bottom.temperature=-20", "expected a number in K, above 0 and at most 1e9"),
+        ("spot.x=1e7", "spot.x = 1e7: expected a number in m, -1e6 to 1e6"),
+        ("spot.radius=1e-13", "spot.radius = 1e-13: expected a number in m, 1e-12 to 1e6"),
+    ] {
+        place.run(&["--set", setting]).fails(1, &[words]);
+    }
+    assert!(!place.path("out").exists(), "a refused run writes nothing");
+}
+
+#[test]
+fn steps_and_times_beyond_those_of_scenes_are_refused() {
+    let place = Workplace::new();
+    for (option, value) in [("--step", "1e304"), ("--step", "1e-31"), ("--until", "1e13")] {
+        place.run(&[option, value]).fails(1, &["is beyond all bounds", "1e-30 to 1e12"]);
+    }
+    let text = SCENE.replace("stop_time = 1e-6", "stop_time = 1e305");
+    fs::write(place.path("scene.toml"), text.replace("step = 1e-7", "step = 1e304")).unwrap();
+    place
+        .call(&["check", "scene.toml"])
+        .fails(1, &["scene.toml:4", "scene.toml:5", "1e-30 to 1e12"]);
 }
 
 #[test]
@@ -419,7 +446,8 @@ fn check_tells_what_decides_a_droplets_results() {
         "converges to nothing",
         "means over 0.1 D/U = ",
         "differences of `impulse_z`",
-        "neither solidifies, melts nor evaporates",
+        "liquids neither freeze nor boil in this model",
+        "`freezes_at` and `boils_at` of the fluid",
         "`wall` names no `effusivity`",
         "4/π (1 + 1584/e) times as much as it should, in steps of any length",
         "at D/Δx 10 the largest spread errs by about 7.0 to 24.0 %",
@@ -485,10 +513,21 @@ fn a_scene_beyond_the_memory_of_the_machine_is_refused_with_numbers() {
 fn a_scene_may_say_how_much_memory_it_takes() {
     let place = Workplace::new();
     let limited = |memory: &str| format!("solver = {{ memory = {memory} }}\n{SCENE}");
-    fs::write(place.path("scene.toml"), limited("1_000_000")).unwrap();
     let words = ["MB of memory", "have 1.000e0 MB", "larger `mesh.spacing`"];
-    place.call(&["check", "scene.toml"]).fails(1, &words);
-    place.run(&[]).fails(1, &words);
+    // As the documentation has it, too.
+    for memory in ["1_000_000", "1e6", "1000000.0"] {
+        fs::write(place.path("scene.toml"), limited(memory)).unwrap();
+        place.call(&["check", "scene.toml"]).fails(1, &words);
+        place.run(&[]).fails(1, &words);
+    }
+    for (memory, words) in [
+        ("1234567.5", ["scene.toml:1: solver.memory = 1234567.5", "whole number"]),
+        ("2e15", ["scene.toml:1: solver.memory = 2e15", "1e6 to 1e15"]),
+        ("\"1e6\"", ["scene.toml:1: solver.memory", "whole number"]),
+    ] {
+        fs::write(place.path("scene.toml"), limited(memory)).unwrap();
+        place.call(&["check", "scene.toml"]).fails(1, &words);
+    }
     fs::write(place.path("scene.toml"), limited("1_000_000_000")).unwrap();
     place.call(&["check", "scene.toml"]).succeeds();
 }

@@ -1,6 +1,7 @@
 //! Warnings of what is implausible: no real material causes one, unit mistakes and forgotten parts do,
 //! with file, line, key and value.
 
+mod cold;
 mod of_drops;
 
 use impinge::scene::{Warning, implausible_place, parse, parse_with_warnings};
@@ -87,8 +88,10 @@ start = {{ heat_flux = 1e5 }}
 
 fn drop(row: FluidRow) -> String {
     let (_, density, viscosity, specific_heat, conductivity, tension, temperature) = row;
+    // Liquids as light as hydrogen say so themselves.
+    let said = if temperature < 200.0 && density > 150.0 { "cryogenic = true\n" } else { "" };
     format!(
-        r#"name = "Drop"
+        r#"{said}name = "Drop"
 stop_time = 1e-5
 step = 1e-6
 [body.drop]
@@ -205,8 +208,9 @@ fn a_warning_names_file_line_key_value_range_and_what_was_meant() {
     assert_eq!(
         warnings(&text),
         [
-            "scene.toml:8: body.plate.initial_temperature = 20.0: a temperature is plausible from 60 to \
-          6000 K; did you mean 293.15 (20 °C)?"
+            "scene.toml:8: body.plate.initial_temperature = 20.0: a temperature is plausible from 250 \
+          to 6000 K beside warmer ones, and 20 K is −253.15 °C; did you mean 293.15 (20 °C)? `cryogenic = true` says that \
+          a scene is meant to be this cold"
         ]
     );
 }

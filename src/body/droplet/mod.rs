@@ -9,12 +9,14 @@ mod reader;
 mod replay;
 mod totals;
 mod wall;
+mod watch;
 
 pub use forecast::DropletForecast;
 pub use notes::{notes, notes_on_walls, warnings_on_landing};
 pub use plan::{fine_radius, plan_of, refinements};
 pub use replay::{Kept, ReplayBody, forget_unused_records, keep_record, records, to_be_recorded};
 pub use wall::{WallQuantity, wall_quantities};
+pub use watch::Watch;
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -26,6 +28,7 @@ use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::{Allowance, cost};
 use crate::method::sph::{
     Domain, DropletSph, Failure, ParticleFields, Surface, UNKNOWNS, WallCells, WallExchange,
+    WarmPlace,
 };
 use crate::scene::{Droplet, Scene};
 use crate::state::Layout;
@@ -44,6 +47,7 @@ pub struct DropletBody {
     /// Images at mirrors for each particle.
     copies: f64,
     rest: Rest,
+    watch: Watch,
     notes: Vec<String>,
     threads: usize,
 }
@@ -175,6 +179,7 @@ impl DropletBody {
                 temperature: droplet.initial_temperature,
                 effusivity: droplet.fluid.effusivity(),
             },
+            watch: Watch::of(name, &droplet.fluid),
             notes,
             threads,
         }
@@ -380,6 +385,14 @@ impl Body for DropletBody {
 
     fn warning(&self, state: &[f64]) -> Option<String> {
         self.overflows(state).then(|| notes::on_overflow(&self.name))
+    }
+
+    fn watch(&self) -> Option<&Watch> {
+        Some(&self.watch)
+    }
+
+    fn warm_places(&self, state: &[f64]) -> Option<[WarmPlace; 2]> {
+        self.droplet.extremes(state)
     }
 
     fn warning_on_answer(&self, state: &[f64], before: &[f64], now: &[f64]) -> Option<String> {

@@ -1,6 +1,7 @@
 //! What a user should know of a droplet before it runs.
 
 use super::plan::fine_radius;
+use super::watch;
 use crate::scene::{Coupling, Droplet, Governing, Resolution, Scene, Wall};
 
 /// What was chosen or left out, and why: a sentence each.
@@ -43,10 +44,7 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     if droplet.fluid.conductivity == 0.0 {
         notes.push("heat is left out: the fluid does not conduct any".to_owned());
     } else {
-        notes.push(
-            "the fluid neither solidifies, melts nor evaporates, and its constants do not change with temperature"
-                .to_owned(),
-        );
+        notes.push(watch::note(scene, (name, &droplet.fluid)));
         notes.extend(wall.and_then(|wall| note_on_held_wall(wall, droplet)));
     }
     notes

@@ -187,7 +187,8 @@ fn types(xml: &mut Xml, used: &BTreeSet<Quantity>) -> io::Result<()> {
 
 /// Element and attributes that tell type, bounds and start values; all elements have the same bounds.
 fn typed(elements: &[Variable]) -> (&'static str, Attributes) {
-    let Variable { start, min, max, .. } = &elements[0];
+    let variable = &elements[0];
+    let start = &variable.start;
     if let Some(Value::Text(text)) = start {
         return ("String", vec![("value", text.clone())]);
     }
@@ -196,8 +197,8 @@ fn typed(elements: &[Variable]) -> (&'static str, Attributes) {
         _ => ("Float64", number),
     };
     let mut attributes = Attributes::new();
-    attributes.extend(min.map(|bound| ("min", write(bound))));
-    attributes.extend(max.map(|bound| ("max", write(bound))));
+    attributes.extend(variable.min().map(|bound| ("min", write(bound))));
+    attributes.extend(variable.max().map(|bound| ("max", write(bound))));
     let starts: Vec<String> = elements.iter().filter_map(start_value).collect();
     if !starts.is_empty() {
         attributes.push(("start", starts.join(" ")));

@@ -52,6 +52,19 @@ impl Unit {
         }
     }
 
+    /// Warns once of each fluid that is beyond a point at which it freezes or boils, where there is room to look.
+    pub(super) fn warn_of_phases(&mut self) {
+        let Some(model) = self.run.as_ref().map(|run| Arc::clone(&run.model)) else { return };
+        if !model.watches_phases() || self.expect_room().is_err() {
+            return;
+        }
+        let (state, said) = (&self.state, &self.said);
+        let warnings = aside(|| model.phase_warnings(state, |subject| said.contains(subject)));
+        for warning in warnings {
+            self.warn_once_of(&warning.subject, &warning.message);
+        }
+    }
+
     /// Warns of an input that was told, in answer to a step, what does not go with how that was computed.
     pub(super) fn warn_of_answer(&mut self, message: Option<String>) {
         if let Some(message) = message {

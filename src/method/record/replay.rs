@@ -1,5 +1,7 @@
 //! Drops that give what is known of one.
 
+mod extremes;
+
 use super::course::Course;
 use super::footprint::{Footprint, Part};
 use super::profile::Amounts;

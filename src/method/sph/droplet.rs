@@ -1,6 +1,7 @@
 //! The droplet as a body.
 
 mod demand;
+mod extremes;
 mod half_space;
 mod totals;
 
@@ -24,6 +25,7 @@ use crate::math::made_once::MadeOnce;
 use crate::math::parallel::Team;
 use crate::state::{Layout, store};
 
+pub use extremes::WarmPlace;
 pub use totals::DropletTotals;
 use totals::totals;
 

@@ -49,7 +49,7 @@ mod wall_points;
 pub use crate::scene::Precision;
 pub use cloud::UNKNOWNS;
 pub use cover::Cover;
-pub use droplet::{DropletSph, DropletTotals, ParticleFields};
+pub use droplet::{DropletSph, DropletTotals, ParticleFields, WarmPlace};
 pub use effort::{Effort, RunSettings};
 pub use failure::Failure;
 pub use method::StepShares;

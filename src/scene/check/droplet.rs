@@ -26,6 +26,7 @@ pub fn check(checker: &mut Checker) {
             if droplet.has_particles() {
                 sound(checker, &path.at("fluid.sound_speed"), droplet);
             }
+            phases(checker, &path.at("fluid.boils_at"), droplet);
             release(checker, &path, droplet);
             direction(checker, &path.at("impact_direction"), droplet);
             arrivals(checker, &path.at("arrivals"), name, droplet);
@@ -83,6 +84,16 @@ fn sound(checker: &mut Checker, path: &Path, droplet: &Droplet) {
             checker.require(fits(least, speed), path, message, allowed);
         }
     }
+}
+
+/// A fluid is liquid over some range of temperatures.
+fn phases(checker: &mut Checker, path: &Path, droplet: &Droplet) {
+    let Some((freezes, boils)) = droplet.fluid.freezes_at.zip(droplet.fluid.boils_at) else {
+        return;
+    };
+    let message =
+        format!("the fluid would boil at or below the {} K of `freezes_at`", number(freezes));
+    checker.require(freezes < boils, path, message, format!("> {}", number(freezes)));
 }
 
 /// Drops are released either at times or by inputs, which say nothing of how many there will be.

@@ -20,6 +20,7 @@ mod support;
 mod values;
 mod wall;
 
+pub use crate::limits::number;
 pub use nonlinear::takes_newton;
 
 use std::collections::BTreeSet;
@@ -199,29 +200,9 @@ fn is_in_depth(z: f64, thickness: f64) -> bool {
     z <= SLACK * thickness && fits(-z, thickness)
 }
 
-/// A number with six digits, as people write it.
-pub fn number(value: f64) -> String {
-    let rounded = format!("{value:.5e}").parse().unwrap_or(value);
-    let magnitude = f64::abs(rounded);
-    if magnitude == 0.0 || (1e-3..1e6).contains(&magnitude) {
-        format!("{rounded}")
-    } else {
-        format!("{rounded:e}")
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        assert_eq!(number(1e-3 - 3e-5), "9.7e-4");
-        assert_eq!(number(0.1 + 0.2), "0.3");
-        assert_eq!(number(-2e9), "-2e9");
-        assert_eq!(number(0.0), "0");
-        assert_eq!(number(f64::INFINITY), "inf");
-    }
 
     #[test]
     fn lengths_have_a_little_slack() {

@@ -2,9 +2,11 @@
 //! that were forgotten. Nothing here is refused; each finding is a [`Warning`].
 
 mod arrangement;
+mod cold;
 mod films;
 mod moved;
 mod particles;
+mod phases;
 mod relations;
 mod values;
 
@@ -15,7 +17,7 @@ use super::error::Problem;
 use super::locate::{Path, Source};
 use super::schema::Schema;
 use super::types::Scene;
-use crate::limits::plausible::{self, Range};
+use crate::limits::plausible::{self, BESIDE_WARM, CRYOGENIC, Cold, Range};
 
 pub use moved::implausible_place;
 
@@ -49,7 +51,9 @@ impl Warning {
 /// Everything in a checked scene that is hardly meant, in the order of the lines.
 pub(super) fn warnings(scene: &Scene, source: &Source, schema: &Schema) -> Vec<Warning> {
     let mut reviewer = Reviewer { scene, source, found: Vec::new() };
-    values::review(&mut reviewer, schema);
+    let cold = scene.cold();
+    values::review(&mut reviewer, schema, cold);
+    phases::review(&mut reviewer, cold);
     relations::review(&mut reviewer);
     arrangement::review(&mut reviewer);
     particles::review(&mut reviewer);
@@ -78,13 +82,29 @@ fn implausible(range: &Range, value: f64) -> Option<String> {
         return None;
     }
     let Range { what, unit, lowest, highest, .. } = range;
-    let (lowest, highest) = (number(*lowest), number(*highest));
-    let mut message = format!("{what} is plausible from {lowest} to {highest} {unit}");
+    let (low, high) = (number(*lowest), number(*highest));
+    let mut message = format!("{what} is plausible from {low} to {high} {unit}");
+    let is_cold = *unit == "K" && value < *lowest;
+    if is_cold {
+        let beside = if *lowest == BESIDE_WARM { " beside warmer ones" } else { "" };
+        message += &format!("{beside}, and {} K is {}", number(value), celsius(value));
+    }
     if let Some((meant, unit)) = range.meant(value) {
         let (meant, value) = (number(meant), number(value));
         message += &format!("; did you mean {meant} ({value} {unit})?");
     }
+    if is_cold && value >= CRYOGENIC {
+        message += " `cryogenic = true` says that a scene is meant to be this cold";
+    }
     Some(message)
+}
+
+/// 0 °C [K].
+const CELSIUS: f64 = 273.15;
+
+/// A temperature [K] in °C.
+fn celsius(temperature: f64) -> String {
+    format!("{} °C", number(temperature - CELSIUS).replace('-', "−"))
 }
 
 /// What inputs are that act on bodies.
@@ -112,10 +132,14 @@ pub fn implausible_input(
         Measure::HeatFlux => &plausible::HEAT_FLUX,
         Measure::Traction => &plausible::TRACTION,
     };
-    let is_cold = matches!(measure, Measure::Temperature | Measure::Ambient);
-    let lowest = match is_cold && values::is_cryogenic(scene) {
-        true => plausible::CRYOGENIC,
-        false => range.lowest,
+    let is_temperature = matches!(measure, Measure::Temperature | Measure::Ambient);
+    if range.holds(value) && (!is_temperature || value >= BESIDE_WARM) {
+        return None;
+    }
+    let lowest = match scene.cold() {
+        Cold::Meant if is_temperature => CRYOGENIC,
+        Cold::BesideWarm if is_temperature => BESIDE_WARM,
+        _ => range.lowest,
     };
     let why = implausible(&Range { lowest, ..range.clone() }, value);
     why.map(|why| format!("{name} = {}: {why}", number(value)))

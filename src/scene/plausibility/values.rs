@@ -1,11 +1,10 @@
 //! Every number of a scene against its plausible range.
 
 use super::{Reviewer, implausible};
+use crate::limits::plausible::Cold;
 use crate::scene::schema::Schema;
-use crate::scene::types::Scene;
 
-pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
-    let is_cryogenic = is_cryogenic(reviewer.scene);
+pub fn review(reviewer: &mut Reviewer, schema: &Schema, cold: Cold) {
     let copies = reviewer.scene.copied_materials();
     let mut warned_list = None;
     schema.numbers(reviewer.source, &mut |place, limits, value| {
@@ -14,8 +13,7 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
         if limits.is_usual(value) || is_said {
             return;
         }
-        let Some(message) =
-            limits.plausible(is_cryogenic).and_then(|range| implausible(&range, value))
+        let Some(message) = limits.plausible(cold).and_then(|range| implausible(&range, value))
         else {
             return;
         };
@@ -25,12 +23,4 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema) {
             reviewer.warn(&path, message);
         }
     });
-}
-
-/// Density below which a liquid is hydrogen or helium [kg/m³].
-const LIGHTEST_COMMON: f64 = 150.0;
-
-/// Whether cold temperatures are believed, as around the lightest liquids.
-pub fn is_cryogenic(scene: &Scene) -> bool {
-    scene.droplets().any(|(_, droplet)| droplet.fluid.density < LIGHTEST_COMMON)
 }

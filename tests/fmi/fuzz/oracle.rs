@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::ffi::c_int;
 
+use impinge::limits::step;
 use impinge::variables::Causality;
 
 use super::call::{Call, INSTANCES, Nulls, PLACES, Place, Point, StateCall};
@@ -218,14 +219,13 @@ impl Oracle {
         world.kind(reference) == Some(kind)
             && settable
             && value.is_finite()
-            && variable.min.is_none_or(|min| value >= min)
-            && variable.max.is_none_or(|max| value <= max)
+            && variable.bounds.hold(value)
     }
 
     fn step(&self, point: Point, size: f64) -> Expected {
         let at = point.of(self.time, size);
         let end = at + size;
-        if !(size.is_finite() && size > 0.0 && at.is_finite()) {
+        if !(step().bounds().hold(size) && at.is_finite()) {
             return Expected::Refused;
         }
         // Near the limits of what is taken for equal the unit may decide either way.

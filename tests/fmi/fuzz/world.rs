@@ -87,8 +87,8 @@ impl World {
             _ if variable.name.ends_with(".x") || variable.name.ends_with(".y") => (-2e-5, 2e-5),
             _ => (-1e6, 1e6),
         };
-        let low = variable.min.map_or(low, |min| low.max(min));
-        (low, variable.max.map_or(high, |max| high.min(max)))
+        let low = variable.min().map_or(low, |min| low.max(min));
+        (low, variable.max().map_or(high, |max| high.min(max)))
     }
 }
 

@@ -128,7 +128,7 @@ fn a_step_that_ends_early_begins_at_the_units_time() {
     let unit = plain(BLOCK);
     assert_eq!(unit.step(0.0, 0.1).0, OK);
     let before = unit.snapshot();
-    for (point, step) in [(0.0, 1e9), (0.2, 1e9), (-0.5, 1e9), (0.1 + 1e-6, 1e6), (0.0, 1e300)] {
+    for (point, step) in [(0.0, 1e9), (0.2, 1e9), (-0.5, 1e9), (0.1 + 1e-6, 1e6), (0.0, 1e60)] {
         let (status, stepped) = unit.step(point, step);
         assert_eq!((status, stepped.flags), (ERROR, [false; 3]), "{point} {step}");
         unit.expect_message(ERROR, &["is not the unit's time"]);
@@ -148,7 +148,7 @@ fn going_on_after_an_early_return_is_going_on_after_a_step() {
 
 #[test]
 fn a_step_too_long_for_one_call_is_discarded_where_it_may_not_end_early() {
-    for (scene, step) in [(BLOCK, 1e9), (WALL, 1e3), (WALL, 1e300)] {
+    for (scene, step) in [(BLOCK, 1e9), (WALL, 1e3), (WALL, 1e60)] {
         for hears in [false, true] {
             let unit = Unit::instantiated_with(scene, |arguments| {
                 arguments.early_return_allowed = false;
@@ -166,7 +166,7 @@ fn a_step_too_long_for_one_call_is_discarded_where_it_may_not_end_early() {
 
 #[test]
 fn a_master_ends_a_step_of_a_droplet_at_once_or_later() {
-    for (scene, step) in [(WALL, 5e-4), (PLATE, 5e-4), (WALL, 1e3), (WALL, 1e300)] {
+    for (scene, step) in [(WALL, 5e-4), (PLATE, 5e-4), (WALL, 1e3), (WALL, 1e60)] {
         let unit = listening(scene, true);
         for now in [f64::NAN, -1.0, 0.0] {
             let begin = unit.time();

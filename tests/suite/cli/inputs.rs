@@ -154,3 +154,33 @@ fn heat_that_came_and_went_is_no_measure_of_what_rounding_leaves() {
     let mut others = said.lines().filter(|line| !line.contains(" errs by about "));
     assert_eq!(others.next(), None);
 }
+
+#[test]
+fn values_beyond_bounds_and_in_celsius_are_refused_or_warned_of() {
+    let place = Workplace::new();
+    let table = |value: &str| format!("time,plate.bottom.temperature\n0,300\n5e-7,{value}\n");
+    for value in ["1e12", "-20", "0", "NaN"] {
+        let words = ["table.csv:3", "plate.bottom.temperature", "above 0 and at most 1e9"];
+        run_with(&place, &table(value), &[]).fails(1, &words);
+    }
+    assert!(!place.path("out").exists(), "a refused run writes nothing");
+    let said = run_with(&place, &table("90"), &[]).succeeds().stderr();
+    assert!(said.contains("plate.bottom.temperature = 90: "), "{said}");
+    assert!(said.contains("90 K is −183.15 °C; did you mean 363.15 (90 °C)?"), "{said}");
+    fs::write(place.path("scene.toml"), format!("cryogenic = true\n{SCENE}")).unwrap();
+    let said = run_with(&place, &table("90"), &["--overwrite"]).succeeds().stderr();
+    assert!(!said.contains("°C"), "{said}");
+}
+
+#[test]
+fn a_run_warns_once_as_its_fluid_would_boil() {
+    let place = Workplace::new();
+    let text = super::DROP.replace("conductivity = 0.6", "conductivity = 0.6, boils_at = 373.15");
+    fs::write(place.path("scene.toml"), text).unwrap();
+    let said =
+        place.run(&["--fields-every", "0", "--set", "wall.temperature=900"]).succeeds().stderr();
+    assert_eq!(said.matches("above the 373.15 K at which it boils").count(), 1, "{said}");
+    assert!(said.contains("warning: drop: at "), "{said}");
+    let said = place.run(&["--overwrite", "--fields-every", "0"]).succeeds().stderr();
+    assert!(!said.contains("boils"), "{said}");
+}

@@ -10,7 +10,7 @@ use crate::math::shared_values::SharedValues;
 use crate::math::thread::aside;
 use crate::method::record::{Course, Film, Profile, Recorder, film_profile, record_profile};
 use crate::method::sph::{DropletPlan, Failure, WallCells};
-use crate::scene::{Droplet, DropletMethod, DropletSymmetry, ReleaseBy, Scene};
+use crate::scene::{Droplet, DropletMethod, DropletSymmetry, Fluid, ReleaseBy, Scene};
 
 /// Times at which a course is known, and most rings.
 pub const SAMPLES: usize = 200;
@@ -207,6 +207,8 @@ fn computed(droplet: &Droplet, speed: f64) -> Droplet {
         most: None,
         arrivals: None,
         record: None,
+        // Nothing of a record follows from what is watched.
+        fluid: Fluid { freezes_at: None, boils_at: None, ..droplet.fluid },
         ..droplet.clone()
     }
 }

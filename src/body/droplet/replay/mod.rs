@@ -11,6 +11,7 @@ pub use notes::notes;
 pub use totals::offered_totals;
 
 use super::demand::DropInputs;
+use super::watch::{Watch, contact_share};
 use super::{Below, STRAY_SHARE, Wall, plan};
 use crate::body::{
     Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, wall_quantities,
@@ -18,7 +19,9 @@ use crate::body::{
 use crate::inputs::{InputLayout, InputPath};
 use crate::math::allowance::Allowance;
 use crate::method::record::{Falling, Replay, ReplayPlan, ReplayTotals};
-use crate::method::sph::{Domain, Failure, ParticleFields, Surface, WallCells, WallExchange};
+use crate::method::sph::{
+    Domain, Failure, ParticleFields, Surface, WallCells, WallExchange, WarmPlace,
+};
 use crate::scene::{Arrival, Droplet, Scene, lateral_extents};
 use crate::state::Layout;
 
@@ -33,6 +36,9 @@ pub struct ReplayBody {
     arrivals: Vec<(f64, Falling)>,
     /// Planes x = 0 and y = 0 about which all drops are symmetric.
     symmetric: [bool; 2],
+    watch: Watch,
+    /// Part of the difference of drop and wall by which their contact is above the wall.
+    contact_share: f64,
     notes: Vec<String>,
 }
 
@@ -82,6 +88,8 @@ impl ReplayBody {
             demand: DropInputs::of(scene, layout, (name, droplet), FARTHEST),
             arrivals: droplet.arrivals().iter().map(|a| (a.time, falling(droplet, a))).collect(),
             symmetric: droplet.mirrors(),
+            watch: Watch::of(name, &droplet.fluid),
+            contact_share: contact_share(scene, name, &droplet.fluid),
             notes: said,
         })
     }
@@ -242,6 +250,14 @@ impl Body for ReplayBody {
 
     fn notes(&self) -> Vec<String> {
         self.notes.iter().map(|note| format!("{}: {note}", self.name)).collect()
+    }
+
+    fn watch(&self) -> Option<&Watch> {
+        Some(&self.watch)
+    }
+
+    fn warm_places(&self, state: &[f64]) -> Option<[WarmPlace; 2]> {
+        self.replay.extremes(state, self.contact_share)
     }
 
     fn closing_warnings(&self, state: &[f64]) -> Vec<String> {

@@ -1,5 +1,6 @@
 //! What a user should know of drops that are replayed.
 
+use crate::body::droplet::watch;
 use crate::method::record::Course;
 use crate::scene::{Droplet, DropletMethod, Scene};
 
@@ -30,6 +31,8 @@ pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {
     notes.extend(note_on_depth(scene, (name, droplet)));
     if droplet.fluid.conductivity == 0.0 {
         notes.push("heat is left out: the fluid does not conduct any".to_owned());
+    } else {
+        notes.push(watch::note(scene, (name, &droplet.fluid)));
     }
     notes
 }

@@ -1,0 +1,121 @@
+//! Points at which a fluid would freeze or boil, which no droplet does.
+
+use crate::method::sph::WarmPlace;
+use crate::scene::{Fluid, Scene};
+
+/// A change of phase that the model leaves out.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PhaseChange {
+    Freezing,
+    Boiling,
+}
+
+/// The points that a scene sets for the fluid of a droplet.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Watch {
+    name: String,
+    /// [K]
+    points: Vec<(PhaseChange, f64)>,
+}
+
+impl Watch {
+    pub fn of(name: &str, fluid: &Fluid) -> Self {
+        let points =
+            [(PhaseChange::Freezing, fluid.freezes_at), (PhaseChange::Boiling, fluid.boils_at)];
+        let set = points.into_iter().filter_map(|(change, point)| Some((change, point?)));
+        Self { name: name.to_owned(), points: set.collect() }
+    }
+
+    /// The changes of phase that the scene sets a point for.
+    pub fn changes(&self) -> impl Iterator<Item = PhaseChange> + '_ {
+        self.points.iter().map(|(change, _)| *change)
+    }
+
+    /// The subject of warnings of a change of phase.
+    pub fn subject(&self, change: PhaseChange) -> String {
+        format!("{} {change:?}", self.name)
+    }
+
+    /// Warns if the coldest or the hottest fluid is beyond the point of a change at a time [s].
+    pub fn warning(
+        &self,
+        change: PhaseChange,
+        [coldest, hottest]: [WarmPlace; 2],
+        time: f64,
+    ) -> Option<String> {
+        let (_, point) = self.points.iter().find(|(other, _)| *other == change)?;
+        let (is_beyond, extreme, words) = match change {
+            PhaseChange::Freezing => {
+                (coldest.temperature < *point, coldest, ["below", "freezes", "freezes_at"])
+            }
+            PhaseChange::Boiling => {
+                (hottest.temperature > *point, hottest, ["above", "boils", "boils_at"])
+            }
+        };
+        let [side, verb, key] = words;
+        let WarmPlace { temperature, place: [x, y, z] } = extreme;
+        is_beyond.then(|| {
+            format!(
+                "{}: at {time:.3e} s the fluid is at {temperature:.1} K at x = {x:.2e}, y = {y:.2e}, z = {z:.2e} m, {side} \
+                 the {point} K at which it {verb} (`{key}`): the model keeps it liquid, so spread, heat and forces of \
+                 what {verb} are not to be relied on from here on",
+                self.name
+            )
+        })
+    }
+}
+
+/// Temperature of the contact between a droplet and what the scene has below it [K], the name of that and its
+/// temperature: `(e₁T₁ + e₂T₂)/(e₁ + e₂)` of two half spaces of effusivities e (Carslaw & Jaeger 1959, §2.15), that of a
+/// wall whose scene names no effusivity.
+fn contact<'a>(scene: &'a Scene, name: &str) -> Option<(&'a str, f64, f64)> {
+    let droplet = scene.droplet(name)?;
+    let (below, temperature) = match scene.coupling_from(name) {
+        Some(coupling) => {
+            let solid = scene.coupling[coupling].solid()?;
+            (solid, scene.solid(solid)?.initial_temperature)
+        }
+        None => {
+            let wall = &scene.wall[scene.wall_under(name)?];
+            let start = wall.start.temperature.as_ref().and_then(|values| values.numbers().next());
+            (wall.name.as_str(), start.unwrap_or(droplet.initial_temperature))
+        }
+    };
+    let above = droplet.initial_temperature - temperature;
+    Some((below, temperature, temperature + contact_share(scene, name, &droplet.fluid) * above))
+}
+
+/// Part of the difference of drop and wall by which their contact is above the wall: `e₁/(e₁ + e₂)` of effusivities e.
+pub fn contact_share(scene: &Scene, name: &str, fluid: &Fluid) -> f64 {
+    let own = fluid.effusivity();
+    scene.effusivity_below(name).map_or(0.0, |below| own / (own + below))
+}
+
+/// What the model leaves out of a fluid's phases, and what the contact below a drop is predicted to do.
+pub fn note(scene: &Scene, (name, fluid): (&str, &Fluid)) -> String {
+    let Fluid { freezes_at, boils_at, .. } = *fluid;
+    let general = "liquids neither freeze nor boil in this model, and their constants do not change with temperature";
+    if freezes_at.or(boils_at).is_none() {
+        return format!(
+            "{general}: `freezes_at` and `boils_at` of the fluid (K) make it warn where that would matter"
+        );
+    }
+    let Some((below, temperature, contact)) = contact(scene, name) else {
+        return format!(
+            "{general}: a step warns once where fluid passes `freezes_at` or `boils_at`"
+        );
+    };
+    let verdict = match (freezes_at, boils_at) {
+        (Some(point), _) if contact < point => {
+            format!("below the {point} K at which it freezes: it would freeze from there")
+        }
+        (_, Some(point)) if contact > point => {
+            format!("above the {point} K at which it boils: it would boil there")
+        }
+        _ => "where it stays liquid".to_owned(),
+    };
+    format!(
+        "{general}; in contact with `{below}` at {temperature} K the fluid is predicted to be at {contact:.1} K, \
+         (e₁T₁ + e₂T₂)/(e₁ + e₂) of effusivities e, {verdict}"
+    )
+}

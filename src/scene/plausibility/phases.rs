@@ -1,0 +1,49 @@
+//! Points of freezing and boiling that do not go with the temperature of their drops.
+
+use super::{CELSIUS, Reviewer, celsius, number};
+use crate::limits::plausible::{BESIDE_WARM, Cold};
+use crate::scene::droplet::Droplet;
+use crate::scene::locate::Path;
+
+pub fn review(reviewer: &mut Reviewer, cold: Cold) {
+    for (name, droplet) in reviewer.scene.droplets() {
+        let path = Path::default().key("body").key(name).key("fluid");
+        freezing(reviewer, &path.key("freezes_at"), droplet, cold);
+        boiling(reviewer, &path.key("boils_at"), droplet);
+    }
+}
+
+/// Warns of drops that start frozen, and of points that fit their drops in °C.
+fn freezing(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet, cold: Cold) {
+    let start = droplet.initial_temperature;
+    let Some(point) = droplet.fluid.freezes_at else { return };
+    if start < point {
+        let start = number(start);
+        let message = format!("drops of {start} K are frozen, and the model takes them for liquid");
+        reviewer.warn(path, message);
+    } else if cold != Cold::Meant && point < BESIDE_WARM && point + CELSIUS < start {
+        let message = format!(
+            "{} K is {}; did you mean {} ({} °C)? `cryogenic = true` says that a scene is meant to be this cold",
+            number(point),
+            celsius(point),
+            number(point + CELSIUS),
+            number(point)
+        );
+        reviewer.warn(path, message);
+    }
+}
+
+/// Warns of drops that start above the point at which they boil.
+fn boiling(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
+    let start = droplet.initial_temperature;
+    let Some(point) = droplet.fluid.boils_at.filter(|&point| point < start) else { return };
+    let meant = point + CELSIUS;
+    let meant = match point < BESIDE_WARM && start < meant {
+        true => format!("; did you mean {} ({} °C)?", number(meant), number(point)),
+        false => String::new(),
+    };
+    let start = number(start);
+    let message =
+        format!("drops of {start} K boil at once, and the model takes them for liquid{meant}");
+    reviewer.warn(path, message);
+}

@@ -1,0 +1,41 @@
+//! Whole numbers that scenes may write with an exponent.
+
+use std::fmt;
+
+use serde::Deserializer;
+use serde::de::{Error, Unexpected, Visitor};
+
+/// Reads a whole number that is written as such or, as TOML takes `1e6`, as a number without a fraction.
+pub fn optional<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<usize>, D::Error> {
+    struct Reader;
+
+    impl Visitor<'_> for Reader {
+        type Value = usize;
+
+        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+            f.write_str("a whole number")
+        }
+
+        fn visit_i64<E: Error>(self, value: i64) -> Result<usize, E> {
+            let refuse = || E::invalid_value(Unexpected::Signed(value), &self);
+            usize::try_from(value).map_err(|_| refuse())
+        }
+
+        fn visit_u64<E: Error>(self, value: u64) -> Result<usize, E> {
+            let refuse = || E::invalid_value(Unexpected::Unsigned(value), &self);
+            usize::try_from(value).map_err(|_| refuse())
+        }
+
+        fn visit_f64<E: Error>(self, value: f64) -> Result<usize, E> {
+            // Larger numbers have no fraction that a float could tell.
+            let is_exact = value.fract() == 0.0 && (0.0..=LARGEST).contains(&value);
+            let refuse = || E::invalid_value(Unexpected::Float(value), &self);
+            is_exact.then_some(value as usize).ok_or_else(refuse)
+        }
+    }
+
+    deserializer.deserialize_any(Reader).map(Some)
+}
+
+/// Largest number up to which floats hold every whole one.
+const LARGEST: f64 = 9_007_199_254_740_992.0;
