@@ -36,6 +36,7 @@ mod nonlinear_heat;
 mod nonlinear_solids;
 mod oblique;
 mod output;
+mod overlap;
 mod particles;
 mod peaks;
 mod plausibility;

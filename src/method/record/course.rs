@@ -99,8 +99,8 @@ impl Course {
         self.weights(speed).into_iter().map(of).sum()
     }
 
-    /// What each ring has got a time after the contact [s].
-    pub fn amounts(&self, speed: f64, age: f64) -> Vec<Amounts> {
+    /// Amounts that each ring has got a time after the contact [s]. The heat of a ring is that of an age that lags behind.
+    pub fn amounts(&self, speed: f64, age: f64, lags: &[f64]) -> Vec<Amounts> {
         let mut sums = vec![Amounts::default(); self.rings()];
         if age <= 0.0 {
             return sums;
@@ -111,14 +111,35 @@ impl Course {
             let heat = tail.as_ref().map_or(0.0, |tail| tail.heat(age - profile.duration / ratio));
             let shares = tail.as_ref().map_or(&[][..], Tail::shares);
             for (ring, (sum, amounts)) in sums.iter_mut().zip(profile.at(age * ratio)).enumerate() {
-                let rest = shares.get(ring).map_or(0.0, |share| share * heat);
-                sum.heat += weight * (amounts.heat + rest);
+                if lags[ring] == 0.0 {
+                    let rest = shares.get(ring).map_or(0.0, |share| share * heat);
+                    sum.heat += weight * (amounts.heat + rest);
+                }
                 // Momentum is in proportion to the speed.
                 sum.push += weight * ratio * amounts.push;
                 sum.outward += weight * ratio * amounts.outward;
             }
         }
+        for (ring, sum) in sums.iter_mut().enumerate().filter(|(ring, _)| lags[*ring] != 0.0) {
+            sum.heat = self.heat(speed, ring, age - lags[ring]);
+        }
         sums
+    }
+
+    /// Heat that one ring has got a time after the contact [s], for each kelvin [J/K].
+    pub fn heat(&self, speed: f64, ring: usize, age: f64) -> f64 {
+        if age <= 0.0 {
+            return 0.0;
+        }
+        let of = |(place, weight): (usize, f64)| {
+            let (profile, tail) = &self.profiles[place];
+            let ratio = speed / profile.speed;
+            let rest = tail.as_ref().map_or(0.0, |tail| {
+                tail.shares()[ring] * tail.heat(age - profile.duration / ratio)
+            });
+            weight * (profile.heat_of(ring, age * ratio) + rest)
+        };
+        self.weights(speed).into_iter().map(of).sum()
     }
 
     /// Places of the profiles that make up a drop of some speed, and their weights.
@@ -210,10 +231,10 @@ mod tests {
         assert!(!course.knows(0.9) && !course.knows(2.1));
         // These profiles are alike over D/U, so that any speed between is known exactly.
         for speed in [1.0, 1.25, 1.9, 2.0] {
-            let found = course.amounts(speed, 2.0 / speed)[1];
+            let found = course.amounts(speed, 2.0 / speed, &[0.0; 2])[1];
             assert!((found.heat - 0.1).abs() < 1e-12);
             assert!((found.push - 0.25 * speed).abs() < 1e-12);
-            let end = course.amounts(speed, 1e9);
+            let end = course.amounts(speed, 1e9, &[0.0; 2]);
             let heat: f64 = end.iter().map(|amounts| amounts.heat).sum();
             assert!((heat - 1.0).abs() < 1e-9, "{heat}");
         }

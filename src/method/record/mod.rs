@@ -9,10 +9,14 @@ mod bytes;
 mod course;
 mod film;
 mod footprint;
+mod lateral;
+mod limit;
 mod profile;
 mod recorder;
 mod replay;
+mod sharing;
 mod state;
+mod surface;
 mod tail;
 
 pub use course::Course;

@@ -17,6 +17,7 @@ use super::schema::Schema;
 use super::types::Scene;
 use crate::limits::plausible::{self, Range};
 
+pub use films::MEASURED_FILMS;
 pub use moved::implausible_place;
 
 /// Something that a scene says, and that is hardly meant.
