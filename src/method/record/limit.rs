@@ -11,17 +11,41 @@ use super::replay::Given;
 use super::surface::SurfaceAt;
 use crate::method::sph::Surface;
 
+/// What a film does to the wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    Warms,
+    Cools,
+}
+
+impl Side {
+    /// Of heat [J] under a difference between a drop and the wall that it met [K]; nothing of heat that a ring takes back,
+    /// as some of a record do.
+    pub fn of(difference: f64, heat: f64) -> Option<Self> {
+        match (difference > 0.0, heat > 0.0) {
+            _ if heat == 0.0 => None,
+            (true, true) => Some(Side::Warms),
+            (false, false) => Some(Side::Cools),
+            _ => None,
+        }
+    }
+
+    fn place(self) -> usize {
+        usize::from(self == Side::Cools)
+    }
+}
+
 /// Films that warm a cell, or that cool it: how far they bring it [K], and the temperature beyond which they do not [K].
 #[derive(Debug, Clone, Copy)]
-struct Side {
+struct Bound {
     rise: f64,
     bound: f64,
 }
 
 /// Signs of the sides: warming and cooling.
 const SIGNS: [f64; 2] = [1.0, -1.0];
-const NONE: [Side; 2] =
-    [Side { rise: 0.0, bound: f64::NEG_INFINITY }, Side { rise: 0.0, bound: f64::INFINITY }];
+const NONE: [Bound; 2] =
+    [Bound { rise: 0.0, bound: f64::NEG_INFINITY }, Bound { rise: 0.0, bound: f64::INFINITY }];
 
 /// A wall at the end of a step, with what films give to it.
 pub struct Limit<'a> {
@@ -31,7 +55,7 @@ pub struct Limit<'a> {
     /// Rises [K m²] under a mean flow of 1 J over the step and under one that falls from 1 W to −1 W.
     held: f64,
     falling: f64,
-    cells: Vec<[Side; 2]>,
+    cells: Vec<[Bound; 2]>,
     touched: Vec<usize>,
 }
 
@@ -54,14 +78,14 @@ impl<'a> Limit<'a> {
     /// Adds what a film gives.
     pub fn add(&mut self, footprint: &Footprint, temperature: f64, rings: &[Given]) {
         for (ring, given) in footprint.rings.iter().zip(rings) {
-            let Some(side) = side(given) else { continue };
+            let Some(side) = given.side.map(Side::place) else { continue };
             let rise = (self.held * given.heat + self.falling * given.fall).abs();
             for part in &ring.parts {
                 let sides = &mut self.cells[part.cell];
                 if sides.iter().all(|side| side.bound.is_infinite()) {
                     self.touched.push(part.cell);
                 }
-                let Side { rise: sum, bound } = &mut sides[side];
+                let Bound { rise: sum, bound } = &mut sides[side];
                 *sum += part.weight * rise / self.areas[part.cell];
                 let beyond = SIGNS[side] * (temperature - *bound);
                 if beyond > 0.0 {
@@ -87,7 +111,7 @@ impl<'a> Limit<'a> {
 
     fn straight_down(&self, (side, sign): (usize, f64), free: &[f64], parts: &mut Parts) {
         for (&cell, free) in self.touched.iter().zip(free) {
-            let Side { rise, bound } = self.cells[cell][side];
+            let Bound { rise, bound } = self.cells[cell][side];
             if bound.is_finite() {
                 parts[cell][side] = part(sign * (bound - free), rise);
             }
@@ -130,7 +154,7 @@ impl<'a> Limit<'a> {
 
     /// Part of what a ring gives that all its cells can take.
     pub fn part_of(parts: &Parts, ring: &Ring, given: &Given) -> f64 {
-        let Some(side) = side(given) else { return 1.0 };
+        let Some(side) = given.side.map(Side::place) else { return 1.0 };
         ring.parts.iter().map(|part| parts[part.cell][side]).fold(1.0, f64::min)
     }
 }
@@ -142,9 +166,4 @@ fn part(room: f64, rise: f64) -> f64 {
         rise if rise > room => room / rise,
         _ => 1.0,
     }
-}
-
-/// Whether a ring warms or cools the wall.
-fn side(given: &Given) -> Option<usize> {
-    (given.heat != 0.0).then_some(usize::from(given.heat < 0.0))
 }

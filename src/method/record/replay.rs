@@ -1,9 +1,9 @@
 //! Drops that give what is known of one.
 
 use super::course::Course;
-use super::footprint::{Footprint, Part};
+use super::footprint::{Footprint, Part, Ring};
 use super::lateral::Lateral;
-use super::limit::{Limit, Parts};
+use super::limit::{Limit, Parts, Side};
 use super::profile::Amounts;
 use super::sharing::{reach, share};
 use super::state::{Drop, Ledger, drops_in, flatten, layout, unflatten};
@@ -202,7 +202,7 @@ impl Replay {
     /// What the cells got during the last step.
     pub fn exchange(&self, state: &[f64]) -> WallExchange {
         let (ledger, drops) = self.of(state);
-        self.exchanged(&ledger, &drops, |_, _, _| ()).0
+        self.exchanged(&ledger, &drops, &self.before(&ledger, &drops), |_, _, _| ()).0
     }
 
     /// Lets drops give what they give during the last step, above a surface as it would be without them.
@@ -213,43 +213,48 @@ impl Replay {
         surface: &Surface,
     ) -> (WallExchange, Falls) {
         let mut limit = Limit::new(surface, &self.areas, ledger.duration);
+        let before = self.before(ledger, drops);
         if ledger.duration > 0.0 {
-            share(&self.plan.course, ledger, drops);
+            share(&self.plan.course, ledger, drops, &before);
         }
-        let (exchange, falls) = self.exchanged(ledger, drops, |drop, footprint, heats| {
-            limit.add(footprint, drop.temperature, heats);
+        let (exchange, falls) = self.exchanged(ledger, drops, &before, |n, footprint, rings| {
+            limit.add(footprint, drops[n].temperature, rings);
         });
         let Some(parts) = limit.parts(&self.lateral) else { return (exchange, falls) };
         let mut held_back = drops.to_vec();
-        let (mut places, mut falls_of_rings) = (held_back.iter_mut(), Vec::new());
-        self.exchanged(ledger, drops, |drop, footprint, rings| {
-            let place = places.find(|place| *place == drop).expect("drops in their order");
-            falls_of_rings.push(self.hold_back(ledger, place, (footprint, &parts), rings));
+        let mut falls_of_rings = vec![Vec::new(); drops.len()];
+        let mut last = None;
+        self.exchanged(ledger, drops, &before, |n, footprint, rings| {
+            // Drops released at once are alike.
+            let alike = last.filter(|&last: &usize| drops[last] == drops[n]);
+            let (lag, falls) = match alike {
+                Some(last) => (held_back[last].lag.clone(), falls_of_rings[last].clone()),
+                None => self.held_back(ledger, &drops[n], (footprint, &parts), rings),
+            };
+            (held_back[n].lag, falls_of_rings[n]) = (lag, falls);
+            last = Some(n);
         });
         drops.clone_from_slice(&held_back);
-        let mut falls_of_rings = falls_of_rings.into_iter();
-        self.exchanged(ledger, drops, |_, _, rings| {
-            let falls = falls_of_rings.next().expect("the drops of before");
-            rings.iter_mut().zip(falls).for_each(|(given, fall)| given.fall = fall);
+        self.exchanged(ledger, drops, &before, |n, _, rings| {
+            let falls = rings.iter_mut().zip(&falls_of_rings[n]);
+            falls.for_each(|(given, &fall)| given.fall = fall);
         })
     }
 
-    /// Lets the heat of rings lag behind where the wall cannot take all of it. How it falls then [W].
-    fn hold_back(
+    /// How far the heat of rings lags behind where the wall cannot take all of it [s], and how it falls then [W].
+    fn held_back(
         &self,
         ledger: &Ledger,
-        drop: &mut Drop,
+        drop: &Drop,
         (footprint, parts): (&Footprint, &Parts),
         rings: &[Given],
-    ) -> Vec<f64> {
-        let held_back = |(n, (ring, given))| {
+    ) -> (Vec<f64>, Vec<f64>) {
+        let of_ring = |(n, (ring, given)): (usize, (&Ring, &Given))| {
             let part = Limit::part_of(parts, ring, given);
-            if part < 1.0 {
-                drop.lag[n] = self.lag_for(ledger, drop, n, part);
-            }
-            part * given.fall
+            let lag = if part < 1.0 { self.lag_for(ledger, drop, n, part) } else { drop.lag[n] };
+            (lag, part * given.fall)
         };
-        footprint.rings.iter().zip(rings).enumerate().map(held_back).collect()
+        footprint.rings.iter().zip(rings).enumerate().map(of_ring).unzip()
     }
 
     /// The lag after which a ring has given a part of what it would have during the last step [s].
@@ -273,20 +278,22 @@ impl Replay {
         &self,
         ledger: &Ledger,
         drops: &[Drop],
-        mut look: impl FnMut(&Drop, &Footprint, &mut [Given]),
+        before: &[Vec<Amounts>],
+        mut look: impl FnMut(usize, &Footprint, &mut [Given]),
     ) -> (WallExchange, Falls) {
         let mut exchange = WallExchange::none(self.plan.cells.len());
         exchange.duration = ledger.duration;
         let mut falls = vec![0.0; exchange.heat.len()];
         // Drops released at once come down on one place.
         let mut last: Option<([f64; 2], Footprint)> = None;
-        for drop in drops.iter().filter(|drop| drop.is_down() && ledger.duration > 0.0) {
-            let Some(mut rings) = self.given(ledger, drop) else { continue };
+        let down = |(_, drop): &(usize, &Drop)| drop.is_down() && ledger.duration > 0.0;
+        for (n, drop) in drops.iter().enumerate().filter(down) {
+            let Some(mut rings) = self.given(ledger, drop, &before[n]) else { continue };
             let (_, footprint) = match last.take().filter(|(place, _)| *place == drop.place) {
                 Some(known) => last.insert(known),
                 None => last.insert((drop.place, self.footprint(drop))),
             };
-            look(drop, footprint, &mut rings);
+            look(n, footprint, &mut rings);
             // What lies beside a body keeps its heat.
             let keeps = self.plan.cells.end_with_the_body();
             for (ring, given) in footprint.rings.iter().zip(&rings) {
@@ -297,12 +304,22 @@ impl Replay {
         (exchange, falls)
     }
 
+    /// What the rings of each drop that is down had got before the last step.
+    fn before(&self, ledger: &Ledger, drops: &[Drop]) -> Vec<Vec<Amounts>> {
+        let start = ledger.time - ledger.duration;
+        let of_drop = |drop: &Drop| match drop.is_down() {
+            true => self.plan.course.amounts(drop.speed, start - drop.contact, &drop.lag_before),
+            false => Vec::new(),
+        };
+        drops.iter().map(of_drop).collect()
+    }
+
     /// What the rings of a drop gave during the last step, if it gave anything.
-    fn given(&self, ledger: &Ledger, drop: &Drop) -> Option<Vec<Given>> {
+    fn given(&self, ledger: &Ledger, drop: &Drop, before: &[Amounts]) -> Option<Vec<Given>> {
         let Drop { contact, speed, lag_before, lag, .. } = drop;
         let start = ledger.time - ledger.duration;
         let amounts = |time: f64, lags| self.plan.course.amounts(*speed, time - contact, lags);
-        let [before, after] = [amounts(start, lag_before), amounts(ledger.time, lag)];
+        let after = amounts(ledger.time, lag);
         if before == after {
             return None;
         }
@@ -313,7 +330,8 @@ impl Replay {
             let [a, b, c] =
                 [before[n], between[n], after[n]].map(|amounts| difference * amounts.heat);
             let fall = 2.0 * (2.0 * b - a - c) / ledger.duration;
-            Given { heat: c - a, fall, push: minus(&after[n], &before[n]) }
+            let side = Side::of(difference, c - a);
+            Given { heat: c - a, fall, side, push: minus(&after[n], &before[n]) }
         };
         Some((0..before.len()).map(of_ring).collect())
     }
@@ -421,10 +439,11 @@ fn minus(after: &Amounts, before: &Amounts) -> [f64; 2] {
 /// Halvings of the time in which a lag is searched for.
 const HALVINGS: usize = 60;
 
-/// What a ring gave during a step: heat [J], how it fell [W], momentum into the wall and outward [N s].
+/// What a ring gave during a step: heat [J], how it fell [W] and to what end, momentum into the wall and outward [N s].
 pub struct Given {
     pub heat: f64,
     pub fall: f64,
+    pub side: Option<Side>,
     push: [f64; 2],
 }
 

@@ -5,20 +5,24 @@
 //! becomes `H(t/n^(2/3))`, early and late (of a film that cools, see `closed_form::cooling_film`, H depends on `at/δ²`
 //! alone). So the heat of each ring has an age of its own, which lags behind that of the drop.
 //!
-//! n counts films by the part of its heat that each still has: a film that has given all of it holds up no other one.
+//! n counts films by the part of its heat that each still has: a film that has given nearly all of it holds up no other.
 //! Of one drop that is alone, n is 1 to the bit.
 
+use std::array::from_fn;
 use std::f64::consts::PI;
 
 use super::course::Course;
+use super::profile::Amounts;
 use super::state::{Drop, Ledger};
 
+/// Part of its heat below which a film has cooled: it takes as long to give that as to give all before.
+const SPENT: f64 = 0.05;
 /// Angles at which a ring about one place is looked at from another, over half a turn.
 const ANGLES: usize = 16;
 
-/// Lets the heat of films that share places lag behind over the last step.
-pub fn share(course: &Course, ledger: &Ledger, drops: &mut [Drop]) {
-    let places = Places::of(course, ledger, drops);
+/// Lets the heat of films that share places lag behind over the last step, before which their rings had got some amounts.
+pub fn share(course: &Course, ledger: &Ledger, drops: &mut [Drop], amounts: &[Vec<Amounts>]) {
+    let places = Places::of(course, ledger, drops, amounts);
     for place in 0..places.all.len() {
         let around = places.around(place);
         let own = &places.all[place];
@@ -44,6 +48,8 @@ struct Places {
     all: Vec<Place>,
     /// Of a ring [m].
     width: f64,
+    /// Of the angles at which rings are looked at.
+    cosines: [f64; ANGLES],
 }
 
 struct Place {
@@ -57,7 +63,7 @@ struct Place {
 }
 
 impl Places {
-    fn of(course: &Course, ledger: &Ledger, drops: &[Drop]) -> Self {
+    fn of(course: &Course, ledger: &Ledger, drops: &[Drop], amounts: &[Vec<Amounts>]) -> Self {
         let width = course.radius() / course.rings() as f64;
         let mut down: Vec<usize> = (0..drops.len()).filter(|&n| drops[n].is_down()).collect();
         let key = |n: &usize| drops[*n].place.map(f64::to_bits);
@@ -69,10 +75,17 @@ impl Places {
             |n: usize, m: usize| n != m && distance(middles[n], middles[m]) < reach(n) + reach(m);
         let is_shared = |n: usize| groups[n].len() > 1 || (0..groups.len()).any(|m| is_near(n, m));
         let place = |n: usize| {
-            let films = groups[n].iter().map(|&n| (n, weights(course, ledger, &drops[n])));
+            let weights =
+                |n: usize| weights(course, ledger.time - drops[n].contact, &drops[n], &amounts[n]);
+            let films = groups[n].iter().map(|&n| (n, weights(n)));
             Place::of((middles[n], reach(n)), films.collect())
         };
-        Self { all: (0..groups.len()).filter(|&n| is_shared(n)).map(place).collect(), width }
+        let cosines = from_fn(|n| (PI * (n as f64 + 0.5) / ANGLES as f64).cos());
+        Self {
+            all: (0..groups.len()).filter(|&n| is_shared(n)).map(place).collect(),
+            width,
+            cosines,
+        }
     }
 
     /// Weights of what stands about other places, as means over the rings about one.
@@ -83,11 +96,20 @@ impl Places {
             let distance = distance(own.at, other.at);
             if n != place && distance < own.reach + other.reach {
                 for (ring, sum) in sums.iter_mut().enumerate() {
-                    *sum += other.mean((ring as f64 + 0.5) * self.width, distance, self.width);
+                    *sum += self.mean(other, (ring as f64 + 0.5) * self.width, distance);
                 }
             }
         }
         sums
+    }
+
+    /// Mean weight of films over a circle of a radius about what is a distance away [m].
+    fn mean(&self, films: &Place, radius: f64, distance: f64) -> f64 {
+        let at = |cosine: &f64| {
+            let square = radius * radius + distance * distance - 2.0 * radius * distance * cosine;
+            films.sums.get((square.max(0.0).sqrt() / self.width) as usize).copied().unwrap_or(0.0)
+        };
+        self.cosines.iter().map(at).sum::<f64>() / ANGLES as f64
     }
 }
 
@@ -98,16 +120,6 @@ impl Place {
             sums.iter_mut().zip(weights).for_each(|(sum, weight)| *sum += weight);
         }
         Self { at, films, sums, reach }
-    }
-
-    /// Mean weight over a circle of a radius about what is a distance away [m].
-    fn mean(&self, radius: f64, distance: f64, width: f64) -> f64 {
-        let at = |n: usize| {
-            let cosine = (PI * (n as f64 + 0.5) / ANGLES as f64).cos();
-            let square = radius * radius + distance * distance - 2.0 * radius * distance * cosine;
-            self.sums.get((square.max(0.0).sqrt() / width) as usize).copied().unwrap_or(0.0)
-        };
-        (0..ANGLES).map(at).sum::<f64>() / ANGLES as f64
     }
 }
 
@@ -120,16 +132,15 @@ pub fn reach(course: &Course, drop: &Drop) -> f64 {
     0.5 * course.largest_spread(drop.speed)
 }
 
-/// Weights of the rings of a drop: the part of its heat that a film still has, nothing where the wall is dry.
-fn weights(course: &Course, ledger: &Ledger, drop: &Drop) -> Vec<f64> {
-    let Drop { contact, speed, lag, .. } = drop;
-    let start = ledger.time - ledger.duration;
-    let [before, after] =
-        [start, ledger.time].map(|time| course.amounts(*speed, time - contact, lag));
-    let weight = |(ring, whole): (usize, f64)| {
-        let is_wet = after[ring].heat != 0.0 && whole > 0.0;
-        if is_wet { (1.0 - before[ring].heat / whole).clamp(0.0, 1.0) } else { 0.0 }
+/// Weights of the rings of a drop whose rings had got some `amounts` before the last step: the part of its heat that a
+/// film still has, nothing where the wall is dry.
+fn weights(course: &Course, age: f64, drop: &Drop, amounts: &[Amounts]) -> Vec<f64> {
+    let weight = |(ring, amounts): (usize, &Amounts)| {
+        let whole = course.whole(drop.speed, ring);
+        let is_wet =
+            || amounts.heat != 0.0 || course.heat(drop.speed, ring, age - drop.lag[ring]) != 0.0;
+        let left = 1.0 - amounts.heat / whole;
+        if whole > 0.0 && left > SPENT && is_wet() { left.min(1.0) } else { 0.0 }
     };
-    let whole = course.amounts(*speed, course.duration(*speed), &vec![0.0; before.len()]);
-    whole.into_iter().map(|ring| ring.heat).enumerate().map(weight).collect()
+    amounts.iter().enumerate().map(weight).collect()
 }
