@@ -172,9 +172,9 @@ impl Replay {
             for (_, other) in of_others {
                 let (distance, others) = (apart(other), reach(other));
                 meets |= distance < own + others;
-                films += f64::from(u8::from(distance < others));
+                films += f64::from(distance < others);
             }
-            ledger.overlapping += f64::from(u8::from(meets));
+            ledger.overlapping += f64::from(meets);
             ledger.stacked = ledger.stacked.max(films);
         }
     }
