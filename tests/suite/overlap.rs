@@ -33,12 +33,10 @@ fn drops(liquid: [f64; 7], method: &str, temperature: f64, keys: &str) -> String
 }
 
 const ON_DEMAND: &str = "release = \"input\"\nmost = 3000\n";
-const BOX: &str = "shape = { box = [6e-4, 6e-4, 2e-4] }
-mesh = { spacing = 3e-5, depth_spacing = 2e-6, \
-                   growth = 1.5, order = 1 }";
-const DISC: &str = "shape = { disc = { radius = 4e-4, thickness = 2e-4 } }
-mesh = { spacing = 2e-5, \
-                    depth_spacing = 2e-6, growth = 1.5, order = 1 }";
+const BOX: &str = "shape = { box = [6e-4, 6e-4, 2e-4] }\nmesh = { spacing = 3e-5, depth_spacing = 2e-6, growth \
+                   = 1.5, order = 1 }";
+const DISC: &str = "shape = { disc = { radius = 4e-4, thickness = 2e-4 } }\nmesh = { spacing = 2e-5, depth_spacing \
+                    = 2e-6, growth = 1.5, order = 1 }";
 
 /// A plate below them.
 fn plate(shape: &str, material: &str, temperature: f64) -> String {
