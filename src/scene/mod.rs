@@ -42,7 +42,7 @@ pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
-pub use plausibility::{Measure, Warning, implausible_input, implausible_place};
+pub use plausibility::{MEASURED_FILMS, Measure, Warning, implausible_input, implausible_place};
 pub use recording::Recording;
 pub use reduction::footprints_along;
 pub use reservoir::Reservoir;

@@ -38,6 +38,7 @@ mod nonlinear_heat;
 mod nonlinear_solids;
 mod oblique;
 mod output;
+mod overlap;
 mod particles;
 mod peaks;
 mod plausibility;

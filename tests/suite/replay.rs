@@ -426,8 +426,8 @@ fn states_that_contradict_themselves_are_refused() {
     let state = trial.state.clone();
     trial.model.check_state(&state).unwrap();
     let body = trial.model.scene().body.keys().position(|name| name == "drop").unwrap();
-    // Time, last step, asked, released, overlapping, heat, impulse; then contact, place, speed, temperature, rings.
-    let first = 9;
+    // Time, last step, asked, released, overlapping, films, heat, impulse; then contact, place, speed, temperature, rings.
+    let first = 10;
     for (place, value, words) in [
         (0, -1.0, "a last step"),
         (1, 1.0, "a last step"),
@@ -435,7 +435,7 @@ fn states_that_contradict_themselves_are_refused() {
         (2, 1.5, "asked for"),
         (3, 3.0, "released of 5"),
         (4, 3.0, "on others"),
-        (5, f64::NAN, "not finite"),
+        (6, f64::NAN, "not finite"),
         (first, 1.0, "touches the wall"),
         (first, -1.0, "m/s and"),
         (first + 1, 1.0, "beyond what drops reach"),

@@ -12,6 +12,10 @@ pub struct Course {
     profiles: Vec<(Profile, Option<Tail>)>,
     /// Ages of each between which its heat changes little enough to be told by a mean and a slope [s].
     turns: Vec<Vec<f64>>,
+    /// Heat that each ring of each has got at last, for each kelvin [J/K].
+    wholes: Vec<Vec<f64>>,
+    /// Largest diameter of the film of each [m].
+    spreads: Vec<f64>,
 }
 
 impl Course {
@@ -34,7 +38,9 @@ impl Course {
         };
         let profiles: Vec<_> = profiles.into_iter().map(with_tail).collect();
         let turns = profiles.iter().map(turns).collect();
-        Ok(Self { profiles, turns })
+        let wholes = profiles.iter().map(whole).collect();
+        let spreads = profiles.iter().map(|(profile, _)| profile.largest_spread()).collect();
+        Ok(Self { profiles, turns, wholes, spreads })
     }
 
     pub fn profiles(&self) -> impl Iterator<Item = &Profile> {
@@ -68,21 +74,21 @@ impl Course {
             let tail = tail.as_ref().map_or(0.0, Tail::duration);
             profile.duration * profile.speed / speed + tail
         };
-        self.weights(speed).into_iter().map(of).fold(0.0, f64::max)
+        self.weights(speed).map(of).fold(0.0, f64::max)
     }
 
     /// Ages of a drop between which its heat changes little enough to be told by a mean and a slope [s]; none of a drop
     /// that gives no heat.
     pub fn turns(&self, speed: f64) -> impl Iterator<Item = f64> {
-        let (place, _) = self.weights(speed).swap_remove(0);
+        let place = self.weights(speed).next().map_or(0, |(place, _)| place);
         let ratio = self.profiles[place].0.speed / speed;
         self.turns[place].iter().map(move |age| ratio * age)
     }
 
     /// Largest diameter of the film [m].
     pub fn largest_spread(&self, speed: f64) -> f64 {
-        let weights = self.weights(speed).into_iter();
-        weights.map(|(place, weight)| weight * self.profiles[place].0.largest_spread()).sum()
+        let weights = self.weights(speed);
+        weights.map(|(place, weight)| weight * self.spreads[place]).sum()
     }
 
     /// Largest part of a drop that had come off in small lumps as it was recorded.
@@ -96,11 +102,11 @@ impl Course {
             let (profile, _) = &self.profiles[place];
             weight * profile.spread_at(age * speed / profile.speed)
         };
-        self.weights(speed).into_iter().map(of).sum()
+        self.weights(speed).map(of).sum()
     }
 
-    /// What each ring has got a time after the contact [s].
-    pub fn amounts(&self, speed: f64, age: f64) -> Vec<Amounts> {
+    /// Amounts that each ring has got a time after the contact [s]. The heat of a ring is that of an age that lags behind.
+    pub fn amounts(&self, speed: f64, age: f64, lags: &[f64]) -> Vec<Amounts> {
         let mut sums = vec![Amounts::default(); self.rings()];
         if age <= 0.0 {
             return sums;
@@ -111,26 +117,56 @@ impl Course {
             let heat = tail.as_ref().map_or(0.0, |tail| tail.heat(age - profile.duration / ratio));
             let shares = tail.as_ref().map_or(&[][..], Tail::shares);
             for (ring, (sum, amounts)) in sums.iter_mut().zip(profile.at(age * ratio)).enumerate() {
-                let rest = shares.get(ring).map_or(0.0, |share| share * heat);
-                sum.heat += weight * (amounts.heat + rest);
+                if lags[ring] == 0.0 {
+                    let rest = shares.get(ring).map_or(0.0, |share| share * heat);
+                    sum.heat += weight * (amounts.heat + rest);
+                }
                 // Momentum is in proportion to the speed.
                 sum.push += weight * ratio * amounts.push;
                 sum.outward += weight * ratio * amounts.outward;
             }
         }
+        for (ring, sum) in sums.iter_mut().enumerate().filter(|(ring, _)| lags[*ring] != 0.0) {
+            sum.heat = self.heat(speed, ring, age - lags[ring]);
+        }
         sums
     }
 
+    /// Heat that one ring has got a time after the contact [s], for each kelvin [J/K].
+    pub fn heat(&self, speed: f64, ring: usize, age: f64) -> f64 {
+        if age <= 0.0 {
+            return 0.0;
+        }
+        let of = |(place, weight): (usize, f64)| {
+            let (profile, tail) = &self.profiles[place];
+            let ratio = speed / profile.speed;
+            let rest = tail.as_ref().map_or(0.0, |tail| {
+                tail.shares()[ring] * tail.heat(age - profile.duration / ratio)
+            });
+            weight * (profile.heat_of(ring, age * ratio) + rest)
+        };
+        self.weights(speed).map(of).sum()
+    }
+
+    /// Heat that a ring gets in all, for each kelvin [J/K].
+    pub fn whole(&self, speed: f64, ring: usize) -> f64 {
+        let weights = self.weights(speed);
+        weights.map(|(place, weight)| weight * self.wholes[place][ring]).sum()
+    }
+
     /// Places of the profiles that make up a drop of some speed, and their weights.
-    fn weights(&self, speed: f64) -> Vec<(usize, f64)> {
+    fn weights(&self, speed: f64) -> impl Iterator<Item = (usize, f64)> + use<> {
         let of = |place: usize| self.profiles[place].0.speed;
         let above = (0..self.profiles.len()).find(|&place| of(place) * (1.0 + SAME) >= speed);
         let above = above.unwrap_or(self.profiles.len() - 1);
-        if above == 0 || (of(above) / speed - 1.0).abs() <= SAME {
-            return vec![(above, 1.0)];
-        }
-        let share = (speed - of(above - 1)) / (of(above) - of(above - 1));
-        vec![(above - 1, 1.0 - share), (above, share)]
+        let is_known = above == 0 || (of(above) / speed - 1.0).abs() <= SAME;
+        let weights = if is_known {
+            [Some((above, 1.0)), None]
+        } else {
+            let share = (speed - of(above - 1)) / (of(above) - of(above - 1));
+            [Some((above - 1, 1.0 - share)), Some((above, share))]
+        };
+        weights.into_iter().flatten()
     }
 }
 
@@ -151,6 +187,13 @@ fn half_time((profile, tail): &(Profile, Option<Tail>)) -> f64 {
         if heat(middle) < half { low = middle } else { high = middle }
     }
     high
+}
+
+/// Heat that each ring has got at last [J/K].
+fn whole((profile, tail): &(Profile, Option<Tail>)) -> Vec<f64> {
+    let end = profile.at(profile.duration).into_iter().enumerate();
+    let rest = |ring: usize| tail.as_ref().map_or(0.0, |t| t.shares()[ring] * t.heat(t.duration()));
+    end.map(|(ring, amounts)| amounts.heat + rest(ring)).collect()
 }
 
 /// To a thousandth of what lasts a million times as long.
@@ -210,10 +253,10 @@ mod tests {
         assert!(!course.knows(0.9) && !course.knows(2.1));
         // These profiles are alike over D/U, so that any speed between is known exactly.
         for speed in [1.0, 1.25, 1.9, 2.0] {
-            let found = course.amounts(speed, 2.0 / speed)[1];
+            let found = course.amounts(speed, 2.0 / speed, &[0.0; 2])[1];
             assert!((found.heat - 0.1).abs() < 1e-12);
             assert!((found.push - 0.25 * speed).abs() < 1e-12);
-            let end = course.amounts(speed, 1e9);
+            let end = course.amounts(speed, 1e9, &[0.0; 2]);
             let heat: f64 = end.iter().map(|amounts| amounts.heat).sum();
             assert!((heat - 1.0).abs() < 1e-9, "{heat}");
         }

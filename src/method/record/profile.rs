@@ -61,6 +61,17 @@ impl Profile {
         from.into_iter().zip(to).map(|(a, b)| a.towards(b, part)).collect()
     }
 
+    /// Heat of one ring after a time [s], for each kelvin [J/K].
+    pub fn heat_of(&self, ring: usize, time: f64) -> f64 {
+        let (before, part) = self.place(time);
+        let of = |sample: usize| match sample {
+            0 => 0.0,
+            sample => self.amounts[(sample - 1) * self.rings + ring].heat,
+        };
+        let (from, to) = (of(before), of((before + 1).min(self.samples())));
+        from + part * (to - from)
+    }
+
     /// Diameter of the film after a time [m].
     pub fn spread_at(&self, time: f64) -> f64 {
         let (before, part) = self.place(time);

@@ -3,10 +3,14 @@
 mod extremes;
 
 use super::course::Course;
-use super::footprint::{Footprint, Part};
+use super::footprint::{Footprint, Part, Ring};
+use super::lateral::Lateral;
+use super::limit::{Limit, Parts, Side};
 use super::profile::Amounts;
+use super::sharing::{reach, share};
 use super::state::{Drop, Ledger, drops_in, flatten, layout, unflatten};
-use crate::method::sph::{Surface, WallCells, WallExchange};
+use super::surface::SurfaceAt;
+use crate::method::sph::{Domain, Surface, WallCells, WallExchange};
 use crate::state::Layout;
 
 /// What drops are replayed from.
@@ -20,11 +24,16 @@ pub struct ReplayPlan {
     /// Drops that there may be, and how far from the origin along x and y [m].
     pub most: usize,
     pub reach: [f64; 2],
+    /// Largest diffusivity of what is below [m²/s].
+    pub diffusivity: f64,
 }
 
 /// Drops above a wall: everything known before time starts. What changes is a flat vector.
 pub struct Replay {
     plan: ReplayPlan,
+    /// Of the cells [m²].
+    areas: Vec<f64>,
+    lateral: Lateral,
 }
 
 /// A drop that has been released.
@@ -59,7 +68,9 @@ pub type Falls = Vec<f64>;
 
 impl Replay {
     pub fn new(plan: ReplayPlan) -> Self {
-        Self { plan }
+        let areas = plan.cells.areas(Domain::whole(3));
+        let lateral = Lateral::of(&plan.cells, &areas, plan.diffusivity);
+        Self { plan, areas, lateral }
     }
 
     pub fn course(&self) -> &Course {
@@ -82,6 +93,11 @@ impl Replay {
         [ledger.asked, ledger.released]
     }
 
+    /// Most films that have stood on one place so far.
+    pub fn most_films(&self, state: &[f64]) -> f64 {
+        self.of(state).0.stacked
+    }
+
     /// [s]
     pub fn time(&self, state: &[f64]) -> f64 {
         self.of(state).0.time
@@ -91,9 +107,9 @@ impl Replay {
         unflatten(state, self.plan.course.rings())
     }
 
-    /// When a drop gives nothing more [s].
+    /// When a drop gives nothing more [s], if its heat lags behind no further.
     fn end(&self, drop: &Drop) -> f64 {
-        drop.contact + self.plan.course.duration(drop.speed)
+        drop.contact + self.plan.course.duration(drop.speed) + drop.longest_lag()
     }
 
     /// Advances by `duration` [s] with drops that are released meanwhile, of which some have been `asked` for, above
@@ -118,7 +134,8 @@ impl Replay {
         ledger.duration = duration;
         ledger.time += duration;
         self.touch_down(&mut ledger, &mut drops, surface, start);
-        let (exchange, falls) = self.exchanged(&ledger, &drops);
+        drops.iter_mut().for_each(|drop| drop.lag_before.clone_from(&drop.lag));
+        let (exchange, falls) = self.give(&ledger, &mut drops, surface);
         ledger.heat += exchange.heat.iter().sum::<f64>() + exchange.heat_outside;
         for axis in 0..3 {
             let given: f64 = exchange.impulse.iter().map(|impulse| impulse[axis]).sum();
@@ -144,17 +161,23 @@ impl Replay {
             let footprint = self.footprint(&drops[n]);
             let means = footprint.rings.iter().map(|ring| ring.mean(|cell| at.temperature(cell)));
             drops[n].wall = means.collect();
-            let meets = |other: &Drop| {
-                let reach = [&drops[n], other].map(|drop| self.reach(drop));
-                let apart = [0, 1].map(|axis| drops[n].place[axis] - other.place[axis]);
-                other.is_down()
-                    && self.end(other) > drops[n].contact
-                    && apart[0].hypot(apart[1]) < reach[0] + reach[1]
+            let apart = |other: &Drop| {
+                let [x, y] = [0, 1].map(|axis| drops[n].place[axis] - other.place[axis]);
+                x.hypot(y)
             };
-            let others = drops.iter().enumerate().filter(|(m, _)| *m != n);
-            if others.into_iter().any(|(_, other)| meets(other)) {
-                ledger.overlapping += 1.0;
+            let of_others = drops.iter().enumerate().filter(|(m, other)| {
+                *m != n && other.is_down() && self.end(other) > drops[n].contact
+            });
+            let reach = |drop: &Drop| reach(&self.plan.course, drop);
+            let own = reach(&drops[n]);
+            let (mut meets, mut films) = (false, 1.0);
+            for (_, other) in of_others {
+                let (distance, others) = (apart(other), reach(other));
+                meets |= distance < own + others;
+                films += f64::from(distance < others);
             }
+            ledger.overlapping += f64::from(meets);
+            ledger.stacked = ledger.stacked.max(films);
         }
     }
 
@@ -173,11 +196,6 @@ impl Replay {
         moments.filter(|moment| (0.0..duration).contains(moment)).collect()
     }
 
-    /// Radius that a drop comes to cover [m].
-    fn reach(&self, drop: &Drop) -> f64 {
-        0.5 * self.plan.course.largest_spread(drop.speed)
-    }
-
     fn footprint(&self, drop: &Drop) -> Footprint {
         let course = &self.plan.course;
         Footprint::of(&self.plan.cells, drop.place, course.rings(), course.radius())
@@ -186,48 +204,146 @@ impl Replay {
     /// What the cells got during the last step.
     pub fn exchange(&self, state: &[f64]) -> WallExchange {
         let (ledger, drops) = self.of(state);
-        self.exchanged(&ledger, &drops).0
+        self.exchanged(&ledger, &drops, &self.before(&ledger, &drops), |_, _, _| ()).0
     }
 
-    fn exchanged(&self, ledger: &Ledger, drops: &[Drop]) -> (WallExchange, Falls) {
+    /// Lets drops give what they give during the last step, above a surface as it would be without them.
+    fn give(
+        &self,
+        ledger: &Ledger,
+        drops: &mut [Drop],
+        surface: &Surface,
+    ) -> (WallExchange, Falls) {
+        let mut limit = Limit::new(surface, &self.areas, ledger.duration);
+        let before = self.before(ledger, drops);
+        if ledger.duration > 0.0 {
+            share(&self.plan.course, ledger, drops, &before);
+        }
+        let (exchange, falls) = self.exchanged(ledger, drops, &before, |n, footprint, rings| {
+            limit.add(footprint, drops[n].temperature, rings);
+        });
+        let Some(parts) = limit.parts(&self.lateral) else { return (exchange, falls) };
+        let mut held_back = drops.to_vec();
+        let mut falls_of_rings = vec![Vec::new(); drops.len()];
+        let mut last = None;
+        self.exchanged(ledger, drops, &before, |n, footprint, rings| {
+            // Drops released at once are alike.
+            let alike = last.filter(|&last: &usize| drops[last] == drops[n]);
+            let (lag, falls) = match alike {
+                Some(last) => (held_back[last].lag.clone(), falls_of_rings[last].clone()),
+                None => self.held_back(ledger, &drops[n], (footprint, &parts), rings),
+            };
+            (held_back[n].lag, falls_of_rings[n]) = (lag, falls);
+            last = Some(n);
+        });
+        drops.clone_from_slice(&held_back);
+        self.exchanged(ledger, drops, &before, |n, _, rings| {
+            let falls = rings.iter_mut().zip(&falls_of_rings[n]);
+            falls.for_each(|(given, &fall)| given.fall = fall);
+        })
+    }
+
+    /// How far the heat of rings lags behind where the wall cannot take all of it [s], and how it falls then [W].
+    fn held_back(
+        &self,
+        ledger: &Ledger,
+        drop: &Drop,
+        (footprint, parts): (&Footprint, &Parts),
+        rings: &[Given],
+    ) -> (Vec<f64>, Vec<f64>) {
+        let of_ring = |(n, (ring, given)): (usize, (&Ring, &Given))| {
+            let part = Limit::part_of(parts, ring, given);
+            let lag = if part < 1.0 { self.lag_for(ledger, drop, n, part) } else { drop.lag[n] };
+            (lag, part * given.fall)
+        };
+        footprint.rings.iter().zip(rings).enumerate().map(of_ring).unzip()
+    }
+
+    /// The lag after which a ring has given a part of what it would have during the last step [s].
+    fn lag_for(&self, ledger: &Ledger, drop: &Drop, ring: usize, part: f64) -> f64 {
+        let age = ledger.time - drop.contact;
+        let heat = |age: f64| self.plan.course.heat(drop.speed, ring, age);
+        let from = (age - ledger.duration).max(0.0) - drop.lag_before[ring];
+        let (mut low, mut high) = (from.max(0.0), age - drop.lag[ring]);
+        let (start, end) = (heat(low), heat(high));
+        let wanted = start + part * (end - start);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            let is_beyond = (heat(middle) - wanted) * (end - start) > 0.0;
+            *(if is_beyond { &mut high } else { &mut low }) = middle;
+        }
+        age - low
+    }
+
+    /// What the cells got during the last step, and how it fell. Whoever looks sees each drop that gives anything.
+    fn exchanged(
+        &self,
+        ledger: &Ledger,
+        drops: &[Drop],
+        before: &[Vec<Amounts>],
+        mut look: impl FnMut(usize, &Footprint, &mut [Given]),
+    ) -> (WallExchange, Falls) {
         let mut exchange = WallExchange::none(self.plan.cells.len());
         exchange.duration = ledger.duration;
         let mut falls = vec![0.0; exchange.heat.len()];
-        if ledger.duration > 0.0 {
-            let giving = drops.iter().filter(|drop| drop.is_down());
-            giving.for_each(|drop| self.give(ledger, drop, &mut exchange, &mut falls));
+        // Drops released at once come down on one place.
+        let mut last: Option<([f64; 2], Footprint)> = None;
+        let down = |(_, drop): &(usize, &Drop)| drop.is_down() && ledger.duration > 0.0;
+        for (n, drop) in drops.iter().enumerate().filter(down) {
+            let Some(mut rings) = self.given(ledger, drop, &before[n]) else { continue };
+            let (_, footprint) = match last.take().filter(|(place, _)| *place == drop.place) {
+                Some(known) => last.insert(known),
+                None => last.insert((drop.place, self.footprint(drop))),
+            };
+            look(n, footprint, &mut rings);
+            // What lies beside a body keeps its heat.
+            let keeps = self.plan.cells.end_with_the_body();
+            for (ring, given) in footprint.rings.iter().zip(&rings) {
+                ring.parts.iter().for_each(|part| given.to_cell(part, &mut exchange, &mut falls));
+                ring.outside.iter().for_each(|part| given.beyond(part, &mut exchange, keeps));
+            }
         }
         (exchange, falls)
     }
 
-    /// Adds what a drop gave during the last step.
-    fn give(&self, ledger: &Ledger, drop: &Drop, to: &mut WallExchange, falls: &mut [f64]) {
+    /// What the rings of each drop that is down had got before the last step.
+    fn before(&self, ledger: &Ledger, drops: &[Drop]) -> Vec<Vec<Amounts>> {
         let start = ledger.time - ledger.duration;
-        let times = [start, start + 0.5 * ledger.duration, ledger.time];
-        let [before, between, after] =
-            times.map(|time| self.plan.course.amounts(drop.speed, time - drop.contact));
+        let of_drop = |drop: &Drop| match drop.is_down() {
+            true => self.plan.course.amounts(drop.speed, start - drop.contact, &drop.lag_before),
+            false => Vec::new(),
+        };
+        drops.iter().map(of_drop).collect()
+    }
+
+    /// What the rings of a drop gave during the last step, if it gave anything.
+    fn given(&self, ledger: &Ledger, drop: &Drop, before: &[Amounts]) -> Option<Vec<Given>> {
+        let Drop { contact, speed, lag_before, lag, .. } = drop;
+        let start = ledger.time - ledger.duration;
+        let amounts = |time: f64, lags| self.plan.course.amounts(*speed, time - contact, lags);
+        let after = amounts(ledger.time, lag);
         if before == after {
-            return;
+            return None;
         }
-        let footprint = self.footprint(drop);
-        for (n, ring) in footprint.rings.iter().enumerate() {
+        let lags: Vec<f64> = lag_before.iter().zip(lag).map(|(a, b)| 0.5 * (a + b)).collect();
+        let between = amounts(start + 0.5 * ledger.duration, &lags);
+        let of_ring = |n: usize| {
             let difference = drop.temperature - drop.wall[n];
             let [a, b, c] =
                 [before[n], between[n], after[n]].map(|amounts| difference * amounts.heat);
             let fall = 2.0 * (2.0 * b - a - c) / ledger.duration;
-            let given = Given { heat: c - a, fall, push: minus(&after[n], &before[n]) };
-            ring.parts.iter().for_each(|part| given.to_cell(part, to, falls));
-            // What lies beside a body keeps its heat.
-            let keeps = self.plan.cells.end_with_the_body();
-            ring.outside.iter().for_each(|part| given.beyond(part, to, keeps));
-        }
+            let side = Side::of(difference, c - a);
+            Given { heat: c - a, fall, side, push: minus(&after[n], &before[n]) }
+        };
+        Some((0..before.len()).map(of_ring).collect())
     }
 
     /// Counts the step before the last as part of that.
     pub fn join_steps(&self, before: &[f64], state: &mut Vec<f64>) {
         let (earlier, mut drops) = self.of(before);
-        let (mut ledger, later) = self.of(state);
-        drops.retain(|drop| self.end(drop) <= earlier.time);
+        let (mut ledger, mut later) = self.of(state);
+        let gave: Vec<Drop> = drops.extract_if(.., |drop| self.end(drop) > earlier.time).collect();
+        later.iter_mut().zip(gave).for_each(|(drop, earlier)| drop.lag_before = earlier.lag_before);
         drops.extend(later);
         ledger.duration += earlier.duration;
         *state = flatten(&mut ledger, &mut drops);
@@ -261,7 +377,7 @@ impl Replay {
             return Err(format!("number {place} is not finite"));
         }
         let (ledger, drops) = self.of(state);
-        let Ledger { time, duration, asked, released, overlapping, .. } = ledger;
+        let Ledger { time, duration, asked, released, overlapping, stacked, .. } = ledger;
         let most = self.plan.most as f64;
         let is_count = |count: f64| count.fract() == 0.0 && count >= 0.0;
         if !is_count(asked) || asked > most {
@@ -274,6 +390,9 @@ impl Replay {
             let count = drops.len();
             return Err(format!("{count} drops, {overlapping} on others, of {released} released"));
         }
+        if !is_count(stacked) || stacked > released {
+            return Err(format!("{stacked} films on one place, of {released} released"));
+        }
         if time < 0.0 || duration < 0.0 || duration > time * (1.0 + ROUNDING) {
             return Err(format!("a last step of {duration} s before {time} s"));
         }
@@ -281,7 +400,7 @@ impl Replay {
     }
 
     fn check_drop(&self, ledger: &Ledger, drop: &Drop) -> Result<(), String> {
-        let Drop { contact, place, speed, temperature, wall } = drop;
+        let Drop { contact, place, speed, temperature, wall, lag, lag_before } = drop;
         let [x, y] = place;
         let refuse = |what: &str| Err(format!("a drop at {x}, {y} m {what}"));
         if (0..2).any(|axis| place[axis].abs() > self.plan.reach[axis] * (1.0 + ROUNDING)) {
@@ -297,6 +416,14 @@ impl Replay {
         if drop.is_down() != (*contact < ledger.time) {
             return refuse(&format!("touches the wall at {contact} s"));
         }
+        let age = (ledger.time - contact).max(0.0) * (1.0 + ROUNDING);
+        let step = ledger.duration * (1.0 + ROUNDING);
+        let lags = || lag_before.iter().zip(lag);
+        if lags()
+            .any(|(before, now)| *before < 0.0 || now < before || *now > age.min(before + step))
+        {
+            return refuse("has heat that lags behind as none does");
+        }
         if self.end(drop) < (ledger.time - ledger.duration) * (1.0 - ROUNDING) {
             return refuse("has nothing more to give");
         }
@@ -311,10 +438,14 @@ fn minus(after: &Amounts, before: &Amounts) -> [f64; 2] {
     [after.push - before.push, after.outward - before.outward]
 }
 
-/// What a ring gave during a step: heat [J], how it fell [W], momentum into the wall and outward [N s].
-struct Given {
-    heat: f64,
-    fall: f64,
+/// Halvings of the time in which a lag is searched for.
+const HALVINGS: usize = 60;
+
+/// What a ring gave during a step: heat [J], how it fell [W] and to what end, momentum into the wall and outward [N s].
+pub struct Given {
+    pub heat: f64,
+    pub fall: f64,
+    pub side: Option<Side>,
     push: [f64; 2],
 }
 
@@ -337,27 +468,5 @@ impl Given {
         to.impulse_outside[0] += part.outward[0] * outward;
         to.impulse_outside[1] += part.outward[1] * outward;
         to.impulse_outside[2] -= part.weight * push;
-    }
-}
-
-/// A surface at a time of a step, of which few cells are asked for.
-struct SurfaceAt<'a> {
-    surface: &'a Surface,
-    decays: Vec<f64>,
-    part: f64,
-}
-
-impl<'a> SurfaceAt<'a> {
-    fn new(surface: &'a Surface, part: f64, duration: f64) -> Self {
-        let decay = |rate: &f64| (-rate * part * duration).exp();
-        Self { surface, decays: surface.response.rates.iter().map(decay).collect(), part }
-    }
-
-    fn temperature(&self, cell: usize) -> f64 {
-        let Surface { base, amplitudes, drift, .. } = self.surface;
-        let count = self.decays.len();
-        let amplitudes = &amplitudes[cell * count..][..count];
-        let modes: f64 = amplitudes.iter().zip(&self.decays).map(|(a, decay)| a * decay).sum();
-        base[cell] + modes + self.part * drift[cell]
     }
 }

@@ -15,6 +15,8 @@ pub struct Ledger {
     pub asked: f64,
     pub released: f64,
     pub overlapping: f64,
+    /// Most films that have stood on one place so far: a whole number.
+    pub stacked: f64,
     /// Given to the wall since time zero [J], [N s].
     pub heat: f64,
     pub impulse: [f64; 3],
@@ -30,12 +32,21 @@ pub struct Drop {
     pub temperature: f64,
     /// What each ring of the wall had as it was touched [K]; zeros before.
     pub wall: Vec<f64>,
+    /// Time by which the heat of each ring lags behind the age of the drop [s], now and at the beginning of the last step:
+    /// nothing of a drop that had its place for itself.
+    pub lag: Vec<f64>,
+    pub lag_before: Vec<f64>,
 }
 
 impl Drop {
     /// Whether it has touched the wall.
     pub fn is_down(&self) -> bool {
         self.wall.first().is_some_and(|temperature| *temperature > 0.0)
+    }
+
+    /// Longest lag of a ring [s].
+    pub fn longest_lag(&self) -> f64 {
+        self.lag.iter().copied().fold(0.0, f64::max)
     }
 }
 
@@ -58,14 +69,21 @@ impl Fields for Ledger {
                 body("overlapping", "drops that came down on others", 1),
                 from_mut(&mut self.overlapping),
             ),
+            (body("stacked", "most films on one place so far", 1), from_mut(&mut self.stacked)),
             (body("heat", "heat given to the wall [J]", 1), from_mut(&mut self.heat)),
             (body("impulse", "impulse given to the wall [N s]", 3), &mut self.impulse),
         ]
     }
 }
 
-/// Numbers of a drop beside the temperatures of its rings.
+/// Numbers of a drop beside those of its rings, and numbers of a ring.
 const OF_DROP: usize = 5;
+const OF_RING: usize = 3;
+
+/// Length of a drop.
+const fn width(rings: usize) -> usize {
+    OF_DROP + OF_RING * rings
+}
 
 impl Fields for Drop {
     fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
@@ -79,14 +97,27 @@ impl Fields for Drop {
             (of_drop("speed", "speed towards the wall [m/s]", 1), from_mut(&mut self.speed)),
             (of_drop("temperature", "temperature [K]", 1), from_mut(&mut self.temperature)),
             (of_drop("wall", "what the rings had as they were touched [K]", rings), &mut self.wall),
+            (of_drop("lag", "lag of the rings' heat [s]", rings), &mut self.lag),
+            (
+                of_drop("lag_before", "lag of the rings' heat before the last step [s]", rings),
+                &mut self.lag_before,
+            ),
         ]
     }
 }
 
 impl Drop {
     pub fn none(rings: usize) -> Self {
-        let wall = vec![0.0; rings];
-        Self { contact: 0.0, place: [0.0; 2], speed: 0.0, temperature: 0.0, wall }
+        let zeros = vec![0.0; rings];
+        Self {
+            contact: 0.0,
+            place: [0.0; 2],
+            speed: 0.0,
+            temperature: 0.0,
+            wall: zeros.clone(),
+            lag: zeros.clone(),
+            lag_before: zeros,
+        }
     }
 }
 
@@ -94,7 +125,7 @@ impl Drop {
 pub fn drops_in(state: &[f64], rings: usize) -> Option<usize> {
     let head = Layout::of(&mut Ledger::default()).len();
     let rest = state.len().checked_sub(head)?;
-    rest.is_multiple_of(OF_DROP + rings).then(|| rest / (OF_DROP + rings))
+    rest.is_multiple_of(width(rings)).then(|| rest / width(rings))
 }
 
 /// The fields of a state of so many drops, those of each drop together.
@@ -107,22 +138,22 @@ pub fn layout(drops: usize, rings: usize) -> Layout {
 pub fn unflatten(state: &[f64], rings: usize) -> (Ledger, Vec<Drop>) {
     let mut ledger = Ledger::default();
     load(&mut ledger, state);
-    let head = state.len() - drops_in(state, rings).unwrap_or(0) * (OF_DROP + rings);
+    let head = state.len() - drops_in(state, rings).unwrap_or(0) * width(rings);
     let drop = |numbers: &[f64]| {
         let mut drop = Drop::none(rings);
         load(&mut drop, numbers);
         drop
     };
-    (ledger, state[head..].chunks_exact(OF_DROP + rings).map(drop).collect())
+    (ledger, state[head..].chunks_exact(width(rings)).map(drop).collect())
 }
 
 /// One list of all numbers.
 pub fn flatten(ledger: &mut Ledger, drops: &mut [Drop]) -> Vec<f64> {
     let head = Layout::of(ledger).len();
     let rings = drops.first().map_or(0, |drop| drop.wall.len());
-    let mut state = vec![0.0; head + drops.len() * (OF_DROP + rings)];
+    let mut state = vec![0.0; head + drops.len() * width(rings)];
     store(ledger, &mut state);
-    for (drop, to) in drops.iter_mut().zip(state[head..].chunks_exact_mut(OF_DROP + rings)) {
+    for (drop, to) in drops.iter_mut().zip(state[head..].chunks_exact_mut(width(rings))) {
         store(drop, to);
     }
     state
@@ -136,7 +167,12 @@ mod tests {
     fn a_state_is_read_as_it_was_written() {
         let mut ledger =
             Ledger { time: 2.0, released: 2.0, impulse: [1.0, 2.0, 3.0], ..Ledger::default() };
-        let drop = |at: f64| Drop { contact: at, wall: vec![at, 2.0 * at, 300.0], ..Drop::none(3) };
+        let drop = |at: f64| Drop {
+            contact: at,
+            wall: vec![at, 2.0 * at, 300.0],
+            lag: vec![0.5; 3],
+            ..Drop::none(3)
+        };
         let mut drops = vec![drop(1.0), drop(4.0)];
         let state = flatten(&mut ledger, &mut drops);
         assert_eq!(layout(2, 3).len(), state.len());

@@ -22,6 +22,8 @@ pub struct Tail {
     /// Fourier numbers at its beginning and end, and δ²/a [s].
     fourier: [f64; 2],
     scale: f64,
+    /// Of all heat, given when the tail ends.
+    reached: f64,
     /// Heat that is left [J/K], and the share of each ring.
     left: f64,
     shares: Vec<f64>,
@@ -50,6 +52,7 @@ impl Tail {
             part,
             fourier: [late, last],
             scale,
+            reached,
             left: capacity * (whole - part),
             shares: fluxes.iter().map(|flux| flux / all).collect(),
         })
@@ -62,12 +65,12 @@ impl Tail {
 
     /// Heat that all rings have got a time after the beginning [J/K].
     pub fn heat(&self, time: f64) -> f64 {
-        let [first, last] = self.fourier;
+        let first = self.fourier[0];
         if time >= self.duration() {
             return self.left;
         }
         let fourier = first + time.max(0.0) / self.scale;
-        self.left * (given_part(fourier) - self.part) / (given_part(last) - self.part)
+        self.left * (given_part(fourier) - self.part) / (self.reached - self.part)
     }
 
     /// Share of each ring; they sum to 1.

@@ -90,12 +90,23 @@ impl WallCells {
         }
     }
 
-    /// The cells that an image of a cell comes to, and their parts of it, where mirrors turn x and y by signs.
-    pub fn image(&self, cell: usize, signs: [f64; 2]) -> Vec<(usize, f64)> {
-        if signs == [1.0; 2] {
-            return vec![(cell, 1.0)];
+    /// The middle of each cell, or the node of its function [m]; of rings along x.
+    pub fn middles(&self) -> Vec<[f64; 2]> {
+        match self {
+            WallCells::Rings { count, radius } => {
+                let width = radius / *count as f64;
+                (0..*count).map(|ring| [width * (ring as f64 + 0.5), 0.0]).collect()
+            }
+            WallCells::RadialNodes { r } => r.iter().map(|&r| [r, 0.0]).collect(),
+            WallCells::Tiles { .. } | WallCells::Nodes { .. } => {
+                (0..self.len()).map(|cell| self.middle(cell)).collect()
+            }
         }
-        let middle = match self {
+    }
+
+    /// The middle of a tile, or a node [m].
+    fn middle(&self, cell: usize) -> [f64; 2] {
+        match self {
             WallCells::Tiles { count, size } => {
                 let place = |n: usize, axis: usize| {
                     (n as f64 + 0.5 - 0.5 * count[axis] as f64) * size[axis] / count[axis] as f64
@@ -103,8 +114,19 @@ impl WallCells {
                 [place(cell / count[1], 0), place(cell % count[1], 1)]
             }
             WallCells::Nodes { x, y } => [x[cell % x.len()], y[cell / x.len()]],
-            WallCells::Rings { .. } | WallCells::RadialNodes { .. } => return vec![(cell, 1.0)],
-        };
+            WallCells::Rings { .. } | WallCells::RadialNodes { .. } => [0.0; 2],
+        }
+    }
+
+    /// The cells that an image of a cell comes to, and their parts of it, where mirrors turn x and y by signs.
+    pub fn image(&self, cell: usize, signs: [f64; 2]) -> Vec<(usize, f64)> {
+        if signs == [1.0; 2] {
+            return vec![(cell, 1.0)];
+        }
+        if self.are_radial() {
+            return vec![(cell, 1.0)];
+        }
+        let middle = self.middle(cell);
         let at = [0, 1].map(|axis| [signs[axis] * middle[axis]; 2]);
         let cover = self.cover(at);
         match cover.cells.is_empty() {

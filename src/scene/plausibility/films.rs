@@ -8,11 +8,45 @@ pub fn review(reviewer: &mut Reviewer) {
     for (name, droplet) in scene.droplets().filter(|(_, droplet)| droplet.is_replayed()) {
         let path = Path::default().key("body").key(name).key("method");
         thin(reviewer, &path, (name, droplet));
+        stacked(reviewer, (name, droplet));
         if droplet.method == DropletMethod::Film {
             insulated(reviewer, &path, (name, droplet));
             depleted(reviewer, &path, (name, droplet));
         }
     }
+}
+
+/// Most films on one place that were compared with particles (`docs/fidelity.md`).
+pub const MEASURED_FILMS: f64 = 3.0;
+/// Time after which a film gives a thousandth of its heat, over that in which it cools.
+const SPENT: f64 = 3.0;
+
+/// Warns of arrivals on one place where more films than were ever measured still give heat.
+fn stacked(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
+    let (speed, _) = droplet.contact(droplet.normal_speed());
+    if droplet.fluid.conductivity == 0.0 || speed <= 0.0 || droplet.is_on_demand() {
+        return;
+    }
+    let cooling = cooling_time(reviewer.scene, (name, droplet));
+    let giving = droplet.recorded_time(speed) + SPENT * cooling;
+    let reach = 0.5 * droplet.spread_diameter();
+    let mut arrivals: Vec<_> = droplet.arrivals().iter().collect();
+    arrivals.sort_by(|a, b| a.time.total_cmp(&b.time));
+    let films = |n: usize| {
+        let own = arrivals[n];
+        let before = arrivals[..n].iter().rev().take_while(|other| own.time - other.time < giving);
+        1 + before.filter(|other| (own.x - other.x).hypot(own.y - other.y) < reach).count()
+    };
+    let Some(at) = (0..arrivals.len()).find(|&n| films(n) as f64 > MEASURED_FILMS) else { return };
+    let path = Path::default().key("body").key(name).key("arrivals");
+    let message = format!(
+        "the drop at {} s is expected to come down on {} films that still give heat: more than {MEASURED_FILMS} on one place \
+         were not compared with particles; temperatures stay between those of drops and wall, but are not known to be right; \
+         did you mean `sph`?",
+        number(arrivals[at].time),
+        films(at) - 1
+    );
+    reviewer.warn(&path, message);
 }
 
 /// Effusivities of layers of which the one may be taken for the other.

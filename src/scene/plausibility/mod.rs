@@ -19,6 +19,7 @@ use super::schema::Schema;
 use super::types::Scene;
 use crate::limits::plausible::{self, BESIDE_WARM, CRYOGENIC, Cold, Range};
 
+pub use films::MEASURED_FILMS;
 pub use moved::implausible_place;
 
 /// Something that a scene says, and that is hardly meant.

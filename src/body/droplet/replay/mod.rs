@@ -22,7 +22,7 @@ use crate::method::record::{Falling, Replay, ReplayPlan, ReplayTotals};
 use crate::method::sph::{
     Domain, Failure, ParticleFields, Surface, WallCells, WallExchange, WarmPlace,
 };
-use crate::scene::{Arrival, Droplet, Scene, lateral_extents};
+use crate::scene::{Arrival, Droplet, MEASURED_FILMS, Scene, lateral_extents};
 use crate::state::Layout;
 
 /// Drops and what lies below them.
@@ -80,6 +80,7 @@ impl ReplayBody {
             heat_capacity: mass * droplet.fluid.specific_heat,
             most: droplet.drops(),
             reach: reach(scene, name),
+            diffusivity: diffusivity(scene, name),
         });
         Ok(Self {
             name: name.to_owned(),
@@ -139,6 +140,14 @@ fn reach(scene: &Scene, name: &str) -> [f64; 2] {
     let below = scene.coupling_from(name).and_then(|coupling| scene.coupling[coupling].solid());
     let extents = below.and_then(|solid| Some(lateral_extents(&scene.solid(solid)?.shape)));
     extents.map_or([FARTHEST; 2], |extents| extents.map(|extent| 0.5 * extent))
+}
+
+/// Largest diffusivity of what lies below a droplet [m²/s]; nothing of a wall that does not answer to heat.
+fn diffusivity(scene: &Scene, name: &str) -> f64 {
+    let below = scene.coupling_from(name).and_then(|coupling| scene.coupling[coupling].solid());
+    let strata = below.and_then(|solid| Some(scene.solid(solid)?.strata()));
+    let layers = strata.into_iter().flatten();
+    layers.map(|layer| layer.constants.diffusivity()).fold(0.0, f64::max)
 }
 
 /// What is read of a state, found when first asked for.
@@ -258,6 +267,11 @@ impl Body for ReplayBody {
 
     fn warm_places(&self, state: &[f64]) -> Option<[WarmPlace; 2]> {
         self.replay.extremes(state, self.contact_share)
+    }
+
+    fn warning(&self, state: &[f64]) -> Option<String> {
+        let films = self.replay.most_films(state);
+        (films > MEASURED_FILMS).then(|| notes::on_stacks(&self.name))
     }
 
     fn closing_warnings(&self, state: &[f64]) -> Vec<String> {

@@ -2,7 +2,7 @@
 
 use crate::body::droplet::watch;
 use crate::method::record::Course;
-use crate::scene::{Droplet, DropletMethod, Scene};
+use crate::scene::{Droplet, DropletMethod, MEASURED_FILMS, Scene};
 
 /// What was chosen or left out, and why: a sentence each.
 pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {
@@ -21,7 +21,8 @@ pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {
     let mut notes = vec![
         what,
         "each drop gives heat in proportion to its temperature above that of the wall where and when it comes down: \
-         exact on a plate that is warm evenly; drops do not meet, and `overlapping` counts those that should have"
+         exact on a plate that is warm evenly; drops that come down on the films of others, which `overlapping` counts, give \
+         heat with them as one drop of all volumes would, and force as if alone"
             .to_owned(),
         "heat and force are known at any time, and act as means and slopes over communication steps, which are cut as a drop \
          comes down and cools where they are longer than that takes, or over `interval` of the coupling: a drop feels those \
@@ -93,6 +94,14 @@ pub fn on_stray_mass(name: &str, part: f64) -> String {
 pub fn on_overlap(name: &str, overlapping: f64, released: f64) -> String {
     format!(
         "{name}: {overlapping} of {released} drops came down on the film of another that was still giving heat or force \
-         (overlapping): each gives what it would alone, from the temperature that it met"
+         (overlapping): they give heat as one drop of all volumes would, and force as if alone"
+    )
+}
+
+/// Of more films on one place than were ever measured.
+pub fn on_stacks(name: &str) -> String {
+    format!(
+        "{name}: more than {MEASURED_FILMS} films that still give heat stand on one place: heat and temperatures there stay \
+         between those of drops and wall, but are not known to be right (docs/fidelity.md); did you mean `sph`?"
     )
 }

@@ -91,9 +91,11 @@ const TOTALS: [Total; 14] = [
     Total { of: Offered::OnDemand, ..count("released", "drops released so far", |t| t.released) },
     Total {
         of: Offered::OnDemand,
-        ..count("waiting", "drops asked for that wait: none, as these do not meet", |totals| {
-            totals.asked - totals.released
-        })
+        ..count(
+            "waiting",
+            "drops asked for that wait: none, as these may come down at once",
+            |totals| totals.asked - totals.released,
+        )
     },
     Total {
         of: Offered::OnASolid,

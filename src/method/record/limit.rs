@@ -1,0 +1,169 @@
+//! Bounds of what films give in a step: heat goes from what is warmer to what is colder, and no place of a wall that
+//! answers to heat goes beyond the hottest and the coldest film on it.
+//!
+//! A cell rises as if heat went straight down, by `u`, but where heat comes along the wall from those beside it, by no more
+//! than a mean of u about it. Films whose heat would bring a cell beyond what it may have give the part that it can take,
+//! and the rest later.
+
+use super::footprint::{Footprint, Ring};
+use super::lateral::Lateral;
+use super::replay::Given;
+use super::surface::SurfaceAt;
+use crate::method::sph::Surface;
+
+/// What a film does to the wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    Warms,
+    Cools,
+}
+
+impl Side {
+    /// Of heat [J] under a difference between a drop and the wall that it met [K]; nothing of heat that a ring takes back,
+    /// as some of a record do.
+    pub fn of(difference: f64, heat: f64) -> Option<Self> {
+        match (difference > 0.0, heat > 0.0) {
+            _ if heat == 0.0 => None,
+            (true, true) => Some(Side::Warms),
+            (false, false) => Some(Side::Cools),
+            _ => None,
+        }
+    }
+
+    fn place(self) -> usize {
+        usize::from(self == Side::Cools)
+    }
+}
+
+/// Films that warm a cell, or that cool it: how far they bring it [K], and the temperature beyond which they do not [K].
+#[derive(Debug, Clone, Copy)]
+struct Bound {
+    rise: f64,
+    bound: f64,
+}
+
+/// Signs of the sides: warming and cooling.
+const SIGNS: [f64; 2] = [1.0, -1.0];
+const NONE: [Bound; 2] =
+    [Bound { rise: 0.0, bound: f64::NEG_INFINITY }, Bound { rise: 0.0, bound: f64::INFINITY }];
+
+/// A wall at the end of a step, with what films give to it.
+pub struct Limit<'a> {
+    surface: SurfaceAt<'a>,
+    areas: &'a [f64],
+    duration: f64,
+    /// Rises [K m²] under a mean flow of 1 J over the step and under one that falls from 1 W to −1 W.
+    held: f64,
+    falling: f64,
+    cells: Vec<[Bound; 2]>,
+    touched: Vec<usize>,
+}
+
+/// Parts of what warms and of what cools each cell that may be given.
+pub type Parts = Vec<[f64; 2]>;
+
+impl<'a> Limit<'a> {
+    pub fn new(surface: &'a Surface, areas: &'a [f64], duration: f64) -> Self {
+        Self {
+            surface: SurfaceAt::new(surface, 1.0, duration),
+            areas,
+            duration,
+            held: surface.response.of_held_flux(duration) / duration,
+            falling: surface.response.of_falling_flux(duration),
+            cells: vec![NONE; areas.len()],
+            touched: Vec::new(),
+        }
+    }
+
+    /// Adds what a film gives.
+    pub fn add(&mut self, footprint: &Footprint, temperature: f64, rings: &[Given]) {
+        for (ring, given) in footprint.rings.iter().zip(rings) {
+            let Some(side) = given.side.map(Side::place) else { continue };
+            let rise = (self.held * given.heat + self.falling * given.fall).abs();
+            for part in &ring.parts {
+                let sides = &mut self.cells[part.cell];
+                if sides.iter().all(|side| side.bound.is_infinite()) {
+                    self.touched.push(part.cell);
+                }
+                let Bound { rise: sum, bound } = &mut sides[side];
+                *sum += part.weight * rise / self.areas[part.cell];
+                let beyond = SIGNS[side] * (temperature - *bound);
+                if beyond > 0.0 {
+                    *bound = temperature;
+                }
+            }
+        }
+    }
+
+    /// Nothing if all can be given everywhere.
+    pub fn parts(&self, lateral: &Lateral) -> Option<Parts> {
+        let mut parts = vec![[1.0; 2]; self.cells.len()];
+        let free = self.touched.iter().map(|&cell| self.surface.temperature(cell));
+        let free: Vec<f64> = free.collect();
+        for (side, sign) in SIGNS.into_iter().enumerate() {
+            self.straight_down((side, sign), &free, &mut parts);
+            if self.is_near_bound((side, sign), &free) {
+                self.along((side, sign), &free, lateral, &mut parts);
+            }
+        }
+        parts.iter().any(|parts| parts.iter().any(|part| *part < 1.0)).then_some(parts)
+    }
+
+    fn straight_down(&self, (side, sign): (usize, f64), free: &[f64], parts: &mut Parts) {
+        for (&cell, free) in self.touched.iter().zip(free) {
+            let Bound { rise, bound } = self.cells[cell][side];
+            if bound.is_finite() {
+                parts[cell][side] = part(sign * (bound - free), rise);
+            }
+        }
+    }
+
+    /// Whether some cell could go beyond its bound if it rose as far as that which rises most.
+    fn is_near_bound(&self, (side, sign): (usize, f64), free: &[f64]) -> bool {
+        let on_side = || {
+            let touched = self.touched.iter().zip(free);
+            touched
+                .map(|(&cell, free)| (self.cells[cell][side], *free))
+                .filter(|(s, _)| s.bound.is_finite())
+        };
+        let most = on_side().map(|(side, _)| side.rise).fold(0.0, f64::max);
+        on_side().any(|(side, free)| {
+            let room = sign * (side.bound - free);
+            room > 0.0 && room < most
+        })
+    }
+
+    /// Heat that comes along the wall counts for all cells that it comes from.
+    fn along(
+        &self,
+        (side, sign): (usize, f64),
+        free: &[f64],
+        lateral: &Lateral,
+        parts: &mut Parts,
+    ) {
+        for (&cell, free) in self.touched.iter().zip(free) {
+            let around = lateral.around(cell, self.duration);
+            let of = |other: usize| self.cells[other][side];
+            let giving = || around.iter().filter(|(other, _)| of(*other).bound.is_finite());
+            let mean: f64 = giving().map(|(other, share)| share * of(*other).rise).sum();
+            let bound = giving().map(|(other, _)| sign * of(*other).bound).fold(f64::MIN, f64::max);
+            let part = part(bound - sign * free, mean);
+            giving().for_each(|(other, _)| parts[*other][side] = parts[*other][side].min(part));
+        }
+    }
+
+    /// Part of what a ring gives that all its cells can take.
+    pub fn part_of(parts: &Parts, ring: &Ring, given: &Given) -> f64 {
+        let Some(side) = given.side.map(Side::place) else { return 1.0 };
+        ring.parts.iter().map(|part| parts[part.cell][side]).fold(1.0, f64::min)
+    }
+}
+
+/// Part of a rise for which there is room.
+fn part(room: f64, rise: f64) -> f64 {
+    match rise {
+        _ if room <= 0.0 => 0.0,
+        rise if rise > room => room / rise,
+        _ => 1.0,
+    }
+}

@@ -1,0 +1,256 @@
+//! Drops that are repeated and come down on the films of others.
+
+use std::f64::consts::PI;
+
+use crate::common::{Trial, off};
+use impinge::model::tolerance::warnings;
+use impinge::scene;
+
+/// ρ, µ, c, k, σ and D, U.
+const WAX: [f64; 7] = [800.0, 1.2e-2, 2200.0, 0.15, 0.025, 6e-5, 6.0];
+const WATER: [f64; 7] = [980.0, 4e-4, 4186.0, 0.66, 0.064, 1e-4, 10.0];
+const TIN: [f64; 7] = [6970.0, 1.8e-3, 245.0, 31.0, 0.55, 1e-4, 5.0];
+const GLYCEROL: [f64; 7] = [1240.0, 0.1, 2600.0, 0.29, 0.06, 1e-4, 20.0];
+const ALUMINIUM: [f64; 7] = [2380.0, 1.2e-3, 1080.0, 90.0, 0.87, 1e-4, 5.0];
+
+const GLASS: &str = "density = 2500.0, specific_heat = 800.0, conductivity = 1.0";
+const STEEL: &str = "density = 7900.0, specific_heat = 500.0, conductivity = 16.0";
+const PTFE: &str = "density = 2200.0, specific_heat = 1000.0, conductivity = 0.25";
+const AEROGEL: &str = "density = 100.0, specific_heat = 1000.0, conductivity = 0.02";
+const COPPER: &str = "density = 8960.0, specific_heat = 385.0, conductivity = 400.0";
+
+/// Drops by a method, with further keys.
+fn drops(liquid: [f64; 7], method: &str, temperature: f64, keys: &str) -> String {
+    let [density, viscosity, heat, conductivity, tension, diameter, speed] = liquid;
+    let spacing = if method == "film" { 0.0 } else { diameter / 8.0 };
+    let spacing = if spacing > 0.0 { format!("spacing = {spacing:?}\n") } else { String::new() };
+    format!(
+        "name = \"Drops\"\nstop_time = 1e-2\nstep = 1e-4\n[body.drop]\nkind = \"droplet\"\nmethod = \
+         \"{method}\"\ndiameter = {diameter:?}\nimpact_velocity = {speed:?}\ninitial_temperature = \
+         {temperature:?}\n{spacing}fluid = {{ density = {density:?}, viscosity = {viscosity:?}, specific_heat = \
+         {heat:?}, conductivity = {conductivity:?}, surface_tension = {tension:?} }}\n{keys}\n"
+    )
+}
+
+const ON_DEMAND: &str = "release = \"input\"\nmost = 3000\n";
+const BOX: &str = "shape = { box = [6e-4, 6e-4, 2e-4] }\nmesh = { spacing = 3e-5, depth_spacing = 2e-6, growth \
+                   = 1.5, order = 1 }";
+const DISC: &str = "shape = { disc = { radius = 4e-4, thickness = 2e-4 } }\nmesh = { spacing = 2e-5, depth_spacing \
+                    = 2e-6, growth = 1.5, order = 1 }";
+
+/// A plate below them.
+fn plate(shape: &str, material: &str, temperature: f64) -> String {
+    format!(
+        "[body.plate]\nkind = \"solid\"\n{shape}\nmaterial = {{ model = \"thermoelastic\", {material} \
+         }}\ninitial_temperature = {temperature:?}\n[[coupling]]\nfrom = \"drop\"\nto = \"plate.top\"\ntraction = \
+         false\nradius = 2e-4\n"
+    )
+}
+
+/// Tiles below them, which are held at a temperature.
+fn tiles(temperature: f64) -> String {
+    format!(
+        "[[wall]]\nname = \"wall\"\nunder = \"drop\"\nfootprint = {{ tiles = {{ count = [8, 8], size = [1e-3, 1e-3] }} \
+         }}\nstart = {{ temperature = {temperature:?} }}\n"
+    )
+}
+
+fn heat_of(liquid: [f64; 7], difference: f64) -> f64 {
+    let [density, _, heat, _, _, diameter, _] = liquid;
+    PI / 6.0 * diameter.powi(3) * density * heat * difference
+}
+
+/// Releases `count` drops, if any, and makes steps; fails where the top of a plate goes beyond its own and the drops'
+/// temperature by more than what linear elements overshoot, 0.5 % of their difference, or where heat is lost.
+fn bounded(text: &str, count: f64, (drop, wall): (f64, f64), steps: &[f64]) -> Trial {
+    let mut trial = Trial::new(text);
+    if count > 0.0 {
+        trial.set("drop.release", count);
+    }
+    let allowed = 5e-3 * (drop - wall).abs();
+    for &step in steps {
+        trial.step(step);
+        let fields = trial.fields("plate");
+        let [nx, ny, _] = fields.axes.each_ref().map(Vec::len);
+        let top = &fields.temperature[fields.temperature.len() - nx * ny..];
+        let lowest = top.iter().copied().fold(f64::INFINITY, f64::min);
+        let highest = top.iter().copied().fold(0.0, f64::max);
+        let (low, high) = (drop.min(wall) - allowed, drop.max(wall) + allowed);
+        assert!(lowest > low && highest < high, "{count} drops: {lowest} to {highest} K");
+        let [given, taken] = ["drop.heat", "plate.heat_in"].map(|name| trial.get(name));
+        assert!((given - taken).abs() <= 1e-12 * given.abs(), "{given} J become {taken} J");
+    }
+    assert!(trial.heat_residual("plate") < 1e-9);
+    trial
+}
+
+/// 60 drops of 400 K at once would bring glass to 1600 K if each gave what it gives alone, 2000 to 44 000 K.
+#[test]
+fn any_number_of_drops_at_once_leaves_a_plate_between_its_own_and_their_temperature() {
+    let steps = [2e-5, 1e-4, 1e-4, 1e-3];
+    for (liquid, material, shape, [drop, wall], method) in [
+        (WAX, GLASS, BOX, [400.0, 320.0], "record"),
+        (WAX, PTFE, DISC, [320.0, 400.0], "film"),
+        (TIN, GLASS, DISC, [600.0, 300.0], "film"),
+        (ALUMINIUM, AEROGEL, DISC, [950.0, 300.0], "film"),
+        (WATER, COPPER, BOX, [290.0, 500.0], "film"),
+        (GLYCEROL, STEEL, DISC, [450.0, 300.0], "film"),
+    ] {
+        let text = drops(liquid, method, drop, ON_DEMAND) + &plate(shape, material, wall);
+        for count in [1.0, 3.0, 60.0] {
+            let mut trial = bounded(&text, count, (drop, wall), &steps);
+            let part = trial.get("drop.heat") / (count * heat_of(liquid, drop - wall));
+            assert!(part > 0.0 && part < 1.0 + 1e-9, "{count} drops give {part} of their heat");
+        }
+    }
+    let text = drops(WAX, "film", 400.0, ON_DEMAND) + &plate(DISC, GLASS, 320.0);
+    bounded(&text, 2000.0, (400.0, 320.0), &[1e-4, 1e-4]);
+}
+
+/// One drop of 650 K every 25 µs.
+#[test]
+fn drops_one_after_another_leave_a_plate_below_their_temperature() {
+    let arrivals = (0..40).map(|n| format!("{{ time = {:?} }}", 2.5e-5 * f64::from(n)));
+    let keys = format!("arrivals = [{}]", arrivals.collect::<Vec<_>>().join(", "));
+    for (liquid, material) in [(TIN, GLASS), (WAX, PTFE), (WATER, GLASS)] {
+        let text = drops(liquid, "film", 650.0, &keys) + &plate(DISC, material, 320.0);
+        bounded(&text, 0.0, (650.0, 320.0), &[1e-4; 12]);
+    }
+}
+
+/// Of drops of several temperatures the hottest bounds.
+#[test]
+fn the_hottest_drop_on_a_place_bounds_its_temperature() {
+    let text = drops(TIN, "film", 400.0, ON_DEMAND) + &plate(DISC, GLASS, 320.0);
+    let mut trial = Trial::new(&text);
+    for (count, temperature) in [(20.0, 400.0), (22.0, 650.0), (60.0, 400.0)] {
+        trial.set("drop.release", count);
+        trial.set("drop.temperature", temperature);
+        (0..4).for_each(|_| trial.step(2e-5));
+        let bound = if count > 20.0 { 650.0 } else { 400.0 };
+        let highest = trial.get("plate.max_temperature");
+        assert!(highest < bound + 0.5, "{count}: {highest}");
+    }
+}
+
+/// Eight like drops are one of twice the diameter: a film twice as thick on four times the area, which gives its heat
+/// four times as late.
+#[test]
+fn like_drops_on_one_place_are_one_of_all_volumes() {
+    let heat = |count: f64, time: f64| {
+        let mut trial = Trial::new(&(drops(WAX, "film", 400.0, ON_DEMAND) + &tiles(320.0)));
+        trial.set("drop.release", count);
+        (0..100).for_each(|_| trial.step(0.01 * time));
+        trial.get("drop.heat") / (count * heat_of(WAX, 80.0))
+    };
+    for time in [2e-4, 1e-3, 4e-3] {
+        let [one, eight] = [heat(1.0, time), heat(8.0, 4.0 * time)];
+        assert!(one > 0.1 && off(eight, one) < 0.03, "{time}: {eight} {one}");
+    }
+}
+
+/// What cannot be given at once is given later, and momentum at once.
+#[test]
+fn drops_on_one_place_give_all_heat_and_momentum() {
+    for method in ["film", "record"] {
+        let mut trial = Trial::new(&(drops(WAX, method, 400.0, ON_DEMAND) + &tiles(320.0)));
+        trial.set("drop.release", 27.0);
+        (0..10).for_each(|_| trial.step(1e-4));
+        let momentum = 27.0 * heat_of(WAX, 1.0) / WAX[2] * WAX[6];
+        let part = -trial.get("drop.impulse_z") / momentum;
+        assert!((part - 1.0).abs() < if method == "film" { 1e-4 } else { 0.06 }, "{part}");
+        let mut steps = 0;
+        while trial.get("drop.active") > 0.0 {
+            trial.step(1e-2);
+            steps += 1;
+            assert!(steps < 10_000);
+        }
+        let all = 27.0 * heat_of(WAX, 80.0);
+        assert!(
+            off(trial.get("drop.heat"), all) < 1e-9,
+            "{method}: {}",
+            trial.get("drop.heat") / all
+        );
+    }
+}
+
+/// A pile elsewhere changes nothing, to the last bit of what a drop alone gives.
+#[test]
+fn drops_that_do_not_meet_others_give_what_they_give_alone() {
+    let heat = |pile: bool| {
+        let mut arrivals = vec!["{ x = 2.2e-4 }"];
+        if pile {
+            arrivals.extend(["{ time = 1e-5, x = -2.2e-4 }", "{ time = 3e-5, x = -2.2e-4 }"]);
+        }
+        let keys = format!("symmetry = \"none\"\narrivals = [{}]", arrivals.join(", "));
+        let mut trial = Trial::new(&(drops(WAX, "film", 400.0, &keys) + &tiles(320.0)));
+        (0..5).for_each(|_| trial.step(2e-5));
+        let cells = (5..=8).flat_map(|i| (1..=8).map(move |j| [i, j]));
+        let names = cells.map(|[i, j]| format!("wall.heat_flux[{i},{j}]"));
+        names.map(|name| trial.get(&name).to_bits()).collect::<Vec<u64>>()
+    };
+    assert_eq!(heat(true), heat(false));
+}
+
+#[test]
+fn a_saved_pile_goes_on_to_the_bit_and_lags_that_no_run_leads_to_are_refused() {
+    let text = drops(TIN, "film", 600.0, ON_DEMAND) + &plate(DISC, GLASS, 300.0);
+    let mut trial = Trial::new(&text);
+    trial.set("drop.release", 12.0);
+    (0..3).for_each(|_| trial.step(1e-5));
+    let saved = trial.state.clone();
+    trial.model.check_state(&saved).unwrap();
+    (0..3).for_each(|_| trial.step(1e-5));
+    let mut other = Trial::on_threads(&text, 2);
+    other.restart(&saved);
+    (0..3).for_each(|_| other.step(1e-5));
+    assert_eq!(other.state, trial.state);
+    let body = trial.model.scene().body.keys().position(|name| name == "drop").unwrap();
+    // Behind ten sums, and of each drop five numbers and 32 rings.
+    let lag = 10 + 5 + 32;
+    for (place, value) in [(lag, 1.0), (lag, -1e-9), (lag + 32, 1.0), (lag + 32, -1e-9)] {
+        let mut forged = saved.clone();
+        forged.bodies[body][place] = value;
+        let refused = trial.model.check_state(&forged).unwrap_err().to_string();
+        assert!(refused.contains("lags behind"), "{place} {value}: {refused}");
+    }
+    let mut forged = saved.clone();
+    forged.bodies[body][5] = 13.0;
+    assert!(trial.model.check_state(&forged).unwrap_err().to_string().contains("on one place"));
+}
+
+/// Three films on one place were compared with particles.
+#[test]
+fn more_films_on_one_place_than_were_measured_are_warned_of_in_that_step() {
+    let mut trial = Trial::new(&(drops(WAX, "film", 400.0, ON_DEMAND) + &tiles(320.0)));
+    for (count, warns) in [(3.0, false), (4.0, true)] {
+        trial.set("drop.release", count);
+        trial.step(1e-5);
+        let said = trial.model.warnings(&trial.state);
+        assert_eq!(said.iter().any(|words| words.contains("more than 3 films")), warns, "{said:?}");
+    }
+}
+
+#[test]
+fn arrivals_on_more_films_than_were_measured_are_foretold() {
+    let said = |count: usize, apart: f64, delay: f64| {
+        let arrival =
+            |n: usize| format!("{{ time = {:?}, x = {:?} }}", delay * n as f64, apart * n as f64);
+        let arrivals: Vec<String> = (0..count).map(arrival).collect();
+        let keys =
+            format!("height = 1e-4\nsymmetry = \"none\"\narrivals = [{}]", arrivals.join(", "));
+        let text = drops(WAX, "film", 400.0, &keys) + &tiles(320.0);
+        let found = warnings(&scene::parse(&text, "scene").unwrap(), &[]);
+        let own = scene::parse_with_warnings(&text, "scene").unwrap().1;
+        let own = own.iter().map(ToString::to_string);
+        found
+            .into_iter()
+            .chain(own)
+            .filter(|one| one.contains("films that still give heat"))
+            .count()
+    };
+    assert_eq!(said(3, 0.0, 1e-4), 0);
+    assert_eq!(said(4, 0.0, 1e-4), 1);
+    assert_eq!(said(9, 1e-4, 1e-4), 0);
+    assert_eq!(said(9, 0.0, 1.0), 0);
+}
