@@ -44,7 +44,7 @@ pub use plausibility::{Measure, Warning, implausible_input, implausible_place};
 pub use recording::Recording;
 pub use reduction::footprints_along;
 pub use reservoir::Reservoir;
-pub use resolution::Resolution;
+pub use resolution::{HeatError, Resolution};
 pub use sampling::{FieldCells, Sampling};
 pub use schema::{SCHEMA, derived_schema};
 pub use types::*;
