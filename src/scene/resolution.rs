@@ -272,10 +272,12 @@ impl Resolution {
         rates.map(|rate| rate / self.across)
     }
 
-    /// What lies outside of the ranges over which errors of the spread were measured.
+    /// Describes what lies outside of the ranges over which errors of the spread were measured. Without tension viscosity
+    /// alone stops a drop, as it does at the largest We.
     pub fn outside_of_spread(&self) -> Option<String> {
         let [reynolds, weber] = OF_SPREAD;
-        outside(&[(reynolds, self.reynolds), (weber, self.weber)])
+        let own = if self.weber.is_finite() { self.weber } else { weber.bounds[1] };
+        outside(&[(reynolds, self.reynolds), (weber, own)])
     }
 
     /// Error of means of force over 0.1 D/U.
@@ -283,7 +285,7 @@ impl Resolution {
         (self.force_rate() / self.across.powi(2)).max(LEAST_FORCE)
     }
 
-    /// What lies outside of the range over which errors of force were measured.
+    /// Describes what lies outside of the range over which errors of force were measured.
     pub fn outside_of_force(&self) -> Option<String> {
         outside(&[(OF_FORCE[0], self.reynolds)])
     }
