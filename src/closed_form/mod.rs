@@ -28,8 +28,8 @@
 //! | [`circular_plate`], [`square_plate`] | clamped plates under uniform pressure |
 //! | [`cantilever`] | beam under an end load, with shear |
 //!
-//! [`medium`] holds the constants they share, [`special`] the special functions and
-//! [`quadrature`] the integrals that no closed form is known for.
+//! [`medium`] holds the constants they share, [`fitted_range`] the ranges that fitted laws state, [`special`] the
+//! special functions and [`quadrature`] the integrals that no closed form is known for.
 
 pub mod bilinear;
 pub mod bonded_plate;
@@ -42,6 +42,7 @@ pub mod convective_slab;
 pub mod cooling_film;
 pub mod disc_pressure;
 pub mod drop_impact;
+pub mod fitted_range;
 pub mod free_plate;
 pub mod gaussian_flux;
 pub mod half_space_flux;
@@ -73,6 +74,7 @@ pub use contact::Contact;
 pub use convective_slab::ConvectiveSlab;
 pub use disc_pressure::DiscPressure;
 pub use drop_impact::DropImpact;
+pub use fitted_range::FittedRange;
 pub use free_plate::FreePlate;
 pub use gaussian_flux::GaussianFlux;
 pub use half_space_flux::{DecayingFlux, DiscFlux, UniformFlux};

@@ -46,7 +46,7 @@ pub use plausibility::{MEASURED_FILMS, Measure, Warning, implausible_input, impl
 pub use recording::Recording;
 pub use reduction::footprints_along;
 pub use reservoir::Reservoir;
-pub use resolution::Resolution;
+pub use resolution::{HeatError, Resolution};
 pub use sampling::{FieldCells, Sampling};
 pub use schema::{SCHEMA, derived_schema};
 pub use types::*;

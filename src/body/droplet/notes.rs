@@ -2,7 +2,7 @@
 
 use super::plan::fine_radius;
 use super::watch;
-use crate::scene::{Coupling, Droplet, Governing, Resolution, Scene, Wall};
+use crate::scene::{Coupling, Droplet, Governing, HeatError, Resolution, Scene, Wall};
 
 /// What was chosen or left out, and why: a sentence each.
 pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
@@ -29,6 +29,7 @@ pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
     let tolerance = scene.fidelity.tolerance;
     let resolution = Resolution::of(scene, (name, droplet)).filter(|_| stands);
     notes.extend(resolution.map(|resolution| note_on_resolution(&resolution, tolerance)));
+    notes.extend(note_on_first_contact(scene, name, droplet));
     if droplet.fluid.surface_tension == 0.0 {
         notes.push("surface tension is left out: the scene names none".to_owned());
     } else if !droplet.shifts() && droplet.shifting.is_none() {
@@ -132,14 +133,16 @@ fn note_on_resolution(resolution: &Resolution, tolerance: f64) -> String {
     let across = resolution.across();
     let [low, high] = resolution.spread().map(|error| 100.0 * error);
     let [few, many] = resolution.spread().map(|error| (error * across / tolerance).round());
-    let force = resolution.force();
     let [film, sheared] = resolution.layers();
     let of_heat = match (resolution.heat(), resolution.thermal_layers()) {
-        (Some([error, scatter]), Some(warmed)) => format!(
+        (Some(HeatError { half, outside: Some(outside), .. }), Some(_)) => {
+            format!(", heat by the stop time by up to {:.0} % either way, as {outside}", 100.0 * half)
+        }
+        (Some(HeatError { expected, half, .. }), Some(warmed)) => format!(
             ", heat by the stop time by {:+.0} ± {:.0} % ({film:.2} particles lie across the film at last, {sheared:.2} \
              across its layer of shear √(νD/U), {warmed:.2} across that of heat √(aD/U))",
-            100.0 * error,
-            100.0 * scatter
+            100.0 * expected,
+            100.0 * half
         ),
         (_, Some(_)) if !resolution.conducts() => {
             ", heat as the wetted area, as what lies below conducts less than the fluid (by a tenth to a fifth at D/Δx 20, \
@@ -148,6 +151,15 @@ fn note_on_resolution(resolution: &Resolution, tolerance: f64) -> String {
         }
         _ => String::new(),
     };
+    let of_spread = resolution.outside_of_spread();
+    let of_spread = of_spread.map_or(String::new(), |outside| format!(", {outside}"));
+    if let Some(outside) = resolution.outside_of_force() {
+        return format!(
+            "at D/Δx {across:.0} the largest spread errs by about {low:.1} to {high:.1} % (by far more where the film gets \
+             thinner than two particles{of_spread}){of_heat}; means of force over {WINDOW} D/U err by an amount that is not \
+             known, {outside}"
+        );
+    }
     let wanted = match resolution.across_for_force(tolerance) {
         Some(forced) => format!(
             "a tolerance of {tolerance:e} takes D/Δx of {few} to {many} for the spread and {forced:.0} for force"
@@ -156,9 +168,22 @@ fn note_on_resolution(resolution: &Resolution, tolerance: f64) -> String {
     };
     format!(
         "at D/Δx {across:.0} the largest spread errs by about {low:.1} to {high:.1} % (by far more where the film gets thinner \
-         than two particles), means of force over {WINDOW} D/U by about {:.0} %{of_heat}; {wanted}",
-        100.0 * force
+         than two particles{of_spread}), means of force over {WINDOW} D/U by about {:.0} %{of_heat}; {wanted}",
+        100.0 * resolution.force()
     )
+}
+
+/// What particles at the stagnation point do to the first temperatures there.
+fn note_on_first_contact(scene: &Scene, name: &str, droplet: &Droplet) -> Option<String> {
+    scene.coupling_from(name)?;
+    let speed = droplet.contact(droplet.normal_speed()).0;
+    (droplet.fluid.conductivity > 0.0 && speed > 0.0).then(|| {
+        format!(
+            "in the first 2 Δx/U = {:.1e} s of contact the temperature under the middle may dip by a tenth to a half of its \
+             rise: the first particles at the wall move apart there before others come down",
+            2.0 * droplet.spacing / speed
+        )
+    })
 }
 
 /// What a wall does whose temperature is held, though a master may couple it.

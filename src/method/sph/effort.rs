@@ -4,6 +4,7 @@
 //! found from processor times of some fifty runs, many of which differ in one of these alone: of 226 to 8378
 //! particles, free and on walls, with and without tension and heat, on one thread. Other work ran on the machine
 //! meanwhile, which lengthens such times by some tenths; times of a step were set lower by about that, by judgement.
+//! Beyond that range times are in proportion to particles and steps.
 
 use std::f64::consts::PI;
 

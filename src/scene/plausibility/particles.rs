@@ -5,7 +5,7 @@ use crate::kernel::Kernel;
 use crate::scene::check::number;
 use crate::scene::droplet::Droplet;
 use crate::scene::locate::Path;
-use crate::scene::resolution::Resolution;
+use crate::scene::resolution::{HeatError, Resolution};
 
 /// Distances of particles over the thickness of a film below which it breaks up too soon, and what is proposed instead.
 const THINNEST: f64 = 1.5;
@@ -99,7 +99,7 @@ fn coarse(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
 fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
     let Some(resolution) = Resolution::of(reviewer.scene, (name, droplet)) else { return };
     let heat = resolution.heat().filter(|_| droplet.fluid.conductivity > 0.0);
-    if let Some(message) = thin(&resolution, droplet, heat) {
+    if let Some(message) = thin(&resolution, droplet, heat.as_ref()) {
         reviewer.warn(path, message);
         return;
     }
@@ -112,7 +112,11 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
         reviewer.warn(path, message);
     }
     let tolerated = reviewer.scene.fidelity.tolerance.max(LEAST_TOLD);
-    let Some([error, scatter]) = heat.filter(|[error, _]| error.abs() > tolerated) else { return };
+    let Some(heat) = heat else { return };
+    let size = if heat.outside.is_some() { heat.half } else { heat.expected.abs() };
+    if size <= tolerated {
+        return;
+    }
     let spacing = match resolution.across_for_heat(tolerated) {
         Some(across) => format!(
             "did you mean a `spacing` of {} m or less?",
@@ -120,18 +124,27 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
         ),
         None => "no `spacing` is known to keep it".to_owned(),
     };
+    reviewer.warn(path, off(&resolution, &heat, tolerated) + &spacing);
+}
+
+/// Describes the expected error of heat and its cause, or the interval that covers it outside of the fitted ranges.
+fn off(resolution: &Resolution, heat: &HeatError, tolerated: f64) -> String {
+    if let Some(outside) = &heat.outside {
+        return format!(
+            "heat may be off by up to {} either way: the law of its error was not fitted on this drop, {outside}; ",
+            percent(heat.half)
+        );
+    }
     let [film, sheared] = resolution.layers();
-    let warmed = resolution.thermal_layers().unwrap_or(0.0);
-    let message = format!(
+    format!(
         "heat is expected to be off by {}, more than {}: {} particles lie across the film at last, {} across its layer of \
-         shear √(νD/U) and {} across that of heat √(aD/U); {spacing}",
-        percents([error, scatter]),
+         shear √(νD/U) and {} across that of heat √(aD/U); ",
+        percents(heat),
         percent(tolerated),
         digits(film),
         digits(sheared),
-        digits(warmed)
-    );
-    reviewer.warn(path, message);
+        digits(resolution.thermal_layers().unwrap_or(0.0))
+    )
 }
 
 /// What to say of a film on a poor conductor whose wetted area so few particles do not tell.
@@ -171,7 +184,7 @@ fn too_hot(droplet: &Droplet, across: f64) -> String {
 }
 
 /// What to say of a film that gets too thin for its particles.
-fn thin(resolution: &Resolution, droplet: &Droplet, heat: Option<[f64; 2]>) -> Option<String> {
+fn thin(resolution: &Resolution, droplet: &Droplet, heat: Option<&HeatError>) -> Option<String> {
     let [film, _] = resolution.layers();
     if film >= THINNEST {
         return None;
@@ -194,8 +207,8 @@ fn below(value: f64, bound: f64) -> String {
 }
 
 /// An error and what it may be off by, in words.
-fn percents([error, scatter]: [f64; 2]) -> String {
-    format!("{:+.0} ± {:.0} %", 100.0 * error, 100.0 * scatter)
+fn percents(heat: &HeatError) -> String {
+    format!("{:+.0} ± {:.0} %", 100.0 * heat.expected, 100.0 * heat.half)
 }
 
 fn percent(error: f64) -> String {
