@@ -44,7 +44,7 @@ pub fn outside(numbers: &[(FittedRange, f64)]) -> Option<String> {
 /// A number to two digits.
 fn short(value: f64) -> String {
     match value.abs() {
-        size if size >= 1e5 || size < 1e-2 => format!("{value:.1e}"),
+        size if !(1e-2..1e5).contains(&size) => format!("{value:.1e}"),
         size if size >= 10.0 => format!("{value:.0}"),
         size if size >= 1.0 => format!("{value:.1}"),
         _ => format!("{value:.2}"),

@@ -139,6 +139,9 @@ mod system {
         guard: usize,
     }
 
+    // SAFETY: a shared stack offers nothing that writes; its owner alone gives it back.
+    unsafe impl Sync for Stack {}
+
     impl Stack {
         /// Nothing where there is no memory for it.
         fn new() -> Option<Self> {

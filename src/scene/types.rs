@@ -159,7 +159,7 @@ pub enum Body {
     /// A solid that conducts heat and deforms elastically.
     Solid(Box<Solid>),
     /// Drops of a fluid.
-    Droplet(Droplet),
+    Droplet(Box<Droplet>),
     /// A body of one temperature.
     Reservoir(Reservoir),
 }

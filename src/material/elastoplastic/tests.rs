@@ -251,7 +251,7 @@ fn stress_returns_to_the_yield_surface_however_far_it_was_sent() {
             let at = plastic.at(temperature).unwrap();
             let mut new = History::default();
             let response = plastic.respond(&strain, temperature, STEP, &old, &mut new);
-            let back = at.back_stress(&new);
+            let back = at.back_stress(&new.back_strain);
             let mean = (0..3).map(|i| response.stress[i]).sum::<f64>() / 3.0;
             let xi: [f64; 6] = std::array::from_fn(|i| {
                 response.stress[i] - back[i] - if i < 3 { mean } else { 0.0 }

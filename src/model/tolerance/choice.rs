@@ -337,7 +337,7 @@ impl<'a> Trials<'a> {
             return Ok(found);
         }
         let [first, second] = [self.beside(levels, coarser(1))?, self.beside(levels, coarser(2))?];
-        Ok(self.order.from_coarser(way, &first, &second))
+        Ok(self.order.by_coarser(way, &first, &second))
     }
 
     fn joined(&self, [along, through]: [Vec<f64>; 2]) -> Estimate {

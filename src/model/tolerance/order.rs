@@ -38,7 +38,7 @@ pub static OF_HISTORY: Order = Order {
 
 impl Order {
     /// The error along the surface (0) or through the thickness (1) from differences to meshes √2 and twice as coarse.
-    pub fn from_coarser(&self, way: usize, first: &[f64], second: &[f64]) -> Vec<f64> {
+    pub fn by_coarser(&self, way: usize, first: &[f64], second: &[f64]) -> Vec<f64> {
         let [near, far] = self.coarser;
         let uneven = |(a, b): (&f64, &f64)| (near * a).max(b / far);
         let pairs = first.iter().zip(second);
@@ -72,7 +72,7 @@ mod tests {
             let error = |level: i32| 0.5f64.powf(0.5 * power * f64::from(level));
             let coarser = |level: i32| vec![error(level) - error(0)];
             for way in [0, 1] {
-                let found = order.from_coarser(way, &coarser(-1), &coarser(-2))[0];
+                let found = order.by_coarser(way, &coarser(-1), &coarser(-2))[0];
                 assert!((0.95..1.2).contains(&found), "{power} {way}: {found}");
             }
             for (level, factor) in [order.twice, order.barely, order.far[0], order.far[1]] {

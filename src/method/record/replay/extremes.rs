@@ -23,7 +23,7 @@ impl Replay {
         if !drop.is_down() {
             return vec![at(drop.temperature)];
         }
-        let amounts = self.plan.course.amounts(drop.speed, ledger.time - drop.contact);
+        let amounts = self.plan.course.amounts(drop.speed, ledger.time - drop.contact, &drop.lag);
         let above = |ring: usize| drop.temperature - drop.wall[ring];
         let wetted = (0..amounts.len()).filter(|&ring| amounts[ring].heat > 0.0);
         let given: f64 = wetted.clone().map(|ring| above(ring) * amounts[ring].heat).sum();
