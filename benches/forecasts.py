@@ -1,13 +1,13 @@
-"""What `impinge check` forecasts of a run, compared with the run: processor time and peak memory, on one thread.
+"""What `impinge check` forecasts of a run, compared with the run, on one thread.
 
     python benches/forecasts.py [NAME …]
 
-Each of some twenty scenes runs once as a process of its own. `time` is its processor time, which an idle machine
-takes as wall time; `memory` is its peak resident set. Ratios are measured over forecast.
+Each of some twenty scenes runs once as a process of its own. `time` is its processor time, which
+an idle machine takes as wall time; `memory` is its peak resident set. Ratios are measured over
+forecast.
 """
 
 import re
-import resource
 import subprocess
 import sys
 import tempfile
@@ -31,9 +31,18 @@ EXAMPLES = {
 }
 STEEL = "density = 7850.0, specific_heat = 470.0, conductivity = 45.0"
 ELASTIC = "young = 210e9, poisson = 0.3, expansion = 12e-6"
-WATER = "density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivity = 0.6, surface_tension = 0.072"
-TIN = "density = 6970.0, viscosity = 1.85e-3, specific_heat = 244.0, conductivity = 33.0, surface_tension = 0.544"
-HONEY = "density = 1420.0, viscosity = 5.0, specific_heat = 2400.0, conductivity = 0.35, surface_tension = 0.06"
+WATER = (
+    "density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, "
+    "conductivity = 0.6, surface_tension = 0.072"
+)
+TIN = (
+    "density = 6970.0, viscosity = 1.85e-3, specific_heat = 244.0, "
+    "conductivity = 33.0, surface_tension = 0.544"
+)
+HONEY = (
+    "density = 1420.0, viscosity = 5.0, specific_heat = 2400.0, "
+    "conductivity = 0.35, surface_tension = 0.06"
+)
 CENTRE = '[[probe]]\nname = "centre"\nin = "plate"\nat = [0.0, 0.0, 0.0]\ngives = {gives}\n'
 
 
@@ -41,18 +50,21 @@ def head(name: str, stop: float, step: float) -> str:
     return f'name = "{name}"\nstop_time = {stop:e}\nstep = {step:e}\n'
 
 
-def solid(
-    shape: str, material: str, more: str = "", gives: str = '["temperature", "stress"]'
-) -> str:
+ALL = '["temperature", "stress"]'
+ONLY_HEAT = '["temperature"]'
+
+
+def solid(shape: str, material: str, gives: str = ALL) -> str:
     return (
         f'[body.plate]\nkind = "solid"\nshape = {{ {shape} }}\nmaterial = {{ {material} }}\n'
-        f"initial_temperature = 300.0\n{more}{CENTRE.format(gives=gives)}"
+        f"initial_temperature = 300.0\n{CENTRE.format(gives=gives)}"
     )
 
 
 def spot(radius: float, flux: float) -> str:
     return (
-        f'[[load]]\nname = "spot"\non = "plate.top"\nfootprint = {{ disc = {{ radius = {radius:e} }} }}\n'
+        '[[load]]\nname = "spot"\non = "plate.top"\n'
+        f"footprint = {{ disc = {{ radius = {radius:e} }} }}\n"
         f'carries = ["heat_flux"]\nstart = {{ heat_flux = {flux:e} }}\n'
     )
 
@@ -68,13 +80,13 @@ def droplet(fluid: str, diameter: float, speed: float, across: float, more: str 
 
 THERMAL = f'model = "thermoelastic", {STEEL}'
 ELASTIC_STEEL = f'model = "thermoelastic", {STEEL}, {ELASTIC}'
-YIELDING = (
-    f'model = "elastoplastic", {STEEL}, {ELASTIC}, yield_stress = 250e6, isotropic_hardening = 2e9'
-)
+HARDENING = "yield_stress = 250e6, isotropic_hardening = 2e9"
+YIELDING = f'model = "elastoplastic", {STEEL}, {ELASTIC}, {HARDENING}'
 MELTING = f"{THERMAL}, melting = {{ solidus = 1700.0, liquidus = 1750.0, latent_heat = 2.7e5 }}"
 DISC = "disc = { radius = 2e-3, thickness = 0.5e-3 }"
 BOX = "box = [4e-3, 4e-3, 0.5e-3]"
-ONLY_HEAT = '["temperature"]'
+
+TRAIN = "train = { count = 100, interval = 1e-4 }\n"
 
 SCENES = {
     "disc, heat": head("A", 1e-2, 1e-3) + solid(DISC, THERMAL, gives=ONLY_HEAT) + spot(2e-4, 1e7),
@@ -100,12 +112,10 @@ SCENES = {
     + droplet(HONEY, 2e-4, 3.0, 20),
     "recorded drops": head("J", 2e-2, 1e-4)
     + solid(BOX, THERMAL, gives=ONLY_HEAT)
-    + droplet(
-        WATER, 1e-4, 3.0, 20, 'method = "record"\ntrain = { count = 100, interval = 1e-4 }\n'
-    ),
+    + droplet(WATER, 1e-4, 3.0, 20, f'method = "record"\n{TRAIN}'),
     "films": head("K", 2e-2, 1e-4)
     + solid(BOX, THERMAL, gives=ONLY_HEAT)
-    + droplet(WATER, 1e-4, 3.0, 0, 'method = "film"\ntrain = { count = 100, interval = 1e-4 }\n'),
+    + droplet(WATER, 1e-4, 3.0, 0, f'method = "film"\n{TRAIN}'),
 }
 
 
@@ -134,6 +144,7 @@ UNITS = {
     "hours": 3600.0,
     "days": 86400.0,
 }
+COST = re.compile(r"`impinge run` takes about (.+?) on idle cores(?:.*, and (.+?) MB)?")
 
 
 def seconds(text: str) -> float:
@@ -147,11 +158,7 @@ def forecast(scene: Path) -> tuple[float, float]:
     report = subprocess.run([RELEASE / "impinge", "check", scene], capture_output=True, text=True)
     if report.returncode:
         raise SystemExit(report.stderr)
-    time, memory = re.search(
-        r"`impinge run` takes about (.+?) on idle cores(?:.*, and (.+?) MB)?", report.stdout
-    ).groups()
-    if memory is None:
-        memory = sum(float(m) for m in re.findall(r"about (\d+) MB", report.stdout))
+    time, memory = COST.search(report.stdout).groups()
     return seconds(time), float(memory)
 
 
@@ -175,9 +182,8 @@ def measured(scene: Path, sets: list[str], folder: Path) -> tuple[float, float]:
 
 def main() -> None:
     wanted = sys.argv[1:]
-    print(
-        f"{'scene':<42} {'time, s':>9} {'forecast':>9} {'ratio':>6} {'memory, MB':>11} {'forecast':>9} {'ratio':>6}"
-    )
+    heading = ["time, s", "forecast", "ratio", "memory, MB", "forecast", "ratio"]
+    print(f"{'scene':<42}" + "".join(f"{word:>12}" for word in heading))
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for scene, path in scenes(folder).items():
@@ -185,11 +191,8 @@ def main() -> None:
                 continue
             said, space = forecast(path)
             time, memory = measured(path, EXAMPLES.get(scene, []), folder)
-            print(
-                f"{scene:<42} {time:9.2f} {said:9.2f} {time / said:6.2f} "
-                f"{memory:11.1f} {space:9.1f} {memory / max(space, 1.0):6.2f}",
-                flush=True,
-            )
+            values = [time, said, time / said, memory, space, memory / space]
+            print(f"{scene:<42}" + "".join(f"{value:12.2f}" for value in values), flush=True)
 
 
 if __name__ == "__main__":

@@ -44,6 +44,19 @@ fn steady_states_are_reached_in_steps_of_any_length() {
     }
 }
 
+/// Held inputs over the longest step heat an insulated body without a loss.
+#[test]
+fn heat_balances_over_the_longest_step() {
+    for flux in [1e-3, 1e6, 1e60] {
+        let mut trial = Trial::new(&slab(10.0, 1e-4, "", "faces = { top = { flux = 0.0 } }"));
+        trial.set("slab.top.flux", flux);
+        trial.step(LONGEST);
+        let wanted = flux * 1e-6 * LONGEST;
+        assert!(off(trial.get("slab.heat_stored"), wanted) < 1e-9, "{flux}");
+        assert!(off(trial.get("slab.heat_in"), wanted) < 1e-9, "{flux}");
+    }
+}
+
 #[test]
 fn steps_beyond_what_arithmetic_bears_are_refused_and_change_nothing() {
     let drop = "[body.drop]\nkind = \"droplet\"\nmethod = \"film\"\ndiameter = 6e-5\nimpact_velocity = \
