@@ -125,9 +125,10 @@ fn a_library_of_another_build_is_not_packed() {
 fn only_a_library_of_this_program_is_packed() {
     let place = Place::new();
     fs::write(place.path("notlib.txt"), "fmi2DoStep fmi3DoStep impinge").unwrap();
-    for other in ["notlib.txt", "scene.toml", PROGRAM, "/dev/null"] {
+    for other in ["notlib.txt", "scene.toml", PROGRAM] {
         place.refused(&format!("scene.toml --library {other}"), "is no library of impinge");
     }
+    place.refused("scene.toml --library /dev/null", "a pipe, socket or device");
     assert!(!Path::new(&place.path("SmallPlate.fmu")).exists());
 }
 
@@ -146,7 +147,7 @@ fn what_cannot_be_printed_ends_without_a_panic() {
 #[test]
 fn endless_scenes_are_refused() {
     let place = Place::new();
-    place.refused("/dev/zero --library lib.so", "at most 16000000 bytes");
+    place.refused("/dev/zero --library lib.so", "a pipe, socket or device");
 }
 
 /// A plate below a spot, at a level.

@@ -240,8 +240,8 @@ fn what_surrounds_the_unknowns_is_looked_at_too() {
     };
     forge(&|s| s.threads = 1025, "1025 threads, of at most 1024");
     forge(&|s| s.threads = u64::MAX, "threads, of at most 1024");
-    forge(&|s| s.lists[0][0] = f64::NAN, "not finite");
-    forge(&|s| s.lists[1][0] = f64::INFINITY, "not finite");
+    forge(&|s| s.lists[0][0] = f64::NAN, "finite");
+    forge(&|s| s.lists[1][0] = f64::INFINITY, "finite");
     forge(&|s| s.lists[1][0] = 1.0, "in an experiment from 1");
     forge(&|s| s.lists[2] = vec![-1.0], "in an experiment from");
     forge(&|s| s.lists[3][0] = -1.0, "in an experiment from");

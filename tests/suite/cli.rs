@@ -366,7 +366,7 @@ fn what_cannot_be_set_is_refused_with_the_reason() {
     refused("plate.young=stiff", &["plate.young = stiff", "a number in Pa"]);
     refused("plate.density=NaN", &["plate.density = NaN"]);
     refused("plate.density=-1", &["plate.density = -1", "at least 0"]);
-    refused("plate.poisson=0.7", &["plate.poisson = 0.7", "from -1 to 0.5"]);
+    refused("plate.poisson=0.7", &["plate.poisson = 0.7", "-1 to 0.5"]);
     refused("plate.poisson=0.5", &["0.5"]);
     refused("solver.threads=1.5", &["solver.threads = 1.5", "whole number"]);
     assert!(!place.path("out").exists(), "a refused run writes nothing");
@@ -606,7 +606,7 @@ fn too_little_address_space_is_refused() {
 #[test]
 fn endless_scenes_are_refused() {
     let place = Workplace::new();
-    place.call(&["check", "/dev/zero"]).fails(1, &["/dev/zero", "at most 16000000 bytes"]);
+    place.call(&["check", "/dev/zero"]).fails(1, &["/dev/zero", "a pipe, socket or device"]);
 }
 
 #[cfg(target_os = "linux")]

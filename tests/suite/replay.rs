@@ -251,12 +251,12 @@ fn drops_are_superposed() {
 #[test]
 fn drops_on_demand_are_those_of_arrivals() {
     let arrivals =
-        "height = 3e-5\narrivals = [{ x = 4e-5 }, { time = 5e-6, x = -9e-5, y = 3e-5 }]\n";
+        "height = 3e-5\narrivals = [{ x = 2e-4 }, { time = 5e-6, x = -2e-4, y = 3e-5 }]\n";
     let asked = format!("height = 3e-5\n{ON_DEMAND}");
     for method in ["record", "film"] {
         let mut timed = Trial::new(&(drop(method, arrivals) + TILES));
         let mut asked = Trial::new(&(drop(method, &asked) + TILES));
-        for (count, x, y) in [(1.0, 4e-5, 0.0), (2.0, -9e-5, 3e-5)] {
+        for (count, x, y) in [(1.0, 2e-4, 0.0), (2.0, -2e-4, 3e-5)] {
             asked.set("drop.release", count);
             asked.set("drop.x", x);
             asked.set("drop.y", y);

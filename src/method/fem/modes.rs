@@ -51,7 +51,10 @@ impl AxisModes {
         let prescribed = ends.map(|end| end == EndCondition::Prescribed);
         let free: Vec<usize> =
             (0..n).filter(|&i| !(i == 0 && prescribed[0] || i + 1 == n && prescribed[1])).collect();
-        let insulated = ends == [EndCondition::Natural; 2];
+        let loses_nothing = |end: &EndCondition| {
+            matches!(end, EndCondition::Natural | EndCondition::Convective(0.0))
+        };
+        let insulated = ends.iter().all(loses_nothing);
         let (decay, shapes) = eigenpairs(axis, &ends, &mass, &stiffness, &free, insulated);
         Self { decay, shapes, mass, stiffness }
     }
@@ -100,8 +103,7 @@ fn eigenpairs(
             shapes[(node, k)] = vectors[(i, k)];
         }
     }
-    let mut decay: Vec<f64> =
-        (0..m).map(|k| rayleigh_quotient(axis, ends, &shapes, k)).collect();
+    let mut decay: Vec<f64> = (0..m).map(|k| rayleigh_quotient(axis, ends, &shapes, k)).collect();
     if insulated {
         // Rounding of the constant would let all heat go in steps of 1e30 s.
         decay[0] = 0.0;

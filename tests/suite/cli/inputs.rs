@@ -84,7 +84,7 @@ fn what_is_wrong_with_a_table_is_said_with_line_and_column() {
             &["table.csv:3", "column `spot.heat_flux`", "much"],
         ),
         ("time,spot.heat_flux\n0,1\n1e-7,NaN\n", &["table.csv:3", "NaN"]),
-        ("time,spot.radius\n0,-1\n", &["table.csv:2", "spot.radius", "at least 0"]),
+        ("time,spot.radius\n0,-1\n", &["table.csv:2", "spot.radius", "1e-12 to 1e6"]),
         ("time,spot.heat_flux\n1,1\n0,1\n", &["table.csv:3", "column `time`", "ascend"]),
         ("time,spot.heat_flux\n0,1\n0,1\n0,1\n", &["table.csv:4", "third row"]),
         ("time,spot.heat_flux\n0,1\n1\n", &["table.csv:3", "1 cells", "allowed: 2"]),
@@ -177,8 +177,10 @@ fn a_run_warns_once_as_its_fluid_would_boil() {
     let place = Workplace::new();
     let text = super::DROP.replace("conductivity = 0.6", "conductivity = 0.6, boils_at = 373.15");
     fs::write(place.path("scene.toml"), text).unwrap();
-    let said =
-        place.run(&["--fields-every", "0", "--set", "wall.temperature=900"]).succeeds().stderr();
+    let said = place
+        .run(&["--fields-every", "0", "--set", "drop.initial_temperature=380"])
+        .succeeds()
+        .stderr();
     assert_eq!(said.matches("above the 373.15 K at which it boils").count(), 1, "{said}");
     assert!(said.contains("warning: drop: at "), "{said}");
     let said = place.run(&["--overwrite", "--fields-every", "0"]).succeeds().stderr();
