@@ -245,7 +245,7 @@ fn what_surrounds_the_unknowns_is_looked_at_too() {
     forge(&|s| s.lists[1][0] = 1.0, "in an experiment from 1");
     forge(&|s| s.lists[2] = vec![-1.0], "in an experiment from");
     forge(&|s| s.lists[3][0] = -1.0, "in an experiment from");
-    forge(&|s| s.lists[4][0] = f64::NAN, "not finite");
+    forge(&|s| s.lists[4][0] = f64::NAN, "finite");
     forge(&|s| s.has_set_derivatives = 2, "yes or no");
     forge(&|s| s.bodies.push(Vec::new()), "bodies");
     forge(&|s| s.peaks = vec![300.0, 0.0, 0.0, 0.0, 0.0], "1 running maxima; the scene has 0");

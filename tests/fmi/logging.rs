@@ -363,6 +363,7 @@ fn outputs_beyond_numbers_are_errors() {
     assert_eq!(unit.step(0.0, 1e20), OK, "{:?}", unit.messages.take());
     let mut value = [7.0];
     let reference = unit.reference("plate.max_von_mises");
+    unit.messages.take();
     assert_eq!(unit.get_all(&[reference], &mut value), ERROR);
     unit.expect_message(
         ERROR,

@@ -32,7 +32,7 @@ fn values_beyond_their_bounds_are_refused_with_the_bound() {
     let unit = Unit::initializing();
     refused(&unit, |u| u.set("plate.poisson", 0.7), &["plate.poisson = 0.7", "at most 0.5"]);
     refused(&unit, |u| u.set("plate.density", -1.0), &["plate.density = -1.0", "at least 0"]);
-    refused(&unit, |u| u.set("spot.x", 2e-4), &["spot.x = 0.0002", "at most 0.0001"]);
+    refused(&unit, |u| u.set("spot.x", 2e-4), &["spot.x = 0.0002", "at most 1e-4"]);
     refused(&unit, |u| u.set_threads(-1), &["solver.threads", "at least 0"]);
 }
 
