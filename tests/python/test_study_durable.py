@@ -121,11 +121,14 @@ def processes_of(folder):
 
 
 def test_nothing_is_lost_on_ctrl_c(scene, tmp_path):
-    folder = tmp_path / "study"
-    process = start(scene, folder)
-    process.send_signal(signal.SIGINT)
-    _, said = process.communicate(timeout=20.0)
-    assert process.returncode != 0 and b"KeyboardInterrupt" in said
+    for attempt in range(3):
+        folder = tmp_path / f"study_{attempt}"
+        process = start(scene, folder)
+        process.send_signal(signal.SIGINT)
+        _, said = process.communicate(timeout=20.0)
+        if process.returncode != 0 or len(keys(folder)) < ROWS:
+            break  # else it was done before the signal came
+    assert process.returncode != 0 and b"KeyboardInterrupt" in said, said.decode()
     count = len(keys(folder))
     assert 10 <= count < ROWS
     resumed = study_of(scene).run(2, folder=folder)
