@@ -71,7 +71,7 @@ impl Check {
     }
 }
 
-/// What this process used to choose and judge meshes, which a run does as well before it builds its model.
+/// Usage of this process while it chose and judged meshes; a run does the same before it builds its model.
 struct Preparation {
     begun: Usage,
     done: Usage,
@@ -105,7 +105,7 @@ impl Preparation {
     }
 }
 
-/// Part of a run from which on the time of its preparation is told.
+/// Part of a run from which on `check` reports the time of its preparation.
 const NOTABLE: f64 = 0.1;
 
 /// What the model will cost and what was chosen, without building it.

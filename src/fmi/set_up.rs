@@ -1,4 +1,4 @@
-//! What a process sets up once, and what the library gives back when it is unloaded.
+//! Set-up of a process, done once, and what the library returns when it is unloaded.
 
 use std::process;
 use std::sync::atomic::{AtomicU32, Ordering};

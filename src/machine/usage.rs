@@ -1,4 +1,4 @@
-//! What this process has used of the machine so far.
+//! Processor time and memory that this process has used so far.
 
 /// Processor time and memory of a process.
 #[derive(Debug, Clone, Copy, PartialEq)]

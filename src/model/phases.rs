@@ -34,7 +34,7 @@ impl Model {
         found
     }
 
-    /// Whether a fluid has points that are looked at.
+    /// Returns true if a fluid has points to be watched.
     pub fn watches_phases(&self) -> bool {
         self.bodies.iter().any(|body| body.watch().is_some_and(|watch| watch.changes().count() > 0))
     }

@@ -173,7 +173,7 @@ fn note_on_resolution(resolution: &Resolution, tolerance: f64) -> String {
     )
 }
 
-/// What particles at the stagnation point do to the first temperatures there.
+/// Returns a note on how particles at the stagnation point affect the first temperatures there.
 fn note_on_first_contact(scene: &Scene, name: &str, droplet: &Droplet) -> Option<String> {
     scene.coupling_from(name)?;
     let speed = droplet.contact(droplet.normal_speed()).0;

@@ -91,7 +91,7 @@ pub fn contact_share(scene: &Scene, name: &str, fluid: &Fluid) -> f64 {
     scene.effusivity_below(name).map_or(0.0, |below| own / (own + below))
 }
 
-/// What the model leaves out of a fluid's phases, and what the contact below a drop is predicted to do.
+/// Returns notes on the phases that the model leaves out, and on the contact temperature predicted below a drop.
 pub fn note(scene: &Scene, (name, fluid): (&str, &Fluid)) -> String {
     let Fluid { freezes_at, boils_at, .. } = *fluid;
     let general = "liquids neither freeze nor boil in this model, and their constants do not change with temperature";

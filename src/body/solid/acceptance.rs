@@ -1,4 +1,4 @@
-//! Whether unknowns that come from elsewhere are those of a run of the body.
+//! Checks of unknowns that come from elsewhere: they have to be those of some run of the body.
 
 use super::SolidBody;
 use crate::method::fem::ThermalFace;

@@ -1,4 +1,4 @@
-//! What a unit was packed with: its scene, and what its folder of resources holds besides.
+//! Contents of a packed unit: its scene and its other resources.
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -1,6 +1,6 @@
 //! Stress and plastic strain at the nodes, within the law of the body.
 //!
-//! What is recovered at nodes goes beyond the values at the points, so it is taken back to what the law allows there.
+//! Stress recovered at nodes may exceed the values at the points; it is returned to what the law allows there.
 //! Plastic strain lies between zero and the largest of the points around a node, and the back strain is no longer than
 //! the path that the plastic strain took. Stress returns to the yield surface at the plastic strain and temperature of
 //! the node. A body that creeps bears stress beyond that surface, but an excess relaxes as it flows: a difference δq

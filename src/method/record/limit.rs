@@ -11,7 +11,7 @@ use super::replay::Given;
 use super::surface::SurfaceAt;
 use crate::method::sph::Surface;
 
-/// What a film does to the wall.
+/// Effect of a film on the wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     Warms,

@@ -3,7 +3,7 @@
 /// Levels by which a finer mesh differs from the one that it judges, and the error of that over their difference.
 pub type Finer = (i32, f64);
 
-/// How errors fall with the number of elements.
+/// Order at which errors fall with the number of elements.
 #[derive(Debug)]
 pub struct Order {
     /// Of a mesh twice as fine, and of one √2 as fine where that is too large.
@@ -13,7 +13,7 @@ pub struct Order {
     /// Error over the difference to a mesh √2 as coarse, and the difference to one twice as coarse over the error,
     /// where errors fall unevenly.
     coarser: [f64; 2],
-    /// Whether errors through the thickness fall evenly.
+    /// True if errors through the thickness fall evenly.
     is_smooth: bool,
 }
 

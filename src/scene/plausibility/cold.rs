@@ -1,4 +1,4 @@
-//! How cold a scene is meant to be.
+//! Warnings of temperatures that are probably in °C.
 
 use crate::limits::plausible::{BESIDE_WARM, Cold};
 use crate::scene::types::{Body, Scene};
@@ -7,7 +7,7 @@ use crate::scene::types::{Body, Scene};
 const LIGHTEST_COMMON: f64 = 150.0;
 
 impl Scene {
-    /// Whether the scene says that it is cold, or is so throughout.
+    /// Returns true if the scene says that it is cold, or is so throughout.
     pub fn cold(&self) -> Cold {
         let is_light = self.droplets().any(|(_, drop)| drop.fluid.density < LIGHTEST_COMMON);
         if self.cryogenic || is_light {
@@ -19,7 +19,7 @@ impl Scene {
         }
     }
 
-    /// Whether something in the scene is no colder than what is plausible beside warm things.
+    /// Returns true if something in the scene is no colder than what is plausible beside warm things.
     fn has_warm(&self) -> bool {
         let is_warm = |temperature: f64| temperature >= BESIDE_WARM;
         let of_solids = self.solids().any(|(_, solid)| {

@@ -19,7 +19,7 @@ pub struct Remembered {
     pub flow: Option<NodalFlow>,
 }
 
-/// What flow has left at the nodes.
+/// Traces of plastic flow at the nodes.
 #[derive(Debug, Clone)]
 pub struct NodalFlow {
     /// Accumulated plastic strain [1].
