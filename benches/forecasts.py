@@ -1,4 +1,4 @@
-"""What `impinge check` forecasts of a run, compared with the run, on one thread.
+"""Compares what `impinge check` forecasts of a run with the run itself, on one thread.
 
     python benches/forecasts.py [NAME …]
 

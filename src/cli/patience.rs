@@ -1,4 +1,4 @@
-//! How long a command will take: told where that is long, refused where nobody waits for it.
+//! Forecasts of how long a command takes: reported where that is long, refused where nobody waits for it.
 
 use std::path::Path;
 

@@ -26,7 +26,7 @@ pub struct Snapshot {
     pub phase: Phase,
     /// The scene with its parameters.
     pub scene: Scene,
-    /// Where fields are written; nothing in states from bytes, which leave the instance's own.
+    /// Folder of the fields; nothing in states from bytes, which leave the instance its own.
     pub directory: Option<String>,
     pub experiment: Experiment,
     pub state: State,

@@ -251,7 +251,7 @@ pub const CRYOGENIC: f64 = 1.0;
 /// Lowest plausible temperature in scenes that hold something warmer than this, too [K].
 pub const BESIDE_WARM: f64 = 250.0;
 
-/// How cold a scene is meant to be.
+/// Coldness that a scene is meant to have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cold {
     /// It says so.

@@ -85,7 +85,7 @@ def _read(path: Path) -> VtkFile:
 
 @dataclass(frozen=True)
 class _Size:
-    """How many points and cells a piece says it has, and points along each index of a grid.
+    """Counts of points and cells that a piece states, and of points along each index of a grid.
 
     `before` are vertices and lines, whose values stand before those of cells. None is what a piece
     does not say.

@@ -14,7 +14,7 @@ use crate::model::{Kept, KeptReduction, State, keep_record, keep_reduction};
 use crate::scene::{self, Scene, Warning};
 use crate::variables::Registry;
 
-/// What a unit's resources hold, and what follows from it.
+/// Contents of a unit's resources, with what follows from them.
 pub struct Packed {
     pub(super) scene: Scene,
     pub(super) warnings: Vec<Warning>,
