@@ -21,7 +21,7 @@ EXAMPLES = {
     "alumina_plate/scene.toml": ["spot.heat_flux=5e7"],
     "coated_plate/scene.toml": [],
     "heated_bed/scene.toml": ["heater.heat_flux=7e3"],
-    "moving_spot/scene.toml": ["spot.heat_flux=1e8"],
+    "moving_spot/scene.toml": ["spot.heat_flux=1e8", "spot.x=1e-4", "spot.y=1e-4"],
     "printed_line/scene.toml": ["drop.release=100"],
     "printer_control/bed.toml": ["heater.heat_flux=7e3"],
     "droplet_on_plate_two_units/together.toml": [],
@@ -55,9 +55,10 @@ ONLY_HEAT = '["temperature"]'
 
 
 def solid(shape: str, material: str, gives: str = ALL) -> str:
+    held = "" if gives == ONLY_HEAT else "faces = { bottom = { clamped = true } }\n"
     return (
         f'[body.plate]\nkind = "solid"\nshape = {{ {shape} }}\nmaterial = {{ {material} }}\n'
-        f"initial_temperature = 300.0\n{CENTRE.format(gives=gives)}"
+        f"initial_temperature = 300.0\n{held}{CENTRE.format(gives=gives)}"
     )
 
 

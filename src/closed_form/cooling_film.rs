@@ -10,8 +10,10 @@ use super::special::ierfc;
 
 /// Fourier number below which images replace the series. Both are at rounding there.
 const EARLY: f64 = 0.2;
-/// Images, or terms of the series, that are summed.
-const TERMS: u32 = 8;
+/// Distance of an image over the length of diffusion beyond which it is below rounding: erfc(6) = 2e-17.
+const FARTHEST: f64 = 6.0;
+/// Terms of the series, in m² and 8/m²; at [`EARLY`] the next one is e⁻⁴⁰.
+const ODD_SQUARES: [i32; 4] = [1, 9, 25, 49];
 /// Halvings of the interval in which a Fourier number is searched for.
 const HALVINGS: usize = 100;
 
@@ -22,15 +24,14 @@ pub fn given_part(fourier: f64) -> f64 {
     }
     if fourier < EARLY {
         let root = fourier.sqrt();
-        let sign = |n: u32| if n.is_multiple_of(2) { 1.0 } else { -1.0 };
-        let images: f64 = (1..=TERMS).rev().map(|n| sign(n) * ierfc(f64::from(n) / root)).sum();
-        return 2.0 * root * (0.5 * FRAC_2_SQRT_PI + 2.0 * images);
+        let images = (1..).map(|n| f64::from(n) / root).take_while(|&distance| distance < FARTHEST);
+        let (sum, _) =
+            images.fold((0.0, -1.0), |(sum, sign), distance| (sum + sign * ierfc(distance), -sign));
+        return 2.0 * root * (0.5 * FRAC_2_SQRT_PI + 2.0 * sum);
     }
-    let term = |n: u32| {
-        let square = (f64::from(2 * n + 1) * PI).powi(2);
-        8.0 / square * (-0.25 * square * fourier).exp()
-    };
-    1.0 - (0..TERMS).rev().map(term).sum::<f64>()
+    let decay = (-0.25 * PI * PI * fourier).exp();
+    let term = |square: i32| 8.0 / (f64::from(square) * PI * PI) * decay.powi(square);
+    1.0 - ODD_SQUARES.into_iter().rev().map(term).sum::<f64>()
 }
 
 /// The Fourier number at which a part of all heat, from 0 to below 1, has been given.
