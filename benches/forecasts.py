@@ -87,7 +87,9 @@ MELTING = f"{THERMAL}, melting = {{ solidus = 1700.0, liquidus = 1750.0, latent_
 DISC = "disc = { radius = 2e-3, thickness = 0.5e-3 }"
 BOX = "box = [4e-3, 4e-3, 0.5e-3]"
 
-TRAIN = "train = { count = 100, interval = 1e-4 }\n"
+# A hundred drops in a row, 60 µm apart.
+PLACES = ", ".join(f"{{ time = {1e-4 * n:e}, x = {6e-5 * (n % 20 - 10):e} }}" for n in range(100))
+TRAIN = f"arrivals = [{PLACES}]\n"
 
 SCENES = {
     "disc, heat": head("A", 1e-2, 1e-3) + solid(DISC, THERMAL, gives=ONLY_HEAT) + spot(2e-4, 1e7),
@@ -101,7 +103,7 @@ SCENES = {
     + spot(2e-4, 1e7),
     "box, stress": head("D", 1e-2, 1e-3) + solid(BOX, ELASTIC_STEEL) + spot(2e-4, 1e7),
     "disc, yielding": head("E", 1e-2, 5e-4) + solid(DISC, YIELDING) + spot(2e-4, 3e8),
-    "box, melting": head("F", 2e-3, 1e-4) + solid(BOX, MELTING, gives=ONLY_HEAT) + spot(3e-4, 1e9),
+    "box, melting": head("F", 2e-4, 2e-5) + solid(BOX, MELTING, gives=ONLY_HEAT) + spot(3e-4, 1e9),
     "water on a disc": head("G", 2e-4, 1e-5)
     + solid(DISC, THERMAL, gives=ONLY_HEAT)
     + droplet(WATER, 2e-4, 3.0, 30),

@@ -9,6 +9,9 @@ use crate::method::fem::Plan;
 use crate::method::sph::{DropletSph, SurfaceResponse, WallCells};
 use crate::scene::{Coupling, Droplet, FaceName, Scene};
 
+/// Most parts of a step that is cut where bodies ask for it.
+pub const MOST_PARTS: usize = 64;
+
 /// A body that stands on a face of another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {

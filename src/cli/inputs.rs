@@ -22,6 +22,9 @@ pub enum Between {
     Held,
 }
 
+/// Parts of the way between the ends of a place's values at which it is looked at.
+const PASSED: usize = 64;
+
 /// Columns of inputs over time. Before the first row and after the last the inputs are held; two rows of one time
 /// are a jump.
 #[derive(Debug, Clone, PartialEq)]
@@ -166,6 +169,30 @@ impl InputTable {
             places.iter().flat_map(move |&place| ends.map(|end| (place, end))).collect::<Vec<_>>()
         };
         self.columns.iter().enumerate().flat_map(of_column).collect()
+    }
+
+    /// The least and the largest value of each input, and of places what they pass between: those in the middle of a way
+    /// may be farther from where a mesh is fine than both of its ends.
+    pub fn samples(&self, scene: &Scene) -> Vec<InputValue> {
+        let registry = Registry::of(scene);
+        let is_length = |place: usize| {
+            let mut own = registry.variables.iter().filter(|v| v.slot == Slot::Input(place));
+            own.any(|variable| variable.quantity == Some(Quantity::Length))
+        };
+        let mut samples = self.extremes();
+        if self.between == Between::Linear {
+            let passed: Vec<InputValue> = samples
+                .chunks_exact(2)
+                .filter(|ends| is_length(ends[0].0))
+                .flat_map(|ends| {
+                    let (place, [low, high]) = (ends[0].0, [ends[0].1, ends[1].1]);
+                    let at = move |n: usize| low + (high - low) * n as f64 / PASSED as f64;
+                    (1..PASSED).map(move |n| (place, at(n)))
+                })
+                .collect();
+            samples.extend(passed);
+        }
+        samples
     }
 
     /// The times at which rows stand between two others, all in seconds.

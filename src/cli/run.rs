@@ -156,7 +156,7 @@ impl Run {
     ) -> Result<Option<InputTable>, CliError> {
         let Some(path) = &self.inputs else { return Ok(None) };
         let table = InputTable::read(path, self.between, scene)?;
-        for warning in set::implausible(scene, &table.extremes()) {
+        for warning in set::implausible(scene, &table.samples(scene)) {
             super::print_message("warning", &warning);
         }
         if let Some((kind, message)) = table.remark(path, scene.stop_time) {

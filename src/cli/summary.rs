@@ -6,7 +6,7 @@ use impinge::scene::Scene;
 use impinge::variables::{Output, Quantity, Registry, Slot, Variable};
 
 use super::table::table;
-use super::units::{engineering, kelvin};
+use super::units::{decimal, engineering, kelvin};
 
 /// Relative residual of the heat balance above which a run warns.
 const BALANCED: f64 = 1e-9;
@@ -15,6 +15,9 @@ const BALANCED_BY_PARTICLES: f64 = 5e-2;
 
 /// Most values of probes that a run's report lists.
 const MOST_PROBED: usize = 40;
+
+/// Outputs of a body that tell whether it has yielded or crept.
+const IS_FLOW: [&str; 2] = ["max_plastic_strain", "plastic_work"];
 
 /// Where the heat of a body went [J].
 #[derive(Debug, Clone, PartialEq)]
@@ -155,7 +158,8 @@ pub fn extremes_table(
         let is_total = matches!(output.reading, Reading::Total(_));
         let body = model.scene().body.keys().nth(output.body);
         let is_shown = body.is_none_or(|name| model.scene().solid(name).is_none())
-            || matches!(quantity, Quantity::Temperature | Quantity::Stress);
+            || matches!(quantity, Quantity::Temperature | Quantity::Stress)
+            || IS_FLOW.iter().any(|key| variable.name.ends_with(key));
         if is_total && is_shown {
             let value = model.output(state, cache, output)?;
             rows.push([variable.name.clone(), shown(value, quantity)]);
@@ -189,8 +193,17 @@ pub fn peaks_table(model: &Model, state: &State, cache: &mut Cache) -> Result<St
 fn shown(value: f64, quantity: Quantity) -> String {
     match quantity {
         Quantity::Temperature => kelvin(value),
-        Quantity::Ratio | Quantity::Count => format!("{value}"),
+        Quantity::Count => format!("{value}"),
+        Quantity::Ratio => five_digits(value),
         quantity => engineering(value, quantity.unit()),
+    }
+}
+
+/// A number without a unit to five digits.
+fn five_digits(value: f64) -> String {
+    match format!("{value:.4e}").parse() {
+        Ok(rounded) => decimal(rounded),
+        Err(_) => value.to_string(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! In which order bodies advance, and how often those that are linked meet.
 
 use super::{Cache, Model, ModelError, State};
-use crate::body::{Acts, BodyError, Given, Link, Received};
+use crate::body::{Acts, BodyError, Given, Link, MOST_PARTS, Received};
 use crate::inputs::InputPath;
 use crate::math::allowance::Allowance;
 use crate::method::sph::Surface;
@@ -55,8 +55,7 @@ impl Exchange {
 /// A part of a step for a group: the inputs from its beginning on, and its length [s].
 pub(super) type Part<'a> = (&'a InputPath, f64);
 
-/// Most parts of a step that is cut where bodies ask for it, and the shortest over the step.
-const MOST_PARTS: usize = 64;
+/// Shortest part of a step that is cut where bodies ask for it, over the step.
 const SHORTEST: f64 = 1e-6;
 
 impl Model {

@@ -121,8 +121,9 @@ impl Scene {
         let inputs = self.driving_inputs(name);
         if inputs * outputs * inputs.min(outputs) > MOST_WORK {
             let message = format!(
-                "{inputs} inputs and some {outputs} outputs of `{name}` are too many for a reduced model (inputs times \
-                 outputs times the fewer of both: {MOST_WORK} at most)"
+                "{inputs} ways to drive `{name}` and some {outputs} outputs are too many for a reduced model (the one times the \
+                 other times the fewer of both: {MOST_WORK} at most); a footprint counts once for each place and radius that \
+                 its `range` lets it take: smaller ranges, or fewer quantities that it carries, would do"
             );
             return Some(Obstacle { at: Place::Level, message, allowed: "full, auto" });
         }

@@ -119,11 +119,19 @@ pub struct MeshFactors {
     /// Largest relative error of the body's outputs that was estimated on this mesh [1].
     #[schemars(transform = not_negative("1", "an error").otherwise("estimated when it is read"))]
     pub estimated_error: Option<f64>,
+    /// Whether heat that is linear goes through linear elements, as that does which is not: estimates ask for it.
+    #[serde(skip)]
+    pub linear_heat: bool,
 }
 
 const FACTOR: &str = "a mesh is finer or coarser than usual by a factor";
 
 impl MeshFactors {
+    /// Of a mesh whose error is not known.
+    pub fn of([along, through]: [f64; 2]) -> Self {
+        Self { along, through, estimated_error: None, linear_heat: false }
+    }
+
     /// Along the surface and through the thickness.
     pub fn factors(&self) -> [f64; 2] {
         [self.along, self.through]

@@ -69,7 +69,7 @@ pub fn forget_unused_reductions() {
 /// All that a reduction follows from: the scene without what other bodies and names in it say.
 fn key(scene: &Scene, name: &str) -> String {
     let [along, through] = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
-    let mesh = MeshFactors { along, through, estimated_error: None };
+    let mesh = MeshFactors::of([along, through]);
     let mut own = Scene {
         name: String::new(),
         description: String::new(),

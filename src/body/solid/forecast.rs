@@ -1,5 +1,6 @@
 //! What a solid will cost.
 
+use super::front::may_melt;
 use super::rows::Choice;
 use super::{is_large, plan};
 use crate::body::threads_for;
@@ -7,7 +8,7 @@ use crate::coupling::FaceRings;
 use crate::math::chebyshev::products;
 use crate::method::enthalpy::EnthalpyHeat;
 use crate::method::fem::{
-    Geometry, expected_entries, factor_memory, memory_of_row, particle_cost, solver_memory,
+    Geometry, Plan, expected_entries, factor_memory, memory_of_row, particle_cost, solver_memory,
     suits_conjugate_gradients,
 };
 use crate::scene::{CellShape, CellValues, Coupling, Load, Scene, Solid};
@@ -57,9 +58,11 @@ const BRICK_RATE: f64 = 7e5;
 /// Products of particles' matrices: entries per second on one thread, and rows built per second.
 pub const PRODUCT_RATE: f64 = 9e8;
 const ROW_RATE: f64 = 2.5e4;
-/// Time per node that nonlinear heat takes in a communication step, of some ten inner ones or, where something melts,
-/// many more [s]; the same of the equilibrium of a body part of which yields [s], and its memory per node [B].
-const NONLINEAR_HEAT: f64 = 9e-5;
+/// Time per node that nonlinear heat takes in a communication step [s], and beyond that for each pair of nodes in a run
+/// in which a front of melting goes through some of them: each that it passes costs inner steps of the whole body.
+const NONLINEAR_HEAT: f64 = 3e-6;
+const FRONT: f64 = 1.2e-8;
+/// Time per node that the equilibrium of a body takes part of which yields [s], and its memory per node [B].
 const YIELDING: f64 = 1.5e-4;
 const YIELDING_MEMORY: f64 = 8e3;
 /// Modes through layers: cubed numbers of nodes along z per second, on each thread.
@@ -88,8 +91,7 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     let at_start = |axis| is_odd_at_start(scene, name, axis);
     let classes = count_classes(plan.mesh.mirrored, at_start);
     // Memory is taken when a class is first loaded; time is told as of a run that loads all that it may.
-    let later =
-        count_classes(plan.mesh.mirrored, |axis| at_start(axis) || becomes_odd(scene, name, axis));
+    let later = expected_classes(scene, name, &plan);
     let spacing = plan.mesh.axes.each_ref().map(|axis| {
         let steps = axis.nodes.windows(2).map(|pair| pair[1] - pair[0]);
         steps.fold([f64::INFINITY, 0.0], |[low, high], step| [low.min(step), high.max(step)])
@@ -111,6 +113,9 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
     if plan.newton.is_some() {
         further_memory += EnthalpyHeat::expected_bytes(plan.mesh.sided_counts());
         nonlinear_time += NONLINEAR_HEAT * nodes;
+        if may_melt(scene, name, solid) {
+            nonlinear_time += FRONT * nodes.powi(2) * scene.step / scene.stop_time;
+        }
     }
     if plan.inelastic.is_some() {
         further_memory += YIELDING_MEMORY * nodes;
@@ -148,6 +153,12 @@ pub fn forecast_solid(scene: &Scene, name: &str, solid: &Solid) -> BodyForecast 
             + passes * links / PRODUCT_RATE,
         notes: plan.notes,
     }
+}
+
+/// How many symmetry classes may come to be loaded.
+fn expected_classes(scene: &Scene, name: &str, plan: &Plan) -> f64 {
+    let is_odd = |axis| is_odd_at_start(scene, name, axis) || becomes_odd(scene, name, axis);
+    count_classes(plan.mesh.mirrored, is_odd)
 }
 
 /// How many symmetry classes are loaded, each of which has a solver of its own.

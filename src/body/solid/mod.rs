@@ -4,6 +4,7 @@ mod acceptance;
 mod advance;
 mod doubts;
 mod forecast;
+mod front;
 mod linear;
 mod loads;
 mod means;

@@ -23,11 +23,12 @@ pub fn plan(scene: &Scene, name: &str, solid: &Solid) -> Plan {
         (true, true) => Mechanics::Wanted,
     };
     let newton = takes_newton(scene, solid).then_some(TEMPERATURES * scene.fidelity.tolerance);
-    let factors = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
-    let refinements = &refinements;
-    let request = PlanRequest { mechanics, refinements, shortest, newton, factors };
-    let mut plan = Plan::new(solid, request);
     let mesh = scene.refinement.get(name);
+    let factors = mesh.map_or([1.0; 2], MeshFactors::factors);
+    let linear_heat = mesh.is_some_and(|mesh| mesh.linear_heat);
+    let refinements = &refinements;
+    let request = PlanRequest { mechanics, refinements, shortest, newton, factors, linear_heat };
+    let mut plan = Plan::new(solid, request);
     let chosen =
         mesh.map(|mesh| note_on_mesh(mesh, solid.mesh.spacing.is_some(), scene.fidelity.tolerance));
     plan.notes.extend(chosen);

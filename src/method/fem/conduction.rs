@@ -3,7 +3,7 @@
 use super::heat::{
     DepthModes, HeatLoads, HeatProblem, Homogeneous, Layered, ModalRow, ThermalFace,
 };
-use super::nonlinear::{NonlinearFailure, NonlinearHeat};
+use super::nonlinear::{NonlinearFailure, NonlinearHeat, heat_mesh};
 use super::plan::Plan;
 use crate::math::allowance::{Allowance, Halt};
 use crate::method::enthalpy::Failure;
@@ -66,13 +66,13 @@ impl Conduction {
         match particle_setup(plan) {
             Some(setup) => Self::Particles(Box::new(ParticleHeat::new(setup, threads))),
             None if plan.strata.len() > 1 => Self::Layers(Box::new(HeatProblem::layered(
-                &plan.mesh,
+                &heat_mesh(plan),
                 &plan.constants_of_layers(),
                 plan.thermal_faces.clone(),
                 threads,
             ))),
             None => Self::Modes(Box::new(HeatProblem::homogeneous(
-                &plan.mesh,
+                &heat_mesh(plan),
                 plan.constants.heat_capacity(),
                 plan.constants.conductivity,
                 plan.thermal_faces.clone(),

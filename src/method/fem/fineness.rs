@@ -246,10 +246,13 @@ impl<'a> Fineness<'a> {
 
     /// Stretches of an axis that loads may act on, with a margin.
     fn loads(&self, axis: usize, start: f64) -> Vec<Fine> {
-        let margin = 2.0 * self.lateral;
         let stretch = |r: &Refinement| {
+            // A wide load beside a small one is no reason for small elements all over it.
+            let own = (r.feature / NODES_PER_FEATURE).max(self.lateral);
+            let distance = self.keys().spacing.unwrap_or(own);
             let [from, to] = fold([r.x, r.y][axis], start);
-            self.stretch([from - margin, to + margin], self.order as f64 * self.lateral)
+            let margin = 2.0 * distance;
+            self.stretch([from - margin, to + margin], self.order as f64 * distance)
         };
         self.refinements.iter().map(stretch).collect()
     }

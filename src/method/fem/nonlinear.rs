@@ -173,7 +173,7 @@ const TRACE: f64 = 1e-2;
 
 /// The mesh on which heat is brought into the nodes.
 pub fn heat_mesh(plan: &Plan) -> Mesh {
-    if plan.newton.is_some() { linear_mesh(&plan.mesh) } else { plan.mesh.clone() }
+    if plan.linear_heat { linear_mesh(&plan.mesh) } else { plan.mesh.clone() }
 }
 
 fn setup(plan: &Plan, newton: &NewtonPlan) -> Setup {

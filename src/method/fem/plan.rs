@@ -35,6 +35,8 @@ pub struct Plan {
     pub face_sources: Vec<(FaceName, Option<FaceName>)>,
     /// What Newton's method advances the heat by; `None` where modes or particles do.
     pub newton: Option<NewtonPlan>,
+    /// Whether heat goes through linear elements.
+    pub linear_heat: bool,
     /// What each layer of elements along z deforms by where that is not linear, from the lowest on.
     pub inelastic: Option<Vec<Arc<dyn FlowLaw>>>,
     /// Temperature without thermal stress above the initial one [K].
@@ -66,6 +68,8 @@ pub struct PlanRequest<'a> {
     pub newton: Option<f64>,
     /// Numbers of elements along the surface and through the thickness over the usual ones.
     pub factors: [f64; 2],
+    /// Whether heat that is linear goes through linear elements.
+    pub linear_heat: bool,
 }
 
 /// A part of the top or bottom face where a load may act.
@@ -113,7 +117,7 @@ impl Plan {
     /// Plans a solid.
     pub fn new(
         solid: &Solid,
-        PlanRequest { mechanics, refinements, shortest, newton, factors }: PlanRequest,
+        PlanRequest { mechanics, refinements, shortest, newton, factors, linear_heat }: PlanRequest,
     ) -> Self {
         let mut strata = solid.strata();
         strata.reverse();
@@ -153,6 +157,7 @@ impl Plan {
             sph: solid.sph(),
             thermal_faces,
             face_sources,
+            linear_heat: linear_heat || newton.is_some(),
             newton,
             inelastic,
             stress_free_rise,

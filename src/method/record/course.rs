@@ -210,7 +210,12 @@ fn turns(known: &(Profile, Option<Tail>)) -> Vec<f64> {
     if half.is_infinite() {
         return Vec::new();
     }
-    let mut age = FIRST * known.0.duration;
+    turns_of_film(known.0.duration, half)
+}
+
+/// The same of a drop of which something is known for a `duration`, and which has given half of its heat at an age [s].
+pub fn turns_of_film(duration: f64, half: f64) -> Vec<f64> {
+    let mut age = FIRST * duration;
     let mut ages = Vec::new();
     while age < half {
         ages.push(age);

@@ -21,8 +21,8 @@ mod state;
 mod surface;
 mod tail;
 
-pub use course::Course;
+pub use course::{Course, turns_of_film};
 pub use film::{Film, film_profile};
 pub use profile::{Amounts, Profile};
 pub use recorder::{Recorder, record_profile};
-pub use replay::{Falling, Replay, ReplayPlan, ReplayTotals};
+pub use replay::{Falling, NEAR, Replay, ReplayPlan, ReplayTotals};

@@ -182,18 +182,29 @@ impl Replay {
     }
 
     /// Moments within a step of this length [s] at which the wall should be asked anew: as drops touch down, and as they
-    /// cool.
+    /// cool. A moment at which a drop has cooled may be another that is near.
     pub fn moments(&self, state: &[f64], released: &[Falling], duration: f64) -> Vec<f64> {
         let (ledger, drops) = self.of(state);
         let known = drops.iter().map(|drop| (drop.contact, drop.speed));
         let further = released.iter().map(|falling| (falling.contact, falling.speed));
-        let of_drop = |(contact, speed): (f64, f64)| {
-            let touched = contact - ledger.time;
-            let turns = self.plan.course.turns(speed).map(move |age| touched + age);
-            std::iter::once(touched).chain(turns)
+        let touches = known.chain(further).map(|(contact, speed)| (contact - ledger.time, speed));
+        let is_within = |moment: f64| (0.0..duration).contains(&moment);
+        let turns_of = |&(touched, speed): &(f64, f64)| {
+            self.plan.course.turns(speed).map(move |age| (age, touched + age))
         };
-        let moments = known.chain(further).flat_map(of_drop);
-        moments.filter(|moment| (0.0..duration).contains(moment)).collect()
+        let mut turns: Vec<(f64, f64)> =
+            touches.clone().collect::<Vec<_>>().iter().flat_map(turns_of).collect();
+        turns.retain(|&(_, moment)| is_within(moment));
+        turns.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut moments: Vec<f64> =
+            touches.map(|(touched, _)| touched).filter(|&m| is_within(m)).collect();
+        for (age, moment) in turns {
+            let is_near = |other: f64| (moment - other).abs() < NEAR * age;
+            if ![0.0, duration].into_iter().chain(moments.iter().copied()).any(is_near) {
+                moments.push(moment);
+            }
+        }
+        moments
     }
 
     fn footprint(&self, drop: &Drop) -> Footprint {
@@ -431,6 +442,8 @@ impl Replay {
     }
 }
 
+/// Part of its age by which a moment at which a drop has cooled may be moved.
+pub const NEAR: f64 = 0.08;
 /// Relative rounding of times and places.
 const ROUNDING: f64 = 1e-9;
 

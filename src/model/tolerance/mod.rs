@@ -44,7 +44,8 @@ pub fn resolve(scene: &Scene) -> Resolved {
         let key = (scene.clone(), name.to_owned());
         let Ok(choice) = CHOICES.get_or_make(&key, || Ok::<_, Infallible>(choose(scene, name)));
         let [along, through] = choice.factors;
-        let factors = MeshFactors { along, through, estimated_error: choice.error };
+        let factors =
+            MeshFactors { estimated_error: choice.error, ..MeshFactors::of([along, through]) };
         resolved.scene.refinement.insert(name.to_owned(), factors);
         resolved.choices.push(choice);
     }

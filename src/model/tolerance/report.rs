@@ -39,7 +39,7 @@ pub fn estimates(scene: &Scene) -> (Scene, Vec<BodyEstimate>) {
     let mut resolved = resolve(scene).scene;
     let estimates: Vec<_> = resolved.solids().map(|(name, _)| estimate(&resolved, name)).collect();
     for one in &estimates {
-        let own = MeshFactors { along: 1.0, through: 1.0, estimated_error: None };
+        let own = MeshFactors::of([1.0; 2]);
         let factors = resolved.refinement.entry(one.body.clone()).or_insert(own);
         factors.estimated_error = one.worst();
     }
@@ -170,7 +170,7 @@ fn finest(scene: &Scene, name: &str, factors: [f64; 2]) -> [f64; 2] {
     let mut finer = scene.clone();
     let own = finer.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
     let [along, through] = [0, 1].map(|way| own[way] * factors[way]);
-    let mesh = MeshFactors { along, through, estimated_error: None };
+    let mesh = MeshFactors::of([along, through]);
     finer.refinement.insert(name.to_owned(), mesh);
     let bodies = forecast(&finer).bodies;
     let body = bodies.iter().find(|body| body.name == name);
@@ -275,7 +275,7 @@ pub fn packed_text(scene: &Scene, text: &str, known: &Scene) -> String {
     for (body, mesh) in
         known.refinement.iter().filter(|(body, _)| !scene.refinement.contains_key(*body))
     {
-        let MeshFactors { along, through, estimated_error } = mesh;
+        let MeshFactors { along, through, estimated_error, .. } = mesh;
         let _ = write!(packed, "[refinement.{body}]\nalong = {along:?}\nthrough = {through:?}\n");
         if let Some(error) = estimated_error {
             let _ = writeln!(packed, "estimated_error = {error:e}");

@@ -30,6 +30,8 @@ pub struct Twin {
     pub reads_extremes: bool,
     /// Whether stress depends on the history of the body, as it yields, creeps or has constants that are tables.
     pub has_history: bool,
+    /// Whether heat goes through linear elements, as Newton's method has them.
+    linear_heat: bool,
     /// What differs from the body itself.
     pub simplified: Vec<String>,
 }
@@ -72,7 +74,8 @@ impl Twin {
         twin.field.retain(|field| !field.gives.is_empty());
         twin.solver.threads = 1;
         twin.fidelity.level = FidelityLevel::Full;
-        if takes_newton(scene, solid) {
+        let linear_heat = takes_newton(scene, solid);
+        if linear_heat {
             simplified.push(
                 "constants are those at the temperature at time zero, nothing melts, and faces radiate in proportion to \
                  what they are warmer than their surroundings"
@@ -112,6 +115,7 @@ impl Twin {
             own: own_factors,
             reads_extremes,
             has_history,
+            linear_heat,
             simplified,
         })
     }
@@ -119,8 +123,8 @@ impl Twin {
     /// On a mesh of so many times as many elements as its own along the surface and through the thickness.
     pub fn on_mesh(&self, factors: [f64; 2]) -> Scene {
         let mut scene = self.scene.clone();
-        let [along, through] = [0, 1].map(|way| self.own[way] * factors[way]);
-        let factors = MeshFactors { along, through, estimated_error: None };
+        let factors = MeshFactors::of([0, 1].map(|way| self.own[way] * factors[way]));
+        let factors = MeshFactors { linear_heat: self.linear_heat, ..factors };
         scene.refinement.insert(self.name.clone(), factors);
         scene
     }

@@ -44,7 +44,7 @@ fn stacked(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
     let message = format!(
         "the drop at {} s is expected to come down on {} films that still give heat: more than {MEASURED_FILMS} on one place \
          were not compared with particles; temperatures stay between those of drops and wall, but are not known to be right; \
-         did you mean `sph`?",
+         `method = \"sph\"` computes every drop, at what `check` says it costs",
         number(arrivals[at].time),
         films(at) - 1
     );

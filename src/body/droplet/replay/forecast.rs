@@ -5,6 +5,8 @@ use super::notes;
 use crate::body::droplet::forecast::{DropletForecast, PARTICLE_MEMORY, exchange_time};
 use crate::body::solid::plan;
 use crate::body::{link, threads_for};
+use crate::closed_form::cooling_film::fourier_number;
+use crate::method::record::{NEAR, turns_of_film};
 use crate::method::sph::{DropletSph, Effort, RunSettings};
 use crate::scene::{Droplet, Scene};
 
@@ -53,20 +55,28 @@ impl Recording {
     }
 }
 
-/// Estimates without recording anything; that every drop gives something in twenty exchanges.
+/// Estimates without recording anything; that all drops are released which may be.
 pub fn forecast(scene: &Scene, name: &str, droplet: &Droplet) -> DropletForecast {
     let recording = Recording::of(scene, (name, droplet));
-    let exchanges = |length: f64| (scene.stop_time / length).ceil();
+    let cooling = Cooling::of(droplet);
+    let in_time = || droplet.arrivals().iter().filter(|arrival| arrival.time < scene.stop_time);
+    let drops = if droplet.is_on_demand() { droplet.drops() } else { in_time().count() };
+    let interval = scene.coupling_from(name).and_then(|index| scene.coupling[index].interval);
+    let exchanges = match interval {
+        Some(interval) => {
+            let parts = link::parts(interval, scene.step);
+            (scene.stop_time / scene.step).ceil() * parts as f64
+        }
+        None => cooling.exchanges(scene, drops),
+    };
+    let length = scene.stop_time / exchanges;
     let of_solid = scene.coupling_from(name).and_then(|index| {
-        let coupling = &scene.coupling[index];
-        let solid = coupling.solid()?;
+        let solid = scene.coupling[index].solid()?;
         let plan = plan(scene, solid, scene.solid(solid)?);
-        let parts = link::parts(coupling.interval.unwrap_or(f64::INFINITY), scene.step);
-        let length = scene.step / parts as f64;
-        Some(exchanges(length) * exchange_time(&plan, length))
+        Some(exchanges * exchange_time(&plan, length))
     });
-    let giving = (droplet.recorded_time(droplet.impact_velocity) / scene.step).clamp(1.0, 20.0);
-    let replaying = GIVE * giving * droplet.drops() as f64;
+    let giving = (cooling.duration() / length).clamp(1.0, exchanges);
+    let replaying = GIVE * giving * drops as f64;
     let mut notes = notes(scene, (name, droplet));
     let Recording { particles, time_step, steps, seconds } = recording;
     notes.extend((particles > 0).then(|| {
@@ -80,5 +90,39 @@ pub fn forecast(scene: &Scene, name: &str, droplet: &Droplet) -> DropletForecast
         memory: PARTICLE_MEMORY * particles as f64,
         run_time: seconds + replaying + of_solid.unwrap_or(0.0),
         notes,
+    }
+}
+
+/// How the film of a drop is expected to cool.
+struct Cooling {
+    /// Known of the drop [s].
+    recorded: f64,
+    /// Until half of its heat has been given [s].
+    half: f64,
+}
+
+impl Cooling {
+    /// Of a film as thick as the drop's volume over its largest footprint, whose lower face is held.
+    fn of(droplet: &Droplet) -> Self {
+        let fluid = &droplet.fluid;
+        let recorded = droplet.recorded_time(droplet.impact_velocity);
+        let thickness = droplet.diameter.powi(3) / (1.5 * droplet.spread_diameter().powi(2));
+        let diffusivity = fluid.conductivity / (fluid.density * fluid.specific_heat);
+        let half = fourier_number(0.5) * thickness.powi(2) / diffusivity;
+        Self { recorded, half }
+    }
+
+    /// Until hardly any heat is left [s].
+    fn duration(&self) -> f64 {
+        self.recorded + fourier_number(0.999) / fourier_number(0.5) * self.half
+    }
+
+    /// Parts of steps at which the wall is asked: as drops touch down, and as they cool beside the ends of a step.
+    fn exchanges(&self, scene: &Scene, drops: usize) -> f64 {
+        let ages = turns_of_film(self.recorded, self.half).into_iter();
+        let cuts = |age: &f64| *age < scene.stop_time && 2.0 * NEAR * age < scene.step;
+        let cuts = 1.0 + ages.filter(cuts).count() as f64;
+        let steps = (scene.stop_time / scene.step).ceil();
+        steps * (1.0 + cuts * drops as f64 / steps).min(link::MOST_PARTS as f64)
     }
 }

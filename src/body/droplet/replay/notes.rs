@@ -102,6 +102,7 @@ pub fn on_overlap(name: &str, overlapping: f64, released: f64) -> String {
 pub fn on_stacks(name: &str) -> String {
     format!(
         "{name}: more than {MEASURED_FILMS} films that still give heat stand on one place: heat and temperatures there stay \
-         between those of drops and wall, but are not known to be right (docs/fidelity.md); did you mean `sph`?"
+         between those of drops and wall, but are not known to be right (docs/fidelity.md); `method = \"sph\"` computes \
+         every drop, at what `check` says it costs"
     )
 }

@@ -1,0 +1,66 @@
+//! Whether a solid is expected to melt, which decides what its heat costs.
+
+use crate::material::{Melting, Properties};
+use crate::scene::{Carries, Face, Load, Scene, Solid};
+
+/// Returns true unless everything that acts from the start is known to leave the solid below every solidus.
+///
+/// Loads of which the scene gives no heat flux may come to carry any.
+pub fn may_melt(scene: &Scene, name: &str, solid: &Solid) -> bool {
+    let heat = Heat::on(scene, name, solid);
+    solid.materials_of_layers().into_iter().any(|material| {
+        let properties = material.properties();
+        let melts =
+            |melting: &Melting| heat.hottest(properties, scene.stop_time) >= melting.solidus;
+        properties.melting.as_ref().is_some_and(melts)
+    })
+}
+
+/// What heats a solid: the hottest that touches it [K], and its fluxes [W/m²] with their radii [m].
+struct Heat {
+    hottest: f64,
+    fluxes: Vec<(f64, f64)>,
+}
+
+impl Heat {
+    fn on(scene: &Scene, name: &str, solid: &Solid) -> Self {
+        let faces: Vec<Face> = solid.shape.faces().iter().map(|&face| solid.face(face)).collect();
+        let droplets =
+            scene.couplings_to(name).filter_map(|coupling| scene.droplet(&coupling.from));
+        let hottest = faces
+            .iter()
+            .filter_map(temperature_of)
+            .chain(droplets.map(|droplet| droplet.initial_temperature))
+            .fold(solid.initial_temperature, f64::max);
+        let of_faces = faces.iter().filter_map(|face| Some((face.flux?, f64::INFINITY)));
+        let heating = |load: &&Load| load.carries.contains(&Carries::HeatFlux);
+        let of_loads = scene.loads_on(name).filter(heating).map(flux_of);
+        Self { hottest, fluxes: of_faces.chain(of_loads).collect() }
+    }
+
+    /// Temperature in the middle of all fluxes at once after a time [K]: `q/k · min(2√(at/π), R)` each, of a half space
+    /// under an even flux, and under a disc that has come to rest.
+    fn hottest(&self, properties: &Properties, time: f64) -> f64 {
+        let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
+        let conductivity = least(properties.conductivity.values());
+        let capacity = properties.density * least(properties.specific_heat.values());
+        let depth = 2.0 * (conductivity / capacity * time / std::f64::consts::PI).sqrt();
+        let rise = |(flux, radius): &(f64, f64)| flux / conductivity * depth.min(*radius);
+        self.hottest + self.fluxes.iter().map(rise).sum::<f64>()
+    }
+}
+
+/// Temperature of what a face meets, if it is known [K].
+fn temperature_of(face: &Face) -> Option<f64> {
+    let ambient = face.convection.as_ref().map(|convection| convection.ambient);
+    let surroundings = face.radiation.as_ref().map(|radiation| radiation.ambient);
+    [face.temperature, ambient, surroundings].into_iter().flatten().reduce(f64::max)
+}
+
+/// Heat flux of a load [W/m²] and its radius [m]; without end where the scene says nothing of it.
+fn flux_of(load: &Load) -> (f64, f64) {
+    let values = load.start.heat_flux.iter().flat_map(|values| values.numbers());
+    let most = values.fold(0.0, f64::max);
+    let [x, y] = load.footprint.half_extents(load.start.radius);
+    (if most > 0.0 { most } else { f64::INFINITY }, load.footprint.reach() * x.max(y))
+}
