@@ -6,10 +6,10 @@ use std::time::Instant;
 
 use impinge::material::Thermoelastic;
 use impinge::math::conjugate_gradients::{self, Operator};
-use impinge::math::parallel::Team;
 use impinge::method::fem::brick_inverse::BrickInverse;
 use impinge::method::fem::brick_stiffness::BrickStiffness;
 use impinge::method::fem::{Axis, Geometry, Layering, Mesh, Weight};
+use impinge::runtime::parallel::Team;
 
 /// What is left of the load, as where units solve for displacements.
 const TOLERANCE: f64 = 1e-12;

@@ -7,6 +7,8 @@
 // Blank lines keep the order, which is the architecture.
 #![allow(rustdoc::broken_intra_doc_links)] // Units stand in brackets: [K], [Pa].
 
+pub mod runtime;
+
 pub mod closed_form;
 
 pub mod math;
@@ -34,8 +36,6 @@ pub mod body;
 pub mod variables;
 
 pub mod model;
-
-pub mod machine;
 
 pub mod output;
 

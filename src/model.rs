@@ -37,12 +37,12 @@ pub use crate::body::{
 };
 pub use crate::inputs::HIGHEST_INPUT_DERIVATIVE;
 use crate::inputs::{InputLayout, InputPath};
-use crate::math::allowance::{Allowance, Interrupt};
-use crate::math::made_once::MadeOnce;
-use crate::math::thread::aside;
 use crate::method::fem::ElasticProblem;
 pub use crate::method::fem::NodalFields;
 pub use crate::method::sph::ParticleFields;
+use crate::runtime::allowance::{Allowance, Interrupt};
+use crate::runtime::made_once::MadeOnce;
+use crate::runtime::thread::aside;
 use crate::scene::{FidelityLevel, Scene, Shape};
 use crate::variables::{Output, Registry, Slot};
 use memory::threads_that_fit;

@@ -18,8 +18,8 @@ use std::process::{self, ExitCode};
 
 use archive::Entries;
 use clap::Parser;
-use impinge::machine::available_memory;
 use impinge::model::{Model, notes_on_walls, records, to_be_recorded, tolerance};
+use impinge::runtime::available_memory;
 use impinge::scene::{self, Scene};
 use version::Version;
 

@@ -6,8 +6,8 @@
 
 use std::ops::Range;
 
-use impinge::machine::available_memory;
 use impinge::model::{Cache, Model, ModelError, Timeline, check_memory};
+use impinge::runtime::available_memory;
 use impinge::scene::Scene;
 use impinge::variables::{
     ArrayRegistry, ArrayVariable, Causality, Content, Output, Registry, Slot, Variable,

@@ -1,10 +1,10 @@
-use crate::math::address_space::TooLittle;
-use crate::math::allowance::Halt;
 use crate::math::cholesky::SolverError;
 use crate::method::fem::NonlinearFailure;
 use crate::method::inelastic::InelasticError;
 use crate::method::sph::Failure;
 use crate::quantity::kelvin;
+use crate::runtime::address_space::TooLittle;
+use crate::runtime::allowance::Halt;
 
 /// Why a body does not do what it is asked for.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

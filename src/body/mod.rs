@@ -26,10 +26,10 @@ pub use reduced::{KeptReduction, forget_unused_reductions, keep_reduction};
 pub use solid::{PointQuantity, point_quantities};
 
 use crate::inputs::{InputLayout, InputPath};
-use crate::math::allowance::Allowance;
 pub use crate::method::fem::Extreme;
 use crate::method::fem::{ElasticProblem, NodalFields};
 use crate::method::sph::{ParticleFields, Surface, SurfaceResponse, WallCells, WarmPlace};
+use crate::runtime::allowance::Allowance;
 use crate::scene::{self, FaceName, Scene};
 use crate::state::Layout;
 use droplet::{DropletBody, ReplayBody, Watch};

@@ -11,11 +11,11 @@ use super::{
     Received,
 };
 use crate::inputs::{InputLayout, InputPath};
-use crate::math::allowance::Allowance;
 use crate::math::exponential;
 use crate::method::fem::NodalFields;
 use crate::method::sph::{Surface, SurfaceResponse, WallCells};
 use crate::quantity::Quantity;
+use crate::runtime::allowance::Allowance;
 use crate::scene::{FaceName, Reservoir};
 use crate::state::{Field, Layout, Per};
 

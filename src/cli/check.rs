@@ -2,10 +2,10 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use impinge::machine::{Usage, available_memory};
 use impinge::model::tolerance::estimate::OutputError;
 use impinge::model::tolerance::{self, BodyEstimate, percent};
 use impinge::model::{Forecast, Model, ParticleForecast, Timeline, check_memory, forecast};
+use impinge::runtime::{Usage, available_memory};
 use impinge::scene::{
     self, Coupling, Droplet, Face, Field, Load, MaterialChoice, Probe, Scene, Shape, Solid, Wall,
 };

@@ -5,8 +5,8 @@ use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use impinge::machine::available_memory;
 use impinge::model::State;
+use impinge::runtime::available_memory;
 use impinge::scene::{self, Scene};
 use impinge::variables::{Quantity, Registry, Slot, Variable};
 

@@ -3,11 +3,11 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
-use impinge::machine::available_memory;
 use impinge::model::{
     Cache, Model, ModelError, State, Timeline, check_memory, to_be_recorded, tolerance,
 };
 use impinge::output::{CsvTable, FieldSeries, FolderLock, OutputError};
+use impinge::runtime::available_memory;
 use impinge::scene::{self, Scene};
 use indicatif::{ProgressBar, ProgressStyle};
 

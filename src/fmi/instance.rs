@@ -11,9 +11,9 @@ use super::legality::{Function, Phase};
 use super::panics;
 use super::types::{Answer, Handle, Refusal, Status};
 use super::unit::Unit;
-use crate::math::allowance::Interrupt;
-use crate::math::fork_lock::ForkLock;
 use crate::model::Model;
+use crate::runtime::allowance::Interrupt;
+use crate::runtime::fork_lock::ForkLock;
 
 /// What a `fmi2Component` or `fmi3Instance` points to. It is never freed but serves a later unit, so
 /// that a call that comes while its unit is taken back, or later, looks at memory that is still there.

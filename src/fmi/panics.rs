@@ -7,8 +7,8 @@ use std::thread;
 
 use super::float_environment;
 use super::set_up::SetUpOnce;
-use crate::math::fork_lock::ForkLock;
-use crate::math::thread::is_ours;
+use crate::runtime::fork_lock::ForkLock;
+use crate::runtime::thread::is_ours;
 
 thread_local! {
     /// Whether this thread runs a call of the ABI. Nothing is kept per thread that has to be destroyed:
@@ -70,8 +70,8 @@ fn text_of(payload: &(dyn Any + Send)) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::parallel;
-    use crate::math::thread::aside;
+    use crate::runtime::parallel;
+    use crate::runtime::thread::aside;
 
     #[test]
     fn a_panic_becomes_its_message_and_place() {

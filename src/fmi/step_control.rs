@@ -3,8 +3,8 @@
 //! FMI 3.0 lets a unit return early, and tell its host on the way how far it has come. A unit does so between
 //! parts of a step, none of which differs from a step of that length.
 
-use crate::math::allowance::{Allowance, EARLY_UPDATES, Halt, Interrupt};
 use crate::model::{Cache, Model, ModelError, State};
+use crate::runtime::allowance::{Allowance, EARLY_UPDATES, Halt, Interrupt};
 
 /// Tells the host a time within a step [s] and whether the step may end early; the time at which the host
 /// wants that.

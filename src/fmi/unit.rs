@@ -18,15 +18,15 @@ use super::rates::check_path;
 use super::saved::SavedStates;
 use super::step_control::StepControl;
 use super::types::{Answer, Refusal, Status};
-use crate::machine::available_memory;
-use crate::math::address_space::{self, PRODUCTS, SPARE};
-use crate::math::allowance::{Halt, Interrupt};
-use crate::math::thread::{STACK, aside};
 use crate::model::{
     BodyError, Cache, Kept, KeptReduction, Model, ModelError, State, Stiffness, Tangent,
     check_step_length, initial_inputs, to_be_recorded,
 };
 use crate::output::{FieldSeries, FolderLock};
+use crate::runtime::address_space::{self, PRODUCTS, SPARE};
+use crate::runtime::allowance::{Halt, Interrupt};
+use crate::runtime::available_memory;
+use crate::runtime::thread::{STACK, aside};
 use crate::scene::{self, Scene, Warning};
 use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
 

@@ -8,8 +8,8 @@ use std::sync::Arc;
 use super::legality::Phase;
 use super::types::{Answer, Reference, Refusal, Status};
 use super::unit::{Unit, expect_room, explain};
-use crate::math::address_space::SPARE;
-use crate::math::thread::{STACK, aside};
+use crate::runtime::address_space::SPARE;
+use crate::runtime::thread::{STACK, aside};
 use crate::variables::{Causality, Output, Registry, Slot, Variable};
 
 /// The FMI types of variables in use.

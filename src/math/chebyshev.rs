@@ -11,8 +11,8 @@
 //! Source: H. Tal-Ezer (1989), SIAM J. Numer. Anal. 26, 1–11, doi 10.1137/0726001 (Chebyshev methods
 //! for parabolic problems); the recurrences for the coefficients are derived below.
 
-use super::allowance::{Allowance, Halt};
 use super::separable::dot;
+use crate::runtime::allowance::{Allowance, Halt};
 
 /// Largest half width `τΛ/2` of one expansion. Longer steps are cut in equal parts: eigenvalues a
 /// little off the real axis would make terms of the sum grow as `exp(ρ δ²/2)`, δ being their
@@ -100,7 +100,7 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
             let now: &[f64] = u;
             let mut first = sources[0].clone();
             let add_rate = |row: usize, out: &mut f64| *out += (self.apply)(row, now);
-            super::parallel::for_each(self.threads, &mut first, add_rate);
+            crate::runtime::parallel::for_each(self.threads, &mut first, add_rate);
             let mut power = dt;
             for (k, source) in std::iter::once(&first).chain(&sources[1..]).enumerate() {
                 if source.iter().any(|&v| v != 0.0) {
@@ -130,7 +130,9 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
         let shifted = |row: usize, v: &[f64]| v[row] + scale * (self.apply)(row, v);
         let mut before = v.to_vec();
         let mut now = vec![0.0; v.len()];
-        super::parallel::for_each(self.threads, &mut now, |row, out| *out = shifted(row, &before));
+        crate::runtime::parallel::for_each(self.threads, &mut now, |row, out| {
+            *out = shifted(row, &before)
+        });
         let mut sum = 0.0;
         let mut terms = value.iter().zip(integral);
         for term in [&before, &now] {
@@ -142,7 +144,7 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
         for (a, b) in terms {
             allowance.spend(1.0, PRODUCTS, v.len())?;
             // T_{j+1} = 2 X T_j − T_{j−1}, in the place of the latter.
-            super::parallel::for_each(self.threads, &mut before, |row, out| {
+            crate::runtime::parallel::for_each(self.threads, &mut before, |row, out| {
                 *out = 2.0 * shifted(row, &now) - *out;
             });
             std::mem::swap(&mut before, &mut now);

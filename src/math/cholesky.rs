@@ -10,10 +10,10 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Conj, MatMut, Par, Side};
 
-use super::address_space::TooLittle;
 use super::conjugate_gradients::NotConverged;
-use super::parallel::Team;
 use super::supernodes::{self, Columns};
+use crate::runtime::address_space::TooLittle;
+use crate::runtime::parallel::Team;
 
 /// Lower triangle of a symmetric matrix by columns, rows ascending, diagonal first.
 #[derive(Debug, Clone, Default)]

@@ -1,7 +1,7 @@
 //! Conjugate gradients, preconditioned (M. R. Hestenes and E. Stiefel 1952, doi 10.6028/jres.049.044).
 
-use super::parallel::Team;
 use super::separable::dot;
+use crate::runtime::parallel::Team;
 
 /// A symmetric positive definite system that is known by what it does to a vector.
 pub trait Operator {

@@ -21,7 +21,7 @@ use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::sparse::linalg::cholesky::supernodal::SymbolicSupernodalCholesky;
 use faer::{Accum, Auto, MatMut, MatRef, Par};
 
-use super::parallel::Team;
+use crate::runtime::parallel::Team;
 
 /// Rows and columns of a tile: a multiple of what the kernels for products take at a time.
 const TILE: usize = 192;

@@ -1,7 +1,7 @@
 use crate::body::BodyError;
 use crate::limits::Bounds;
-use crate::math::address_space::TooLittle;
-use crate::math::allowance::Halt;
+use crate::runtime::address_space::TooLittle;
+use crate::runtime::allowance::Halt;
 use crate::scene::SceneError;
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,8 +1,8 @@
 //! Whether a scene fits into the memory that there is, before anything large is built.
 
 use super::{Forecast, Model, ModelError, State, forecast};
-use crate::math::address_space::{self, ARENA, PRODUCTS, SPARE, TooLittle};
-use crate::math::thread::{SPACE, STACK};
+use crate::runtime::address_space::{self, ARENA, PRODUCTS, SPARE, TooLittle};
+use crate::runtime::thread::{SPACE, STACK};
 use crate::scene::Scene;
 
 /// Of each unknown, what a step or a look at temperatures takes beside the state itself [B].

@@ -1,7 +1,7 @@
 //! Steps that are taken in parts, so that a host can be told how far they have come.
 
 use super::{Cache, Model, ModelError, State};
-use crate::math::allowance::{Allowance, PART_UPDATES};
+use crate::runtime::allowance::{Allowance, PART_UPDATES};
 
 impl Model {
     /// Into how many parts a step of `dt` [s] is cut for a host that wants to be told of it on its way. Bodies that

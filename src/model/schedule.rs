@@ -3,8 +3,8 @@
 use super::{Cache, Model, ModelError, State};
 use crate::body::{Acts, BodyError, Given, Link, MOST_PARTS, Received};
 use crate::inputs::InputPath;
-use crate::math::allowance::Allowance;
 use crate::method::sph::Surface;
+use crate::runtime::allowance::Allowance;
 use crate::scene::FaceName;
 
 /// Bodies that advance together because links join them, or one alone.

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use super::tolerance::{self, Resolved};
 use super::{Model, ModelError, check_memory};
 use crate::body::{forget_unused_records, forget_unused_reductions};
-use crate::math::shared_values::SharedValues;
-use crate::math::thread::aside;
 use crate::method::fem::forget_unused_stiffness;
+use crate::runtime::shared_values::SharedValues;
+use crate::runtime::thread::aside;
 use crate::scene::Scene;
 
 static MODELS: SharedValues<Scene, Model> = SharedValues::new();

@@ -7,8 +7,8 @@ use std::ptr;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use impinge::fmi::guid;
-use impinge::math::sealed::{Content, Format, Reader};
 use impinge::model::tolerance::stored_reductions;
+use impinge::runtime::sealed::{Content, Format, Reader};
 use impinge::scene;
 use impinge::variables::Registry;
 

@@ -77,7 +77,7 @@ fn a_method_uses_only_methods_above_it() {
 #[test]
 fn only_the_outer_layers_do_input_and_output() {
     for (module, path, code) in library() {
-        if ["fmi", "machine", "output", "scene"].contains(&module.as_str()) {
+        if ["fmi", "runtime", "output", "scene"].contains(&module.as_str()) {
             continue;
         }
         for word in ["std::fs", "std::io", "println!", "print!(", "eprint"] {

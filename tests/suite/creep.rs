@@ -1,7 +1,7 @@
 //! Bodies that creep, against closed forms.
 
-use impinge::math::allowance::{Allowance, Interrupt};
 use impinge::model::Cache;
+use impinge::runtime::allowance::{Allowance, Interrupt};
 
 use crate::common::{Trial, off};
 

@@ -6,11 +6,11 @@ use impinge::closed_form::{
     Conductor, Contact as TwoBodies, LinearConductivity, MeltingFront, RadiatingLump,
 };
 use impinge::material::{Melting, Property, Substance, Table};
-use impinge::math::allowance::Allowance;
 use impinge::method::enthalpy::{Condition, Contact, EnthalpyHeat, Face, Loads, Setup};
 use impinge::method::fem::{
     Axis, Geometry, HeatLoads, HeatProblem, Layering, Mesh, MeshFace, ThermalFace, Weight,
 };
+use impinge::runtime::allowance::Allowance;
 
 static NONE: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
 const BOTTOM: MeshFace = MeshFace { axis: 2, high: false };

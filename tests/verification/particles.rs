@@ -5,11 +5,11 @@ use std::time::Instant;
 
 use impinge::closed_form::{Conductor, DiscFlux, HeatedSlab, SuddenSurface, UniformFlux};
 use impinge::kernel::Kernel;
-use impinge::math::allowance::Allowance;
 use impinge::method::particle_heat::operators::{Neighbour, Tensor, corrected, plain};
 use impinge::method::particle_heat::{
     Condition, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
 };
+use impinge::runtime::allowance::Allowance;
 
 use crate::common::Trial;
 use crate::study::{

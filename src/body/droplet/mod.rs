@@ -25,11 +25,11 @@ use super::{
     Acts, Body, BodyError, Descriptor, Fields, Given, Link, Memo, Reading, Received, link,
 };
 use crate::inputs::{InputLayout, InputPath};
-use crate::math::allowance::{Allowance, cost};
 use crate::method::sph::{
     Domain, DropletSph, Failure, ParticleFields, Surface, UNKNOWNS, WallCells, WallExchange,
     WarmPlace,
 };
+use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{Droplet, Scene};
 use crate::state::Layout;
 use demand::DropInputs;

@@ -25,9 +25,9 @@ use super::{
     Acts, Body, BodyError, Direct, Fields, Given, Linear, Memo, Reading, Received, point_quantities,
 };
 use crate::inputs::{InputLayout, InputPath};
-use crate::math::allowance::Allowance;
 use crate::method::fem::NodalFields;
 use crate::method::reduced::ReducedSystem;
+use crate::runtime::allowance::Allowance;
 use crate::scene::{Scene, Solid, footprints_along};
 use crate::state::{Field, Layout, Per};
 use build::Full;

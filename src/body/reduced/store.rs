@@ -5,9 +5,9 @@ use std::sync::Arc;
 
 use super::{ReducedBody, Reduction};
 use crate::body::BodyError;
-use crate::math::sealed::{Content, Format, Reader};
-use crate::math::shared_values::SharedValues;
 use crate::method::reduced::ReducedSystem;
+use crate::runtime::sealed::{Content, Format, Reader};
+use crate::runtime::shared_values::SharedValues;
 use crate::scene::{FidelityLevel, MeshFactors, Naming, Scene, Solver};
 
 /// Changes with what a reduction is made of.

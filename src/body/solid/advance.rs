@@ -4,8 +4,8 @@ use super::SolidBody;
 use super::memo::SolidMemo;
 use crate::body::{Acts, BodyError};
 use crate::inputs::InputPath;
-use crate::math::allowance::Allowance;
 use crate::method::fem::SolidLoads;
+use crate::runtime::allowance::Allowance;
 
 /// Parts of a footprint's size that it may move or grow by in one part of a step.
 pub const PARTS_OF_A_FOOTPRINT: f64 = 8.0;

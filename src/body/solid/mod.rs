@@ -36,8 +36,8 @@ use super::{
 };
 use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
-use crate::math::allowance::Allowance;
 use crate::method::fem::{ElasticProblem, HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
+use crate::runtime::allowance::Allowance;
 use crate::scene::{FaceName, PeakOf, Scene, Shape, Solid};
 use crate::state::Layout;
 use memo::SolidMemo;

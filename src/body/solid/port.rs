@@ -6,9 +6,9 @@ use super::memo::SolidMemo;
 use crate::body::{Acts, BodyError, Conductor, Given, Memo};
 use crate::coupling::{FaceCells, FaceRings};
 use crate::inputs::InputPath;
-use crate::math::allowance::Allowance;
 use crate::method::fem::{Geometry, Plan, SolidFem, SolidLoads, Temperatures, heat_mesh};
 use crate::method::sph::{Surface, SurfaceResponse, WallCells};
+use crate::runtime::allowance::Allowance;
 use crate::scene::FaceName;
 
 /// How a face takes what comes through its cells, and how it answers.

@@ -15,11 +15,11 @@ use super::point::PointQuantity;
 use crate::body::BodyError;
 use crate::coupling::FaceMeans;
 use crate::math::cholesky::SolverError;
-use crate::math::made_once::MadeOnce;
 use crate::method::fem::{
     ClassRow, Component, Functional, Geometry, Plan, SolidFem, Term, memory_of_row,
     most_memory_of_rows,
 };
+use crate::runtime::made_once::MadeOnce;
 use crate::scene::{CellShape, Gives, Sampling, Scene, Solid};
 
 /// What goes by rows.

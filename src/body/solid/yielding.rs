@@ -5,12 +5,12 @@ use std::sync::Arc;
 use super::SolidBody;
 use crate::body::{Acts, BodyError};
 use crate::material::FlowLaw;
-use crate::math::allowance::Allowance;
 use crate::math::cholesky::SolverError;
 use crate::method::fem::{Deformation, Plan, Remembered, SolidLoads, Temperatures};
 use crate::method::inelastic::{
     Increment, InelasticError, InelasticProblem, NodalValues, StateLayout,
 };
+use crate::runtime::allowance::Allowance;
 use crate::state::{Field, Layout, Per};
 
 /// The mechanics of a solid that yields, or whose elastic constants depend on the temperature.

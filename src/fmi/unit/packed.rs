@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use super::start_state;
 use crate::fmi::set_up::SetUpOnce;
 use crate::fmi::{MARK, guid};
-use crate::math::address_space::{self, PRODUCTS, SPARE};
 use crate::math::product::look_up_caches;
-use crate::math::thread::{STACK, aside};
 use crate::model::{Kept, KeptReduction, State, keep_record, keep_reduction};
+use crate::runtime::address_space::{self, PRODUCTS, SPARE};
+use crate::runtime::thread::{STACK, aside};
 use crate::scene::{self, Scene, Warning};
 use crate::variables::Registry;
 

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::Unit;
 use crate::fmi::types::Status;
-use crate::math::thread::aside;
 use crate::output::OutputError;
+use crate::runtime::thread::aside;
 use crate::scene;
 
 /// The subject of warnings of steps that are too short.

@@ -4,8 +4,8 @@ use super::body::{Body, Drive};
 use super::setup::{Loads, Setup, SetupError};
 use super::stage::Unsolved;
 use super::step::{Outcome, Step};
-use crate::math::allowance::{Allowance, Halt};
 use crate::method::heat_totals::HeatTotals;
+use crate::runtime::allowance::{Allowance, Halt};
 
 /// What a step aims at, in parts of the error allowed; and how much the next one may be shorter or longer.
 const AIM: f64 = 0.9;

@@ -2,9 +2,9 @@
 
 use super::body::{Body, Drive, Fields, Flow};
 use super::linear::{Coefficients, System};
-use crate::math::allowance::{Allowance, Halt};
-use crate::math::parallel::Team;
 use crate::math::{bicgstab, conjugate_gradients};
+use crate::runtime::allowance::{Allowance, Halt};
+use crate::runtime::parallel::Team;
 
 /// Newton's steps in a stage; where more are needed, a shorter step costs less.
 const MOST_NEWTON: usize = 16;

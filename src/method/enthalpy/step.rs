@@ -8,7 +8,7 @@
 use super::body::{Body, Drive, Flow};
 use super::setup::Loads;
 use super::stage::{Stage, Unsolved};
-use crate::math::allowance::Allowance;
+use crate::runtime::allowance::Allowance;
 
 /// γ: root of `γ³ − 3γ² + 3γ/2 − 1/6`.
 const GAMMA: f64 = 0.435_866_521_508_459;

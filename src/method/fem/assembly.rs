@@ -4,9 +4,9 @@ use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
 use super::hexahedron::HexahedronMatrices;
 use crate::material::Thermoelastic;
 use crate::math::cholesky::LowerTriangle;
-use crate::math::parallel;
 use crate::math::stencil_matrix::{Reach, StencilMatrix};
 use crate::method::mesh::{Geometry, Mesh};
+use crate::runtime::parallel;
 
 /// What a matrix makes forces of.
 #[derive(Clone, Copy, PartialEq, Eq)]

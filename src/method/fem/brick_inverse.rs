@@ -18,10 +18,10 @@ use num_traits::{AsPrimitive, Float};
 use super::brick_polynomials::{PolynomialModuli, legendre, moduli, strain_of};
 use super::modes::{AxisModes, EndCondition};
 use crate::material::Thermoelastic;
-use crate::math::parallel::Team;
 use crate::math::product::product;
 use crate::method::mesh::Axis;
 use crate::method::mesh::Mesh;
+use crate::runtime::parallel::Team;
 
 /// Eigenvectors of the axes for each component, and the factors of what is left along z.
 pub struct BrickInverse {

@@ -6,8 +6,8 @@ use super::brick_inverse::BrickInverse;
 use super::brick_stiffness::BrickStiffness;
 use crate::material::Thermoelastic;
 use crate::math::conjugate_gradients::{self, NotConverged, Operator};
-use crate::math::parallel::Team;
 use crate::method::mesh::Mesh;
+use crate::runtime::parallel::Team;
 
 /// Stiffness of one symmetry class and what is nearly its inverse.
 pub struct BrickSolver {

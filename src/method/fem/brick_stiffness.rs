@@ -10,9 +10,9 @@ use super::brick_polynomials::{PolynomialModuli, legendre, moduli};
 use super::brick_row::{Row, RowLengths, RowPlace};
 use crate::material::Thermoelastic;
 use crate::math::eight::{self, Eight};
-use crate::math::parallel::Team;
 use crate::method::mesh::Layering;
 use crate::method::mesh::Mesh;
+use crate::runtime::parallel::Team;
 
 /// What acts on the nodes: the stress of strains or of temperatures.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -5,13 +5,13 @@ use super::heat::{
 };
 use super::nonlinear::{NonlinearFailure, NonlinearHeat, heat_mesh};
 use super::plan::Plan;
-use crate::math::allowance::{Allowance, Halt};
 use crate::method::enthalpy::Failure;
 use crate::method::heat_totals::HeatTotals;
 use crate::method::mesh::{Geometry, Mesh};
 use crate::method::particle_heat::{
     Condition, Cost, End, Face, LatticeAxis, Operator, ParticleHeat, Settings, Setup, Sources,
 };
+use crate::runtime::allowance::{Allowance, Halt};
 use crate::scene::{SphOperator, SphSettings};
 use crate::state::Layout;
 

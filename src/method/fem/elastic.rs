@@ -15,17 +15,17 @@ use super::dilatation::{DilatationProjection, POLYNOMIALS, evaluate};
 use super::recovery::sampling_places;
 use super::solver_choice::{solver_memory, suits_conjugate_gradients};
 use crate::material::Thermoelastic;
-use crate::math::address_space::{self, PRODUCTS};
 use crate::math::cholesky::{SolverError, SparseCholesky};
-use crate::math::fork_lock::ForkLock;
-use crate::math::made_once::MadeOnce;
 use crate::math::nested_dissection::nested_dissection;
-use crate::math::parallel;
-use crate::math::shared_values::SharedValues;
 use crate::math::stencil_matrix::StencilMatrix;
-use crate::math::thread::{STACK, aside};
 use crate::method::mesh::ShapeAt;
 use crate::method::mesh::{Geometry, Mesh, MeshFace, Parity};
+use crate::runtime::address_space::{self, PRODUCTS};
+use crate::runtime::fork_lock::ForkLock;
+use crate::runtime::made_once::MadeOnce;
+use crate::runtime::parallel;
+use crate::runtime::shared_values::SharedValues;
+use crate::runtime::thread::{STACK, aside};
 use influence::KeptRows;
 pub use influence::{
     Component, FaceRows, Functional, Gradient, NodalRow, Term, memory_of_row, most_memory_of_rows,

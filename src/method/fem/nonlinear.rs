@@ -4,12 +4,12 @@ use std::f64::consts::TAU;
 
 use super::heat::{HeatLoads, ThermalFace};
 use super::plan::{NewtonPlan, Plan};
-use crate::math::allowance::Allowance;
 use crate::method::enthalpy::{
     Condition, Contact, EnthalpyHeat, Face, Failure, Loads, Setup, linear_mesh,
 };
 use crate::method::heat_totals::HeatTotals;
 use crate::method::mesh::Mesh;
+use crate::runtime::allowance::Allowance;
 use crate::state::{Field, Layout, Per};
 
 /// Heat by enthalpies as that of a solid: temperatures above the initial one, nodes on interfaces between layers twice,

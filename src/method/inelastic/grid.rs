@@ -4,8 +4,8 @@ use super::element::{Answer, Given, Kit, Known};
 use super::locking::LockingTreatment;
 use super::shapes::{Scratch, Shapes};
 use crate::material::{History, PointConstants, PointTangent};
-use crate::math::parallel::Team;
 use crate::method::fem::{Geometry, Mesh};
+use crate::runtime::parallel::Team;
 
 /// The elements of a mesh. Vectors have all displacements along x (r), then along y, then along z, the x index of
 /// nodes fastest; lists of elements and of their points run x fastest, too.

@@ -9,9 +9,9 @@ use super::grid::{Grid, Iterate};
 use super::problem::InelasticError;
 use super::tangent::TangentSolver;
 use crate::material::PointConstants;
-use crate::math::allowance::Allowance;
-use crate::math::parallel::Team;
 use crate::math::separable::dot;
+use crate::runtime::allowance::Allowance;
+use crate::runtime::parallel::Team;
 
 /// How a step was found.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -12,10 +12,10 @@ use super::problem::{InelasticProblem, PointState};
 use super::shapes::Scratch;
 use crate::material::{History, PointConstants};
 use crate::math::gauss::gauss_legendre;
-use crate::math::parallel::Team;
 use crate::math::separable::{Side, transform};
 use crate::method::fem::recovery::{Beyond, Recovery};
 use crate::method::fem::{Geometry, Mesh};
+use crate::runtime::parallel::Team;
 
 impl Grid {
     /// All points under the displacements of an iterate, with the histories that they have.

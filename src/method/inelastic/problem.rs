@@ -6,14 +6,14 @@ use super::grid::{Grid, Iterate};
 use super::newton::{Progress, Step};
 use super::tangent::TangentSolver;
 use crate::material::{FlowLaw, History, PointConstants};
-use crate::math::address_space;
-use crate::math::allowance::{Allowance, Halt};
 use crate::math::cholesky::SolverError;
-use crate::math::parallel::Team;
-use crate::math::thread::aside;
 use crate::method::fem::elastic::Support;
 use crate::method::fem::free_faces::FreeFaces;
 use crate::method::fem::{Mesh, MeshFace, expected_entries};
+use crate::runtime::address_space;
+use crate::runtime::allowance::{Allowance, Halt};
+use crate::runtime::parallel::Team;
+use crate::runtime::thread::aside;
 
 /// Why a step was not made; the state is then as it was before.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

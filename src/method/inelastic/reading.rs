@@ -9,8 +9,8 @@
 
 use super::problem::{InelasticError, InelasticProblem, PointState};
 use crate::material::{History, Overstress, PointConstants, admissible};
-use crate::math::parallel::Team;
 use crate::method::fem::Mesh;
+use crate::runtime::parallel::Team;
 
 /// Values at the nodes, those on interfaces between layers twice.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,8 +8,8 @@ use super::newton::Progress;
 use super::problem::{InelasticError, InelasticProblem};
 use crate::material::History;
 use crate::material::stress::von_mises;
-use crate::math::allowance::Allowance;
-use crate::math::parallel::Team;
+use crate::runtime::allowance::Allowance;
+use crate::runtime::parallel::Team;
 
 /// What changes over a time.
 #[derive(Debug, Clone, Copy)]

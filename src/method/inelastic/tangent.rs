@@ -12,13 +12,13 @@ use crate::material::{PointConstants, PointTangent, Thermoelastic};
 use crate::math::cholesky::{SolverError, SparseCholesky};
 use crate::math::conjugate_gradients::{self, Operator};
 use crate::math::nested_dissection::nested_dissection;
-use crate::math::parallel::Team;
 use crate::math::stencil_matrix::{Reach, StencilMatrix};
 use crate::method::fem::assembly::lower_triangle;
 use crate::method::fem::brick_inverse::BrickInverse;
 use crate::method::fem::brick_stiffness::BrickStiffness;
 use crate::method::fem::elastic::{ElasticProblem, ElasticSetup, Support};
 use crate::method::fem::{Mesh, MeshFace, Parity};
+use crate::runtime::parallel::Team;
 
 /// Poisson's ratio up to which conjugate gradients need few iterations.
 const MOST_POISSON: f64 = 0.45;

@@ -3,14 +3,14 @@
 use super::edges::{Edges, Inlet, face_particles};
 use super::lattice::{End, LatticeAxis};
 use super::rows::{Lattice, Settings};
-use crate::math::allowance::{Allowance, Halt};
 use crate::math::chebyshev::Evolution;
-use crate::math::made_once::MadeOnce;
-use crate::math::parallel;
 use crate::math::separable::dot;
 use crate::math::sparse_rows::SparseRows;
-use crate::math::thread::aside;
 use crate::method::heat_totals::HeatTotals;
+use crate::runtime::allowance::{Allowance, Halt};
+use crate::runtime::made_once::MadeOnce;
+use crate::runtime::parallel;
+use crate::runtime::thread::aside;
 use crate::state::{Field, Layout, Per};
 
 /// What the particles are and what surrounds them; ends of the axes are set by the faces.

@@ -2,7 +2,7 @@
 
 use super::course::Course;
 use super::profile::{Amounts, Profile};
-use crate::math::sealed::{Content, Format, Reader};
+use crate::runtime::sealed::{Content, Format, Reader};
 
 const RECORD: Format = Format { magic: b"IMPREC02", noun: "record", of: "drops" };
 

@@ -1,8 +1,8 @@
 //! A profile from an impact of smoothed particles.
 
 use super::profile::{Amounts, Profile};
-use crate::math::allowance::Allowance;
 use crate::method::sph::{DropletPlan, DropletSph, Failure, WallCells, WallExchange};
+use crate::runtime::allowance::Allowance;
 
 /// How an impact is recorded.
 #[derive(Debug, Clone, Copy, PartialEq)]

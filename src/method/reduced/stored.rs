@@ -1,7 +1,7 @@
 //! Reduced systems as numbers to be stored, and what such numbers must be to be one.
 
 use super::system::ReducedSystem;
-use crate::math::sealed::{Content, Reader};
+use crate::runtime::sealed::{Content, Reader};
 
 impl ReducedSystem {
     pub fn put(&self, content: &mut Content) {
@@ -70,7 +70,7 @@ impl ReducedSystem {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::sealed::Format;
+    use crate::runtime::sealed::Format;
 
     const FORMAT: Format = Format { magic: b"IMPTST01", noun: "system", of: "tests" };
 

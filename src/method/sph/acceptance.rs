@@ -6,7 +6,7 @@ use super::kick::{DENSITIES, FARTHEST, FASTEST};
 use super::method::Method;
 use super::plan::{Demand, DropletPlan};
 use super::requests::Requests;
-use crate::math::parallel::Team;
+use crate::runtime::parallel::Team;
 
 /// Particles of the drops that a state has released, and their mass over ρ₀H^d.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

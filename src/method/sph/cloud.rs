@@ -5,7 +5,7 @@ use std::slice::from_mut;
 use super::requests::Requests;
 use super::surface::SurfaceMemory;
 use super::wall::WallExchange;
-use crate::math::parallel::Team;
+use crate::runtime::parallel::Team;
 use crate::state::{Field, Fields, Layout, Per, load, store};
 
 /// Unknowns of a particle: position, velocity, density and temperature. All else follows from them within a step.

@@ -20,9 +20,9 @@ use super::surface::{Surface, SurfaceResponse};
 use super::units::{density, pressure};
 use super::wall::WallExchange;
 use super::wall_points::WallPoints;
-use crate::math::allowance::Allowance;
-use crate::math::made_once::MadeOnce;
-use crate::math::parallel::Team;
+use crate::runtime::allowance::Allowance;
+use crate::runtime::made_once::MadeOnce;
+use crate::runtime::parallel::Team;
 use crate::state::{Layout, store};
 
 pub use extremes::WarmPlace;

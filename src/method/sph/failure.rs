@@ -1,8 +1,8 @@
 //! Why a droplet could not be advanced.
 
 use super::kick::{FARTHEST, FASTEST};
-use crate::math::allowance::Halt;
 use crate::quantity::kelvin;
+use crate::runtime::allowance::Halt;
 
 /// A step that would have no physical meaning; the state is as it was before.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

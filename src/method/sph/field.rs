@@ -3,7 +3,7 @@
 use super::candidates::{Candidates, Near, Numbers, Spots};
 use super::images::Image;
 use super::order::{BLOCK, BlockTree, Bounds};
-use crate::math::parallel::Team;
+use crate::runtime::parallel::Team;
 
 /// Points that stand in blocks.
 pub struct Field {

@@ -14,7 +14,7 @@ use super::rings::{Form, with_form};
 use super::smoothing::{FractionSum, Smoothing};
 use super::tension::SurfaceEnergy;
 use crate::kernel::Number;
-use crate::math::parallel::Team;
+use crate::runtime::parallel::Team;
 use crate::scene::Precision;
 
 /// Sixteen points of the grid.

@@ -11,7 +11,7 @@ use super::order::{BLOCK, Bounds, space_order};
 use super::plan::DropletPlan;
 use super::pulls::{Pull, Pulls};
 use super::tension::SurfaceEnergy;
-use crate::math::parallel::Team;
+use crate::runtime::parallel::Team;
 use crate::scene::Precision;
 
 /// Points of the grid over the support radius of the volume fraction. What the energy depends on the grid's

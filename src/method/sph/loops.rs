@@ -11,7 +11,7 @@ use super::neighbours::Block;
 use super::order::BLOCK;
 use super::rings::{Form, with_form};
 use crate::kernel::{Kernel, Number, Shape};
-use crate::math::parallel::Team;
+use crate::runtime::parallel::Team;
 use crate::scene::Precision;
 use crate::with_kernel_shape;
 

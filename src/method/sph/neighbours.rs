@@ -10,7 +10,7 @@ use super::candidates::{Candidates, Near, Points, Spots, inside};
 use super::images::{Images, Source};
 use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, GROUP};
-use crate::math::parallel::Team;
+use crate::runtime::parallel::Team;
 
 /// Reach of the lists beyond the kernel over the root of the motion against neighbours in a step, and
 /// its bounds. A step costs in proportion to `(1 + s)³ P + L m/s`, with s the skin, m the motion, P the

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::images::Image;
-use crate::math::parallel::Team;
+use crate::runtime::parallel::Team;
 
 /// Particles in a block; the last block may have fewer.
 pub const BLOCK: usize = 128;

@@ -13,7 +13,7 @@ use super::order::{BLOCK, Bounds, GROUP};
 use super::rings::{Form, with_form};
 use super::smoothing::{PullSum, SheetSlopes, Smoothing};
 use crate::kernel::Number;
-use crate::math::parallel::Team;
+use crate::runtime::parallel::Team;
 use crate::scene::Precision;
 
 /// What the grid's points do to a particle, over its volume at rest.

@@ -23,8 +23,8 @@ use super::shifting::{Crowding, displacement};
 use super::units::pressure;
 use super::wall_heat::Touching;
 use super::wall_points::WallPoints;
-use crate::math::allowance::Allowance;
-use crate::math::parallel::Team;
+use crate::runtime::allowance::Allowance;
+use crate::runtime::parallel::Team;
 
 /// Everything of a run between two communication points.
 pub struct Stepper<'a, 'p> {

@@ -5,7 +5,7 @@ use super::plan::DropletPlan;
 use super::units::Units;
 use super::wall_points::{Point, Stencil, WallPoints};
 use crate::math::exponential;
-use crate::math::parallel::Team;
+use crate::runtime::parallel::Team;
 
 /// Heights over Δx below which a particle's middle is all at the wall, and above which it is not at all.
 /// Shares of evenly spread fluid sum to one layer of particles.

@@ -3,8 +3,8 @@
 use super::{Resolved, resolve};
 use crate::body::{BodyError, KeptReduction, reductions};
 use crate::inputs::InputLayout;
-use crate::math::thread::aside;
 use crate::model::{Model, ModelError, check_memory, initial_inputs};
+use crate::runtime::thread::aside;
 use crate::scene::{ResolvedLevel, Scene, SolidLevel};
 
 /// A scene in which no level is left open.

@@ -17,8 +17,8 @@ pub mod twin;
 use std::convert::Infallible;
 use std::sync::Arc;
 
-use crate::math::shared_values::SharedValues;
 pub use crate::quantity::percent;
+use crate::runtime::shared_values::SharedValues;
 use crate::scene::{MeshFactors, Scene};
 use choice::{Choice, choose, is_chosen};
 pub use levels::{Levels, levels, reduced_model, stored_reductions};

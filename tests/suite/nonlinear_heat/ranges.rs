@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::*;
-use impinge::math::allowance::Interrupt;
 use impinge::method::enthalpy::{Failure, SetupError, linear_mesh};
+use impinge::runtime::allowance::Interrupt;
 
 /// Mercury, ice, aluminium, iron, steel and aerogel, with a temperature at which each is near its change.
 fn materials() -> Vec<(&'static str, f64, Substance)> {

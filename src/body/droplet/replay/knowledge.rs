@@ -6,10 +6,10 @@ use serde::Serialize;
 
 use super::super::plan_of;
 use crate::body::BodyError;
-use crate::math::shared_values::SharedValues;
-use crate::math::thread::aside;
 use crate::method::record::{Course, Film, Profile, Recorder, film_profile, record_profile};
 use crate::method::sph::{DropletPlan, Failure, WallCells};
+use crate::runtime::shared_values::SharedValues;
+use crate::runtime::thread::aside;
 use crate::scene::{Droplet, DropletMethod, DropletSymmetry, Fluid, ReleaseBy, Scene};
 
 /// Times at which a course is known, and most rings.

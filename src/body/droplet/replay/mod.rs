@@ -17,11 +17,11 @@ use crate::body::{
     Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, wall_quantities,
 };
 use crate::inputs::{InputLayout, InputPath};
-use crate::math::allowance::Allowance;
 use crate::method::record::{Falling, Replay, ReplayPlan, ReplayTotals};
 use crate::method::sph::{
     Domain, Failure, ParticleFields, Surface, WallCells, WallExchange, WarmPlace,
 };
+use crate::runtime::allowance::Allowance;
 use crate::scene::{Arrival, Droplet, MEASURED_FILMS, Scene, lateral_extents};
 use crate::state::Layout;
 

@@ -10,13 +10,13 @@ use std::sync::Arc;
 
 use super::{ElasticProblem, SOLUTION, Solver};
 use crate::material::Thermoelastic;
-use crate::math::address_space;
 use crate::math::cholesky::SolverError;
 use crate::math::conjugate_gradients::NotConverged;
-use crate::math::thread::aside;
 use crate::method::fem::brick_solver::{self, BrickSolver};
 use crate::method::fem::solver_choice::solver_memory;
 use crate::method::mesh::Mesh;
+use crate::runtime::address_space;
+use crate::runtime::thread::aside;
 
 /// A component of displacement or stress in the axes of the mesh: of displacement along x, y, z (in a section along r
 /// and z), of stress xx, yy, zz, xy, yz, xz (rr, tt, zz, –, –, rz).

@@ -1,9 +1,9 @@
 //! The transpose of thermal forces: from displacements to the work of a degree of each nodal temperature.
 
 use super::ElasticProblem;
-use crate::math::parallel;
 use crate::method::fem::brick_polynomials::{PolynomialModuli, legendre, moduli, slope_factor};
 use crate::method::mesh::Geometry;
+use crate::runtime::parallel;
 
 impl ElasticProblem {
     /// Adds `Cᵀλ`, where `C T` are the forces of heated material that is held back. Each layer has temperatures of its

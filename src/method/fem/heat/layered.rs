@@ -14,11 +14,11 @@ use super::class::Class;
 use super::depth::DepthModes;
 use super::{HeatProblem, ThermalFace, end_conditions};
 use crate::material::Constants;
-use crate::math::made_once::MadeOnce;
-use crate::math::parallel;
 use crate::method::fem::columns::{Column, DepthProblem};
 use crate::method::fem::modes::{AxisModes, EndCondition};
 use crate::method::mesh::{Mesh, MeshFace};
+use crate::runtime::made_once::MadeOnce;
+use crate::runtime::parallel;
 
 /// What the modes along z follow from.
 pub struct Layered {

@@ -1,11 +1,11 @@
 //! Drops that are released on demand.
 
 use super::DropletSph;
-use crate::math::parallel::Team;
 use crate::method::sph::cloud::{Cloud, cloud_of, flatten, ledger_of};
 use crate::method::sph::failure::Failure;
 use crate::method::sph::kick::FARTHEST;
 use crate::method::sph::plan::{Demand, Release};
+use crate::runtime::parallel::Team;
 use crate::state::store;
 
 /// Distance over Δx that particles have at least from the surface of a drop that starts.

@@ -1,11 +1,11 @@
 //! Drops above a half space that nobody else computes.
 
 use super::DropletSph;
-use crate::math::allowance::Allowance;
 use crate::method::sph::cloud::ledger_of;
 use crate::method::sph::failure::Failure;
 use crate::method::sph::surface::Surface;
 use crate::method::sph::wall::WallExchange;
+use crate::runtime::allowance::Allowance;
 
 impl DropletSph {
     /// Advances by `duration` [s] above a half space of the plan's effusivity, which had one temperature [K] at time

@@ -1,19 +1,14 @@
-//! What the machine has left: the one thing that a run depends on and no scene says.
-
-mod allocator;
-mod usage;
+//! Memory that the system still grants this process.
 
 use std::fs;
 use std::path::Path;
-
-pub use usage::Usage;
 
 /// Memory that this process may still take [B], as far as the system tells; without end where it does
 /// not.
 ///
 /// It is the least of what is free or can be freed (`/proc/meminfo`) and what the control groups of the
 /// process leave (version 2, or 1 of memory). Address space is another thing: see
-/// [`crate::math::address_space`].
+/// [`crate::runtime::address_space`].
 pub fn available_memory() -> f64 {
     let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
     let free = kilobytes(&read("/proc/meminfo"), "MemAvailable:");
