@@ -5,5 +5,6 @@ mod cli;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    impinge::runtime::file_size::report_limits();
     cli::main()
 }

@@ -59,6 +59,7 @@ struct Arguments {
 }
 
 fn main() -> ExitCode {
+    impinge::runtime::file_size::report_limits();
     let arguments = Arguments::parse();
     if let Some(details) = &arguments.instantiate {
         return lint::instantiate(details);

@@ -24,6 +24,13 @@ pub enum BodyError {
         kelvin(*temperature)
     )]
     BelowAbsoluteZero { body: String, temperature: f64 },
+    /// Heat appeared or vanished in a step.
+    #[error(
+        "the heat of {body} does not balance: {missing:.1e} J appear or vanish in this step, of {passed:.1e} J that are \
+         stored or have passed, as its constants, coefficients and lengths lie too far apart for double precision \
+         (allowed: such that are nearer to those of real bodies)"
+    )]
+    Unbalanced { body: String, missing: f64, passed: f64 },
     /// An output is too large for numbers.
     #[error(
         "the value is {0}, beyond what numbers can hold: an input or constant is far too large"

@@ -139,6 +139,13 @@ impl InputTable {
             );
             return Some(("warning", message));
         }
+        if first > 0.0 {
+            let message = format!(
+                "{file}: the values of the first row, at {first:e} s, hold from the start: they replace those that the \
+                 scene starts with"
+            );
+            return Some(("note", message));
+        }
         let ends_early = self.between == Between::Linear && 0.0 < last && last < NEARLY * stop;
         ends_early.then(|| {
             (

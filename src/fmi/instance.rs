@@ -169,6 +169,10 @@ pub unsafe fn array<'a, T>(pointer: *const T, length: usize, name: &str) -> Answ
     match (pointer.is_null(), length) {
         (_, 0) => Ok(&[]),
         (true, _) => Err(null(name)),
+        // No array is larger; bytes of a count beyond wrap.
+        (false, _) if length > isize::MAX as usize / size_of::<T>() => {
+            Err(Refusal::error(format!("{length} elements of {name} are more than fit any memory")))
+        }
         // SAFETY: by contract.
         (false, _) => Ok(unsafe { slice::from_raw_parts(pointer, length) }),
     }

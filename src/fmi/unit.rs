@@ -456,6 +456,7 @@ pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
             BodyError::Underway { index, .. } => (Status::Discard, Some(index)),
             BodyError::Overflow { .. }
             | BodyError::BelowAbsoluteZero { .. }
+            | BodyError::Unbalanced { .. }
             | BodyError::Droplet { .. }
             | BodyError::Contact { .. }
             | BodyError::Reduction { .. }

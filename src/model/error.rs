@@ -19,12 +19,20 @@ pub enum ModelError {
     StepLength { step: f64, requirement: String, bounds: Bounds },
     /// A scene is too large for the machine.
     #[error(
-        "this needs about {:.3e} MB of memory, most of it for `{body}` with its {size}; this process can \
-         have {:.3e} MB (allowed: a scene that fits, such as with {remedy})",
+        "this needs about {:.3e} MB of memory, most of it for `{body}` with its {size}; {} \
+         {:.3e} MB (allowed: a scene that fits, such as with {remedy})",
         needed / 1e6,
+        if *is_own { "`solver.memory` of the scene lets it have" } else { "this process can have" },
         available / 1e6
     )]
-    Memory { needed: f64, available: f64, body: String, size: String, remedy: &'static str },
+    Memory {
+        needed: f64,
+        available: f64,
+        is_own: bool,
+        body: String,
+        size: String,
+        remedy: &'static str,
+    },
     /// A scene is too large for what the process may take of address space.
     #[error(
         "{space}, most of it for `{body}` with its {size} (allowed: a scene that fits, such as with {remedy}, or \

@@ -50,7 +50,9 @@ struct Need<'a> {
 /// Refuses a scene that is forecast to need more memory than is `available` [B] or than it says that it may take, or
 /// more address space than the limit of the process leaves.
 pub fn check_memory(scene: &Scene, available: f64) -> Result<(), ModelError> {
-    let available = scene.solver.memory.map_or(available, |limit| available.min(limit as f64));
+    let own = scene.solver.memory.map_or(f64::INFINITY, |limit| limit as f64);
+    let is_own = own < available;
+    let available = available.min(own);
     let forecast = forecast(scene);
     let needed = forecast.memory();
     let needs = || {
@@ -61,7 +63,7 @@ pub fn check_memory(scene: &Scene, available: f64) -> Result<(), ModelError> {
     if needed.is_nan() || needed > available {
         let Need { name, size, remedy, .. } = needs();
         let body = name.to_owned();
-        return Err(ModelError::Memory { needed, available, body, size, remedy });
+        return Err(ModelError::Memory { needed, available, is_own, body, size, remedy });
     }
     address_space::expect(space(needed, 1)).map_err(|space| {
         let Need { name, size, remedy, .. } = needs();

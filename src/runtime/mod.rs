@@ -3,6 +3,7 @@
 pub mod address_space;
 mod allocator;
 pub mod allowance;
+pub mod file_size;
 pub mod fork_lock;
 pub mod made_once;
 mod memory;

@@ -1,7 +1,7 @@
 //! Values of inputs and lengths of steps beyond those of scenes: refused with what is allowed, and nothing is changed.
 
 use crate::droplets::WALL;
-use crate::master::{ERROR, OK, SCENE, Unit};
+use crate::master::{ERROR, Handle, OK, SCENE, Unit, call};
 use crate::three::master::Unit as Unit3;
 
 /// Scene, input, value, side.
@@ -141,4 +141,20 @@ fn a_time_beyond_which_no_step_is_resolved_ends_the_run() {
     assert_eq!(unit.step(1.7e308, 1e60), ERROR);
     unit.expect_message(ERROR, &["is lost in rounding"]);
     assert_eq!(unit.time(), 1.7e308);
+}
+
+/// Counts whose bytes wrap are no counts of anything.
+#[test]
+fn counts_beyond_any_memory_are_refused() {
+    let unit = crate::droplets::started(SCENE);
+    let (reference, mut value) = (unit.reference("spot.heat_flux"), 7.0);
+    for count in [1_usize << 61, (1 << 62) + 1, 1 << 63, usize::MAX] {
+        let read = call!("fmi2GetReal", unit.handle => Handle, &raw const reference => *const u32,
+            count => usize, &raw mut value => *mut f64);
+        assert_eq!((read, value), (ERROR, 7.0), "{count}");
+        let set = call!("fmi2SetReal", unit.handle => Handle, &raw const reference => *const u32,
+            count => usize, &raw const value => *const f64);
+        assert_eq!(set, ERROR, "{count}");
+    }
+    unit.expect_message(ERROR, &["fmi2SetReal", "more than fit any memory"]);
 }

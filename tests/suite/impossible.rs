@@ -156,3 +156,29 @@ fn stiffness_is_factored_only_for_those_who_read_it() {
     assert!(trial.get("plate.max_von_mises") > 0.0);
     assert!(trial.model.factor_entries() > 0);
 }
+
+/// A film coefficient of 1e30 lets rounding make heat: such a step is refused before anyone reads what came of it, while
+/// 1e12 is as good as a prescribed temperature.
+#[test]
+fn a_step_whose_heat_does_not_balance_is_refused_and_changes_nothing() {
+    let slab = |coefficient: &str| {
+        plate(
+            "",
+            &format!(
+                "bottom = {{ temperature = 300.0 }}\ntop = {{ convection = {{ coefficient = {coefficient}, ambient = 400.0 }} }}"
+            ),
+            THERMAL_PROBE,
+        )
+    };
+    let mut trial = Trial::new(&slab("1e12"));
+    trial.step(1.0);
+    assert!((trial.get("a.temperature") - 400.0).abs() < 1e-3);
+    for coefficient in ["1e20", "1e30", "1e60"] {
+        let mut trial = Trial::new(&slab(coefficient));
+        let before = trial.state.clone();
+        let error = trial.try_step(1.0).unwrap_err();
+        assert!(matches!(error, ModelError::Body(BodyError::Unbalanced { .. })), "{error}");
+        assert!(error.to_string().contains("the heat of plate does not balance"), "{error}");
+        assert_eq!(trial.state, before);
+    }
+}

@@ -214,7 +214,7 @@ fn meshes_that_cannot_get_coarser_are_judged() {
         for depth in ["depth_spacing = 6e-4", "depth_spacing = 1e-3"] {
             let scene = scene(&text(depth));
             let (_, found) = estimates(&scene);
-            let mut trial = Trial::of(scene);
+            let mut trial = Trial::of(scene.clone());
             (0..10).for_each(|_| trial.step(1e-4));
             let error = (trial.get("p.temperature") - 300.0 - exact).abs() / exact;
             let told = found[0].worst().unwrap();
@@ -363,4 +363,54 @@ fn errors_as_large_as_the_range_name_a_mesh_to_go_on_from() {
     );
     let next = format!("with along = {:.2}, through = {:.2}", 2.0 * own[0], own[1]);
     assert!(said[0].contains(&next) && said[0].contains("would tell which"), "{said:?} {next}");
+}
+
+/// Newton's method advances heat on linear elements, which err by ten times as much as quadratic ones under a smooth
+/// flux; what outputs err by is judged by these, too.
+#[test]
+fn estimates_of_heat_by_newtons_method_are_those_of_its_elements() {
+    let of = |solver: &str, mesh: &str| {
+        scene(&format!(
+            "name = \"Disc\"\nstop_time = 2e-2\nstep = 1e-3\n{solver}[body.b]\nkind = \"solid\"\nshape = {{ disc = {{ radius \
+             = 4e-3, thickness = 0.5e-3 }} }}\nmaterial = {{ model = \"thermoelastic\", density = 5320.0, specific_heat = \
+             320.0, conductivity = 60.0, young = 103e9, poisson = 0.26, expansion = 5.9e-6 }}\ninitial_temperature = \
+             300.0\n{mesh}[body.b.faces]\nbottom = {{ convection = {{ coefficient = 500.0, ambient = 290.0 }}, roller = \
+             true }}\n[[load]]\nname = \"g\"\non = \"b.top\"\nfootprint = {{ gaussian = {{ radius = 0.5e-3 }} }}\ncarries = \
+             [\"heat_flux\"]\nstart = {{ heat_flux = 2e6 }}\n[[probe]]\nname = \"c\"\nin = \"b\"\nat = [0.3e-3, 0.0, \
+             -0.1e-3]\ngives = [\"temperature\", \"stress\"]\n"
+        ))
+    };
+    let own = of(
+        "solver = { method = \"newton\" }\n",
+        "mesh = { spacing = 50e-6, depth_spacing = 40e-6 }\n",
+    );
+    let fine = of("fidelity = { tolerance = 1e-4 }\n", "");
+    let read = |scene: &Scene| {
+        let mut trial = Trial::of(scene.clone());
+        (0..20).for_each(|_| trial.step(1e-3));
+        ["c.temperature", "c.stress_xx"].map(|name| trial.get(name))
+    };
+    let (found, exact) = (read(&own), read(&fine));
+    let ranges = [exact[0] - 300.0, exact[1]].map(f64::abs);
+    let (_, told) = estimates(&own);
+    for (place, name) in ["c.temperature", "c.stress_xx"].into_iter().enumerate() {
+        let error = (found[place] - exact[place]).abs() / ranges[place];
+        let told = told[0].outputs.iter().find(|one| one.name == name).unwrap().total();
+        assert!(error > 1e-3 && told > 0.6 * error && told < 8.0 * error, "{name}: {told} {error}");
+    }
+}
+
+/// A pad that covers a face takes few nodes beside a small spot.
+#[test]
+fn a_wide_load_beside_a_small_one_keeps_its_own_fineness() {
+    let of = |load: &str| {
+        let spot = "[[load]]\nname = \"spot\"\non = \"plate.top\"\nfootprint = { disc = { radius = 1e-4 } }\ncarries = \
+                    [\"heat_flux\"]\n";
+        let text = plate("box = [1e-2, 1e-2, 1e-3]", MATERIALS[2], &(spot.to_owned() + load));
+        forecast(&scene(&(text + &probe("\"temperature\"")))).bodies[0].unknowns[0] as f64
+    };
+    let pad = "[[load]]\nname = \"pad\"\non = \"plate.bottom\"\nfootprint = { tiles = { count = [1, 1], size = [1e-2, 1e-2] } \
+               }\ncarries = [\"heat_flux\"]\n";
+    let (alone, both) = (of(""), of(pad));
+    assert!(both < 4.0 * alone, "{both} nodes beside {alone}");
 }

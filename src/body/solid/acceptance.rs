@@ -1,10 +1,13 @@
 //! Checks of unknowns that come from elsewhere: they have to be those of some run of the body.
 
 use super::SolidBody;
+use crate::body::BodyError;
 use crate::method::fem::ThermalFace;
 
 /// Part of the heat that warmed a body and of the heat that passed which a balance may miss: runs keep it to 1e-9.
 const BALANCE: f64 = 1e-6;
+/// The same of one step, from which on the step is refused: beyond it rounding is no small error any more.
+const BALANCE_OF_STEP: f64 = 1e-3;
 /// Part of the heat that was there at time zero which it may miss: enthalpies round to 1e-16 of it.
 const ROUNDING: f64 = 1e-9;
 /// Part of the range of nodal temperatures by which the lowest may lie below absolute zero. Consistent
@@ -14,9 +17,41 @@ const UNDERSHOOT: f64 = 0.4;
 /// The same at corners between faces of prescribed temperature, where jumps along three axes meet.
 const UNDERSHOOT_AT_CORNERS: f64 = 0.55;
 /// Highest temperature [K].
-const HOTTEST: f64 = 1e20;
+const HOTTEST: f64 = 1e100;
+
+/// What a step is to keep of the heat of a body [J].
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Balance {
+    /// Stored, but not brought in and kept.
+    missing: f64,
+    /// Stored or passed since time zero.
+    passed: f64,
+}
 
 impl SolidBody {
+    pub(super) fn heat_balance(&self, state: &[f64]) -> Balance {
+        let heat = self.heat_of(state);
+        let totals = self.solid.heat_totals(heat);
+        let passed = [self.solid.heat_stored(heat), totals.brought_in, totals.lost];
+        Balance { missing: self.solid.heat_drift(heat), passed: passed.map(f64::abs).iter().sum() }
+    }
+
+    /// Refuses a step from a balance to a state in which heat appeared or vanished.
+    pub(super) fn check_step(&self, before: Balance, state: &[f64]) -> Result<(), BodyError> {
+        // Particles at unequal distances keep no balance.
+        if self.solid.fallback_particles().is_some() {
+            return Ok(());
+        }
+        let after = self.heat_balance(state);
+        let passed = before.passed + after.passed;
+        let missing = (after.missing - before.missing).abs();
+        let at_start = self.heat_capacity() * self.solid.initial_temperature();
+        match missing <= BALANCE_OF_STEP * passed + ROUNDING * at_start {
+            true => Ok(()),
+            false => Err(BodyError::Unbalanced { body: self.name.clone(), missing, passed }),
+        }
+    }
+
     /// Refuses heat that no run leads to: temperatures that no matter has, or heat that did not come in.
     pub(super) fn check_heat(&self, state: &[f64], inputs: &[f64]) -> Result<(), String> {
         let heat = self.heat_of(state);

@@ -257,7 +257,12 @@ impl BodyLoads {
             let (centre, input) = centres[axis];
             let room = limits[axis] * (1.0 + ROUNDING);
             if centre.abs() + half[axis] > room {
-                let index = input.or(places.radius).unwrap_or_default();
+                // One that fits nowhere is too large, whatever its place.
+                let at_fault = match half[axis] > room {
+                    true => places.radius.or(input),
+                    false => input.or(places.radius),
+                };
+                let index = at_fault.unwrap_or_default();
                 let message = format!(
                     "the footprint of {} (centre {centre} m, half width {} m) leaves its face \
                      (allowed: within ±{} m)",

@@ -224,6 +224,7 @@ impl Body for SolidBody {
         allowance: &Allowance,
     ) -> Result<Option<Given>, BodyError> {
         let memo = SolidMemo::of(memo);
+        let before = self.heat_balance(state);
         match &self.yielding {
             None => self.advance_here(state, memo, acts, allowance)?,
             Some(yielding) => {
@@ -234,6 +235,7 @@ impl Body for SolidBody {
         }
         let (start, end) = (acts.path.start(), acts.path.at(0, acts.duration));
         self.check_end(state, start, &end)?;
+        self.check_step(before, state)?;
         Ok(None)
     }
 

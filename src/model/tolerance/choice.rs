@@ -196,6 +196,7 @@ impl<'a> Trials<'a> {
         let mut watched = watched(twin.scene(), is_mechanical);
         let is_extreme = |one: &Watched| matches!(one.output.reading, Reading::Total(_));
         watched.retain(|one| twin.reads_extremes || !is_extreme(one));
+        watched.retain(|one| !twin.has_drops || one.quantity != Quantity::Energy);
         watched.extend(flow_of(twin));
         let count = experiments(twin.scene()).len().max(1) as f64;
         let margin = if is_mechanical { UNEVEN_STRESS } else { 1.0 };

@@ -30,6 +30,8 @@ pub struct Twin {
     pub reads_extremes: bool,
     /// Whether stress depends on the history of the body, as it yields, creeps or has constants that are tables.
     pub has_history: bool,
+    /// Whether loads stand for drops, whose heat these bring whatever the mesh is.
+    pub has_drops: bool,
     /// Whether heat goes through linear elements, as Newton's method has them.
     linear_heat: bool,
     /// What differs from the body itself.
@@ -89,9 +91,11 @@ impl Twin {
                 );
             }
         }
-        if scene.couplings_to(name).next().is_some() {
+        let has_drops = scene.couplings_to(name).next().is_some();
+        if has_drops {
             simplified.push(
-                "a disc as wide as the drop is expected to spread stands for it where it lands"
+                "a disc as wide as the drop is expected to spread stands for it where it lands, and brings a heat that does \
+                 not depend on the mesh: what that of a drop does is not estimated"
                     .to_owned(),
             );
         }
@@ -115,6 +119,7 @@ impl Twin {
             own: own_factors,
             reads_extremes,
             has_history,
+            has_drops,
             linear_heat,
             simplified,
         })

@@ -53,6 +53,15 @@ fn check_contact(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
         return;
     }
     let from = path.at("from");
+    let is_upside_down = |place: &str, face| split_place(place).is_some_and(|(_, own)| own == face);
+    if is_upside_down(&coupling.from, FaceName::Bottom)
+        && is_upside_down(&coupling.to, FaceName::Top)
+    {
+        let message = "`from` is the body below, and `to` the one that stands on it";
+        let allowed = format!("from = \"{}\", to = \"{}\"", coupling.to, coupling.from);
+        checker.refuse(path, message, allowed);
+        return;
+    }
     let lower =
         if below { None } else { checker.face(&from, &coupling.from, |_| vec![FaceName::Top]) };
     let to = path.at("to");
@@ -92,8 +101,27 @@ fn check_contact(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
         if std::ptr::eq(below, above) {
             let message = format!("`{}` and `{}` belong to one body", coupling.from, coupling.to);
             checker.refuse(&path.at("to"), message, "another solid");
+        } else if let (Some((below, _)), Some((above, _))) =
+            (split_place(&coupling.from), split_place(&coupling.to))
+            && stands_on(checker, i, below, above)
+        {
+            let message = format!("`{below}` stands on `{above}` already");
+            checker.refuse(&path.at("to"), message, "solids in a stack, none above itself");
         }
     }
+}
+
+/// Whether earlier contacts stack a body on another, with any number between them.
+fn stands_on(checker: &Checker, i: usize, body: &str, other: &str) -> bool {
+    let below = |coupling: &&Coupling| {
+        split_place(&coupling.to)
+            .is_some_and(|(above, face)| above == body && face == FaceName::Bottom)
+    };
+    let mut bodies = checker.scene.coupling[..i].iter().filter(below).filter_map(|coupling| {
+        let (lower, _) = split_place(&coupling.from)?;
+        checker.scene.solid(lower).is_some().then_some(lower)
+    });
+    bodies.any(|lower| lower == other || stands_on(checker, i, lower, other))
 }
 
 /// Whether an end of a contact is on a reservoir, at its top if it is below and at its bottom if it is above; any number

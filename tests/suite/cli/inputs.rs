@@ -186,3 +186,29 @@ fn a_run_warns_once_as_its_fluid_would_boil() {
     let said = place.run(&["--overwrite", "--fields-every", "0"]).succeeds().stderr();
     assert!(!said.contains("boils"), "{said}");
 }
+
+/// Between two rows that lie where the mesh is fine, by its own image, a spot crosses where it is not.
+#[test]
+fn places_between_rows_are_looked_at() {
+    let place = Workplace::new();
+    let scene = SCENE
+        .replace("box = [4e-4, 4e-4, 1e-4]", "box = [8e-3, 4e-3, 1e-4]")
+        .replace("mesh = { spacing = 2e-5 }", "mesh = { spacing = 2e-5, growth = 1.5 }")
+        .replace("start = { heat_flux = 5e7 }", "start = { heat_flux = 5e7, x = -3e-3 }")
+        .replace(", \"stress\"", "");
+    fs::write(place.path("scene.toml"), scene).unwrap();
+    let table = "time,spot.x\n0,-3e-3\n1e-6,3e-3\n";
+    let said = |between: &str| {
+        run_with(&place, table, &["--between", between, "--overwrite"]).succeeds().stderr()
+    };
+    let words = "the mesh does not see a load this small here";
+    assert!(said("linear").contains(words));
+    assert!(!said("held").contains(words));
+}
+
+#[test]
+fn a_table_that_begins_later_says_that_its_first_row_holds_before() {
+    let place = Workplace::new();
+    let run = run_with(&place, "time,spot.heat_flux\n5e-7,2e7\n1e-6,2e7\n", &[]).succeeds();
+    assert!(run.stderr().contains("the values of the first row, at 5e-7 s, hold from the start"));
+}

@@ -231,3 +231,14 @@ fn a_folder_that_cannot_be_made_is_named() {
     fs::write(place.path("taken"), "a file").unwrap();
     place.run(&["--out", "taken/here"]).fails(1, &["cannot create the folder", "taken"]);
 }
+
+/// As on a full disk, the run says so and ends by itself.
+#[cfg(unix)]
+#[test]
+fn files_beyond_the_limit_of_their_size_are_told() {
+    let place = Workplace::new();
+    let command = format!("ulimit -f 1; exec {} run scene.toml", env!("CARGO_BIN_EXE_impinge"));
+    let output =
+        Command::new("sh").args(["-c", &command]).current_dir(place.0.path()).output().unwrap();
+    Called(output).fails(1, &["cannot write", "too large"]);
+}
