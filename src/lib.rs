@@ -17,6 +17,8 @@ pub mod quantity;
 
 pub mod limits;
 
+pub mod channel;
+
 pub mod material;
 
 pub mod kernel;

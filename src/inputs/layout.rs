@@ -1,6 +1,7 @@
 use std::ops::Range;
 
-use crate::scene::{Body, Carries, CellShape, FaceName, Footprint, Scene, Shape, Wall};
+use crate::channel::Channel;
+use crate::scene::{Body, CellShape, FaceName, Footprint, Load, Scene, Shape, Wall};
 
 /// Where each input of a scene stands in [`crate::model::State::inputs`].
 #[derive(Debug, Clone, PartialEq)]
@@ -19,11 +20,8 @@ pub struct InputLayout {
 /// Places of a load's inputs; a range holds a value for each cell, the first index running slowest.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct LoadInputs {
-    pub heat_flux: Option<Range<usize>>,
-    pub pressure: Option<Range<usize>>,
-    pub shear_x: Option<Range<usize>>,
-    pub shear_y: Option<Range<usize>>,
-    pub shear_r: Option<Range<usize>>,
+    /// Of the amounts that it brings.
+    pub amounts: Vec<(Channel, Range<usize>)>,
     pub x: Option<usize>,
     pub y: Option<usize>,
     pub radius: Option<usize>,
@@ -53,7 +51,7 @@ impl InputLayout {
                 scene.solid(load.body_and_face().0),
                 Some(solid) if matches!(solid.shape, Shape::Disc(_))
             );
-            load_inputs(&load.footprint, &load.carries, round_body, &mut next)
+            load_inputs(load, round_body, &mut next)
         });
         let loads = loads.collect();
         let faces = face_inputs(scene, &mut next);
@@ -69,31 +67,18 @@ impl InputLayout {
     }
 }
 
-fn load_inputs(
-    footprint: &Footprint,
-    carries: &[Carries],
-    round_body: bool,
-    next: &mut usize,
-) -> LoadInputs {
-    let cells = count(footprint);
-    let radial = footprint.shears_outward();
-    let mut take = |wanted: bool, count: usize| {
-        wanted.then(|| {
-            let range = *next..*next + count;
-            *next = range.end;
-            range
-        })
+fn load_inputs(load: &Load, round_body: bool, next: &mut usize) -> LoadInputs {
+    let cells = count(&load.footprint);
+    let mut take = |count: usize| {
+        let range = *next..*next + count;
+        *next = range.end;
+        range
     };
-    let shear = carries.contains(&Carries::Shear);
     LoadInputs {
-        heat_flux: take(carries.contains(&Carries::HeatFlux), cells),
-        pressure: take(carries.contains(&Carries::Pressure), cells),
-        shear_x: take(shear && !radial, cells),
-        shear_y: take(shear && !radial, cells),
-        shear_r: take(shear && radial, cells),
-        x: take(!round_body, 1).map(|range| range.start),
-        y: take(!round_body, 1).map(|range| range.start),
-        radius: take(footprint.radius().is_some(), 1).map(|range| range.start),
+        amounts: load.channels().map(|channel| (channel, take(cells))).collect(),
+        x: (!round_body).then(|| take(1).start),
+        y: (!round_body).then(|| take(1).start),
+        radius: load.footprint.radius().map(|_| take(1).start),
     }
 }
 

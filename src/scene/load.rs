@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::types::{IDENTIFIER, Role};
+use crate::channel::{Channel, Direction};
 use crate::limits::{count, footprint_radius, heat_flux, length, place, traction};
 
 /// Heat and traction on a part of a face.
@@ -146,6 +147,45 @@ pub enum CellValues {
     Rings(Vec<f64>),
     /// Row i holds the values of the tiles `[i, 1]`, `[i, 2]` …
     Tiles(Vec<Vec<f64>>),
+}
+
+impl LoadStart {
+    /// Start values of an amount.
+    pub fn amounts(&self, channel: Channel) -> Option<&CellValues> {
+        let values = match channel {
+            Channel::HeatFlux => &self.heat_flux,
+            Channel::Pressure => &self.pressure,
+            Channel::ShearX => &self.shear_x,
+            Channel::ShearY => &self.shear_y,
+            Channel::ShearR => &self.shear_r,
+        };
+        values.as_ref()
+    }
+}
+
+impl Load {
+    /// The amounts that it brings: shear is radial on rings, and along x and y elsewhere.
+    pub fn channels(&self) -> impl Iterator<Item = Channel> {
+        let is_radial = self.footprint.shears_outward();
+        let fits = move |channel: &Channel| match channel.direction() {
+            Direction::Along(_) => !is_radial,
+            Direction::Outward => is_radial,
+            Direction::Heat | Direction::Inward => true,
+        };
+        let carried = |channel: &Channel| self.carries.contains(&Carries::of(*channel));
+        Channel::ALL.into_iter().filter(carried).filter(fits)
+    }
+}
+
+impl Carries {
+    /// What a load carries that brings an amount.
+    pub fn of(channel: Channel) -> Self {
+        match channel.direction() {
+            Direction::Heat => Self::HeatFlux,
+            Direction::Inward => Self::Pressure,
+            Direction::Along(_) | Direction::Outward => Self::Shear,
+        }
+    }
 }
 
 impl CellValues {

@@ -87,9 +87,9 @@ fn direct_inputs(scene: &Scene, layout: &InputLayout, reach: Reach) -> Vec<bool>
 }
 
 fn mark_traction(inputs: &LoadInputs, direct: &mut [bool]) {
-    let tractions = [&inputs.pressure, &inputs.shear_x, &inputs.shear_y, &inputs.shear_r];
+    let tractions = inputs.amounts.iter().filter(|(channel, _)| !channel.is_heat());
     let mut any = false;
-    for range in tractions.into_iter().flatten() {
+    for (_, range) in tractions {
         direct[range.clone()].fill(true);
         any = true;
     }

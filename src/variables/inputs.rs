@@ -1,7 +1,5 @@
 //! Variables that are inputs.
 
-use std::ops::Range;
-
 use super::registry::{Slot, Value, Variable};
 use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::limits::{self, Bounds};
@@ -41,31 +39,18 @@ fn body_variable(body: &str, input: &BodyInput, at: usize) -> Variable {
 }
 
 fn amounts(load: &Load, places: &LoadInputs, list: &mut Vec<Variable>) {
-    let start = &load.start;
-    type Kind<'a> = (&'a str, &'a str, &'a Option<Range<usize>>, &'a Option<CellValues>);
-    let kinds: [Kind; 5] = [
-        ("heat_flux", "heat flux into the body", &places.heat_flux, &start.heat_flux),
-        ("pressure", "pressure that acts into the body", &places.pressure, &start.pressure),
-        ("shear_x", "shear traction along x", &places.shear_x, &start.shear_x),
-        ("shear_y", "shear traction along y", &places.shear_y, &start.shear_y),
-        ("shear_r", "radial shear traction, outward positive", &places.shear_r, &start.shear_r),
-    ];
-    for (key, meaning, range, start) in kinds {
-        let Some(range) = range else { continue };
-        let (quantity, bounds) = match key {
-            "heat_flux" => (Quantity::HeatFlux, limits::heat_flux().bounds()),
-            _ => (Quantity::Stress, limits::traction().bounds()),
-        };
-        let cells = cell_labels(load.footprint.cells());
+    let cells = cell_labels(load.footprint.cells());
+    for (channel, range) in &places.amounts {
+        let start = load.start.amounts(*channel);
         for (cell, at) in range.clone().enumerate() {
             let (label, place) = &cells[cell];
             list.push(Variable {
-                name: format!("{}.{key}{label}", load.name),
-                description: format!("{meaning}{place}, {} on {}", load.name, load.on),
+                name: format!("{}.{}{label}", load.name, channel.key()),
+                description: format!("{}{place}, {} on {}", channel.words(), load.name, load.on),
                 slot: Slot::Input(at),
-                quantity: Some(quantity),
-                start: Some(Value::Real(cell_start(start.as_ref(), load.footprint.cells(), cell))),
-                bounds,
+                quantity: Some(channel.quantity()),
+                start: Some(Value::Real(cell_start(start, load.footprint.cells(), cell))),
+                bounds: channel.limits().bounds(),
                 is_tunable: false,
             });
         }

@@ -2,6 +2,7 @@
 
 use super::totals::rate;
 use crate::body::{Descriptor, Direct};
+use crate::channel::Channel;
 use crate::method::sph::WallExchange;
 use crate::quantity::Quantity;
 use crate::scene::{Footprint, Scene, Wall};
@@ -32,48 +33,33 @@ pub fn wall_quantities() -> &'static [WallQuantity] {
 }
 
 const QUANTITIES: [WallQuantity; 7] = [
-    of_cells(
-        "heat_flux",
-        "heat flux into the wall",
-        Quantity::HeatFlux,
-        Offered::All,
-        |e, cell| e.heat[cell],
-    ),
-    of_cells("pressure", "pressure on the wall", Quantity::Stress, Offered::All, |e, cell| {
+    of_cells(Channel::HeatFlux, "heat flux into the wall", Offered::All, |e, cell| e.heat[cell]),
+    of_cells(Channel::Pressure, "pressure on the wall", Offered::All, |e, cell| {
         -e.impulse[cell][2]
     }),
     of_cells(
-        "shear_r",
+        Channel::ShearR,
         "radial shear on the wall, outward positive",
-        Quantity::Stress,
         Offered::Rings,
         |e, cell| e.impulse[cell][0],
     ),
-    of_cells(
-        "shear_x",
-        "shear on the wall along x",
-        Quantity::Stress,
-        Offered::Tiles,
-        |e, cell| e.impulse[cell][0],
-    ),
-    of_cells(
-        "shear_y",
-        "shear on the wall along y",
-        Quantity::Stress,
-        Offered::TilesInSpace,
-        |e, cell| e.impulse[cell][1],
-    ),
+    of_cells(Channel::ShearX, "shear on the wall along x", Offered::Tiles, |e, cell| {
+        e.impulse[cell][0]
+    }),
+    of_cells(Channel::ShearY, "shear on the wall along y", Offered::TilesInSpace, |e, cell| {
+        e.impulse[cell][1]
+    }),
     beyond("heat_flow_outside", "heat flow", Quantity::HeatFlow, |e, _| e.heat_outside),
     beyond("force_outside", "force", Quantity::Force, |e, _| -e.impulse_outside[2]),
 ];
 
 const fn of_cells(
-    key: &'static str,
+    channel: Channel,
     words: &'static str,
-    quantity: Quantity,
     of: Offered,
     amount: fn(&WallExchange, usize) -> f64,
 ) -> WallQuantity {
+    let (key, quantity) = (channel.key(), channel.quantity());
     let descriptor = Descriptor { key, words, quantity, direct: Direct::Nothing };
     WallQuantity { descriptor, of_cells: true, of, amount }
 }

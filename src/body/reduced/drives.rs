@@ -174,22 +174,9 @@ impl Drives {
             self.families.len() - 1
         });
         let members = family.map_or(1, |family| self.families[family].len());
-        let amounts = [
-            &places.heat_flux,
-            &places.pressure,
-            &places.shear_x,
-            &places.shear_y,
-            &places.shear_r,
-        ];
-        let kinds = [
-            DriveKind::Flux,
-            DriveKind::Traction,
-            DriveKind::Traction,
-            DriveKind::Traction,
-            DriveKind::Traction,
-        ];
-        for (kind, amounts) in kinds.into_iter().zip(amounts) {
-            for index in amounts.iter().flat_map(|range| (*range).clone()) {
+        for (channel, range) in &places.amounts {
+            let kind = if channel.is_heat() { DriveKind::Flux } else { DriveKind::Traction };
+            for index in range.clone() {
                 for member in 0..members {
                     let member = family.map(|family| (family, member));
                     self.list.push(Drive { kind, index, base: 0.0, member });

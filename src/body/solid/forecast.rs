@@ -4,6 +4,7 @@ use super::front::may_melt;
 use super::rows::Choice;
 use super::{is_large, plan};
 use crate::body::threads_for;
+use crate::channel::{Channel, Direction};
 use crate::coupling::FaceRings;
 use crate::math::chebyshev::products;
 use crate::method::enthalpy::EnthalpyHeat;
@@ -172,10 +173,12 @@ fn is_odd_at_start(scene: &Scene, name: &str, axis: usize) -> bool {
     scene.loads_on(name).any(|load| {
         let start = &load.start;
         let place = [start.x, start.y][axis].unwrap_or(0.0);
-        let shear = [&start.shear_x, &start.shear_y][axis];
-        let values = [&start.heat_flux, &start.pressure, &start.shear_x, &start.shear_y];
-        let uneven = values.iter().any(|values| matches!(values, Some(CellValues::Tiles(_))));
-        place != 0.0 || shear.is_some() || uneven
+        let mut started =
+            load.channels().filter_map(|channel| Some((channel, start.amounts(channel)?)));
+        let is_odd = |(channel, values): (Channel, &CellValues)| {
+            channel.direction() == Direction::Along(axis) || matches!(values, CellValues::Tiles(_))
+        };
+        place != 0.0 || started.any(is_odd)
     })
 }
 

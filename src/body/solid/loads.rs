@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::body::BodyError;
+use crate::channel::Direction;
 use crate::coupling::{Pattern, Placement, split_load};
 use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
 use crate::method::fem::{Geometry, Mesh, Parity, Plan, SolidLoads};
@@ -73,7 +74,8 @@ impl BodyLoads {
 
     /// Whether any heat flux points out of the body.
     pub fn draws_heat(&self, inputs: &[f64]) -> bool {
-        let mut fluxes = self.loads.iter().filter_map(|(_, places)| places.heat_flux.clone());
+        let amounts = self.loads.iter().flat_map(|(_, places)| places.amounts.iter().cloned());
+        let mut fluxes = amounts.filter(|(channel, _)| channel.is_heat()).map(|(_, range)| range);
         let faces = self.faces.iter().flat_map(|(_, face, image)| [Some(face), image.as_ref()]);
         fluxes.any(|range| inputs[range].iter().any(|&flux| flux < 0.0))
             || faces.flatten().any(|f| f.kind == FaceInputKind::Flux && inputs[f.index] < 0.0)
@@ -194,23 +196,27 @@ impl BodyLoads {
         // Pressure acts into the body: down on the top, up on the bottom.
         let inward = if top { -1.0 } else { 1.0 };
         let mut parts = Vec::new();
-        let mut push =
-            |range: &Option<Range<usize>>, component: Option<usize>, sign, pattern, flips| {
-                if let Some(range) = range {
-                    let mesh = if component.is_none() { of_heat } else { of_force };
-                    let vectors = vectors(mesh, pattern, flips, range);
-                    parts.push(Part { component, sign, vectors });
-                }
-            };
+        let mut push = |range, component: Option<usize>, sign, pattern, flips| {
+            let mesh = if component.is_none() { of_heat } else { of_force };
+            let vectors = vectors(mesh, pattern, flips, range);
+            parts.push(Part { component, sign, vectors });
+        };
         let none = [false; 2];
-        push(&places.heat_flux, None, 1.0, Pattern::Scalar, none);
-        push(&places.pressure, Some(axial), inward, Pattern::Scalar, none);
-        push(&places.shear_x, Some(0), 1.0, Pattern::Scalar, [true, false]);
-        push(&places.shear_y, Some(1), 1.0, Pattern::Scalar, [false, true]);
-        let radial = &places.shear_r;
-        push(radial, Some(0), 1.0, Pattern::Outward(0), [true, false]);
-        if !round {
-            push(radial, Some(1), 1.0, Pattern::Outward(1), [false, true]);
+        let across = [0, 1].map(|axis| [axis == 0, axis == 1]);
+        for (channel, range) in &places.amounts {
+            match channel.direction() {
+                Direction::Heat => push(range, None, 1.0, Pattern::Scalar, none),
+                Direction::Inward => push(range, Some(axial), inward, Pattern::Scalar, none),
+                Direction::Along(axis) => {
+                    push(range, Some(axis), 1.0, Pattern::Scalar, across[axis]);
+                }
+                Direction::Outward => {
+                    let axes = across.into_iter().take(if round { 1 } else { 2 });
+                    for (axis, flips) in axes.enumerate() {
+                        push(range, Some(axis), 1.0, Pattern::Outward(axis), flips);
+                    }
+                }
+            }
         }
         parts
     }

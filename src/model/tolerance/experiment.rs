@@ -79,12 +79,8 @@ struct Group {
 }
 
 fn groups(layout: &InputLayout) -> Vec<Group> {
-    let loads = layout.loads.iter().flat_map(|load| {
-        let amounts =
-            [&load.heat_flux, &load.pressure, &load.shear_x, &load.shear_y, &load.shear_r];
-        amounts.into_iter().flatten().cloned()
-    });
-    let loads = loads.map(|range| Group { range, is_temperature: false });
+    let amounts = layout.loads.iter().flat_map(|load| load.amounts.iter());
+    let loads = amounts.map(|(_, range)| Group { range: range.clone(), is_temperature: false });
     let faces = layout.faces.iter().map(|face| Group {
         range: face.index..face.index + 1,
         is_temperature: face.kind != FaceInputKind::Flux,

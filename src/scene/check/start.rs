@@ -1,6 +1,7 @@
 //! Start values and bounds of a load's inputs.
 
 use super::{Checker, number};
+use crate::channel::{Channel, Direction};
 use crate::scene::locate::Path;
 use crate::scene::types::{Carries, CellShape, CellValues, Load};
 
@@ -11,50 +12,26 @@ pub fn check(checker: &mut Checker, path: &Path, load: &Load) {
 }
 
 fn amounts(checker: &mut Checker, path: &Path, load: &Load) {
-    let start = &load.start;
-    let amounts = [
-        ("heat_flux", &start.heat_flux, Carries::HeatFlux),
-        ("pressure", &start.pressure, Carries::Pressure),
-        ("shear_x", &start.shear_x, Carries::Shear),
-        ("shear_y", &start.shear_y, Carries::Shear),
-        ("shear_r", &start.shear_r, Carries::Shear),
-    ];
-    for (key, values, carries) in amounts {
-        let Some(values) = values else { continue };
-        let path = path.key(key);
-        if !load.carries.contains(&carries) {
+    for channel in Channel::ALL {
+        let Some(values) = load.start.amounts(channel) else { continue };
+        let path = path.key(channel.key());
+        if !load.carries.contains(&Carries::of(channel)) {
             let message = "a start value of something that the load does not carry";
-            checker.refuse(&path, message, carried_keys(load));
-        } else if direction(checker, &path, load, key) {
+            checker.refuse(&path, message, keys(load.channels()));
+        } else if load.channels().any(|own| own == channel) {
             cells(checker, &path, values, load.footprint.cells());
+        } else {
+            let message = match channel.direction() {
+                Direction::Outward => "only shear on rings is radial",
+                _ => "shear on rings is radial",
+            };
+            checker.refuse(&path, message, keys(load.channels().filter(|own| own.is_shear())));
         }
     }
 }
 
-/// The keys of start values that go with what the load carries.
-fn carried_keys(load: &Load) -> String {
-    let keys = load.carries.iter().map(|carries| match carries {
-        Carries::HeatFlux => "heat_flux",
-        Carries::Pressure => "pressure",
-        Carries::Shear if load.footprint.shears_outward() => "shear_r",
-        Carries::Shear => "shear_x, shear_y",
-    });
-    keys.collect::<Vec<_>>().join(", ")
-}
-
-/// Shear is radial on rings and along x and y elsewhere.
-fn direction(checker: &mut Checker, path: &Path, load: &Load, key: &str) -> bool {
-    match (load.footprint.shears_outward(), key) {
-        (true, "shear_x" | "shear_y") => {
-            checker.refuse(path, "shear on rings is radial", "shear_r");
-            false
-        }
-        (false, "shear_r") => {
-            checker.refuse(path, "only shear on rings is radial", "shear_x, shear_y");
-            false
-        }
-        _ => true,
-    }
+fn keys(channels: impl Iterator<Item = Channel>) -> String {
+    channels.map(Channel::key).collect::<Vec<_>>().join(", ")
 }
 
 /// Refuses values that are not one for each cell.
