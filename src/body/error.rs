@@ -70,6 +70,9 @@ pub enum BodyError {
     /// A step was ended before it was done.
     #[error("{body}: {halt}")]
     Halted { body: String, halt: Halt },
+    /// A value that this kind of body does not have.
+    #[error("the body has no such value")]
+    NoSuchReading,
     /// What has no derivative.
     #[error(
         "what droplets give, what follows from heat that is not linear, and running maxima are known step by step: they \

@@ -10,6 +10,7 @@ use super::{
     Acts, Body, BodyError, Conductor, Descriptor, Direct, Fields, Given, Linear, Memo, Reading,
     Received,
 };
+use crate::body::{Advice, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::math::exponential;
 use crate::method::fem::NodalFields;
@@ -151,13 +152,13 @@ impl ReservoirBody {
     }
 
     /// A total of a state, or of a change of it if temperatures count from zero.
-    fn total(&self, state: &[f64], from: f64, reading: &Reading) -> f64 {
+    fn total(&self, state: &[f64], from: f64, reading: &Reading) -> Result<f64, BodyError> {
         match reading {
-            Reading::Total(0) => from + state[0],
-            Reading::Total(1) => state[1],
-            Reading::Total(2) => self.heat_capacity * state[0],
-            Reading::Total(_) => state[2],
-            _ => panic!("a reservoir has neither points nor cells"),
+            Reading::Total(0) => Ok(from + state[0]),
+            Reading::Total(1) => Ok(state[1]),
+            Reading::Total(2) => Ok(self.heat_capacity * state[0]),
+            Reading::Total(_) => Ok(state[2]),
+            _ => Err(BodyError::NoSuchReading),
         }
     }
 }
@@ -244,7 +245,7 @@ impl Body for ReservoirBody {
     }
 
     fn read(&self, state: &[f64], _: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
-        Ok(self.total(state, self.initial_temperature, reading))
+        self.total(state, self.initial_temperature, reading)
     }
 
     fn fields(&self, _: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
@@ -259,6 +260,14 @@ impl Body for ReservoirBody {
         Some(self)
     }
 }
+
+impl Giver for ReservoirBody {}
+
+impl Maxima for ReservoirBody {}
+
+impl Advice for ReservoirBody {}
+
+impl Resources for ReservoirBody {}
 
 impl Conductor for ReservoirBody {
     fn response(&self, _: FaceName, area: f64) -> SurfaceResponse {
@@ -324,6 +333,6 @@ impl Linear for ReservoirBody {
         (rates, _): (&[f64], &mut Memo),
         reading: &Reading,
     ) -> Result<f64, BodyError> {
-        Ok(self.total(rates, 0.0, reading))
+        self.total(rates, 0.0, reading)
     }
 }

@@ -465,9 +465,10 @@ pub(super) fn explain(registry: &Registry, error: ModelError) -> Refusal {
             | BodyError::Uneven { .. }
             | BodyError::NoRoom(_)
             | BodyError::Halted { .. } => (Status::Discard, None),
-            BodyError::NotFinite(_) | BodyError::Solver(_) | BodyError::NoRate => {
-                (Status::Error, None)
-            }
+            BodyError::NotFinite(_)
+            | BodyError::Solver(_)
+            | BodyError::NoSuchReading
+            | BodyError::NoRate => (Status::Error, None),
         },
         _ => (Status::Error, None),
     };

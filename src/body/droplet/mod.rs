@@ -24,6 +24,7 @@ use std::ops::Range;
 use super::{
     Acts, Body, BodyError, Descriptor, Fields, Given, Link, Memo, Reading, Received, link,
 };
+use crate::body::{Advice, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::sph::{
     Domain, DropletSph, Failure, ParticleFields, Surface, UNKNOWNS, WallCells, WallExchange,
@@ -316,19 +317,33 @@ impl Body for DropletBody {
         Ok(acts.below.and_then(surface))
     }
 
-    fn foresee(&self, state: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError> {
-        let particles = self.droplet.particles_in(state);
-        let steps = if particles > 0 { self.expected_steps(dt).0 } else { 0.0 };
-        let size = particles * UNKNOWNS;
-        let foreseen = allowance.foresee_step(dt, steps, "time steps of a droplet", size);
-        foreseen.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
+    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
+        let mut reader = DropletReader { body: self, state, memo: DropletMemo::of_mut(memo) };
+        Ok(match *reading {
+            Reading::Total(place) => totals::read(&mut reader, place),
+            Reading::Cell { quantity, cell } => {
+                let Below::Wall(wall) = &self.below else {
+                    return Err(BodyError::NoSuchReading);
+                };
+                wall_quantities()[quantity].read(reader.exchange(), cell, &wall.areas)
+            }
+            Reading::Point { .. }
+            | Reading::Mean { .. }
+            | Reading::Peak { .. }
+            | Reading::Error => return Err(BodyError::NoSuchReading),
+        })
     }
 
-    fn updates(&self, dt: f64) -> f64 {
-        let (steps, particles) = self.expected_steps(dt);
-        cost(steps, particles * UNKNOWNS)
+    fn follows_at_once(&self, _: &Reading) -> bool {
+        false
     }
 
+    fn fields(&self, state: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
+        Ok(Fields::Particles(self.particles(state)))
+    }
+}
+
+impl Giver for DropletBody {
     /// What another body got is told of the last exchange, however long the step.
     fn join_steps(&self, before: &[f64], state: &mut Vec<f64>) {
         if !matches!(self.below, Below::Body { .. }) {
@@ -347,38 +362,11 @@ impl Body for DropletBody {
             symmetric: self.droplet.plan().even(),
         })
     }
+}
 
-    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
-        let mut reader = DropletReader { body: self, state, memo: DropletMemo::of_mut(memo) };
-        Ok(match *reading {
-            Reading::Total(place) => totals::read(&mut reader, place),
-            Reading::Cell { quantity, cell } => {
-                let Below::Wall(wall) = &self.below else {
-                    panic!("cells are registered for what stands on a wall")
-                };
-                wall_quantities()[quantity].read(reader.exchange(), cell, &wall.areas)
-            }
-            Reading::Point { .. }
-            | Reading::Mean { .. }
-            | Reading::Peak { .. }
-            | Reading::Error => {
-                panic!("points are registered for solids")
-            }
-        })
-    }
+impl Maxima for DropletBody {}
 
-    fn follows_at_once(&self, _: &Reading) -> bool {
-        false
-    }
-
-    fn is_deep(&self, _: Option<&Memo>, _: &Reading) -> bool {
-        false
-    }
-
-    fn fields(&self, state: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
-        Ok(Fields::Particles(self.particles(state)))
-    }
-
+impl Advice for DropletBody {
     fn notes(&self) -> Vec<String> {
         self.notes.iter().map(|note| format!("{}: {note}", self.name)).collect()
     }
@@ -427,6 +415,25 @@ impl Body for DropletBody {
         let totals = self.droplet.totals(state);
         let part = totals.stray_mass / totals.mass;
         (part > STRAY_SHARE).then(|| notes::on_stray_mass(&self.name, part)).into_iter().collect()
+    }
+}
+
+impl Resources for DropletBody {
+    fn foresee(&self, state: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError> {
+        let particles = self.droplet.particles_in(state);
+        let steps = if particles > 0 { self.expected_steps(dt).0 } else { 0.0 };
+        let size = particles * UNKNOWNS;
+        let foreseen = allowance.foresee_step(dt, steps, "time steps of a droplet", size);
+        foreseen.map_err(|halt| BodyError::Halted { body: self.name.clone(), halt })
+    }
+
+    fn updates(&self, dt: f64) -> f64 {
+        let (steps, particles) = self.expected_steps(dt);
+        cost(steps, particles * UNKNOWNS)
+    }
+
+    fn is_deep(&self, _: Option<&Memo>, _: &Reading) -> bool {
+        false
     }
 
     fn factor_entries(&self) -> usize {

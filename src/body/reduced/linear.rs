@@ -49,9 +49,8 @@ impl Linear for ReducedBody {
                 _ => self.total(rates, place),
             },
             Reading::Peak { .. } | Reading::Cell { .. } | Reading::Error => {
-                panic!(
-                    "a reduced model has neither running maxima nor a wall, and its error is told by its bound"
-                )
+                // It has neither running maxima nor a wall, and its error is told by its bound.
+                return Err(BodyError::NoSuchReading);
             }
         })
     }

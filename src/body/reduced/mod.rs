@@ -24,6 +24,7 @@ use super::solid::{BodyLoads, Measure, PARTS_OF_A_FOOTPRINT, plan};
 use super::{
     Acts, Body, BodyError, Direct, Fields, Given, Linear, Memo, Reading, Received, point_quantities,
 };
+use crate::body::{Advice, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::fem::NodalFields;
 use crate::method::reduced::ReducedSystem;
@@ -365,9 +366,8 @@ impl Body for ReducedBody {
             Reading::Mean { field, cell, .. } => value(self.values.mean(field, cell)),
             Reading::Total(place) => self.total(state, place),
             Reading::Peak { .. } | Reading::Cell { .. } | Reading::Error => {
-                panic!(
-                    "a reduced model has neither running maxima nor a wall, and its error is told by its bound"
-                )
+                // It has neither running maxima nor a wall, and its error is told by its bound.
+                return Err(BodyError::NoSuchReading);
             }
         })
     }
@@ -388,7 +388,13 @@ impl Body for ReducedBody {
     fn linear(&self) -> Option<&dyn Linear> {
         Some(self)
     }
+}
 
+impl Giver for ReducedBody {}
+
+impl Maxima for ReducedBody {}
+
+impl Advice for ReducedBody {
     fn notes(&self) -> Vec<String> {
         self.own_notes()
     }
@@ -400,7 +406,9 @@ impl Body for ReducedBody {
     fn beyond_tolerance(&self) -> Option<String> {
         self.kind_beyond_tolerance()
     }
+}
 
+impl Resources for ReducedBody {
     fn reduction(&self) -> Option<KeptReduction> {
         Some(self.kept())
     }

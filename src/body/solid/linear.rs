@@ -63,7 +63,7 @@ impl Linear for SolidBody {
             // Where and when it is stays, as long as nothing is noted.
             Reading::Peak { which, part: PeakPart::Value } => self.highest_rate(&mut both, which),
             Reading::Peak { .. } | Reading::Error => Ok(0.0),
-            Reading::Cell { .. } => panic!("cells are registered for what stands on a wall"),
+            Reading::Cell { .. } => Err(BodyError::NoSuchReading),
         }
     }
 }

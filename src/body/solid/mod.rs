@@ -34,6 +34,7 @@ use super::{
     Acts, Body, BodyError, Conductor, Direct, Extreme, Fields, Given, Linear, Memo, Reading,
     Received,
 };
+use crate::body::{Advice, Giver, Maxima, Resources};
 use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
 use crate::method::fem::{ElasticProblem, HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
@@ -172,10 +173,6 @@ impl Body for SolidBody {
         &self.name
     }
 
-    fn resolved_from(&self) -> f64 {
-        self.plan.resolved_from
-    }
-
     fn initial_state(&self) -> Vec<f64> {
         let (nodes, start) = (self.solid.mesh().nodes(), self.solid.initial_temperature());
         let mechanics = self.yielding.as_ref().map(|yielding| yielding.initial_state(nodes, start));
@@ -249,22 +246,10 @@ impl Body for SolidBody {
                 point_quantities()[quantity].mean(&mut reader, (field, cell))
             }
             Reading::Total(place) => totals::read(&mut reader, place),
-            Reading::Peak { .. } | Reading::Error => panic!("no part of a body's state"),
-            Reading::Cell { .. } => panic!("cells are registered for what stands on a wall"),
+            Reading::Peak { .. } | Reading::Cell { .. } | Reading::Error => {
+                Err(BodyError::NoSuchReading)
+            }
         }
-    }
-
-    fn peaks(&self) -> usize {
-        self.peaks.len()
-    }
-
-    fn observe(&self, state: &[f64], memo: &mut Memo, which: usize) -> Result<Extreme, BodyError> {
-        let memo = SolidMemo::of_mut(memo);
-        self.highest(&mut SolidReader { body: self, state, memo }, which)
-    }
-
-    fn check_peak(&self, which: usize, peak: &Extreme) -> Result<(), String> {
-        self.check_highest(which, peak)
     }
 
     fn follows_at_once(&self, reading: &Reading) -> bool {
@@ -280,6 +265,66 @@ impl Body for SolidBody {
         direct != Direct::Nothing
     }
 
+    fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError> {
+        Ok(Fields::Nodes(SolidMemo::of_mut(memo).fields(self, state)?))
+    }
+
+    fn linear(&self) -> Option<&dyn Linear> {
+        if !self.solid.conducts_linearly() || self.yielding.is_some() {
+            return None;
+        }
+        Some(self)
+    }
+
+    fn conductor(&self) -> Option<&dyn Conductor> {
+        Some(self)
+    }
+}
+
+impl Giver for SolidBody {}
+
+impl Maxima for SolidBody {
+    fn peaks(&self) -> usize {
+        self.peaks.len()
+    }
+
+    fn observe(&self, state: &[f64], memo: &mut Memo, which: usize) -> Result<Extreme, BodyError> {
+        let memo = SolidMemo::of_mut(memo);
+        self.highest(&mut SolidReader { body: self, state, memo }, which)
+    }
+
+    fn check_peak(&self, which: usize, peak: &Extreme) -> Result<(), String> {
+        self.check_highest(which, peak)
+    }
+}
+
+impl Advice for SolidBody {
+    fn resolved_from(&self) -> f64 {
+        self.plan.resolved_from
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let fallback = self.solid.fallback_particles().filter(|&count| count > 0).map(|count| {
+            format!(
+                "{count} of {} particles conduct by the plain operator: their corrected one is near \
+                 singular",
+                self.plan.mesh.nodes()
+            )
+        });
+        let notes = self.plan.notes.iter().cloned().chain(fallback);
+        notes.map(|note| format!("{}: {note}", self.name)).collect()
+    }
+
+    fn warning(&self, state: &[f64]) -> Option<String> {
+        doubts::of_particles(self, state)
+    }
+
+    fn closing_warnings(&self, state: &[f64]) -> Vec<String> {
+        doubts::of_fronts(self, state).into_iter().collect()
+    }
+}
+
+impl Resources for SolidBody {
     fn is_deep(&self, memo: Option<&Memo>, reading: &Reading) -> bool {
         let memo = memo.map(SolidMemo::of);
         let solved = memo.is_some_and(SolidMemo::is_solved);
@@ -301,41 +346,6 @@ impl Body for SolidBody {
             }
             Reading::Cell { .. } | Reading::Error => false,
         }
-    }
-
-    fn fields(&self, state: &[f64], memo: &mut Memo) -> Result<Fields, BodyError> {
-        Ok(Fields::Nodes(SolidMemo::of_mut(memo).fields(self, state)?))
-    }
-
-    fn linear(&self) -> Option<&dyn Linear> {
-        if !self.solid.conducts_linearly() || self.yielding.is_some() {
-            return None;
-        }
-        Some(self)
-    }
-
-    fn conductor(&self) -> Option<&dyn Conductor> {
-        Some(self)
-    }
-
-    fn notes(&self) -> Vec<String> {
-        let fallback = self.solid.fallback_particles().filter(|&count| count > 0).map(|count| {
-            format!(
-                "{count} of {} particles conduct by the plain operator: their corrected one is near \
-                 singular",
-                self.plan.mesh.nodes()
-            )
-        });
-        let notes = self.plan.notes.iter().cloned().chain(fallback);
-        notes.map(|note| format!("{}: {note}", self.name)).collect()
-    }
-
-    fn warning(&self, state: &[f64]) -> Option<String> {
-        doubts::of_particles(self, state)
-    }
-
-    fn closing_warnings(&self, state: &[f64]) -> Vec<String> {
-        doubts::of_fronts(self, state).into_iter().collect()
     }
 
     fn stiffness(&self) -> Option<Arc<ElasticProblem>> {

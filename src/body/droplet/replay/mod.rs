@@ -16,6 +16,7 @@ use super::{Below, STRAY_SHARE, Wall, plan};
 use crate::body::{
     Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, wall_quantities,
 };
+use crate::body::{Advice, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::record::{Falling, Replay, ReplayPlan, ReplayTotals};
 use crate::method::sph::{
@@ -210,6 +211,34 @@ impl Body for ReplayBody {
         Ok(self.given_of(exchange, falls))
     }
 
+    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
+        let memo: &mut ReplayMemo = memo.downcast_mut().expect("a memo of the body that made it");
+        let exchange = || self.replay.exchange(state);
+        Ok(match *reading {
+            Reading::Total(place) => totals::read(place, &self.totals(state), || {
+                memo.exchange.get_or_insert_with(exchange)
+            }),
+            Reading::Cell { quantity, cell } => {
+                let Below::Wall(wall) = &self.below else {
+                    return Err(BodyError::NoSuchReading);
+                };
+                let exchange = memo.exchange.get_or_insert_with(exchange);
+                wall_quantities()[quantity].read(exchange, cell, &wall.areas)
+            }
+            Reading::Point { .. }
+            | Reading::Mean { .. }
+            | Reading::Peak { .. }
+            | Reading::Error => return Err(BodyError::NoSuchReading),
+        })
+    }
+
+    /// There are no particles to show.
+    fn fields(&self, _: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
+        Ok(Fields::Particles(ParticleFields::default()))
+    }
+}
+
+impl Giver for ReplayBody {
     fn moments(&self, state: &[f64], path: &InputPath, duration: f64) -> Vec<f64> {
         // What cannot be released is refused by the step.
         let released = self.released(state, path, duration);
@@ -228,35 +257,11 @@ impl Body for ReplayBody {
             .then(|| self.given_of(self.replay.exchange(state), Vec::new()))
             .flatten()
     }
+}
 
-    fn read(&self, state: &[f64], memo: &mut Memo, reading: &Reading) -> Result<f64, BodyError> {
-        let memo: &mut ReplayMemo = memo.downcast_mut().expect("a memo of the body that made it");
-        let exchange = || self.replay.exchange(state);
-        Ok(match *reading {
-            Reading::Total(place) => totals::read(place, &self.totals(state), || {
-                memo.exchange.get_or_insert_with(exchange)
-            }),
-            Reading::Cell { quantity, cell } => {
-                let Below::Wall(wall) = &self.below else {
-                    panic!("cells are registered for what stands on a wall")
-                };
-                let exchange = memo.exchange.get_or_insert_with(exchange);
-                wall_quantities()[quantity].read(exchange, cell, &wall.areas)
-            }
-            Reading::Point { .. }
-            | Reading::Mean { .. }
-            | Reading::Peak { .. }
-            | Reading::Error => {
-                panic!("points are registered for solids")
-            }
-        })
-    }
+impl Maxima for ReplayBody {}
 
-    /// There are no particles to show.
-    fn fields(&self, _: &[f64], _: &mut Memo) -> Result<Fields, BodyError> {
-        Ok(Fields::Particles(ParticleFields::default()))
-    }
-
+impl Advice for ReplayBody {
     fn notes(&self) -> Vec<String> {
         self.notes.iter().map(|note| format!("{}: {note}", self.name)).collect()
     }
@@ -284,3 +289,5 @@ impl Body for ReplayBody {
         on_others.into_iter().chain(on_strays).collect()
     }
 }
+
+impl Resources for ReplayBody {}

@@ -1,0 +1,104 @@
+//! Which kind of body a scene's table makes, and what joins them.
+
+use super::contract::Body;
+use super::droplet::{DropletBody, ReplayBody};
+use super::error::BodyError;
+use super::link::{self, Joint, Link};
+use super::reduced::ReducedBody;
+use super::reservoir::ReservoirBody;
+use super::solid::SolidBody;
+use crate::inputs::InputLayout;
+use crate::scene::{self, Scene};
+
+/// All bodies of a scene.
+pub struct Assembly {
+    /// In the order of their names.
+    pub bodies: Vec<Box<dyn Body>>,
+    pub links: Vec<Link>,
+    pub joints: Vec<Joint>,
+}
+
+/// How much of a model is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Readings {
+    /// As many states as the scene's default experiment has.
+    Usual,
+    OfStates(usize),
+}
+
+/// Builds the bodies of a scene, whose inputs begin as `start` says, and what joins them. Of the threads that are
+/// wanted, 0 for as many as are worth it, no more are taken than a second number.
+pub fn build(
+    scene: &Scene,
+    (layout, start): (&InputLayout, &[f64]),
+    [wanted, most]: [usize; 2],
+    readings: Readings,
+) -> Result<Assembly, BodyError> {
+    let threads = |is_large| threads_for(wanted, is_large).min(most);
+    let place = |name: &str| scene.body.keys().position(|key| key == name);
+    let mut built: Vec<Option<Box<dyn Body>>> = scene.body.keys().map(|_| None).collect();
+    for (index, (name, body)) in scene.body.iter().enumerate() {
+        if let scene::Body::Solid(solid) = body {
+            if scene.is_reduced(name) {
+                let body = ReducedBody::new(scene, layout, (name, solid), start, threads(false))?;
+                built[index] = Some(Box::new(body));
+                continue;
+            }
+            let linked = link::linked_faces(scene, name);
+            let body = SolidBody::new(scene, layout, (name, solid), &linked, threads)?;
+            let body = match readings {
+                Readings::Usual => body,
+                Readings::OfStates(count) => body.read_in_states(count),
+            };
+            built[index] = Some(Box::new(body));
+        }
+    }
+    let links = link::links(scene, place);
+    for (index, (name, body)) in scene.body.iter().enumerate() {
+        if let scene::Body::Droplet(droplet) = body {
+            let link = links.iter().find(|link| link.from == index);
+            let cells = link.and_then(|link| {
+                let below = built[link.to].as_ref()?.conductor()?;
+                Some((below.cells(link.face)?, link))
+            });
+            built[index] = Some(match droplet.is_replayed() {
+                false => Box::new(DropletBody::new(scene, layout, (name, droplet), cells, threads)),
+                true => {
+                    let body =
+                        ReplayBody::new(scene, layout, (name, droplet), cells, threads(true));
+                    let named = |failure| BodyError::Droplet { name: name.clone(), failure };
+                    Box::new(body.map_err(named)?)
+                }
+            });
+        }
+    }
+    for (name, reservoir) in scene.reservoirs() {
+        let cells = link::most_cells(scene, name, &built, place);
+        let body = ReservoirBody::new(layout, (name, reservoir), cells);
+        built[place(name).expect("a body of the scene")] = Some(Box::new(body));
+    }
+    let joints = link::joints(scene, &built, place);
+    Ok(Assembly { bodies: built.into_iter().flatten().collect(), links, joints })
+}
+
+/// The reductions of a scene whose inputs begin as `start` says, each with the name of its body, as bytes.
+pub fn reductions(
+    scene: &Scene,
+    (layout, start): (&InputLayout, &[f64]),
+    threads: usize,
+) -> Result<Vec<(String, Vec<u8>)>, BodyError> {
+    let bytes = |(name, solid): (&str, &scene::Solid)| {
+        let body = ReducedBody::new(scene, layout, (name, solid), start, threads.max(1))?;
+        Ok((name.to_owned(), body.to_bytes(scene)))
+    };
+    scene.solids().filter(|(name, _)| scene.is_reduced(name)).map(bytes).collect()
+}
+
+/// Threads for a body; 0 are wanted for as many as are worth it.
+pub fn threads_for(wanted: usize, is_large: bool) -> usize {
+    match wanted {
+        0 if !is_large => 1,
+        0 => std::thread::available_parallelism().map_or(1, Into::into),
+        threads => threads,
+    }
+}
