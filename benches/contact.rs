@@ -9,10 +9,9 @@ use std::env;
 use std::f64::consts::PI;
 
 use impinge::closed_form::{Conductor, Contact};
-use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Wall, WallCells,
-};
+use impinge::method::sph::{DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Wall};
 use impinge::model::{Cache, Model};
+use impinge::port::WallCells;
 use impinge::scene;
 use impinge::variables::{Registry, Slot};
 

@@ -29,6 +29,8 @@ pub mod scene;
 
 pub mod inputs;
 
+pub mod port;
+
 pub mod method;
 
 pub mod coupling;

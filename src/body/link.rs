@@ -3,10 +3,11 @@
 use super::Body;
 use super::droplet;
 use super::solid::plan;
-use crate::coupling::{CommonCells, LateralModes};
 use crate::material::Constants;
 use crate::method::fem::Plan;
-use crate::method::sph::{DropletSph, SurfaceResponse, WallCells};
+use crate::method::sph::DropletSph;
+use crate::port::{CommonCells, LateralModes};
+use crate::port::{SurfaceResponse, WallCells};
 use crate::scene::{Coupling, Droplet, FaceName, Scene};
 
 /// Most parts of a step that is cut where bodies ask for it.

@@ -14,7 +14,7 @@ use crate::body::{Advice, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::math::exponential;
 use crate::method::fem::NodalFields;
-use crate::method::sph::{Surface, SurfaceResponse, WallCells};
+use crate::port::{Surface, SurfaceResponse, WallCells};
 use crate::quantity::Quantity;
 use crate::runtime::allowance::Allowance;
 use crate::scene::{FaceName, Reservoir};

@@ -6,7 +6,7 @@ use crate::math::gauss::gauss_on;
 use crate::math::separable::{Side, transform};
 use crate::method::fem::Temperatures;
 use crate::method::mesh::{Axis, Geometry, Mesh};
-use crate::method::sph::WallCells;
+use crate::port::WallCells;
 
 use super::symmetry::split_load;
 

@@ -10,7 +10,7 @@ use crate::math::gauss::gauss_on;
 use crate::math::separable::{Side, transform};
 use crate::method::fem::Temperatures;
 use crate::method::mesh::Mesh;
-use crate::method::sph::WallCells;
+use crate::port::WallCells;
 
 /// Rings about the middle of a face of a box, out to its nearest edge, with the functions φ that are linear between
 /// their radii.
@@ -262,7 +262,7 @@ fn pieces(places: impl Iterator<Item = f64>, [low, high]: [f64; 2]) -> Vec<[f64;
 mod tests {
     use super::*;
     use crate::method::mesh::{Axis, Geometry, Layering, Weight};
-    use crate::method::sph::Domain;
+    use crate::port::Domain;
 
     /// A graded box, whole, half or a quarter, of linear or quadratic elements.
     fn mesh(order: usize, mirrored: [bool; 2]) -> Mesh {

@@ -4,7 +4,7 @@ use super::schedule::{Exchange, Group, Part, acts};
 use super::{Cache, Model};
 use crate::body::{BodyError, Given, Joint};
 use crate::math::anderson::Anderson;
-use crate::method::sph::SurfaceResponse;
+use crate::port::SurfaceResponse;
 use crate::runtime::allowance::Allowance;
 
 /// Parts of a step at whose ends the law of the contact holds: those of the method Radau IIA of third order (E. Hairer

@@ -3,7 +3,7 @@
 use super::{Cache, Model, ModelError, State};
 use crate::body::{Acts, BodyError, Given, Link, MOST_PARTS, Received};
 use crate::inputs::InputPath;
-use crate::method::sph::Surface;
+use crate::port::Surface;
 use crate::runtime::allowance::Allowance;
 use crate::scene::FaceName;
 

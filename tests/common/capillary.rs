@@ -6,8 +6,8 @@ use impinge::closed_form::SwingingDrop;
 use impinge::kernel::Kernel;
 use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
-    WallCells,
 };
+use impinge::port::WallCells;
 use nalgebra::{DMatrix, DVector};
 
 /// Water, radius 1 mm.

@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 use impinge::kernel::Kernel;
 use impinge::method::sph::{
     DropletPlan, DropletSph, DropletTotals, Extent, Fluid, ParticleFields, Placement, Precision,
-    Wall, WallCells,
+    Wall,
 };
+use impinge::port::WallCells;
 
 /// A model and its state.
 pub struct Flow {

@@ -4,8 +4,9 @@ use std::f64::consts::PI;
 
 use impinge::kernel::Kernel;
 use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, Placement, Precision, Release, Wall, WallCells,
+    DropletPlan, DropletSph, Extent, Fluid, Placement, Precision, Release, Wall,
 };
+use impinge::port::WallCells;
 
 pub const DIAMETER: f64 = 1e-4;
 pub const SPEED: f64 = 50.0;

@@ -5,8 +5,9 @@ use std::f64::consts::PI;
 use crate::falling_drop::{COLD, DIAMETER, HOT, RINGS, SPEED, WATER, falling_drop, run};
 use impinge::method::sph::{
     DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release,
-    StepShares, Wall, WallCells,
+    StepShares, Wall,
 };
+use impinge::port::WallCells;
 
 /// A drop of some particles over its diameter that is about to hit a wall.
 fn impact(across: f64) -> DropletPlan {

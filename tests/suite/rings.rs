@@ -8,9 +8,8 @@ use crate::capillary::{
     stretched, viscosity,
 };
 use crate::falling_drop::{COLD, DIAMETER, HOT, RINGS, SPEED, WATER, falling_drop, run};
-use impinge::method::sph::{
-    Domain, DropletPlan, DropletSph, Fluid, ParticleFields, Placement, Wall, WallCells,
-};
+use impinge::method::sph::{DropletPlan, DropletSph, Fluid, ParticleFields, Placement, Wall};
+use impinge::port::{Domain, WallCells};
 
 /// A quarter of a drop with surface tension that is about to hit a wall.
 fn quarter(across: f64) -> DropletPlan {

@@ -6,9 +6,9 @@ use std::f64::consts::PI;
 use crate::common::{Trial, off};
 use impinge::kernel::Kernel;
 use impinge::method::sph::{
-    Domain, DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release,
-    Wall, WallCells,
+    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Placement, Precision, Release, Wall,
 };
+use impinge::port::{Domain, WallCells};
 
 const SPACING: f64 = 4e-6;
 const HOT: f64 = 373.15;

@@ -7,9 +7,8 @@ use crate::common::Trial;
 use crate::falling_drop::open_space;
 use crate::study::{Study, alumina, keep, probe, relative_norm};
 use impinge::closed_form::{Conductor, Contact, SuddenSurface};
-use impinge::method::sph::{
-    DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Release, Wall, WallCells,
-};
+use impinge::method::sph::{DropletPlan, DropletSph, Extent, Fluid, ParticleFields, Release, Wall};
+use impinge::port::WallCells;
 
 /// The case of Park (2019), §2.4.6.
 const HOT: f64 = 373.15;

@@ -1,7 +1,8 @@
 //! Classical flows of the droplet engine: between plates (Park 2019, §2.4.5.2), Taylor–Green's
 //! vortices, water at rest, a rotating square, and the break of a dam.
 
-use impinge::method::sph::{Extent, ParticleFields, WallCells};
+use impinge::method::sph::{Extent, ParticleFields};
+use impinge::port::WallCells;
 
 use crate::classical_flows::{Column, Flow, Poiseuille, Setup, TaylorGreen, lattice};
 use crate::common::Trial;

@@ -3,7 +3,8 @@
 use std::f64::consts::PI;
 use std::time::Instant;
 
-use impinge::method::sph::{DropletPlan, DropletSph, Fluid, WallCells};
+use impinge::method::sph::{DropletPlan, DropletSph, Fluid};
+use impinge::port::WallCells;
 
 use crate::falling_drop::above_wall;
 use crate::study::keep;

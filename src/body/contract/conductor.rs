@@ -2,7 +2,7 @@
 
 use crate::body::BodyError;
 use crate::body::contract::{Acts, Memo};
-use crate::method::sph::{Surface, SurfaceResponse, WallCells};
+use crate::port::{Surface, SurfaceResponse, WallCells};
 use crate::runtime::allowance::Allowance;
 use crate::scene::FaceName;
 

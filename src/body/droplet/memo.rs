@@ -1,7 +1,8 @@
 use std::any::Any;
 
 use crate::body::Memo;
-use crate::method::sph::{DropletTotals, WallExchange};
+use crate::method::sph::DropletTotals;
+use crate::port::WallExchange;
 
 /// What is read from a droplet's state, computed when first asked for.
 #[derive(Debug, Default)]

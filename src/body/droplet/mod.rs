@@ -26,10 +26,8 @@ use super::{
 };
 use crate::body::{Advice, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
-use crate::method::sph::{
-    Domain, DropletSph, Failure, ParticleFields, Surface, UNKNOWNS, WallCells, WallExchange,
-    WarmPlace,
-};
+use crate::method::sph::{DropletSph, Failure, ParticleFields, UNKNOWNS, WarmPlace};
+use crate::port::{Domain, Surface, WallCells, WallExchange};
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{Droplet, Scene};
 use crate::state::Layout;

@@ -1,7 +1,8 @@
 //! From a droplet of a scene to what the engine builds.
 
 use crate::method::fem::Refinement;
-use crate::method::sph::{self, Demand, DropletPlan, Extent, Release, WallCells};
+use crate::method::sph::{self, Demand, DropletPlan, Extent, Release};
+use crate::port::WallCells;
 use crate::scene::{Arrival, Coupling, Droplet, Footprint};
 
 /// What the engine builds a droplet from, above the cells of a wall or none.

@@ -1,6 +1,7 @@
 use super::memo::DropletMemo;
 use super::{DropletBody, Rest};
-use crate::method::sph::{DropletTotals, WallExchange};
+use crate::method::sph::DropletTotals;
+use crate::port::WallExchange;
 
 /// A droplet in a state.
 pub struct DropletReader<'a> {

@@ -2,7 +2,8 @@
 
 use super::reader::DropletReader;
 use crate::body::{Descriptor, Direct};
-use crate::method::sph::{DropletTotals, WallExchange};
+use crate::method::sph::DropletTotals;
+use crate::port::WallExchange;
 use crate::quantity::Quantity;
 use crate::scene::{Droplet, Scene};
 

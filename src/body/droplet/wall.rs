@@ -3,7 +3,7 @@
 use super::totals::rate;
 use crate::body::{Descriptor, Direct};
 use crate::channel::Channel;
-use crate::method::sph::WallExchange;
+use crate::port::WallExchange;
 use crate::quantity::Quantity;
 use crate::scene::{Footprint, Scene, Wall};
 

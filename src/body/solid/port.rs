@@ -7,7 +7,7 @@ use crate::body::{Acts, BodyError, Conductor, Given, Memo};
 use crate::coupling::{FaceCells, FaceRings};
 use crate::inputs::InputPath;
 use crate::method::fem::{Geometry, Plan, SolidFem, SolidLoads, Temperatures, heat_mesh};
-use crate::method::sph::{Surface, SurfaceResponse, WallCells};
+use crate::port::{Surface, SurfaceResponse, WallCells};
 use crate::runtime::allowance::Allowance;
 use crate::scene::FaceName;
 

@@ -5,7 +5,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::method::sph::WallCells;
+use crate::port::WallCells;
 
 /// Circles on which the points of a ring lie.
 const CIRCLES: usize = 2;

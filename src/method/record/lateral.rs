@@ -1,6 +1,6 @@
 //! Heat that goes along a wall during a step, from cells that get it to those beside them.
 
-use crate::method::sph::WallCells;
+use crate::port::WallCells;
 
 /// Squared distance over `4at` beyond which nothing is counted.
 const REACH: f64 = 9.0;

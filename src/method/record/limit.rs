@@ -9,7 +9,7 @@ use super::footprint::{Footprint, Ring};
 use super::lateral::Lateral;
 use super::replay::Given;
 use super::surface::SurfaceAt;
-use crate::method::sph::Surface;
+use crate::port::Surface;
 
 /// Effect of a film on the wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,8 @@
 //! A profile from an impact of smoothed particles.
 
 use super::profile::{Amounts, Profile};
-use crate::method::sph::{DropletPlan, DropletSph, Failure, WallCells, WallExchange};
+use crate::method::sph::{DropletPlan, DropletSph, Failure};
+use crate::port::{WallCells, WallExchange};
 use crate::runtime::allowance::Allowance;
 
 /// How an impact is recorded.

@@ -10,7 +10,7 @@ use super::profile::Amounts;
 use super::sharing::{reach, share};
 use super::state::{Drop, Ledger, drops_in, flatten, layout, unflatten};
 use super::surface::SurfaceAt;
-use crate::method::sph::{Domain, Surface, WallCells, WallExchange};
+use crate::port::{Domain, Surface, WallCells, WallExchange};
 use crate::state::Layout;
 
 /// What drops are replayed from.

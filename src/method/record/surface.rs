@@ -1,6 +1,6 @@
 //! The surface of the wall at a time of a step.
 
-use crate::method::sph::Surface;
+use crate::port::Surface;
 
 /// A surface at a time of a step, of which few cells are asked for.
 pub struct SurfaceAt<'a> {

@@ -3,8 +3,8 @@
 use std::slice::from_mut;
 
 use super::requests::Requests;
-use super::surface::SurfaceMemory;
-use super::wall::WallExchange;
+use crate::port::SurfaceMemory;
+use crate::port::WallExchange;
 use crate::runtime::parallel::Team;
 use crate::state::{Field, Fields, Layout, Per, load, store};
 

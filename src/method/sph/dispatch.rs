@@ -73,7 +73,8 @@ mod tests {
     use super::Instructions;
     use crate::kernel::Kernel;
     use crate::method::sph::{DropletPlan, DropletSph, Extent, Fluid, Placement, Precision};
-    use crate::method::sph::{Release, Wall, WallCells};
+    use crate::method::sph::{Release, Wall};
+    use crate::port::WallCells;
 
     thread_local! {
         /// What a test lets its thread use.

@@ -11,10 +11,10 @@ use super::loops::PairKind;
 use super::moment::{filled, renormalised};
 use super::plan::DropletPlan;
 use super::units::Units;
-use super::wall::WallCells;
 use super::wall_heat::WallHeat;
 use super::wall_points::PointLattice;
 use crate::kernel::Kernel;
+use crate::port::WallCells;
 use crate::scene::Precision;
 
 /// Numbers of the method that a plan fixes, without dimension.

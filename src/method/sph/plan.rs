@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use serde::{Deserialize, Serialize};
 
 use super::images::copies;
-use super::wall::WallCells;
 use crate::kernel::Kernel;
+use crate::port::WallCells;
 pub use crate::scene::Placement;
 use crate::scene::Precision;
 

@@ -6,11 +6,11 @@
 use std::collections::HashMap;
 use std::f64::consts::TAU;
 
-use super::cover::Cover;
 use super::images::copies;
 use super::plan::{DropletPlan, Extent};
-use super::surface::{CellHeat, Surface};
-use super::wall::{Domain, WallCells, WallExchange};
+use crate::port::Cover;
+use crate::port::{CellHeat, Surface};
+use crate::port::{Domain, WallCells, WallExchange};
 
 /// Points along an edge of a page, that is made when fluid first comes there.
 const PAGE: i32 = 16;

@@ -19,9 +19,8 @@ use crate::body::{
 use crate::body::{Advice, Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::record::{Falling, Replay, ReplayPlan, ReplayTotals};
-use crate::method::sph::{
-    Domain, Failure, ParticleFields, Surface, WallCells, WallExchange, WarmPlace,
-};
+use crate::method::sph::{Failure, ParticleFields, WarmPlace};
+use crate::port::{Domain, Surface, WallCells, WallExchange};
 use crate::runtime::allowance::Allowance;
 use crate::scene::{Arrival, Droplet, MEASURED_FILMS, Scene, lateral_extents};
 use crate::state::Layout;

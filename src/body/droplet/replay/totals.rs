@@ -3,7 +3,7 @@
 use crate::body::droplet::totals::rate;
 use crate::body::{Descriptor, Direct};
 use crate::method::record::ReplayTotals;
-use crate::method::sph::WallExchange;
+use crate::port::WallExchange;
 use crate::quantity::Quantity;
 use crate::scene::{Droplet, Scene};
 

@@ -3,8 +3,8 @@
 use super::DropletSph;
 use crate::method::sph::cloud::ledger_of;
 use crate::method::sph::failure::Failure;
-use crate::method::sph::surface::Surface;
-use crate::method::sph::wall::WallExchange;
+use crate::port::Surface;
+use crate::port::WallExchange;
 use crate::runtime::allowance::Allowance;
 
 impl DropletSph {

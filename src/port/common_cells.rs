@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
+use super::cells::{Domain, WallCells};
 use super::lateral_modes::LateralModes;
-use crate::method::sph::{Domain, WallCells};
 
 /// Places where two faces touch: wherever either has the end of an element, as far as both reach. Seen from either
 /// face, what is between its own places is linear, so that all that leaves the one enters the other.

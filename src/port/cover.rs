@@ -1,6 +1,6 @@
 //! Which cells of a wall a small rectangle of it covers, and by how much.
 
-use super::wall::WallCells;
+use super::cells::WallCells;
 use crate::math::disc_rectangle::{area_within, length_within};
 use crate::math::gauss::gauss_on;
 
@@ -224,7 +224,7 @@ fn complete(mut cells: Vec<(usize, f64)>, nearest: usize) -> Cover {
 
 #[cfg(test)]
 mod tests {
-    use super::super::wall::Domain;
+    use super::super::cells::Domain;
     use super::*;
 
     fn grids() -> [WallCells; 4] {
