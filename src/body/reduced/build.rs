@@ -8,7 +8,9 @@ use crate::body::solid::{BodyLoads, means_of, plan};
 use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
 use crate::math::exponential::weights as weights_of;
-use crate::method::fem::{Component, HeatValue, Mesh, ModalRow, SolidFem, SolidLoads, heat_mesh};
+use crate::method::fem::{
+    Component, HeatValue, Mesh, ModalRow, SolidFem, SolidLoads, SolidModes, heat_mesh,
+};
 use crate::method::reduced::{Clumped, Ranges, ReducedSystem, Request, Residues, integral};
 use crate::scene::{Scene, Solid};
 
@@ -67,9 +69,10 @@ impl<'a> Full<'a> {
         };
         let trials: Vec<(SolidLoads, Vec<f64>)> =
             drives.trials(start).into_iter().map(trial).collect();
-        let mut take = fem.driven_classes(&columns);
+        let modes = modes_of(&fem)?;
+        let mut take = modes.driven_classes(&columns);
         for (loads, _) in &trials {
-            let driven = fem.driven_classes(std::slice::from_ref(loads));
+            let driven = modes.driven_classes(std::slice::from_ref(loads));
             take.iter_mut().zip(driven).for_each(|(take, driven)| *take |= driven);
         }
         let means = means_of(scene, (name, solid), meshes.each_ref());
@@ -90,13 +93,12 @@ impl<'a> Full<'a> {
 
     /// The reduced model; `sizes` are those that drives start with.
     pub fn reduce(&self, values: &Values, sizes: &[f64]) -> Result<Reduction, BodyError> {
-        let sources = |loads: &SolidLoads| self.fem.modal_sources(&self.take, loads);
-        let clumped = Clumped::new(
-            self.fem.modal_rates(&self.take),
-            self.columns.iter().map(sources).collect(),
-        );
+        let modes = modes_of(&self.fem)?;
+        let sources = |loads: &SolidLoads| modes.sources(&self.take, loads);
+        let clumped =
+            Clumped::new(modes.decay_rates(&self.take), self.columns.iter().map(sources).collect());
         let between = Clumped::new(
-            self.fem.modal_rates(&self.take),
+            modes.decay_rates(&self.take),
             self.trials.iter().map(|(loads, _)| sources(loads)).collect(),
         );
         let (mut residues, mut slow, mut direct, mut offsets, mut missed) =
@@ -126,7 +128,7 @@ impl<'a> Full<'a> {
         let (system, ranges) = ReducedSystem::new(&request)
             .map_err(|error| BodyError::Reduction { message: error.to_string() })?;
         let errors = experiment.errors(&system, &ranges);
-        let brought = self.columns.iter().map(|loads| self.fem.brought_in_by(loads)).collect();
+        let brought = self.columns.iter().map(|loads| modes.brought_in_by(loads)).collect();
         Ok(Reduction { system, offsets, errors, brought, modes: clumped.modes() })
     }
 
@@ -161,18 +163,19 @@ impl<'a> Full<'a> {
             let trials = self.trials.iter().map(|(loads, _)| row.direct(&loads.faces)).collect();
             Row { modes: row.modes, direct, trials, offset }
         };
+        let modes = modes_of(&self.fem)?;
         Ok(match *value {
             Value::Temperature(point) => {
-                thermal(self.fem.temperature_row(&self.take, point), self.initial_temperature)
+                thermal(modes.temperature_row(&self.take, point), self.initial_temperature)
             }
             Value::Mean { field, cell } => {
                 let found = self.means.iter().find(|(place, _)| *place == field);
                 let means = &found.expect("means are made for fields of cells").1;
                 let (weights, high) = means.on_face(cell, &self.meshes[0]);
-                let row = self.fem.heat_row(&self.take, &HeatValue::Face { weights, high });
+                let row = modes.value_row(&self.take, &HeatValue::Face { weights, high });
                 thermal(row, self.initial_temperature)
             }
-            Value::Stored => thermal(self.fem.heat_row(&self.take, &HeatValue::Stored), 0.0),
+            Value::Stored => thermal(modes.value_row(&self.take, &HeatValue::Stored), 0.0),
             Value::Stress(point, slot) => self.mechanical(Component::Stress(slot), point)?,
             Value::Displacement(point, axis) => {
                 self.mechanical(Component::Displacement(axis), point)?
@@ -210,6 +213,12 @@ impl<'a> Full<'a> {
         }
         Ok(out)
     }
+}
+
+/// The modes of a solid, which all that is reduced has.
+fn modes_of(fem: &SolidFem) -> Result<SolidModes<'_>, BodyError> {
+    let message = || "its heat has no modes".to_owned();
+    fem.modes().ok_or_else(|| BodyError::Reduction { message: message() })
 }
 
 /// A value as a sum over modes and drives.

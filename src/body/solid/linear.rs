@@ -40,7 +40,9 @@ impl Linear for SolidBody {
     }
 
     fn rates(&self, state: &[f64], memo: &Memo, change: &Memo) -> Vec<f64> {
-        self.solid.rates(state, SolidMemo::of(memo).loads(), SolidMemo::of(change).loads())
+        let loads = [memo, change].map(|memo| SolidMemo::of(memo).loads());
+        let rates = self.solid.rates(state, loads[0], loads[1]);
+        rates.expect("only bodies of linear heat are told as linear")
     }
 
     fn read_rate(

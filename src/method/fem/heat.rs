@@ -19,8 +19,7 @@ mod rates;
 mod row;
 mod temperatures;
 
-pub use homogeneous::Homogeneous;
-pub use layered::{Layered, depth_ends};
+pub use layered::depth_ends;
 pub use modal::ModalRow;
 
 use super::modes::EndCondition;

@@ -7,7 +7,7 @@ mod recovered;
 mod remembered;
 mod tangent;
 
-use super::conduction::{Conduction, HeatFailure};
+use super::conduction::{Heat, HeatFailure, heat_of};
 use std::sync::Arc;
 
 use super::elastic::{ElasticProblem, ElasticSetup, Strains};
@@ -24,6 +24,7 @@ use crate::runtime::allowance::Allowance;
 use crate::state::Layout;
 pub use extremes::Extreme;
 pub use influence::ClassRow;
+pub use modal::SolidModes;
 use recovered::{FaceStresses, Recoveries};
 pub use remembered::Remembered;
 
@@ -33,7 +34,7 @@ pub struct SolidFem {
     initial_temperature: f64,
     /// Temperature without stress above the initial one [K].
     stress_free_rise: f64,
-    heat: Conduction,
+    heat: Box<dyn Heat>,
     /// Of the bottom and the top.
     ends: [EndResponse; 2],
     /// Node along z of each of those that are there twice on interfaces.
@@ -152,7 +153,7 @@ impl SolidFem {
     /// are first asked for.
     pub fn new(plan: &Plan, threads: usize) -> Self {
         let mesh = plan.mesh.clone();
-        let heat = Conduction::new(plan, threads);
+        let heat = heat_of(plan, threads);
         let ends = [false, true].map(|high| EndResponse::of(plan, high));
         let setup = |laws: &Vec<Thermoelastic>| ElasticSetup {
             mesh: mesh.clone(),
@@ -210,7 +211,7 @@ impl SolidFem {
     }
 
     pub fn state_len(&self) -> usize {
-        self.heat.state_len()
+        self.heat.layout().len()
     }
 
     /// The fields of a state.
@@ -272,7 +273,8 @@ impl SolidFem {
     /// the modes give it.
     pub fn rise_at(&self, state: &[f64], loads: &SolidLoads, point: [f64; 3]) -> f64 {
         let place = self.mesh.locate(point);
-        let found = self.heat.at(&self.mesh, state, &loads.faces, place);
+        let modal = self.heat.modal();
+        let found = modal.map(|modal| modal.at(&self.mesh, state, &loads.faces, place));
         found.unwrap_or_else(|| self.rise_from(&self.temperatures(state, loads), point))
     }
 

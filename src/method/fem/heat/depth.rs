@@ -8,9 +8,9 @@ use super::class::Class;
 
 /// The matrices of a body along z, and its modes there: one set for all modes along the surface where the body is
 /// homogeneous, one set for each pair of them through layers.
-pub trait DepthModes {
+pub trait DepthModes: Send + Sync {
     /// The sets of modes that a symmetry class has for itself.
-    type Columns: Default;
+    type Columns: Default + Send + Sync;
 
     /// Heat capacity ρc [J/(m³ K)] and conductivity k [W/(m K)] where the matrices leave these out, else 1.
     fn capacity(&self) -> f64;

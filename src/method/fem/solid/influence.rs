@@ -122,8 +122,11 @@ impl SolidFem {
         let elastic = self.elastic.as_ref()?;
         let nodal = elastic.row(functional, class, || self.gradient(elastic, functional, class));
         Some(nodal.map(|nodal| {
-            let (heat, faces) = match self.heat.row(class, &nodal.temperature) {
-                Some([heat, faces]) => (Arc::new(heat), faces),
+            let (heat, faces) = match self.heat.modal() {
+                Some(modal) => {
+                    let [heat, faces] = modal.row(class, &nodal.temperature);
+                    (Arc::new(heat), faces)
+                }
                 None => (nodal.temperature.clone(), Vec::new()),
             };
             let constant = match (class, self.stress_free_rise) {
@@ -143,12 +146,12 @@ impl SolidFem {
     /// Of each symmetry class the part of a state that rows act on; nothing where heat has no modes, so that they act on
     /// nodal temperatures.
     pub fn contents<'s>(&'s self, state: &'s [f64]) -> Option<Vec<&'s [f64]>> {
-        self.heat.contents(state)
+        self.heat.modal().map(|modal| modal.contents(state))
     }
 
     /// The same of one class.
     pub fn contents_of<'s>(&'s self, state: &'s [f64], class: usize) -> Option<&'s [f64]> {
-        self.heat.contents(state).map(|contents| contents[class])
+        self.contents(state).map(|contents| contents[class])
     }
 
     /// Number of symmetry classes.

@@ -1,37 +1,46 @@
 //! A solid as numbers, for models that are reduced: rates of its modes, what loads drive, rows that give values.
 
 use super::{SolidFem, SolidLoads};
-use crate::method::fem::conduction::HeatValue;
+use crate::method::fem::conduction::{HeatValue, ModalHeat};
 use crate::method::fem::heat::ModalRow;
+use crate::method::mesh::Mesh;
+
+/// The modes of a solid whose heat has any.
+#[derive(Clone, Copy)]
+pub struct SolidModes<'a> {
+    heat: &'a dyn ModalHeat,
+    mesh: &'a Mesh,
+    classes: usize,
+}
 
 impl SolidFem {
-    /// Whether modes give the heat.
-    pub fn is_modal(&self) -> bool {
-        let faces = vec![Vec::new(); self.parities.len()];
-        let heat = vec![[Vec::new(), Vec::new()]; self.parities.len()];
-        let none = SolidLoads { heat, faces, ..SolidLoads::default() };
-        self.heat.driven(&none.thermal()).is_some()
+    /// Its modes; nothing where particles or Newton's method give the heat.
+    pub fn modes(&self) -> Option<SolidModes<'_>> {
+        let (mesh, classes) = (&self.mesh, self.parities.len());
+        self.heat.modal().map(|heat| SolidModes { heat, mesh, classes })
     }
+}
 
+impl SolidModes<'_> {
     /// The symmetry classes that any of these loads drives; the even one always.
     pub fn driven_classes(&self, loads: &[SolidLoads]) -> Vec<bool> {
-        let mut take = vec![false; self.parities.len()];
+        let mut take = vec![false; self.classes];
         take[0] = true;
         for one in loads {
-            let driven = self.heat.driven(&one.thermal()).unwrap_or_default();
+            let driven = self.heat.driven(&one.thermal());
             take.iter_mut().zip(driven).for_each(|(take, driven)| *take |= driven);
         }
         take
     }
 
     /// Rates of decay of the modes of the classes that take part [1/s].
-    pub fn modal_rates(&self, take: &[bool]) -> Vec<f64> {
-        self.heat.modal_rates(take)
+    pub fn decay_rates(&self, take: &[bool]) -> Vec<f64> {
+        self.heat.decay_rates(take)
     }
 
     /// Rate of change of the content of these modes under loads.
-    pub fn modal_sources(&self, take: &[bool], loads: &SolidLoads) -> Vec<f64> {
-        self.heat.modal_sources(take, &loads.thermal())
+    pub fn sources(&self, take: &[bool], loads: &SolidLoads) -> Vec<f64> {
+        self.heat.sources(take, &loads.thermal())
     }
 
     /// Heat that loads bring in [W].
@@ -42,11 +51,11 @@ impl SolidFem {
     /// The temperature above the initial one at a point as a sum over modes and face values.
     pub fn temperature_row(&self, take: &[bool], point: [f64; 3]) -> ModalRow {
         let (place, image) = self.mesh.locate(point);
-        self.heat.heat_row(&self.mesh, take, &HeatValue::Point { place, image })
+        self.value_row(take, &HeatValue::Point { place, image })
     }
 
     /// The same of another value.
-    pub fn heat_row(&self, take: &[bool], value: &HeatValue) -> ModalRow {
-        self.heat.heat_row(&self.mesh, take, value)
+    pub fn value_row(&self, take: &[bool], value: &HeatValue) -> ModalRow {
+        self.heat.value_row(self.mesh, take, value)
     }
 }

@@ -6,8 +6,8 @@ use crate::material::stress::{max_principal, von_mises};
 use crate::material::stress_rate::{max_principal_rate, von_mises_rate};
 
 impl SolidFem {
-    /// Time derivative of a state, laid out like the state; `rates` is that of the loads.
-    pub fn rates(&self, state: &[f64], loads: &SolidLoads, rates: &SolidLoads) -> Vec<f64> {
+    /// Time derivative of a state, laid out like the state, where heat is linear; `rates` is that of the loads.
+    pub fn rates(&self, state: &[f64], loads: &SolidLoads, rates: &SolidLoads) -> Option<Vec<f64>> {
         self.heat.rates(state, &loads.thermal(), &rates.thermal())
     }
 
