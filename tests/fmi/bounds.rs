@@ -156,5 +156,7 @@ fn counts_beyond_any_memory_are_refused() {
             count => usize, &raw const value => *const f64);
         assert_eq!(set, ERROR, "{count}");
     }
-    unit.expect_message(ERROR, &["fmi2SetReal", "more than fit any memory"]);
+    for message in unit.messages.take() {
+        assert!(message.text.contains("more than fit any memory"), "{message:?}");
+    }
 }

@@ -266,10 +266,15 @@ fn solids_of_temperatures_that_no_matter_has_are_refused() {
     assert_eq!(unit.restore(unit.deserialize(&state.bytes())), OK);
     let modes = state.bodies[0].len() - 3;
     // The step has warmed it by some hundredths of a kelvin.
-    for factor in [-1e6, -1e9, -1e20, 1e23] {
+    for (factor, words) in [
+        (-1e6, "which no run leads to"),
+        (-1e9, "which no run leads to"),
+        (-1e20, "which no run leads to"),
+        (1e23, "more heat in plate than was brought in"),
+    ] {
         let mut state = state.clone();
         state.bodies[0][..modes].iter_mut().for_each(|content| *content *= factor);
-        refused(&unit, &state, "which no run leads to");
+        refused(&unit, &state, words);
     }
     for value in [1e61, -1e155, 1e300] {
         let mut state = state.clone();

@@ -33,7 +33,7 @@ pub struct Twin {
     /// Whether loads stand for drops, whose heat these bring whatever the mesh is.
     pub has_drops: bool,
     /// Whether heat goes through linear elements, as Newton's method has them.
-    linear_heat: bool,
+    pub linear_heat: bool,
     /// What differs from the body itself.
     pub simplified: Vec<String>,
 }
