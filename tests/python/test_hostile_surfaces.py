@@ -3,6 +3,7 @@
 import base64
 import os
 import struct
+import sys
 import zipfile
 import zlib
 
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 from impinge.adapt import drop_inputs, read_picture, spray_frames
 from impinge.adapt.out import Body
+from impinge.reading import reading
 from impinge.surface import Surface, SurfaceError
 from impinge.surface.csv_files import read_matrix, read_table
 
@@ -334,6 +336,11 @@ def test_why_meshio_gives_up_is_told(tmp_path, capfd):
     with pytest.raises(SurfaceError, match="a.vtk: meshio does not read it as .vtk: Illegal VTK"):
         Surface.read(tmp_path / "a.vtk")
     assert capfd.readouterr() == ("", "")
+    with (
+        pytest.raises(SurfaceError, match="a.vtk: its reader gave up"),
+        reading("a.vtk", SurfaceError),
+    ):
+        sys.exit(1)
 
 
 TWO = "0 0 0 1 0 0 1 1 0 0 1 0 "
