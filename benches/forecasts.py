@@ -22,7 +22,6 @@ EXAMPLES = {
     "coated_plate/scene.toml": [],
     "heated_bed/scene.toml": ["heater.heat_flux=7e3"],
     "moving_spot/scene.toml": ["spot.heat_flux=1e8", "spot.x=1e-4", "spot.y=1e-4"],
-    "printed_line/scene.toml": ["drop.release=100"],
     "printer_control/bed.toml": ["heater.heat_flux=7e3"],
     "droplet_on_plate_two_units/together.toml": [],
     "droplet_unit/scene.toml": [],

@@ -57,7 +57,12 @@ def report(rows: np.ndarray):
 
 
 def draw(rows: np.ndarray, fields: list[np.ndarray], folder: Path):
-    figure, axes = shared.new_figure(2, 2)
+    ratios = {"height_ratios": [2, 3]}
+    figure, axes = shared.new_figure(2, 2, height=6.5, gridspec_kw=ratios)
+    figure.suptitle(
+        f"{DROPS} wax drops of 127 °C, one a millisecond {PITCH * 1e6:.0f} µm apart, "
+        "on glass of 47 °C"
+    )
     size = tuple(1e3 * extent for extent in SIZE)
     titles = ["Surface after the last drop", f"Surface at {STOP * 1e3:.0f} ms"]
     for axis, values, title in zip(axes[0], fields, titles, strict=True):

@@ -9,6 +9,7 @@ from importlib import import_module
 from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
+from impinge import errors
 from impinge.errors import ImpingeError, StepDiscarded, StudyError, UnitError
 from impinge.unit import State, Unit, Variable
 
@@ -60,8 +61,7 @@ def __getattr__(name: str) -> Any:
         if extra is None or (error.name or "").split(".")[0] == "impinge":
             raise
         raise ImportError(
-            f"impinge.{name} needs `{error.name}`, which is not installed: "
-            f'pip install "impinge[{extra}]"'
+            f"impinge.{name} needs `{error.name}`, which is not installed: {errors.extra(extra)}"
         ) from error
 
 

@@ -39,6 +39,11 @@ class StudyError(ImpingeError, RuntimeError):
     """The folder of a study is in use, or holds files that are none of a study."""
 
 
+def extra(name: str) -> str:
+    """The command that installs an extra of this package; no index of packages has it."""
+    return f'pip install "./python[{name}]", in the checkout of impinge'
+
+
 def need(module: str, command: str, why: str) -> ModuleType:
     """A module that not everyone has; `command` installs it, `why` needs it.
 

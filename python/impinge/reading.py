@@ -43,6 +43,8 @@ def reason(error: BaseException) -> str:
         return f"lacks {error}"
     if isinstance(error, RecursionError):
         return "is nested too deeply"
+    if isinstance(error, SystemExit):  # its code is no reason
+        return "its reader gave up without a reason"
     if isinstance(error, MemoryError):
         return f"takes more memory than there is {error}".rstrip()
     return str(error).strip() or type(error).__name__

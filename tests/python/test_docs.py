@@ -107,3 +107,23 @@ def test_the_plan_of_two_outputs_that_studies_tell_keeps_its_limits(monkeypatch,
     )  # fmt: skip
     assert made.outputs[1:, 1].max() <= 340.0 + 1e-6
     assert abs(made.outputs[-1, 0] - 333.15) < 1.0
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/first_study.md"])
+def test_first_scenes_pass_their_checks_without_a_warning(page, tmp_path):
+    (scene,) = re.findall(r"```toml\n(.*?)```", (ROOT / page).read_text(), re.S)
+    (tmp_path / "scene.toml").write_text(scene)
+    command = [find_program("impinge"), "check", tmp_path / "scene.toml"]
+    check = subprocess.run(command, check=True, capture_output=True, text=True)
+    assert check.stderr == "" and "Errors by the mesh" in check.stdout
+
+
+def test_the_sweep_prints_the_table_that_the_page_shows(tmp_path, monkeypatch, capsys):
+    text = (DOCS / "studies.md").read_text()
+    snippet, table = re.search(r"```python\n([^`]*Grid.*?)```\n```\n(.*?)```", text, re.S).groups()
+    snippet = snippet.replace('"examples/', f'"{ROOT}/examples/')
+    (tmp_path / "out").mkdir()
+    monkeypatch.chdir(tmp_path)
+    exec(snippet, {})
+    assert capsys.readouterr().out.split() == table.split()
+    assert len((tmp_path / "out/bed_sweep.csv").read_text().splitlines()) == 13

@@ -3,6 +3,7 @@
 import base64
 import os
 import struct
+import sys
 import zipfile
 import zlib
 
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 from impinge.adapt import drop_inputs, read_picture, spray_frames
 from impinge.adapt.out import Body
+from impinge.reading import reading
 from impinge.surface import Surface, SurfaceError
 from impinge.surface.csv_files import read_matrix, read_table
 
@@ -282,3 +284,100 @@ def test_drops_over_more_windows_than_memory_holds_are_refused(tmp_path):
         path.write_text(f"x,y,mass,time\n0,0,1,0\n0,0,1,{last}\n")
         with pytest.raises(SurfaceError, match="drops.csv: 2 drops over .* windows"):
             spray_frames(path, target, window=1e-3)
+
+
+SQUARE = "0 0 0 1 0 0 1 1 0 0 1 0"
+
+
+def unstructured(connectivity="0 1 2 3", offsets="4", types="9", points=SQUARE):
+    """VTK's XML of cells without fields."""
+    arrays = "".join(
+        f'<DataArray type="{kind}" Name="{name}" format="ascii">{content}</DataArray>'
+        for kind, name, content in [
+            ("Int64", "connectivity", connectivity),
+            ("Int64", "offsets", offsets),
+            ("UInt8", "types", types),
+        ]
+    )
+    counts = f'NumberOfPoints="{len(points.split()) // 3}" NumberOfCells="{len(offsets.split())}"'
+    return (
+        '<?xml version="1.0"?><VTKFile type="UnstructuredGrid" version="0.1"><UnstructuredGrid>'
+        f'<Piece {counts}><Points><DataArray type="Float64" NumberOfComponents="3"'
+        f' format="ascii">{points}</DataArray></Points><Cells>{arrays}</Cells></Piece>'
+        "</UnstructuredGrid></VTKFile>"
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("", "is empty"),
+        (" ", "is empty"),
+        ("<VTKFile", "unclosed token"),
+        ('<!DOCTYPE a [<!ENTITY a SYSTEM "file:///etc/passwd">]><a>&a;</a>', "undefined entity"),
+        (unstructured(offsets="400"), "the offset 400 of cell 0 lies beyond the 4 numbers of"),
+        (unstructured("0 1 2 3 0 1 2", "7 4", "9 5"), "offsets of cells do not ascend"),
+        (unstructured(types="200"), "1 of 1 cells are of types that are not read; .* are 200"),
+        (unstructured("0 1 2 0 2 3", "3 6", "5 6"), "1 of 2 cells are of types .* are 5, 6"),
+        (unstructured(types="9 9"), "array `types`: has 2 numbers, not 1"),
+    ],
+)
+def test_damaged_unstructured_grids_are_refused_with_the_reason(tmp_path, text, words):
+    path = tmp_path / "a.vtu"
+    path.write_text(unstructured())
+    assert Surface.read(path).areas.tolist() == [1.0]
+    path.write_text(text)
+    with pytest.raises(SurfaceError, match=f"a.vtu: .*{words}"):
+        Surface.read(path)
+
+
+def test_why_meshio_gives_up_is_told(tmp_path, capfd):
+    (tmp_path / "a.vtk").write_text("junk")
+    with pytest.raises(SurfaceError, match="a.vtk: meshio does not read it as .vtk: Illegal VTK"):
+        Surface.read(tmp_path / "a.vtk")
+    assert capfd.readouterr() == ("", "")
+    with (
+        pytest.raises(SurfaceError, match="a.vtk: its reader gave up"),
+        reading("a.vtk", SurfaceError),
+    ):
+        sys.exit(1)
+
+
+TWO = "0 0 0 1 0 0 1 1 0 0 1 0 "
+OVERLAPS = {
+    "the same square": unstructured("0 1 2 3 0 1 2 3", "4 8", "9 9"),
+    "the same square round the other way": unstructured("0 1 2 3 3 2 1 0", "4 8", "9 9"),
+    "with nodes of its own": unstructured("0 1 2 3 4 5 6 7", "4 8", "9 9", 2 * TWO),
+    "on one side": unstructured("0 1 2 3 0 1 2", "4 7", "9 5"),
+    "inside": unstructured(
+        "0 1 2 3 4 5 6", "4 7", "9 5", TWO + "0.4 0.4 0 0.5 0.4 0 0.4 0.5 0"
+    ),
+    "across": unstructured(
+        "0 1 2 3 4 5 6 7", "4 8", "9 9", TWO + "0.4 -1 0 0.6 -1 0 0.6 2 0 0.4 2 0"
+    ),
+    "of thin cells": unstructured(
+        "0 1 2 3 4 5 6 7", "4 8", "9 9", 2 * "0 0 0 1 0 0 1 1e-4 0 0 1e-4 0 "
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", OVERLAPS.values(), ids=OVERLAPS)
+def test_cells_that_overlap_are_refused(tmp_path, text):
+    """What lies on them would count twice."""
+    path = tmp_path / "a.vtu"
+    path.write_text(text)
+    with pytest.raises(SurfaceError, match="a.vtu: cells 0 and 1 overlap at"):
+        Surface.read(path)
+
+
+def test_cells_that_share_sides_or_leave_seams_are_read(tmp_path):
+    """Cells of very different size side by side, hanging nodes, and a seam of a hundredth."""
+    path = tmp_path / "a.vtu"
+    small = "1 0 0 1.001 0 0 1.001 1 0 1 1 0 1 0.2 0 2 0.2 0 2 0.5 0 1 0.5 0 "
+    for shift in ("", "0 -1 0 0.9 -1 0 0.9 0.005 0 0 0.005 0 "):
+        nodes = TWO + small.replace("1 0.2", "1.001 0.2").replace("1 0.5", "1.001 0.5") + shift
+        many = len(nodes.split()) // 12
+        numbers = " ".join(map(str, range(4 * many)))
+        ends = " ".join(str(4 * k + 4) for k in range(many))
+        path.write_text(unstructured(numbers, ends, " ".join(many * ["9"]), nodes))
+        assert Surface.read(path).shape == (many,)

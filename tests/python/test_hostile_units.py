@@ -16,6 +16,7 @@ import pytest
 from impinge import Surface, Unit, UnitError
 from impinge.surface import SurfaceError
 from impinge.unit import archive, open_package, temporary
+from impinge.unit.library import check_library
 from linear_unit import make
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -150,8 +151,15 @@ def test_descriptions_that_cannot_be_taken_are_refused(remade, unit):
     text = entries_of(unit)["modelDescription.xml"].decode()
     for number, (changed, words) in enumerate([
         (text.replace("UTF-8", "UTF-16").encode("utf-16"), "codec"),
-        (text.replace('valueReference="0"', f'valueReference="{10**20}"').encode(), "too large"),
-        (text.replace('valueReference="0"', 'valueReference="-1"').encode(), ""),
+        (
+            text.replace('valueReference="0"', f'valueReference="{2**32}"').encode(),
+            "`u`: valueReference is 4294967296 .allowed: 0 to 4294967295",
+        ),
+        (text.replace('valueReference="0"', 'valueReference="-1"').encode(), "`u`: .* is -1 "),
+        (text.replace('start="0.0"', 'start="abc"').encode(), "`u`: start: .*'abc'"),
+        (text.replace('start="0.0"', 'start="NaN"').encode(), "`u`: start: NaN is not finite"),
+        (text.replace('start="0.0"', 'start="-INF"').encode(), "`u`: start: -INF is not finite"),
+        (text.replace('name="z"', 'name="y"').encode(), "two variables have the name `y`"),
         (b"<x/>", ""),
         (b"", ""),
         (b"<a>" * 100_000, ""),
@@ -160,11 +168,63 @@ def test_descriptions_that_cannot_be_taken_are_refused(remade, unit):
         refused(path, f"modelDescription.xml: .*{words}")
 
 
-def test_nothing_is_left_of_a_unit_that_was_refused(remade):
-    path = remade(more=[("resources/a", b"x"), ("resources/a/b", b"x")])
+def with_second_input(unit, causality="input", kind="Real"):
+    """The description with a variable of another name under the reference of `u`."""
+    text = entries_of(unit)["modelDescription.xml"].decode()
+    second = f'<ScalarVariable name="v" valueReference="0" causality="{causality}">'
+    start = {"Real": "1.5", "Integer": "1"}[kind]
+    second += f'<{kind} start="{start}"/></ScalarVariable>'
+    return text.replace("</ModelVariables>", f"{second}</ModelVariables>").encode()
+
+
+def test_variables_to_be_set_share_no_reference_but_aliases_do(remade, unit):
+    path = remade({"modelDescription.xml": with_second_input(unit)})
+    refused(path, "`u` and `v` can both be set, but share the valueReference 0")
+    for number, told in enumerate([("local", "Real"), ("input", "Integer")]):
+        path = remade(
+            {"modelDescription.xml": with_second_input(unit, *told)}, name=f"b{number}.fmu"
+        )
+        assert "v" in open_package(path).variables
+
+
+@pytest.mark.parametrize("kept", [-1, 0.5, 40, 20])
+def test_libraries_that_are_cut_short_are_not_loaded(remade, unit, kept):
+    """What is missing of a library that was mapped ends the process by SIGBUS."""
+    whole = entries_of(unit)["binaries/linux64/Linear.so"]
+    length = int(kept * len(whole)) if isinstance(kept, float) else kept
+    path = remade({"binaries/linux64/Linear.so": whole[:length]})
+    refused(path, "its library Linear.so: is cut short: it has .* bytes of at least")
+
+
+def test_headers_of_either_class_and_order_are_looked_at(tmp_path):
+    path = tmp_path / "a.so"
+    for kind, order, header, program in [
+        (1, ">", "HHIIIIIHHHHHH", "8I"),
+        (2, "<", "HHIQQQIHHHHHH", "2I6Q"),
+    ]:
+        identity = b"\x7fELF" + bytes([kind, 2 if order == ">" else 1]) + bytes(10)
+        begin = 16 + struct.calcsize(order + header)
+        step = struct.calcsize(order + program)
+        head = struct.pack(order + header, 3, 0, 1, 0, begin, 0, 0, begin, step, 1, 0, 0, 0)
+        values = [1, 100, 0, 0, 300, 0, 0, 0] if kind == 1 else [1, 0, 100, 0, 0, 300, 0, 0]
+        content = identity + head + struct.pack(order + program, *values)
+        path.write_bytes(content.ljust(400, b"x"))
+        check_library(path)
+        path.write_bytes(content.ljust(399, b"x"))
+        with pytest.raises(ValueError, match="399 bytes of at least 400"):
+            check_library(path)
+    path.write_bytes(b"MZ")
+    check_library(path)
+
+
+@pytest.mark.parametrize(
+    "more", [[("resources/a", b"x"), ("resources/a/b", b"x")], [("modelDescription.xml", b"<x/>")]]
+)
+def test_nothing_is_left_of_a_unit_that_was_refused(remade, more):
+    path = remade(dict(more)) if len(more) == 1 else remade(more=more)
     before = set(temporary.temporary_folder().path.iterdir())
     for _ in range(2):
-        refused(path, "")
+        refused(path, "" if len(more) == 2 else "modelDescription.xml: ")
     assert set(temporary.temporary_folder().path.iterdir()) == before
 
 

@@ -215,11 +215,11 @@ def test_what_is_not_installed_is_named_with_what_installs_it(bed, monkeypatch):
     for module in ("control", "casadi", "quadprog", "osqp", "distributed", *parts):
         monkeypatch.setitem(sys.modules, module, None)
     for call, words in (
-        (found.to_control, r'to_control\(\) needs `control`.*pip install "impinge\[control\]"'),
+        (found.to_control, r'to_control\(\) needs `control`.*pip install "./python\[control\]"'),
         (found.to_casadi, "needs `casadi`.*: pip install casadi"),
-        (lambda: plan(found, 330.0, solver="quadprog"), r'quadprog.*pip install "impinge\[con'),
+        (lambda: plan(found, 330.0, solver="quadprog"), r'quadprog.*pip install "./python\[con'),
         (lambda: plan(found, 330.0, solver="osqp"), "osqp.*: pip install osqp"),
-        (lambda: Sobol(4).design({"a": Uniform(0.0, 1.0)}), r'pip install "impinge\[study\]"'),
+        (lambda: Sobol(4).design({"a": Uniform(0.0, 1.0)}), r'pip install "./python\[study\]"'),
     ):
         with pytest.raises(ImportError, match=words):
             call()

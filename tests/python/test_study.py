@@ -226,6 +226,72 @@ def test_rows_that_fail_keep_their_message_and_can_be_retried(slab, tmp_path):
     xr.testing.assert_equal(table, again)
 
 
+@pytest.mark.parametrize("name", ["plate.conductivity", "body.plate.material.conductivity"])
+def test_warnings_of_a_run_stand_in_its_row(tmp_path, caplog, name):
+    """A unit warns of a thing once in its life, but of each row it is told; so with states that are
+    restored, with parameters that change, and with scenes of their own."""
+    path = tmp_path / "coarse.toml"
+    path.write_text(SCENE.replace("depth_spacing = 0.05e-3", "depth_spacing = 0.5e-3"))
+    study = Study(
+        path,
+        {name: [5.0, 10.0], "plate.top.flux": [0.0, 1e3]},
+        outputs=["top.temperature"],
+        stop=0.02,
+        step=0.01,
+    )
+    with caplog.at_level("WARNING", "impinge"):
+        table = study.run(1, folder=tmp_path)
+    assert (table.status == 0).all()
+    messages = table.message.values.ravel().tolist()
+    assert all(re.match(r"plate: a step of 1.0e-2 s is shorter than", text) for text in messages)
+    assert messages[0] == messages[1] != messages[2] == messages[3]
+    records = [r.getMessage() for r in caplog.records]
+    for conductivity in (5.0, 10.0):
+        begin = f"({name} = {conductivity}, plate.top.flux = 1000.0): plate: a step"
+        assert sum(begin in text for text in records) == 1
+    xr.testing.assert_equal(study.run(1, folder=tmp_path), table)
+
+
+DROP = """
+name = "Drop"
+stop_time = 3.5e-6
+step = 5e-8
+[body.drop]
+kind = "droplet"
+method = "sph"
+diameter = 0.1e-3
+impact_velocity = 50.0
+initial_temperature = 373.15
+spacing = 5e-6
+[body.drop.fluid]
+density = 1000.0
+viscosity = 3e-4
+specific_heat = 4000.0
+conductivity = 0.6
+surface_tension = 0.059
+sound_speed = 500.0
+[[wall]]
+name = "wall"
+under = "drop"
+footprint = { rings = { count = 30, radius = 150e-6 } }
+start = { temperature = 293.15 }
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "place"),
+    [("drop.impact_velocity", "scene.toml:11: "), ("body.drop.spacing", "scene.toml: ")],
+)
+def test_warnings_name_no_temporary_folder(tmp_path, name, place):
+    """Lines are those of the scene as it was written, and of a changed one none."""
+    path = tmp_path / "drop.toml"
+    path.write_text(DROP)
+    values = {"drop.impact_velocity": [50.0], "body.drop.spacing": [4e-6]}
+    given = {name: values[name]}
+    table = Study(path, given, outputs=["drop.mass"], stop=2e-8, step=1e-8).run(1)
+    assert table.message.item().startswith(f"{place}body.drop.spacing = ")
+
+
 def test_ends_that_are_refused_are_told_before_rows_fail(slab):
     base = {"outputs": ["top.temperature"]}
     with pytest.warns(UserWarning, match="rows with plate.conductivity = -1.0 will fail.*at least"):
@@ -403,6 +469,12 @@ def test_tunable_parameters_are_set_as_inputs_are(tmp_path):
         ({"parameters": {"body.plate.shape.box.2": (-2.0, -1.0)}}, "box.2 = -2.0: .*allowed: "),
         ({"parameters": {"plate.conductivity": -1.0}}, "conductivity = -1.0: .*at least 0"),
         ({"parameters": {"plate.conductivity": (-3.0, -1.0)}}, "conductivity = -3.0: .*at least 0"),
+        ({"parameters": {"plate.conductivity": ["a"]}}, "= 'a' .allowed: numbers"),
+        ({"parameters": {"plate.conductivity": [5.0, "a"]}}, "= 'a' .allowed: numbers"),
+        ({"parameters": {"plate.top.flux": "1e3"}}, "= '1e3' .allowed: numbers"),
+        ({"parameters": {"solver.threads": [1, 1.5]}}, "= 1.5 .allowed: whole numbers"),
+        ({"parameters": {"output.directory": [1.0]}}, "= 1.0 .allowed: texts"),
+        ({"stop": 0.5, "step": 0.6}, "step = 0.6 s .allowed: at most the stop, 0.5 s"),
         ({"parameters": {"plate.poisson": [0.7, 0.9]}}, "no parameter, input or key"),
         ({"parameters": {"plate.density": (2.0, 1.0)}}, "range that grows"),
         ({"parameters": {"plate.density": [np.nan]}}, "finite"),

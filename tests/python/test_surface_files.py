@@ -18,13 +18,13 @@ from scipy.spatial import Delaunay
 
 ROOT = Path(__file__).resolve().parents[2]
 SCENES = ROOT / "tests/fmpy/scenes"
-NODES = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0], [0, 0, 3.0]])
+NODES = np.array([[0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0], [4, 0, 0], [0, 0, 3.0]])
 
 
 def write_mesh(path, **options):
     """A quadrilateral and a triangle on the plane z = 0, and a triangle that stands on it."""
-    blocks = [("quad", [[0, 1, 2, 3]]), ("triangle", [[0, 1, 2], [0, 1, 4]])]
-    flux, temperature = [[5.0], [6.0, 7.0]], [1.0, 2.0, 3.0, 4.0, 5.0]
+    blocks = [("quad", [[0, 1, 2, 3]]), ("triangle", [[1, 4, 2], [0, 1, 5]])]
+    flux, temperature = [[5.0], [6.0, 7.0]], [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]
     mesh = meshio.Mesh(NODES, blocks, {"T": temperature}, {"q": flux})
     mesh.write(path, **options)
     return path
@@ -38,9 +38,9 @@ def test_meshes_are_read_with_the_fields_of_their_faces(tmp_path, name):
     assert surface.areas == pytest.approx([2e-6, 1e-6])
     assert surface.data["q"].tolist() == [5.0, 6.0]
     surface = Surface.read(path, face=0.0, values="points")
-    assert surface.data["T"].tolist() == [1, 2, 3, 4]
-    assert surface.coordinates[:, :2].tolist() == NODES[:4, :2].tolist()
-    with pytest.raises(SurfaceError, match=f"{name}: node 4 at z = 3 m lies 3 m off the plane"):
+    assert surface.data["T"].tolist() == [1, 2, 3, 4, 5]
+    assert surface.coordinates[:, :2].tolist() == NODES[:5, :2].tolist()
+    with pytest.raises(SurfaceError, match=f"{name}: node 5 at z = 3 m lies 3 m off the plane"):
         Surface.read(path)
     with pytest.raises(SurfaceError, match="no cell lies at z = 1 m .* they lie from 0 to 3 m"):
         Surface.read(path, face=1.0)

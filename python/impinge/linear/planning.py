@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from impinge.errors import ImpingeError, need
+from impinge.errors import ImpingeError, extra, need
 
 from .map import LinearMap
 
@@ -168,7 +168,7 @@ def _solver(name: str | None, program: QuadraticProgram) -> Callable[..., np.nda
     if name is not None:
         if name not in _SOLVERS:
             raise ValueError(f"solver {name!r} (allowed: {', '.join(_SOLVERS)})")
-        needed = {"osqp": "pip install osqp scipy"}.get(name, 'pip install "impinge[control]"')
+        needed = {"osqp": "pip install osqp scipy"}.get(name, extra("control"))
         need(name, needed, f"solver={name!r}")
         return _SOLVERS[name]
     for module, solve in _SOLVERS.items():
@@ -177,7 +177,7 @@ def _solver(name: str | None, program: QuadraticProgram) -> Callable[..., np.nda
         except ModuleNotFoundError:
             continue
         return solve
-    raise ImportError('a plan needs a solver: pip install "impinge[control]"')
+    raise ImportError(f"a plan needs a solver: {extra('control')}")
 
 
 def _by_quadprog(program: QuadraticProgram) -> np.ndarray:

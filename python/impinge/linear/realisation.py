@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from impinge.errors import ImpingeError, need
+from impinge.errors import ImpingeError, extra, need
 
 if TYPE_CHECKING:
     from .map import LinearMap
@@ -90,7 +90,7 @@ class StateSpace:
 
     def to_control(self) -> Any:
         """As `control.StateSpace` of python-control, with names and step."""
-        control = need("control", 'pip install "impinge[control]"', "to_control()")
+        control = need("control", extra("control"), "to_control()")
         return control.ss(
             self.A,
             self.B,

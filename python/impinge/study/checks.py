@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from impinge.errors import UnitError
+from impinge.unit import Variable
 
 from .runner import Row
 from .signals import Table, timeline
@@ -28,8 +29,41 @@ def check_values(study: Study) -> None:
             _check_ends(study, name, lambda row: _refusal_of_scene(study, row, scenes))
         elif study.kinds[name] in ("parameter", "input"):
             variable = study.package.variable(name)
+            _check_kind(study, variable)
             low, high = variable.min, variable.max
             _check_ends(study, name, _out_of(name, study, low, high))
+
+
+def _check_kind(study: Study, variable: Variable) -> None:
+    """Refuses values that are none of the variable's type; every one of them, as no range holds
+    such values."""
+    allowed = _allowed(variable)
+    for row in study.design.rows:
+        value = row[variable.name]
+        if not _is_of_kind(value, variable):
+            raise UnitError(f"{variable.name} = {value!r} (allowed: {allowed})")
+
+
+def _allowed(variable: Variable) -> str:
+    if not variable.is_number:
+        return "texts"
+    if variable.kind == "Boolean":
+        return "true and false"
+    return "numbers" if _is_float(variable) else "whole numbers"
+
+
+def _is_of_kind(value: Any, variable: Variable) -> bool:
+    if not variable.is_number:
+        return isinstance(value, str)
+    if not isinstance(value, int | float):
+        return False
+    if variable.kind == "Boolean":
+        return value in (0, 1)
+    return _is_float(variable) or float(value).is_integer()
+
+
+def _is_float(variable: Variable) -> bool:
+    return variable.kind in ("Real", "Float64", "Float32")
 
 
 def _check_ends(study: Study, name: str, refusal: Callable[[Row], str]) -> None:

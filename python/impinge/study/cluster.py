@@ -20,7 +20,7 @@ from typing import Any
 
 import cloudpickle
 
-from impinge.errors import need
+from impinge.errors import extra, need
 from impinge.unit.temporary import temporary_folder
 
 from .journal import Finished
@@ -47,7 +47,7 @@ class Cluster:
         dask: Any,
         timeout: float | None,
     ):
-        need("distributed", 'pip install "impinge[study]"', "run(dask=…)")
+        need("distributed", extra("study"), "run(dask=…)")
         from distributed import Client, as_completed
 
         self._own = None if isinstance(dask, Client) else Client(dask)

@@ -34,7 +34,8 @@ def assemble(study: Study, finished: Mapping[str, Finished]) -> xr.Dataset:
     """The table of what is finished; values of other rows are not a number.
 
     Dims: `row`, or those of the grid; then `time` and the indices of arrays. `status` is 0 for
-    rows that have run, 1 for those that have failed, of which `message` says why, 2 for others.
+    rows that have run, 1 for those that have failed, 2 for others. `message` says why a row has
+    failed, or what its unit has warned of.
     """
     answers = [finished.get(key) for key in study.keys]
     status = np.array([NOT_RUN if a is None else FAILED if a.failed else DONE for a in answers])

@@ -1,6 +1,7 @@
 """The journal of a study: one line per finished row, durable once it is written.
 
-A line is a JSON object with the row's key and either its values or the message of its failure.
+A line is a JSON object with the row's key and either its values, with what the unit warned of, or
+the message of its failure.
 Numbers keep all their digits; arrays are base64 of little-endian doubles. The last member is a
 checksum of all bytes before it, the key included: a row whose values or key were changed is not
 taken. What a process that was killed left of a last line is cut off when the journal is opened
@@ -32,7 +33,10 @@ _DIGITS = 32  # of the checksum, in hexadecimal
 
 @dataclass(frozen=True)
 class Finished:
-    """What became of a row: the values of its outputs, or why there are none."""
+    """What became of a row: the values of its outputs, or none.
+
+    message: why there are none, or what the unit has warned of.
+    """
 
     values: list[np.ndarray] | None
     message: str = ""
@@ -152,6 +156,8 @@ def _line(key: str, row: Finished) -> bytes:
         stored["failed"] = row.message
     else:
         stored["values"] = [_pack(value) for value in row.values]
+        if row.message:
+            stored["warned"] = row.message
     content = json.dumps(stored).encode().removesuffix(b"}")
     return content + _seal(content) + b"\n"
 
@@ -160,7 +166,8 @@ def _row(stored: dict[str, Any]) -> Finished:
     seconds = float(stored["seconds"])
     if "failed" in stored:
         return Finished(None, str(stored["failed"]), seconds)
-    return Finished([_unpack(value) for value in stored["values"]], "", seconds)
+    values = [_unpack(value) for value in stored["values"]]
+    return Finished(values, str(stored.get("warned", "")), seconds)
 
 
 def _pack(value: np.ndarray) -> Any:

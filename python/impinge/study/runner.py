@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import tempfile
 import time
@@ -22,6 +23,7 @@ from .scenes import Variant
 from .signals import Signal, Table, Timeline, takes_parameters, timeline
 
 _LONGEST_MESSAGE = 4000
+_WARNING = 1  # of the states of FMI
 
 
 @dataclass(frozen=True)
@@ -58,14 +60,31 @@ class Row:
 
 @dataclass
 class Live:
-    """An instance with its calls, and the parameters that it was initialised with."""
+    """An instance with its calls, and the parameters that it was initialised with.
+
+    heard: what it has warned of. at_start: how much of that by the end of its initialisation, what
+    goes for all rows that begin there.
+    """
 
     unit: Unit
     parameters: dict[str, Any]
+    heard: list[str]
+    at_start: int
     fresh: bool = True  # just initialised
     state: State | None = None
     readers: dict[tuple[str, ...], Any] = field(default_factory=dict)
     timeline: Timeline | None = None  # where it is the same in all rows
+
+    @classmethod
+    def of(cls, package: Package, parameters: dict[str, Any]) -> Live:
+        heard: list[str] = []
+
+        def hear(status: int, _category: str, message: str) -> None:
+            if status == _WARNING:
+                heard.append(message)
+
+        unit = Unit(package, parameters=parameters, logger=hear)
+        return cls(unit, parameters, heard, len(heard))
 
     def reader(self, names: tuple[str, ...]) -> Any:
         if names not in self.readers:
@@ -77,7 +96,8 @@ class Runner:
     """Keeps one instance of the unit that the last row asked for.
 
     An instance is initialised anew for other parameters; for the same ones its state just after
-    initialisation is restored, where it can be.
+    initialisation is restored, where it can be. Units warn of a thing once in an instance's life,
+    so that one whose warnings the next row may need is replaced.
     """
 
     def __init__(self, folder: Path, experiment: Experiment):
@@ -98,8 +118,26 @@ class Runner:
             message = f"{type(error).__name__}: {error}" + "".join(
                 f"\n  {note}" for note in getattr(error, "__notes__", [])
             )
-            return Finished(None, message[:_LONGEST_MESSAGE], time.perf_counter() - begin)
-        return Finished(values, "", time.perf_counter() - begin)
+            return Finished(None, self._told(row, message), time.perf_counter() - begin)
+        return Finished(values, self._warnings(row), time.perf_counter() - begin)
+
+    def _warnings(self, row: Row) -> str:
+        """What the unit has warned of in a row that has run, each once."""
+        live = self._live
+        assert live
+        message = "\n".join(dict.fromkeys(live.heard))
+        if len(live.heard) > live.at_start:
+            self._drop()
+        return self._told(row, message)
+
+    def _told(self, row: Row, message: str) -> str:
+        """A message without the temporary folder; lines of a changed scene are nobody's."""
+        if self._package:
+            place = re.escape(f"{self._package.folder}/resources/")
+            message = re.sub(
+                place + (r"(scene\.toml)(:\d+)?" if row.scene else "()"), r"\1", message
+            )
+        return message[:_LONGEST_MESSAGE]
 
     def close(self) -> None:
         """Ends the instance and removes what was unpacked."""
@@ -135,7 +173,7 @@ class Runner:
         parameters = dict(row.parameters)
         live = self._live
         if live is None:
-            live = self._live = Live(Unit(package, parameters=parameters), parameters)
+            live = self._live = Live.of(package, parameters)
         elif live.state is not None and live.parameters == parameters:
             live.unit.restore(live.state)
         elif not (live.fresh and live.parameters == parameters):
@@ -145,11 +183,16 @@ class Runner:
         return live
 
     def _initialise_anew(self, live: Live, package: Package, parameters: dict[str, Any]) -> Live:
+        if live.heard:
+            self._drop()
+            self._live = Live.of(package, parameters)
+            return self._live
         if live.state is not None:
             live.state.free()
             live.state = None
         live.parameters = parameters
         live.unit.reset(parameters)
+        live.at_start = len(live.heard)
         return live
 
     def _of_scene(self, row: Row) -> Package:

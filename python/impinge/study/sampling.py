@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from impinge.errors import need
+from impinge.errors import extra, need
 
 from .distributions import Distribution, Levels, is_held
 
@@ -99,7 +99,7 @@ class Sobol:
     second_order: bool = False
 
     def design(self, parameters: Mapping[str, Distribution]) -> Design:
-        sobol = need("SALib.sample.sobol", 'pip install "impinge[study]"', "Sobol")
+        sobol = need("SALib.sample.sobol", extra("study"), "Sobol")
 
         _check_count("samples", self.samples, 2)
         if self.samples & (self.samples - 1):

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 
-from impinge.errors import need
+from impinge.errors import extra, need
 
 from .sampling import unit_problem
 
@@ -34,7 +34,7 @@ def sobol_indices(
     I. M. Sobol', Math. Comput. Simul. 55 (2001), doi 10.1016/S0378-4754(00)00270-6;
     A. Saltelli et al., Comput. Phys. Commun. 181 (2010), doi 10.1016/j.cpc.2009.09.018.
     """
-    sobol = need("SALib.analyze.sobol", 'pip install "impinge[study]"', "sobol_indices")
+    sobol = need("SALib.analyze.sobol", extra("study"), "sobol_indices")
 
     if results.attrs.get("sampler_kind") != "Sobol":
         kind = results.attrs.get("sampler_kind", "no sampler")

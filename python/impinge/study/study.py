@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import logging
 import os
 import shlex
 import sys
@@ -31,6 +32,7 @@ from .scenes import Scene, Variant
 from .signals import Signal, signal_of, takes_parameters
 from .worker import Job
 
+_LOGGER = logging.getLogger("impinge")
 # More than these take gigabytes for their times alone.
 _MOST_STEPS = 1e8
 
@@ -120,7 +122,8 @@ class Study:
             refused with `StudyError` otherwise.
 
         A row that fails keeps its message (`status`, `message` of the table), one whose process
-        dies too. After Ctrl-C all finished rows are in the folder.
+        dies too. Warnings of a row's unit stand in its `message`, and go to the logger `impinge`
+        with the row's values. After Ctrl-C all finished rows are in the folder.
         """
         finished: dict[str, Finished] = {}
         path = Path(folder) / "study.nc" if folder is not None else None
@@ -182,6 +185,8 @@ class Study:
             if journal:
                 journal.append(rows)
             finished.update(rows)
+            for row, answer in batch:
+                self._log_warnings(row, answer)
             bar.update(len(rows))
             failed = sum(answer.failed for answer in finished.values())
             if failed:
@@ -196,6 +201,14 @@ class Study:
                     keep(batch)
             finally:
                 keep(workers.stop())
+
+    def _log_warnings(self, row: Row, answer: Finished) -> None:
+        """Here, not where the row ran: loggers of other processes are not the user's."""
+        if answer.failed or not answer.message:
+            return
+        values = self.design.rows[row.index]
+        told = ", ".join(f"{name} = {values[name]!r}" for name in self.varying)
+        _LOGGER.warning("%s, row %d (%s): %s", self.package.name, row.index, told, answer.message)
 
     def _workers(
         self,
@@ -252,6 +265,8 @@ class Study:
     ) -> Experiment:
         proposed = self.package.description.defaultExperiment
         stop = _positive("stop", stop, getattr(proposed, "stopTime", None))
+        if step is not None and step > stop:
+            raise ValueError(f"step = {step:g} s (allowed: at most the stop, {stop:g} s)")
         step = _positive("step", step, getattr(proposed, "stepSize", None))
         if stop > _MOST_STEPS * step:
             raise ValueError(

@@ -3,7 +3,7 @@
 from importlib import import_module
 from types import ModuleType
 
-from ..errors import ImpingeError
+from ..errors import ImpingeError, extra
 
 
 class SurfaceError(ImpingeError, ValueError):
@@ -22,5 +22,5 @@ def need(module: str) -> ModuleType:
         return import_module(module)
     except ModuleNotFoundError:
         name = {"PIL.Image": "Pillow"}.get(module, module)
-        words = f'{name} is not installed: pip install "impinge[surface]"'
+        words = f"{name} is not installed: {extra('surface')}"
         raise SurfaceError(words) from None

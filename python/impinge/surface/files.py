@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Callable
+from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import replace
+from io import StringIO
 from math import prod
 from pathlib import Path
 from typing import Any
@@ -14,11 +16,13 @@ import numpy as np
 from ..reading import open_file, reading
 from .arrays import check_corners, check_fields, check_finite, check_points, read_datasets
 from .csv_files import read_table
+from .doubles import double
 from .errors import SurfaceError, need
 from .placement import Placement
 from .series import Series
 from .surface import Surface, plane
 from .vtk_xml import read_pvd, read_vtk_xml
+from .vtu import VtuCells, check_vtu
 
 # Cells of meshio that lie on surfaces, and how many of their nodes are corners
 FACES = {"triangle": 3, "triangle6": 3, "triangle7": 3, "quad": 4, "quad8": 4, "quad9": 4}
@@ -133,6 +137,7 @@ class _Maker:
     ) -> None:
         self.path, self.placement = path, placement
         self.values, self.face, self.tolerance = values, face, tolerance
+        self.is_checked = False  # frames of a series have one mesh
         if values not in (None, "cells", "points"):
             raise SurfaceError(f"values: `{values}` is none of cells, points")
 
@@ -167,11 +172,24 @@ class _Maker:
         # Here, so that the error tells the file's own number of the node
         plane(self.placement.to_face(points), used, self.tolerance)
         surface = Surface.triangles(points[used], corners, self.placement, **options)
+        self._refuse_doubles(surface, kept)
         if values == "cells":
             data = {name: field[kept] for name, field in at_cells.items()}
         else:
             data = {name: field[used] for name, field in at_points.items()}
         return replace(surface, data=data)
+
+    def _refuse_doubles(self, surface: Surface, numbers: np.ndarray) -> None:
+        """What lies on cells that overlap would count twice."""
+        pair = None if self.is_checked else double(surface.cells)
+        self.is_checked = True
+        if pair is not None:
+            first, second = pair
+            at = ", ".join(f"{x:.6g}" for x in surface.cells.centroids[second])
+            raise SurfaceError(
+                f"cells {numbers[first]} and {numbers[second]} overlap at ({at}) m (allowed: cells"
+                " that share sides alone)"
+            )
 
     def _on_face(self, points: np.ndarray, cells: np.ndarray) -> np.ndarray:
         placed = self.placement.to_face(points)
@@ -304,7 +322,34 @@ def load_mesh(path: Path) -> Any:
     meshio = need("meshio")
     with reading(path, SurfaceError):
         open_file(path).close()
-        return meshio.read(path)
+        if not path.stat().st_size:
+            raise SurfaceError("is empty")
+        told = check_vtu(path) if path.suffix.lower() == ".vtu" else None
+        mesh = _read_by_meshio(meshio, path)
+        if told:
+            _refuse_cells_left_out(mesh, told)
+        return mesh
+
+
+def _read_by_meshio(meshio: Any, path: Path) -> Any:
+    """meshio prints why it does not read a file, and leaves by `sys.exit`."""
+    printed = StringIO()
+    try:
+        with redirect_stdout(printed), redirect_stderr(StringIO()):
+            return meshio.read(path)
+    except SystemExit:
+        why = printed.getvalue().strip() or "it is damaged, or of another format"
+        raise SurfaceError(f"meshio does not read it as {path.suffix}: {why}") from None
+
+
+def _refuse_cells_left_out(mesh: Any, told: VtuCells) -> None:
+    missing = told.count - sum(len(block.data) for block in mesh.cells)
+    if missing > 0:
+        kinds = ", ".join(map(str, told.types))
+        raise SurfaceError(
+            f"{missing} of {told.count} cells are of types that are not read; VTK's types in the"
+            f" file are {kinds}"
+        )
 
 
 def _of_mesh(path: Path, mesh: Any, make: _Maker) -> Surface:

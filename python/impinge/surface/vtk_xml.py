@@ -24,6 +24,7 @@ TYPES = {
     "Float64": "f8", "Float32": "f4", "Int64": "i8", "Int32": "i4", "Int16": "i2", "Int8": "i1",
     "UInt64": "u8", "UInt32": "u4", "UInt16": "u2", "UInt8": "u1",
 }  # fmt: skip
+ZLIB = "vtkZLibDataCompressor"
 # Points or cells of a piece, at most
 MOST_PLACES = 10**9
 # Components of an array, at most
@@ -60,14 +61,14 @@ def read_vtk_xml(path: Path) -> VtkFile:
 
 
 def _read(path: Path) -> VtkFile:
-    head, appended = _split(read_bytes(path))
+    head, appended = split(read_bytes(path))
     root = ElementTree.fromstring(head)
     kind = root.attrib.get("type", "")
     pieces = root.findall(f"./{kind}/Piece") if kind.isidentifier() else []
     if len(pieces) != 1:
         raise SurfaceError(f"{path}: {len(pieces)} pieces, where one is read")
     size = _Size.of(kind, pieces[0])
-    decode = _Decoder(root, appended)
+    decode = Decoder(root, appended)
     sections = {}
     for name in ("PointData", "CellData", "Points"):
         arrays = pieces[0].findall(f"./{name}/DataArray")
@@ -103,7 +104,7 @@ class _Size:
     @classmethod
     def of(cls, kind: str, piece: ElementTree.Element) -> _Size:
         if kind in ("StructuredGrid", "RectilinearGrid"):
-            ends = [_whole("Extent", word, least=None) for word in piece.attrib["Extent"].split()]
+            ends = [whole("Extent", word, least=None) for word in piece.attrib["Extent"].split()]
             if len(ends) != 6:
                 raise ValueError(f"Extent has {len(ends)} numbers, not 6")
             low, high = ends[::2], ends[1::2]
@@ -114,7 +115,7 @@ class _Size:
             size = cls(x * y * z, cells, (x, y, z))
         else:
             points, cells, vertices, lines, strips = (
-                _whole(name, piece.attrib[name]) if name in piece.attrib else None
+                whole(name, piece.attrib[name]) if name in piece.attrib else None
                 for name in map(
                     "NumberOf{}".format, ("Points", "Polys", "Verts", "Lines", "Strips")
                 )
@@ -127,7 +128,7 @@ class _Size:
         return size
 
 
-def _whole(name: str, word: str, least: int | None = 0) -> int:
+def whole(name: str, word: str, least: int | None = 0) -> int:
     value = int(word)
     if (least is not None and value < least) or abs(value) > 2 * MOST_PLACES:
         raise ValueError(f"{name} is {word[:40]}")
@@ -135,7 +136,7 @@ def _whole(name: str, word: str, least: int | None = 0) -> int:
 
 
 def _coordinates(
-    piece: ElementTree.Element, decode: _Decoder, dimensions: tuple[int, int, int] | None
+    piece: ElementTree.Element, decode: Decoder, dimensions: tuple[int, int, int] | None
 ) -> dict[str, np.ndarray]:
     """Arrays of coordinates along the axes of a rectilinear grid."""
     arrays = piece.findall("./Coordinates/DataArray")
@@ -150,25 +151,25 @@ def _coordinates(
 
 
 def _polygons(
-    piece: ElementTree.Element, decode: _Decoder, cells: int | None
+    piece: ElementTree.Element, decode: Decoder, cells: int | None
 ) -> dict[str, np.ndarray]:
     """Offsets and nodes of polygons, of which there are as many as the last offset says."""
     arrays = {a.attrib.get("Name", ""): a for a in piece.findall("./Polys/DataArray")}
-    offsets = _indices("offsets", decode(arrays["offsets"], cells))
+    offsets = indices("offsets", decode(arrays["offsets"], cells))
     if (np.diff(offsets, prepend=0) < 0).any():
         raise ValueError("offsets of polygons do not ascend")
     many = int(offsets[-1]) if len(offsets) else 0
-    nodes = _indices("connectivity", decode(arrays["connectivity"], many))
+    nodes = indices("connectivity", decode(arrays["connectivity"], many))
     return {"Polys.offsets": offsets, "Polys.connectivity": nodes}
 
 
-def _indices(name: str, values: np.ndarray) -> np.ndarray:
+def indices(name: str, values: np.ndarray) -> np.ndarray:
     if values.ndim != 1 or values.dtype.kind not in "iu":
         raise ValueError(f"array `{name}` holds no whole numbers")
     return values.astype(np.int64)
 
 
-def _split(content: bytes) -> tuple[bytes, bytes]:
+def split(content: bytes) -> tuple[bytes, bytes]:
     """The XML without what is appended, which need not be text."""
     begin = content.find(b"<AppendedData")
     if begin < 0:
@@ -180,7 +181,7 @@ def _split(content: bytes) -> tuple[bytes, bytes]:
     return content[:first] + content[end:], content[first:end]
 
 
-class _Decoder:
+class Decoder:
     """Reads arrays of a file; raises `ValueError` where one has not the numbers it should have."""
 
     def __init__(self, root: ElementTree.Element, appended: bytes) -> None:
@@ -191,7 +192,7 @@ class _Decoder:
             raise ValueError(f"header_type is {header} (allowed: UInt32, UInt64)")
         self.header = np.dtype(self.order + TYPES[header])
         compressor = root.attrib.get("compressor")
-        if compressor not in (None, "vtkZLibDataCompressor"):
+        if compressor not in (None, ZLIB):
             raise ValueError(f"compressed by {compressor}; zlib alone is read")
         self.is_compressed = compressor is not None
         node = root.find("AppendedData")
@@ -212,7 +213,7 @@ class _Decoder:
         kind = TYPES.get(array.attrib.get("type", ""))
         if kind is None:
             raise ValueError(f"is of type {array.attrib.get('type')}")
-        components = _whole(
+        components = whole(
             "NumberOfComponents", array.attrib.get("NumberOfComponents", "1"), least=1
         )
         if components > _MOST_COMPONENTS:
@@ -232,7 +233,7 @@ class _Decoder:
         if length == 0:
             return b""
         if form == "appended":
-            offset = _whole("offset", array.attrib["offset"])
+            offset = whole("offset", array.attrib["offset"])
             data = self.appended[offset:]
             if self.is_raw:
                 return self._blocks(lambda start, size: data[start : start + size], length)

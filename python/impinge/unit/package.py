@@ -45,7 +45,7 @@ class Package:
         if self.description.coSimulation is None:
             raise UnitError(f"{source} offers no co-simulation")
         with reading(f"{source}: modelDescription.xml", UnitError):
-            self.variables, self._elements = read_variables(self.description)
+            self.variables, self._elements = read_variables(self.description, self.fmi)
 
     def reshaped(self, structural: Mapping[str, Any]) -> Package:
         """This package, with the shapes that arrays of FMI 3.0 have for structural parameters."""
@@ -172,7 +172,12 @@ def open_package(source: str | os.PathLike[str], fmi: int | None = None) -> Pack
         return _of_folder(path)
     digest = _digest_of_file(path)
     if digest not in _PACKAGES:
-        _PACKAGES[digest] = Package(_unzip(path, digest), digest, str(source))
+        folder = _unzip(path, digest)
+        try:
+            _PACKAGES[digest] = Package(folder, digest, str(source))
+        except BaseException:
+            shutil.rmtree(folder, ignore_errors=True)
+            raise
     package = _PACKAGES[digest]
     if fmi is not None and package.fmi != fmi:
         raise UnitError(f"{source} is a unit of FMI {package.fmi}, not {fmi}")

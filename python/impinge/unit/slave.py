@@ -13,6 +13,8 @@ import fmpy
 import numpy as np
 
 from impinge.errors import StepDiscarded, UnitError
+from impinge.reading import reading
+from impinge.unit.library import check_library
 from impinge.unit.log import STATUS, Log
 from impinge.unit.package import Package
 
@@ -29,6 +31,8 @@ def load(package: Package) -> ctypes.CDLL:
         return _LIBRARIES[path]
     if not path.is_file():
         raise UnitError(f"{package.source} holds no library for {platform}: {path.name}")
+    with reading(f"{package.source}: its library {name}", UnitError):
+        check_library(path)
     before = Path.cwd()
     os.chdir(path.parent)  # some libraries look for others there
     try:

@@ -8,6 +8,8 @@ from typing import Any
 
 import numpy as np
 
+from impinge.unit.identities import check_identities
+
 # What FMPy calls a variable's type, by what its values are here. FMI 2.0 knows the first row only.
 NUMBERS: dict[str, Any] = {
     "Real": np.float64,
@@ -25,6 +27,7 @@ NUMBERS: dict[str, Any] = {
     "Int64": np.int64,
     "UInt64": np.uint64,
 }
+_LARGEST_REFERENCE = 2**32 - 1
 _INDICES = re.compile(r"^(?P<stem>.+)\[(?P<indices>\d+(?:,\s*\d+)*)\]$")
 
 
@@ -87,10 +90,14 @@ class Capabilities:
     once_per_process: bool
 
 
-def read_variables(description: Any) -> tuple[dict[str, Variable], dict[str, Variable]]:
-    """Variables by name, families as one; and apart from them the elements of families."""
+def read_variables(description: Any, fmi: int) -> tuple[dict[str, Variable], dict[str, Variable]]:
+    """Variables by name, families as one; and apart from them the elements of families.
+
+    Raises `ValueError` for variables that contradict each other, or themselves.
+    """
     kinds = {definition.name: definition for definition in description.typeDefinitions}
     singles = [_single(variable, kinds) for variable in description.modelVariables]
+    check_identities(singles, fmi)
     families = _families(singles)
     variables: dict[str, Variable] = {}
     elements: dict[str, Variable] = {}
@@ -146,7 +153,22 @@ def _number(text: Any) -> float | None:
         return None
 
 
-def _start(text: Any, kind: str, shape: tuple[int, ...]) -> Any:
+def _reference(variable: Any) -> int:
+    reference = int(variable.valueReference)
+    if not 0 <= reference <= _LARGEST_REFERENCE:
+        allowed = f"0 to {_LARGEST_REFERENCE}"
+        raise ValueError(f"`{variable.name}`: valueReference is {reference} (allowed: {allowed})")
+    return reference
+
+
+def _start(name: str, text: Any, kind: str, shape: tuple[int, ...]) -> Any:
+    try:
+        return _start_of(text, kind, shape)
+    except (ValueError, OverflowError) as error:
+        raise ValueError(f"`{name}`: start: {error}") from None
+
+
+def _start_of(text: Any, kind: str, shape: tuple[int, ...]) -> Any:
     if text is None:
         return None
     if kind in ("String", "Binary"):
@@ -155,7 +177,10 @@ def _start(text: Any, kind: str, shape: tuple[int, ...]) -> Any:
     if kind == "Boolean":
         values = np.array([word in ("true", "1") for word in words])
     else:
-        values = np.array([float(word) for word in words]).astype(NUMBERS.get(kind, np.float64))
+        numbers = np.array([float(word) for word in words])
+        if not np.isfinite(numbers).all():
+            raise ValueError(f"{text} is not finite")
+        values = numbers.astype(NUMBERS.get(kind, np.float64))
     if not shape:
         return values[0].item() if len(values) else None
     return np.broadcast_to(values, prod(shape)).reshape(shape) if len(values) else None
@@ -178,13 +203,13 @@ def _single(variable: Any, kinds: dict[str, Any]) -> Variable:
         kind=kind,
         unit=said("unit"),
         quantity=said("quantity"),
-        start=_start(variable.start, kind, shape),
+        start=_start(variable.name, variable.start, kind, shape),
         nominal=_number(said("nominal")) or 1.0,
         min=_number(said("min")),
         max=_number(said("max")),
         shape=shape,
         description=variable.description or "",
-        references=np.array([variable.valueReference], dtype=np.uint32),
+        references=np.array([_reference(variable)], dtype=np.uint32),
     )
 
 

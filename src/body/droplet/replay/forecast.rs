@@ -55,32 +55,21 @@ impl Recording {
     }
 }
 
-/// Estimates without recording anything; that all drops are released which may be.
+/// Estimates without recording anything. Of drops on demand nobody knows how many there will be: a note says what each
+/// takes.
 pub fn forecast(scene: &Scene, name: &str, droplet: &Droplet) -> DropletForecast {
     let recording = Recording::of(scene, (name, droplet));
-    let cooling = Cooling::of(droplet);
     let in_time = || droplet.arrivals().iter().filter(|arrival| arrival.time < scene.stop_time);
-    let drops = if droplet.is_on_demand() { droplet.drops() } else { in_time().count() };
-    let interval = scene.coupling_from(name).and_then(|index| scene.coupling[index].interval);
-    let exchanges = match interval {
-        Some(interval) => {
-            let parts = link::parts(interval, scene.step);
-            (scene.stop_time / scene.step).ceil() * parts as f64
-        }
-        None => cooling.exchanges(scene, drops),
-    };
-    let length = scene.stop_time / exchanges;
-    let of_solid = scene.coupling_from(name).and_then(|index| {
-        let solid = scene.coupling[index].solid()?;
-        let plan = plan(scene, solid, scene.solid(solid)?);
-        Some(exchanges * exchange_time(&plan, length))
-    });
-    let giving = (cooling.duration() / length).clamp(1.0, exchanges);
-    let replaying = GIVE * giving * drops as f64;
+    let drops = if droplet.is_on_demand() { 0 } else { in_time().count() };
+    let replaying = Replaying::of(scene, (name, droplet), drops).seconds();
     let mut notes = notes(scene, (name, droplet));
     let Recording { particles, time_step, steps, seconds } = recording;
     notes.extend((particles > 0).then(|| {
         format!("to record takes about {seconds:.1} s, all that follows about {replaying:.1} s")
+    }));
+    notes.extend(droplet.is_on_demand().then(|| {
+        let of_one = Replaying::of(scene, (name, droplet), 1).seconds() - replaying;
+        format!("each drop that is released takes about {of_one:.2e} s more")
     }));
     DropletForecast {
         name: name.into(),
@@ -88,8 +77,40 @@ pub fn forecast(scene: &Scene, name: &str, droplet: &Droplet) -> DropletForecast
         time_step,
         steps,
         memory: PARTICLE_MEMORY * particles as f64,
-        run_time: seconds + replaying + of_solid.unwrap_or(0.0),
+        run_time: seconds + replaying,
         notes,
+    }
+}
+
+/// What repeating drops takes [s].
+struct Replaying {
+    drops: f64,
+    of_solid: f64,
+}
+
+impl Replaying {
+    fn of(scene: &Scene, (name, droplet): (&str, &Droplet), drops: usize) -> Self {
+        let cooling = Cooling::of(droplet);
+        let interval = scene.coupling_from(name).and_then(|index| scene.coupling[index].interval);
+        let exchanges = match interval {
+            Some(interval) => {
+                let parts = link::parts(interval, scene.step);
+                (scene.stop_time / scene.step).ceil() * parts as f64
+            }
+            None => cooling.exchanges(scene, drops),
+        };
+        let length = scene.stop_time / exchanges;
+        let of_solid = scene.coupling_from(name).and_then(|index| {
+            let solid = scene.coupling[index].solid()?;
+            let plan = plan(scene, solid, scene.solid(solid)?);
+            Some(exchanges * exchange_time(&plan, length))
+        });
+        let giving = (cooling.duration() / length).clamp(1.0, exchanges);
+        Self { drops: GIVE * giving * drops as f64, of_solid: of_solid.unwrap_or(0.0) }
+    }
+
+    fn seconds(&self) -> f64 {
+        self.drops + self.of_solid
     }
 }
 
