@@ -178,7 +178,7 @@ fn wetted(resolution: &Resolution, droplet: &Droplet) -> Option<String> {
 fn too_hot(droplet: &Droplet, across: f64) -> String {
     format!(
         "the temperature under the middle of the drop rises too high, by a tenth to a third with 20 particles across, as its \
-         thermal layer √(aD/U) is thinner than half a particle; did you mean a `spacing` of {} m or less?",
+         thermal layer √(aD/U) is thinner than three quarters of a particle; did you mean a `spacing` of {} m or less?",
         number(rounded(droplet.diameter / across))
     )
 }
