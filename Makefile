@@ -32,7 +32,8 @@ examples: units $(VENV)/ready ## run every example
 test: rust-test python-test ## everything that is fast
 
 # All test programs but that of `make verify`.
-TESTS := $(filter-out verification,$(patsubst tests/%/main.rs,%,$(wildcard tests/*/main.rs))) \
+FOLDERS := $(notdir $(patsubst %/main.rs,%,$(wildcard tests/*/main.rs cli/tests/*/main.rs)))
+TESTS := $(filter-out verification,$(FOLDERS)) \
 	$(basename $(notdir $(wildcard tests/*.rs build-fmu/tests/*.rs)))
 
 # Tests within the library compile it once more, for themselves: a lower level of optimisation does that in half the

@@ -14,7 +14,6 @@ mod forecast_cases;
 
 mod adversarial;
 mod architecture;
-mod cli;
 mod contact;
 mod creep;
 mod demand;
@@ -33,7 +32,6 @@ mod layers;
 mod levels;
 mod long_steps;
 mod many_probes;
-mod named_materials;
 mod nonlinear_heat;
 mod nonlinear_solids;
 mod oblique;

@@ -1,4 +1,4 @@
-//! What the commands do. Reports go to standard output; errors, warnings and progress to standard
+//! The command line: `impinge check SCENE`, `impinge run SCENE`, `impinge schema`. Reports go to standard output; errors, warnings and progress to standard
 //! error. Exit status: 0 done, 1 refused or failed, 2 wrong usage.
 
 mod check;
@@ -24,7 +24,7 @@ use error::CliError;
 
 /// What a hot droplet does to the surface it hits: heat and stress
 #[derive(Parser)]
-#[command(version)]
+#[command(name = "impinge", version)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -37,8 +37,8 @@ enum Command {
     Schema(schema::Schema),
 }
 
-/// Runs the command that the process was called with.
-pub fn main() -> ExitCode {
+fn main() -> ExitCode {
+    impinge::runtime::file_size::report_limits();
     let report = match Arguments::parse().command {
         Command::Check(command) => command.execute(),
         Command::Run(command) => command.execute(),

@@ -7,6 +7,7 @@ use std::process::{Command, Output};
 use tempfile::TempDir;
 
 mod inputs;
+mod named_materials;
 mod run_files;
 
 const SCENE: &str = r#"
@@ -622,7 +623,7 @@ fn what_cannot_be_printed_ends_without_a_panic() {
     assert_eq!(shell("check nothing.toml 2>/dev/full").0.status.code(), Some(1));
     let cold = "run scene.toml --until 1e-7 --set plate.initial_temperature=25 2>/dev/full";
     shell(cold).succeeds();
-    let bed = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/heated_bed/scene.toml");
+    let bed = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/heated_bed/scene.toml");
     for (folder, doubted) in [("idle", ""), ("hot", "--set heater.heat_flux=1e16")] {
         shell(&format!("run {bed} --until 2 --out {folder} {doubted} 2>/dev/full")).succeeds();
     }
