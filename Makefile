@@ -56,6 +56,7 @@ fuzz: ## drive the C ABI with random calls for SECONDS seconds
 	FUZZ_SECONDS=$(SECONDS) cargo test --release --test fmi fuzz:: -- --nocapture
 
 verify: build $(VENV)/ready-verify $(MASTERS)/ready ## slow: closed forms, and an independent finite-element code
+	SWEEP_ALL=1 cargo test --release --test fmi -- too_little at_any_start
 	cargo test --release --features verification --test verification -- --nocapture --test-threads 1
 	$(BIN)/python tests/verification/particles.py target/tmp out/verification/particles.png
 	$(BIN)/python tests/verification/flows.py target/tmp out/verification

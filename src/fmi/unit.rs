@@ -416,10 +416,12 @@ impl Unit {
         let Some(run) = self.run.as_ref().filter(|_| !self.directory.is_empty()) else {
             return Status::Ok;
         };
-        let directory = Path::new(&self.directory);
+        // Where the host is now: it may go elsewhere.
+        let named = Path::new(&self.directory);
+        let directory = std::path::absolute(named).unwrap_or_else(|_| named.to_owned());
         let open = || {
-            let lock = FolderLock::take(directory)?;
-            Ok((FieldSeries::create(directory, &run.model)?, lock))
+            let lock = FolderLock::take(&directory)?;
+            Ok((FieldSeries::create(&directory, &run.model)?, lock))
         };
         match aside(open) {
             Ok(series) => {

@@ -100,10 +100,10 @@ impl Unit {
         }
     }
 
-    /// The computation is fine, so files that cannot be written are no error.
-    pub(in super::super) fn warn_of_output(&self, error: &OutputError) -> Status {
+    /// The computation is fine, so files that cannot be written are no error. Each is told once.
+    pub(in super::super) fn warn_of_output(&mut self, error: &OutputError) -> Status {
         let message = format!("output.directory {:?}: {error}", self.directory);
-        self.log.send(Status::Warning, &message);
+        self.warn_once(vec![message]);
         Status::Warning
     }
 }
