@@ -47,8 +47,9 @@ const ORDER: f64 = 3.0;
 const ORDER_OF_NONLINEAR: f64 = 2.0;
 /// What errors of stress are taken to be over what coarser meshes tell: they fall less evenly than those of temperature.
 const UNEVEN_STRESS: f64 = 1.15;
-/// Error of linear elements with integrals at the nodes, by which Newton's method goes, over that of the twin's.
-const INTEGRALS_AT_NODES: f64 = 2.0;
+/// Error of linear elements with integrals at the nodes, by which heat that is not linear goes, over that of the twin's, at
+/// most: 1.7 of temperature and 2.7 of stress were measured.
+const INTEGRALS_AT_NODES: f64 = 3.0;
 /// The levels that the law gives without an estimate.
 const LAW: [i32; 2] = [-3, 4];
 /// What a front scatters by in a column of level 0, over its depth: a tenth of the distance of nodes there, which is a fifth
