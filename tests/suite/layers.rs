@@ -347,7 +347,7 @@ fn rates_in_layers_are_the_limit_of_differences() {
     let probes = probe("above", [0.1e-3, 0.0, -20e-6], "above", ALL)
         + &probe("below", [0.1e-3, 0.0, -20e-6], "below", ALL);
     let faces = "bottom = { temperature = 320.0, clamped = true }\nleft = { temperature = 295.0 }\ntop = { convection = { coefficient = 1e4, ambient = 350.0 } }";
-    let mesh = "mesh = { spacing = 0.15e-3, depth_spacing = 10e-6 }";
+    let mesh = "mesh = { spacing = 0.3e-3, depth_spacing = 10e-6 }";
     let text = body(
         &square(1.2e-3, 0.3e-3),
         &layers(stack),

@@ -272,7 +272,7 @@ fn rows_of_real_materials_are_solutions() {
         for order in if number % 3 == 0 { 1..=2 } else { 2..=2 } {
             let keys = format!(
                 "shape = {{ box = [2e-3, 1.5e-3, 0.5e-3] }}\n{made_of}\
-                 mesh = {{ spacing = 2.5e-4, growth = 2.0, order = {order} }}"
+                 mesh = {{ spacing = 4e-4, growth = 2.0, order = {order} }}"
             );
             let faces = "[body.b.faces]\nsides = { clamped = true }\n";
             let text = solid(&keys, faces) + &loads_and_readings([1e-3, 1e2, 1e4]);
