@@ -43,7 +43,7 @@ rust-test:
 	cargo clippy --release --workspace --all-targets -- -D warnings
 	cargo test --release --workspace --bins $(TESTS:%=--test %)
 	cargo test --release --workspace --doc
-	cargo test --release --package impinge --package closed-form --lib --config profile.release.package.impinge.opt-level=1
+	cargo test --release --package impinge --package closed-form --package fmu-lint --lib --config profile.release.package.impinge.opt-level=1
 
 python-test: build $(VENV)/ready
 	$(BIN)/ruff check $(PY_FILES)

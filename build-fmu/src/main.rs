@@ -4,7 +4,6 @@ mod archive;
 mod cells;
 mod documentation;
 mod library;
-mod lint;
 mod picture;
 mod reference;
 mod terminals;
@@ -62,7 +61,7 @@ fn main() -> ExitCode {
     impinge::runtime::file_size::report_limits();
     let arguments = Arguments::parse();
     if let Some(details) = &arguments.instantiate {
-        return lint::instantiate(details);
+        return fmu_lint::instantiate(details);
     }
     let answer = run(&arguments).and_then(|(said, code)| print(&said).map(|()| code));
     answer.unwrap_or_else(|error| {
@@ -91,10 +90,10 @@ fn complain(message: &str) {
 fn run(arguments: &Arguments) -> Result<(String, ExitCode), String> {
     let file = arguments.file.as_deref().unwrap_or(Path::new(""));
     if arguments.rules {
-        return Ok((lint::rules(), ExitCode::SUCCESS));
+        return Ok((fmu_lint::rules(), ExitCode::SUCCESS));
     }
     if arguments.lint {
-        let verdict = lint::lint(file, !arguments.no_run)?;
+        let verdict = fmu_lint::lint(file, !arguments.no_run)?;
         return Ok((verdict.text, u8::from(verdict.has_errors).into()));
     }
     Ok((pack(arguments, file)?, ExitCode::SUCCESS))

@@ -88,9 +88,9 @@ def test_bombs_are_refused_before_they_are_unpacked(remade, monkeypatch, tmp_pat
 
 
 def test_limits_are_those_of_the_linter():
-    package = (ROOT / "build-fmu/src/lint/package.rs").read_text()
-    sizes = (ROOT / "build-fmu/src/lint/rules/zip_sizes.rs").read_text()
-    whole = (ROOT / "build-fmu/src/lint/mod.rs").read_text()
+    package = (ROOT / "fmu-lint/src/package.rs").read_text()
+    sizes = (ROOT / "fmu-lint/src/rules/zip_sizes.rs").read_text()
+    whole = (ROOT / "fmu-lint/src/lib.rs").read_text()
     for text, name in [
         (whole, "LARGEST_FILE"),
         (package, "MOST_ENTRIES"),

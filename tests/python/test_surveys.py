@@ -77,8 +77,8 @@ def test_every_picture_is_explained(kind):
 
 
 def test_guards_name_tests_that_exist():
-    folders = [(ROOT / "tests", "*.*")]
-    folders += [(ROOT / part, "*.rs") for part in ("src", "build-fmu", "cli", "closed-form")]
+    packages = ["src", "build-fmu", "cli", "closed-form", "fmu-lint"]
+    folders = [(ROOT / "tests", "*.*"), *((ROOT / package, "*.rs") for package in packages)]
     paths = [path for folder, files in folders for path in folder.rglob(files)]
     sources = [path.read_text() for path in paths if path.suffix in (".rs", ".py", ".toml")]
     tests = re.findall(r'^\s*(?:fn |def |what = ")([^("]+)', "\n".join(sources), re.MULTILINE)

@@ -3,8 +3,8 @@
 use roxmltree::Node;
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::finding::Report;
+use crate::Subject;
+use crate::finding::Report;
 
 pub static RULE: Rule = Rule {
     name: "units",

@@ -3,10 +3,10 @@
 use std::collections::HashSet;
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::description::{Unknown, Variable};
-use crate::lint::finding::Report;
-use crate::lint::vocabulary::{Causality, Initial, Kind};
+use crate::Subject;
+use crate::description::{Unknown, Variable};
+use crate::finding::Report;
+use crate::vocabulary::{Causality, Initial, Kind};
 
 pub static RULE: Rule = Rule {
     name: "dependencies",

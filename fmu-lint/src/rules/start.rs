@@ -1,10 +1,10 @@
 //! Start values that must be there, and those that must not.
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::description::Variable;
-use crate::lint::finding::Report;
-use crate::lint::vocabulary::{Causality, Initial};
+use crate::Subject;
+use crate::description::Variable;
+use crate::finding::Report;
+use crate::vocabulary::{Causality, Initial};
 
 pub static RULE: Rule = Rule {
     name: "start",

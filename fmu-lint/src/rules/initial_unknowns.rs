@@ -3,11 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::description::Description;
-use crate::lint::document::child;
-use crate::lint::finding::Report;
-use crate::lint::vocabulary::{Causality, Initial};
+use crate::Subject;
+use crate::description::Description;
+use crate::document::child;
+use crate::finding::Report;
+use crate::vocabulary::{Causality, Initial};
 
 pub static RULE: Rule = Rule {
     name: "initial-unknowns",
@@ -56,7 +56,7 @@ fn expected(description: &Description) -> BTreeSet<usize> {
     let state_of = |index| description.variable(index)?.derivative();
     let dynamic: BTreeSet<usize> =
         of_derivatives.flat_map(|index| [Some(index), state_of(index)]).flatten().collect();
-    let belongs = |(at, variable): (usize, &crate::lint::description::Variable)| {
+    let belongs = |(at, variable): (usize, &crate::description::Variable)| {
         let computed = matches!(variable.initial, Some(Initial::Approx | Initial::Calculated));
         let exposed =
             matches!(variable.causality, Some(Causality::Output | Causality::CalculatedParameter));

@@ -1,9 +1,9 @@
 //! Libraries that are not there.
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::finding::{Place, Report};
-use crate::lint::platform::PLATFORMS;
+use crate::Subject;
+use crate::finding::{Place, Report};
+use crate::platform::PLATFORMS;
 
 pub static RULE: Rule = Rule {
     name: "platforms",

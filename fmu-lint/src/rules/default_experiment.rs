@@ -1,10 +1,10 @@
 //! DefaultExperiment.
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::document::child;
-use crate::lint::finding::Report;
-use crate::lint::schema::double;
+use crate::Subject;
+use crate::document::child;
+use crate::finding::Report;
+use crate::schema::double;
 
 pub static RULE: Rule = Rule {
     name: "default-experiment",

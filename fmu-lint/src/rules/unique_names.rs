@@ -5,9 +5,9 @@ use std::collections::HashMap;
 use roxmltree::Node;
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::document::{elements, list, title};
-use crate::lint::finding::Report;
+use crate::Subject;
+use crate::document::{elements, list, title};
+use crate::finding::Report;
 
 pub static RULE: Rule = Rule {
     name: "unique-names",

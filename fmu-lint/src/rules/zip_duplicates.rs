@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use super::{Check, Rule};
-use crate::lint::finding::{Place, Report};
-use crate::lint::package::Package;
+use crate::finding::{Place, Report};
+use crate::package::Package;
 
 pub static RULE: Rule = Rule {
     name: "zip-duplicates",

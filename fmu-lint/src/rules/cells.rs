@@ -3,9 +3,9 @@
 use serde_json::Value;
 
 use super::{Check, Rule};
-use crate::lint::DESCRIPTION;
-use crate::lint::finding::{Place, Report};
-use crate::lint::package::Package;
+use crate::DESCRIPTION;
+use crate::finding::{Place, Report};
+use crate::package::Package;
 
 pub static RULE: Rule = Rule {
     name: "cells",

@@ -3,10 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::description::{Description, Variable};
-use crate::lint::finding::Report;
-use crate::lint::vocabulary::{Kind, Variability};
+use crate::Subject;
+use crate::description::{Description, Variable};
+use crate::finding::Report;
+use crate::vocabulary::{Kind, Variability};
 
 pub static RULE: Rule = Rule {
     name: "value-references",

@@ -3,9 +3,9 @@
 use roxmltree::Node;
 
 use super::{Check, Rule};
-use crate::lint::document::{self, Document};
-use crate::lint::finding::Report;
-use crate::lint::schema::{Content, Element, ROOT};
+use crate::document::{self, Document};
+use crate::finding::Report;
+use crate::schema::{Content, Element, ROOT};
 
 pub static RULE: Rule = Rule {
     name: "attributes",

@@ -3,11 +3,11 @@
 use std::collections::HashSet;
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::description::{Unknown, Variable};
-use crate::lint::document::child;
-use crate::lint::finding::Report;
-use crate::lint::vocabulary::Causality;
+use crate::Subject;
+use crate::description::{Unknown, Variable};
+use crate::document::child;
+use crate::finding::Report;
+use crate::vocabulary::Causality;
 
 pub static OUTPUTS: Rule = Rule {
     name: "outputs",

@@ -1,11 +1,11 @@
 //! Causality, variability and `initial` of a variable.
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::combination;
-use crate::lint::description::Variable;
-use crate::lint::finding::Report;
-use crate::lint::vocabulary::{Causality, Initial, Kind, Variability};
+use crate::Subject;
+use crate::combination;
+use crate::description::Variable;
+use crate::finding::Report;
+use crate::vocabulary::{Causality, Initial, Kind, Variability};
 
 pub static RULE: Rule = Rule {
     name: "combinations",

@@ -9,11 +9,11 @@ use impinge::scene;
 use impinge::variables::Registry;
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::description::Interface;
-use crate::lint::finding::{Place, Report};
-use crate::lint::platform;
-use crate::lint::probe::{self, Outcome};
+use crate::Subject;
+use crate::description::Interface;
+use crate::finding::{Place, Report};
+use crate::platform;
+use crate::probe::{self, Outcome};
 
 pub static RULE: Rule = Rule {
     name: "guid",

@@ -1,9 +1,9 @@
 //! Source files that the description names.
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::document::list;
-use crate::lint::finding::Report;
+use crate::Subject;
+use crate::document::list;
+use crate::finding::Report;
 
 pub static RULE: Rule = Rule {
     name: "sources",

@@ -1,9 +1,9 @@
 //! The attribute `derivative`.
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::finding::Report;
-use crate::lint::vocabulary::{Kind, Variability};
+use crate::Subject;
+use crate::finding::Report;
+use crate::vocabulary::{Kind, Variability};
 
 pub static RULE: Rule = Rule {
     name: "derivative",

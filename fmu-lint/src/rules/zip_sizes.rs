@@ -1,8 +1,8 @@
 //! Sizes that the directory of the zip file gives, against those that entries have.
 
 use super::{Check, Rule};
-use crate::lint::finding::{Place, Report};
-use crate::lint::package::Size;
+use crate::finding::{Place, Report};
+use crate::package::Size;
 
 pub static RULE: Rule = Rule {
     name: "zip-sizes",

@@ -1,8 +1,8 @@
 //! Paths that some tool would unpack elsewhere, or not at all.
 
 use super::{Check, Rule};
-use crate::lint::finding::{Place, Report};
-use crate::lint::package::Package;
+use crate::finding::{Place, Report};
+use crate::package::Package;
 
 pub static RULE: Rule = Rule {
     name: "zip-paths",

@@ -1,8 +1,8 @@
 //! Capability flags that need each other.
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::finding::Report;
+use crate::Subject;
+use crate::finding::Report;
 
 pub static RULE: Rule = Rule {
     name: "capabilities",

@@ -1,11 +1,11 @@
 //! What the libraries export.
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::description::Interface;
-use crate::lint::finding::{Place, Report};
-use crate::lint::library;
-use crate::lint::platform::{PLATFORMS, Platform};
+use crate::Subject;
+use crate::description::Interface;
+use crate::finding::{Place, Report};
+use crate::library;
+use crate::platform::{PLATFORMS, Platform};
 
 pub static RULE: Rule = Rule {
     name: "exports",

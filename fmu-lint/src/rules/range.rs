@@ -3,12 +3,12 @@
 use roxmltree::Node;
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::description::{Description, Variable};
-use crate::lint::document::elements;
-use crate::lint::finding::Report;
-use crate::lint::schema::double;
-use crate::lint::vocabulary::Kind;
+use crate::Subject;
+use crate::description::{Description, Variable};
+use crate::document::elements;
+use crate::finding::Report;
+use crate::schema::double;
+use crate::vocabulary::Kind;
 
 pub static RULE: Rule = Rule {
     name: "range",

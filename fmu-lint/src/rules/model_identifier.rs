@@ -1,9 +1,9 @@
 //! The attribute `modelIdentifier`, and libraries of another name.
 
 use super::{Check, Rule};
-use crate::lint::Subject;
-use crate::lint::finding::{Place, Report};
-use crate::lint::platform::PLATFORMS;
+use crate::Subject;
+use crate::finding::{Place, Report};
+use crate::platform::PLATFORMS;
 
 pub static RULE: Rule = Rule {
     name: "model-identifier",

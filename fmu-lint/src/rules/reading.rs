@@ -1,9 +1,9 @@
 //! What must hold before anything else can be looked at.
 
 use super::{Check, Rule};
-use crate::lint::DESCRIPTION;
-use crate::lint::document::Document;
-use crate::lint::finding::{Place, Report};
+use crate::DESCRIPTION;
+use crate::document::Document;
+use crate::finding::{Place, Report};
 
 pub static READABLE: Rule = Rule {
     name: "zip-readable",

@@ -1,8 +1,8 @@
 //! Entries that become something else than files when they are unpacked.
 
 use super::{Check, Rule};
-use crate::lint::finding::{Place, Report};
-use crate::lint::package::Package;
+use crate::finding::{Place, Report};
+use crate::package::Package;
 
 pub static RULE: Rule = Rule {
     name: "zip-links",
