@@ -28,6 +28,8 @@ pub mod state;
 
 pub mod scene;
 
+pub mod advice;
+
 pub mod inputs;
 
 pub mod port;

@@ -17,6 +17,7 @@ use std::process::{self, ExitCode};
 
 use archive::Entries;
 use clap::Parser;
+use impinge::advice;
 use impinge::model::{Model, notes_on_walls, records, to_be_recorded, tolerance};
 use impinge::runtime::available_memory;
 use impinge::scene::{self, Scene};
@@ -107,7 +108,7 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
         complain(&format!("note: {note}"));
     }
     let (scene, warnings) =
-        scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
+        advice::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
     for warning in warnings {
         complain(&format!("warning: {warning}"));
     }

@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use impinge::advice::{self, Warning};
 use impinge::model::forecast;
-use impinge::scene::{self, Scene, Warning};
+use impinge::scene::{self, Scene};
 
 use super::CliError;
 use super::units::lasting;
@@ -23,7 +24,7 @@ pub fn read(path: &Path) -> Result<(Scene, Vec<Warning>), CliError> {
     if let Some(note) = scene::note_on_reading(&text, &file) {
         super::print_message("note", &note);
     }
-    Ok(scene::parse_with_warnings(&text, &file)?)
+    Ok(advice::parse_with_warnings(&text, &file)?)
 }
 
 /// What to say of the time that a run of a scene will take; refuses one that takes months, with what would do.

@@ -3,6 +3,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use clap::Args;
+use impinge::advice;
 use impinge::model::{
     Cache, Model, ModelError, State, Timeline, check_memory, to_be_recorded, tolerance,
 };
@@ -141,7 +142,7 @@ impl Run {
         scene.step = self.step.unwrap_or(scene.step);
         let inputs = set::apply(&mut scene, &self.set)?;
         scene::check(&scene)?;
-        super::warn(&if scene == read { warnings } else { scene::warnings(&scene) });
+        super::warn(&if scene == read { warnings } else { advice::warnings(&scene) });
         for warning in set::implausible(&scene, &inputs) {
             super::print_message("warning", &warning);
         }

@@ -18,6 +18,7 @@ use super::rates::check_path;
 use super::saved::SavedStates;
 use super::step_control::StepControl;
 use super::types::{Answer, Refusal, Status};
+use crate::advice::Warning;
 use crate::model::{
     BodyError, Cache, Kept, KeptReduction, Model, ModelError, State, Stiffness, Tangent,
     check_step_length, initial_inputs, to_be_recorded,
@@ -27,7 +28,7 @@ use crate::runtime::address_space::{self, PRODUCTS, SPARE};
 use crate::runtime::allowance::{Halt, Interrupt};
 use crate::runtime::available_memory;
 use crate::runtime::thread::{STACK, aside};
-use crate::scene::{self, Scene, Warning};
+use crate::scene::{self, Scene};
 use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
 
 /// A time is taken for another one if they differ by less than this part of the step …
@@ -487,7 +488,7 @@ impl Unit {
     /// A unit of the scene that the tests of the C ABI use, without logger.
     pub fn for_tests() -> Self {
         let text = include_str!("../../tests/fmi/scene.toml");
-        let scene = scene::parse_with_warnings(text, "scene.toml");
+        let scene = crate::advice::parse_with_warnings(text, "scene.toml");
         let scene = scene.unwrap_or_else(|error| panic!("{error}"));
         Self::new(Packed::of(scene, text), Log::new(Box::new(|_, _, _| {}), true))
     }

@@ -22,7 +22,7 @@ pub struct Problem {
 
 impl Problem {
     /// `FILE:LINE: KEY = VALUE:`, as far as these are known.
-    pub(super) fn write_place(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    pub(crate) fn write_place(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:", self.file)?;
         if let Some(line) = self.line {
             write!(f, "{line}:")?;

@@ -179,7 +179,7 @@ impl Solid {
 
     /// What the body is made of, in the order of layers: the places of the materials in a scene, below the
     /// body's `path`, and these. A named material stands where the scene names it.
-    pub(super) fn materials(&self, path: &Path) -> Vec<(Path, &Material)> {
+    pub(crate) fn materials(&self, path: &Path) -> Vec<(Path, &Material)> {
         let place = |own: Path, choice: &MaterialChoice| match &choice.name {
             Some(name) => Path::default().key("material").key(name),
             None => own,
@@ -241,7 +241,7 @@ impl Solid {
 
 impl Scene {
     /// Places in bodies of materials that are just what their names say, of which a scene's text may hold copies.
-    pub(super) fn copied_materials(&self) -> Vec<Path> {
+    pub(crate) fn copied_materials(&self) -> Vec<Path> {
         let is_copy = |choice: &MaterialChoice| {
             let named = choice.name.as_ref().and_then(|name| self.material.get(name));
             named.is_some_and(|named| named == choice.material())

@@ -1,10 +1,9 @@
 //! The scene: plain, checked data that says what to model. Nothing here knows how.
 //!
-//! Text → `locate` (TOML with places) → `decode` (types) → `check` (sense) → [`Scene`]; `plausibility` warns
-//! of what makes sense but is implausible.
+//! Text → `locate` (TOML with places) → `decode` (types) → `check` (sense) → [`Scene`].
 
 mod cells;
-mod check;
+pub(crate) mod check;
 mod decode;
 mod droplet;
 mod droplet_symmetry;
@@ -13,16 +12,14 @@ mod file;
 mod footprint;
 mod grid;
 mod load;
-mod locate;
+pub(crate) mod locate;
 mod lookup;
 mod materials;
-mod plausibility;
 mod recording;
 mod reduction;
 mod reservoir;
-mod resolution;
 mod sampling;
-mod schema;
+pub(crate) mod schema;
 mod spelling;
 mod types;
 mod whole;
@@ -42,11 +39,9 @@ pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
-pub use plausibility::{MEASURED_FILMS, Measure, Warning, implausible_input, implausible_place};
 pub use recording::Recording;
 pub use reduction::footprints_along;
 pub use reservoir::Reservoir;
-pub use resolution::{HeatError, Resolution};
 pub use sampling::{FieldCells, Sampling};
 pub use schema::{SCHEMA, derived_schema};
 pub use types::*;
@@ -102,31 +97,16 @@ pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
     parse_located(&source, &Schema::of_scenes())
 }
 
-fn parse_located(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
+/// The same of a text whose places are known.
+pub(crate) fn parse_located(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
     let mut scene = decode::decode(source, schema)?;
     scene.tell_what_is_below();
     check::check(&scene, source, schema)?;
     Ok(scene)
 }
 
-/// Reads and checks a scene's text, and warns of what is implausible in it.
-pub fn parse_with_warnings(text: &str, file: &str) -> Result<(Scene, Vec<Warning>), SceneError> {
-    let (source, schema) = (Source::parse(text, file)?, Schema::of_scenes());
-    let scene = parse_located(&source, &schema)?;
-    let warnings = plausibility::warnings(&scene, &source, &schema);
-    Ok((scene, warnings))
-}
-
-/// What is implausible in a scene whose constants were changed after it was read; no lines are named.
-pub fn warnings(scene: &Scene) -> Vec<Warning> {
-    let Ok(text) = toml::to_string(scene) else { return Vec::new() };
-    let Ok(source) = Source::parse(&text, CHANGED) else { return Vec::new() };
-    let found = plausibility::warnings(scene, &source, &Schema::of_scenes());
-    found.into_iter().map(Warning::without_line).collect()
-}
-
 /// What stands for the file of a scene that was changed.
-const CHANGED: &str = "the scene with its parameters as set";
+pub(crate) const CHANGED: &str = "the scene with its parameters as set";
 
 /// Checks a scene whose constants were changed after it was read; problems name no line.
 pub fn check(scene: &Scene) -> Result<(), SceneError> {

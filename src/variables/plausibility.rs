@@ -1,7 +1,8 @@
 //! Plausibility of the values of inputs.
 
 use super::{Quantity, Slot, Variable};
-use crate::scene::{Measure, Scene, implausible_input, implausible_place};
+use crate::advice::{Measure, implausible_input, implausible_place};
+use crate::scene::Scene;
 
 impl Variable {
     /// The warning of a value that is implausible for an input, in the words that a scene's constants get.

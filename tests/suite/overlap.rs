@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::common::{Trial, off};
+use impinge::advice;
 use impinge::model::tolerance::warnings;
 use impinge::scene;
 
@@ -240,7 +241,7 @@ fn arrivals_on_more_films_than_were_measured_are_foretold() {
         let keys = format!("height = 1e-4\narrivals = [{}]", arrivals.join(", "));
         let text = drops(WAX, "film", 400.0, &keys) + &tiles(320.0);
         let found = warnings(&scene::parse(&text, "scene").unwrap(), &[]);
-        let own = scene::parse_with_warnings(&text, "scene").unwrap().1;
+        let own = advice::parse_with_warnings(&text, "scene").unwrap().1;
         let own = own.iter().map(ToString::to_string);
         found
             .into_iter()

@@ -4,7 +4,8 @@
 mod cold;
 mod of_drops;
 
-use impinge::scene::{Warning, implausible_place, parse, parse_with_warnings};
+use impinge::advice::{Warning, implausible_place, parse_with_warnings};
+use impinge::scene::parse;
 
 fn warnings(text: &str) -> Vec<String> {
     let (_, found) =

@@ -2,7 +2,8 @@
 
 use super::plan::fine_radius;
 use super::watch;
-use crate::scene::{Coupling, Droplet, Governing, HeatError, Resolution, Scene, Wall};
+use crate::advice::{HeatError, Resolution};
+use crate::scene::{Coupling, Droplet, Governing, Scene, Wall};
 
 /// What was chosen or left out, and why: a sentence each.
 pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {

@@ -5,13 +5,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::start_state;
+use crate::advice::{self, Warning};
 use crate::fmi::set_up::SetUpOnce;
 use crate::fmi::{MARK, guid};
 use crate::math::product::look_up_caches;
 use crate::model::{Kept, KeptReduction, State, keep_record, keep_reduction};
 use crate::runtime::address_space::{self, PRODUCTS, SPARE};
 use crate::runtime::thread::{STACK, aside};
-use crate::scene::{self, Scene, Warning};
+use crate::scene::{self, Scene};
 use crate::variables::Registry;
 
 /// Contents of a unit's resources, with what follows from them.
@@ -53,7 +54,7 @@ fn read_here(resources: &Path, guid: &str) -> Result<Packed, String> {
     let file = path.display().to_string();
     let text = scene::text_of(&path, &file)
         .map_err(|error| format!("cannot read the unit's scene: {error}"))?;
-    let scene = scene::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
+    let scene = advice::parse_with_warnings(&text, &file).map_err(|error| error.to_string())?;
     let mut packed = Packed::of(scene, &text);
     if guid != packed.guid {
         let own = &packed.guid;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::Unit;
+use crate::advice;
 use crate::fmi::types::Status;
 use crate::output::OutputError;
 use crate::runtime::thread::aside;
-use crate::scene;
 
 /// The subject of warnings of steps that are too short.
 const SHORT_STEPS: &str = "short steps";
@@ -42,7 +42,7 @@ impl Unit {
     pub(super) fn warn_of_scene(&mut self) {
         let changed = self.scene != self.packed;
         let warnings = match changed {
-            true => aside(|| scene::warnings(&self.scene)),
+            true => aside(|| advice::warnings(&self.scene)),
             false => self.warnings.clone(),
         };
         for warning in warnings {

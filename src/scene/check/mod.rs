@@ -191,7 +191,7 @@ fn is_sound(shape: &Shape) -> bool {
 }
 
 /// Whether a length is at most as large as another.
-pub(super) fn fits(length: f64, limit: f64) -> bool {
+pub(crate) fn fits(length: f64, limit: f64) -> bool {
     length <= limit * (1.0 + SLACK)
 }
 

@@ -13,6 +13,7 @@ pub use totals::offered_totals;
 use super::demand::DropInputs;
 use super::watch::{Watch, contact_share};
 use super::{Below, STRAY_SHARE, Wall, plan};
+use crate::advice::MEASURED_FILMS;
 use crate::body::{
     Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, wall_quantities,
 };
@@ -22,7 +23,7 @@ use crate::method::record::{Falling, Replay, ReplayPlan, ReplayTotals};
 use crate::method::sph::{Failure, ParticleFields, WarmPlace};
 use crate::port::{Domain, Surface, WallCells, WallExchange};
 use crate::runtime::allowance::Allowance;
-use crate::scene::{Arrival, Droplet, MEASURED_FILMS, Scene, lateral_extents};
+use crate::scene::{Arrival, Droplet, Scene, lateral_extents};
 use crate::state::Layout;
 
 /// Drops and what lies below them.

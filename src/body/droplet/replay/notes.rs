@@ -1,8 +1,9 @@
 //! What a user should know of drops that are replayed.
 
+use crate::advice::MEASURED_FILMS;
 use crate::body::droplet::watch;
 use crate::method::record::Course;
-use crate::scene::{Droplet, DropletMethod, MEASURED_FILMS, Scene};
+use crate::scene::{Droplet, DropletMethod, Scene};
 
 /// What was chosen or left out, and why: a sentence each.
 pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {

@@ -3,10 +3,10 @@
 
 use super::Reviewer;
 use crate::scene::check::{fits, number};
-use crate::scene::droplet::{Coupling, Droplet, Wall};
-use crate::scene::grid::lateral_extents;
+use crate::scene::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::types::{Footprint, Load, Mesh, Solid};
+use crate::scene::{Coupling, Droplet, Wall};
+use crate::scene::{Footprint, Load, Mesh, Solid};
 
 /// Fewest distances of nodes over the radius of a spot or half the size of tiles.
 pub const NODES_PER_RADIUS: f64 = 2.0;

@@ -8,19 +8,20 @@ mod moved;
 mod particles;
 mod phases;
 mod relations;
+mod resolution;
 mod values;
 
 use std::fmt;
 
-use super::check::number;
-use super::error::Problem;
-use super::locate::{Path, Source};
-use super::schema::Schema;
-use super::types::Scene;
+use crate::limits::number;
 use crate::limits::plausible::{self, BESIDE_WARM, CRYOGENIC, Cold, Range};
+use crate::scene::locate::{Path, Source};
+use crate::scene::schema::Schema;
+use crate::scene::{self, Problem, Scene, SceneError};
 
 pub use films::MEASURED_FILMS;
 pub use moved::implausible_place;
+pub use resolution::{HeatError, Resolution};
 
 /// Something that a scene says, and that is hardly meant.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -43,14 +44,30 @@ impl Warning {
     }
 
     /// The same of a scene that has no lines of its own.
-    pub(super) fn without_line(mut self) -> Self {
+    fn without_line(mut self) -> Self {
         self.problem.line = None;
         self
     }
 }
 
+/// Reads and checks a scene's text, and warns of what is implausible in it.
+pub fn parse_with_warnings(text: &str, file: &str) -> Result<(Scene, Vec<Warning>), SceneError> {
+    let (source, schema) = (Source::parse(text, file)?, Schema::of_scenes());
+    let scene = scene::parse_located(&source, &schema)?;
+    let found = found(&scene, &source, &schema);
+    Ok((scene, found))
+}
+
+/// What is implausible in a scene whose constants were changed after it was read; no lines are named.
+pub fn warnings(scene: &Scene) -> Vec<Warning> {
+    let Ok(text) = toml::to_string(scene) else { return Vec::new() };
+    let Ok(source) = Source::parse(&text, scene::CHANGED) else { return Vec::new() };
+    let found = found(scene, &source, &Schema::of_scenes());
+    found.into_iter().map(Warning::without_line).collect()
+}
+
 /// Everything in a checked scene that is hardly meant, in the order of the lines.
-pub(super) fn warnings(scene: &Scene, source: &Source, schema: &Schema) -> Vec<Warning> {
+fn found(scene: &Scene, source: &Source, schema: &Schema) -> Vec<Warning> {
     let mut reviewer = Reviewer { scene, source, found: Vec::new() };
     let cold = scene.cold();
     values::review(&mut reviewer, schema, cold);

@@ -1,11 +1,11 @@
 //! Particles too few, or of a kernel too wide, for what a scene asks of them.
 
 use super::Reviewer;
+use super::resolution::{HeatError, Resolution};
 use crate::kernel::Kernel;
-use crate::scene::check::number;
-use crate::scene::droplet::Droplet;
+use crate::limits::number;
+use crate::scene::Droplet;
 use crate::scene::locate::Path;
-use crate::scene::resolution::{HeatError, Resolution};
 
 /// Distances of particles over the thickness of a film below which it breaks up too soon, and what is proposed instead.
 const THINNEST: f64 = 1.5;

@@ -2,7 +2,7 @@
 
 use super::{CELSIUS, Reviewer, celsius, number};
 use crate::limits::plausible::{BESIDE_WARM, Cold};
-use crate::scene::droplet::Droplet;
+use crate::scene::Droplet;
 use crate::scene::locate::Path;
 
 pub fn review(reviewer: &mut Reviewer, cold: Cold) {

@@ -1,7 +1,7 @@
 //! Warnings of temperatures that are probably in °C.
 
 use crate::limits::plausible::{BESIDE_WARM, Cold};
-use crate::scene::types::{Body, Scene};
+use crate::scene::{Body, Scene};
 
 /// Density below which a liquid is hydrogen or helium [kg/m³].
 const LIGHTEST_COMMON: f64 = 150.0;

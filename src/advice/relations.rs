@@ -3,13 +3,13 @@
 use std::f64::consts::PI;
 
 use super::Reviewer;
+use crate::limits::number;
 use crate::limits::plausible;
 use crate::material::Constants;
-use crate::scene::check::number;
-use crate::scene::droplet::Fluid;
-use crate::scene::grid::lateral_extents;
+use crate::scene::Fluid;
+use crate::scene::lateral_extents;
 use crate::scene::locate::Path;
-use crate::scene::types::{CellValues, FaceName, HeatMethod, Mesh, Solid};
+use crate::scene::{CellValues, FaceName, HeatMethod, Mesh, Solid};
 
 /// Foams and aerogels are lighter [kg/m³] and conduct less [W/(m K)] than this.
 const LIGHT: f64 = 30.0;

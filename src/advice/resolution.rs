@@ -32,10 +32,9 @@
 //! (root mean square): 8 % at n = 10, 5 % at 20, 3 % at 40. At Re 17 000, beside 226 particles, it tells 8 % to 9 % too
 //! little at any n.
 
-use super::droplet::Droplet;
-use super::types::Scene;
 use crate::closed_form::FittedRange;
 use crate::closed_form::fitted_range::outside;
+use crate::scene::{Droplet, Scene};
 
 /// Ranges over which the law of heat was fitted. Above We 3 tension has no part in it, so what has none is within.
 const OF_HEAT: [FittedRange; 4] = [

@@ -1,9 +1,9 @@
 //! Footprints that an input moves to where the mesh does not see them, or makes too small for it.
 
 use super::arrangement::NODES_PER_RADIUS;
-use crate::scene::check::number;
-use crate::scene::grid::lateral_extents;
-use crate::scene::types::{Load, Mesh, MeshFactors, Scene, Solid};
+use crate::limits::number;
+use crate::scene::lateral_extents;
+use crate::scene::{Load, Mesh, MeshFactors, Scene, Solid};
 
 /// Growth of elements away from loads, where the scene names none.
 const GROWTH: f64 = 1.2;
