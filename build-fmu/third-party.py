@@ -31,7 +31,8 @@ def linked(metadata):
             if normal and "proc-macro" not in kinds and dependency["pkg"] not in found:
                 found.add(dependency["pkg"])
                 left.append(dependency["pkg"])
-    return sorted((packages[i] for i in found), key=lambda p: (p["name"], p["version"]))
+    others = (packages[i] for i in found if packages[i]["source"])  # not this workspace's own
+    return sorted(others, key=lambda package: (package["name"], package["version"]))
 
 
 def main():
