@@ -16,7 +16,7 @@ const BALANCED_BY_PARTICLES: f64 = 5e-2;
 /// Most values of probes that a run's report lists.
 const MOST_PROBED: usize = 40;
 
-/// Outputs of a body that tell whether it has yielded or crept.
+/// Outputs of a body that are zero until it yields or creeps.
 const IS_FLOW: [&str; 2] = ["max_plastic_strain", "plastic_work"];
 
 /// Where the heat of a body went [J].

@@ -28,7 +28,7 @@ pub enum BodyError {
     #[error(
         "the heat of {body} does not balance: {missing:.1e} J appear or vanish in this step, of {passed:.1e} J that are \
          stored or have passed, as its constants, coefficients and lengths lie too far apart for double precision \
-         (allowed: such that are nearer to those of real bodies)"
+         (allowed: values nearer to those of real materials)"
     )]
     Unbalanced { body: String, missing: f64, passed: f64 },
     /// An output is too large for numbers.

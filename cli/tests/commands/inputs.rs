@@ -207,7 +207,7 @@ fn places_between_rows_are_looked_at() {
 }
 
 #[test]
-fn a_table_that_begins_later_says_that_its_first_row_holds_before() {
+fn a_first_row_after_time_zero_is_noted() {
     let place = Workplace::new();
     let run = run_with(&place, "time,spot.heat_flux\n5e-7,2e7\n1e-6,2e7\n", &[]).succeeds();
     assert!(run.stderr().contains("the values of the first row, at 5e-7 s, hold from the start"));

@@ -634,7 +634,7 @@ fn what_cannot_be_printed_ends_without_a_panic() {
 }
 
 #[test]
-fn a_radius_that_fits_nowhere_is_told_of_the_radius() {
+fn a_footprint_wider_than_its_face_names_the_radius() {
     let place = Workplace::new();
     place.run(&["--set", "spot.radius=1"]).fails(1, &["spot.radius", "half width 1 m"]);
     place.run(&["--set", "spot.x=1.9e-4"]).fails(1, &["spot.x"]);

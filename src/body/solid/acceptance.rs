@@ -45,11 +45,12 @@ impl SolidBody {
         let after = self.heat_balance(state);
         let passed = before.passed + after.passed;
         let missing = (after.missing - before.missing).abs();
-        let at_start = self.heat_capacity() * self.solid.initial_temperature();
-        match missing <= BALANCE_OF_STEP * passed + ROUNDING * at_start {
-            true => Ok(()),
-            false => Err(BodyError::Unbalanced { body: self.name.clone(), missing, passed }),
+        let allowed = BALANCE_OF_STEP * passed;
+        let at_start = || self.heat_capacity() * self.solid.initial_temperature();
+        if missing <= allowed || missing <= allowed + ROUNDING * at_start() {
+            return Ok(());
         }
+        Err(BodyError::Unbalanced { body: self.name.clone(), missing, passed })
     }
 
     /// Refuses heat that no run leads to: temperatures that no matter has, or heat that did not come in.
