@@ -4,7 +4,7 @@
 use std::slice;
 use std::time::Instant;
 
-use impinge::material::Thermoelastic;
+use impinge::laws::Thermoelastic;
 use impinge::math::conjugate_gradients::{self, Operator};
 use impinge::method::fem::brick_inverse::BrickInverse;
 use impinge::method::fem::brick_stiffness::BrickStiffness;

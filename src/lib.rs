@@ -20,7 +20,7 @@ pub mod limits;
 
 pub mod channel;
 
-pub mod material;
+pub mod laws;
 
 pub mod kernel;
 

@@ -3,10 +3,9 @@
 use std::f64::consts::PI;
 
 use super::Reviewer;
+use crate::laws::{Constants, Fluid};
 use crate::limits::number;
 use crate::limits::plausible;
-use crate::material::Constants;
-use crate::scene::Fluid;
 use crate::scene::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::{CellValues, FaceName, HeatMethod, Mesh, Solid};
@@ -35,14 +34,14 @@ const HOTTEST_RISE: f64 = 1e4;
 pub fn review(reviewer: &mut Reviewer) {
     let root = Path::default();
     for (name, own) in &reviewer.scene.material {
-        solid(reviewer, &root.key("material").key(name), &own.properties().at(ROOM));
+        solid(reviewer, &root.key("material").key(name), &own.at(ROOM));
     }
     for (name, body) in reviewer.scene.solids() {
         let path = root.key("body").key(name);
         for (place, own) in body.materials(&path) {
             if place.is_within(&path) {
                 let start = body.initial_temperature;
-                solid(reviewer, &place, &own.properties().at(start));
+                solid(reviewer, &place, &own.at(start));
             }
         }
         fluxes(reviewer, (&path, name), body);

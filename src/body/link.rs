@@ -3,7 +3,7 @@
 use super::Body;
 use super::droplet;
 use super::solid::plan;
-use crate::material::Constants;
+use crate::laws::Constants;
 use crate::method::fem::Plan;
 use crate::method::sph::DropletSph;
 use crate::port::{CommonCells, LateralModes};

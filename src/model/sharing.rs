@@ -62,18 +62,18 @@ mod tests {
     #[test]
     fn models_that_differ_in_what_concerns_heat_share_their_stiffness() {
         let scene = parse(SCENE, "scene.toml").unwrap();
-        let built = |edit: fn(&mut crate::material::Properties)| {
+        let built = |edit: fn(&mut crate::laws::Material)| {
             let mut scene = scene.clone();
             let Some(crate::scene::Body::Solid(solid)) = scene.body.get_mut("plate") else {
                 panic!()
             };
             solid.mesh.depth_spacing = Some(2e-5);
-            edit(solid.material.as_mut().unwrap().properties_mut());
+            edit(solid.material.as_mut().unwrap().material_mut());
             Model::build(&scene, 1).unwrap()
         };
         let first = built(|_| {});
-        let denser = built(|properties| properties.density *= 2.0);
-        let stiffer = built(|properties| properties.young = Some(2e11.into()));
+        let denser = built(|material| material.heat.density *= 2.0);
+        let stiffer = built(|material| *material.number("young").unwrap() = 2e11);
         assert!(Arc::ptr_eq(&first.stiffness()[0], &denser.stiffness()[0]));
         assert!(!Arc::ptr_eq(&first.stiffness()[0], &stiffer.stiffness()[0]));
     }

@@ -1,7 +1,7 @@
 //! How outputs at time zero follow the constants of a scene.
 
 use super::{Cache, Model, ModelError};
-use crate::material::AtStart;
+use crate::laws::AtStart;
 use crate::scene::Scene;
 use crate::variables::{Output, Parameter, Quantity};
 

@@ -1,6 +1,6 @@
 //! Droplets, the walls that make units of them and their couplings to solids.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -10,6 +10,7 @@ use super::recording::Recording;
 use super::types::{CellValues, Footprint, IDENTIFIER};
 use crate::closed_form::DropImpact;
 use crate::kernel::Kernel;
+use crate::laws::Fluid;
 use crate::limits::{
     Bounds, Limits, above_zero, length, own_temperature, plausible, temperature, whole, within,
 };
@@ -163,54 +164,6 @@ pub enum DropletSymmetry {
     Axisymmetric,
 }
 
-/// A Newtonian fluid that conducts heat.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Fluid {
-    /// Mass density at rest [kg/m³].
-    #[schemars(transform = within(1e-3, 1e6, "kg/m³", "the density").plausible(&plausible::FLUID_DENSITY))]
-    pub density: f64,
-    /// Dynamic viscosity [Pa s].
-    #[schemars(transform = within(1e-9, 1e6, "Pa s", "the viscosity").plausible(&plausible::VISCOSITY))]
-    pub viscosity: f64,
-    /// Specific heat capacity [J/(kg K)].
-    #[schemars(transform = within(1e-1, 1e7, "J/(kg K)", "the specific heat capacity")
-        .plausible(&plausible::FLUID_SPECIFIC_HEAT))]
-    pub specific_heat: f64,
-    /// Thermal conductivity [W/(m K)]; 0 leaves heat out.
-    #[schemars(transform = within(0.0, 1e6, "W/(m K)", "the thermal conductivity")
-        .plausible(&plausible::FLUID_CONDUCTIVITY))]
-    pub conductivity: f64,
-    /// Surface tension [N/m].
-    #[serde(default)]
-    #[schemars(transform = within(0.0, 1e5, "N/m", "the surface tension")
-        .plausible(&plausible::SURFACE_TENSION)
-        .otherwise("0: left out"))]
-    pub surface_tension: f64,
-    /// Angle of contact with the wall [rad]; matters with tension only.
-    #[serde(default = "right_angle")]
-    #[schemars(transform = within(0.0, PI, "rad", "")
-        .says("the angle of contact is out of bounds", "0 to 3.14159 (rad)")
-        .otherwise("π/2, which is 90°"))]
-    pub contact_angle: f64,
-    /// Artificial speed of sound of the model [m/s]: pressures of the first blow grow with it.
-    #[schemars(transform = within(1e-6, 1e6, "m/s", "the speed of sound")
-        .otherwise("ten times the fastest flow or √(2σ/(ρΔx))")
-        .condition("at least five times these"))]
-    pub sound_speed: Option<f64>,
-    /// Temperature at which the fluid would freeze, which the model leaves out: a step that goes below warns [K].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = temperature().plausible(&plausible::FREEZING)
-        .otherwise("none: nothing is watched")
-        .condition("below `boils_at`"))]
-    pub freezes_at: Option<f64>,
-    /// Temperature at which the fluid would boil, which the model leaves out: a step that goes above warns [K].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(transform = temperature().plausible(&plausible::BOILING)
-        .otherwise("none: nothing is watched"))]
-    pub boils_at: Option<f64>,
-}
-
 /// How particles are laid out at first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -341,13 +294,6 @@ pub struct Coupling {
     pub radius: Option<f64>,
 }
 
-impl Fluid {
-    /// Thermal effusivity `e = √(k ρ c)` [W √s/(m² K)].
-    pub fn effusivity(&self) -> f64 {
-        (self.conductivity * self.density * self.specific_heat).sqrt()
-    }
-}
-
 fn is_zero(value: &f64) -> bool {
     *value == 0.0
 }
@@ -364,10 +310,6 @@ fn default_density_diffusion() -> f64 {
     Droplet::DEFAULT_DENSITY_DIFFUSION
 }
 
-fn right_angle() -> f64 {
-    FRAC_PI_2
-}
-
 fn yes() -> bool {
     true
 }
@@ -381,9 +323,6 @@ const SOUND_OVER_FLOW: f64 = 10.0;
 /// Least speed of sound over that of the flow or its surface: below, the fluid would be compressed by 4 % and
 /// more, or its surface come loose.
 pub const LEAST_SOUND_OVER_FLOW: f64 = 5.0;
-
-/// Pressure of a drop that viscosity stops, over µU/D.
-const VISCOUS_PRESSURE: f64 = 12.0;
 
 /// What moves or presses a fluid most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -424,7 +363,7 @@ impl Droplet {
     /// capillary waves, √(σ/(ρR)) [m/s].
     pub fn fastest_flow(&self) -> f64 {
         let fall = self.gain_by_fall();
-        let capillary = self.fluid.surface_tension / (self.fluid.density * 0.5 * self.diameter);
+        let capillary = self.fluid.capillary_speed_squared(0.5 * self.diameter);
         (self.impact_velocity.powi(2) + fall).max(capillary).sqrt()
     }
 
@@ -433,28 +372,16 @@ impl Droplet {
         2.0 * self.gravity * (self.gap() + self.diameter)
     }
 
-    /// √(2σ/(ρΔx)) [m/s], the speed that belongs to Laplace's pressure 2σ/Δx of the sharpest surface that
-    /// particles can show; no less than √(σ/(ρΔx)) of the shortest waves and √(2σ/(ρR)) of the whole drop. Sound
-    /// that is not much faster lets the outermost particles come loose, one after the other.
-    pub fn surface_speed(&self) -> f64 {
-        (2.0 * self.fluid.surface_tension / (self.fluid.density * self.spacing)).sqrt()
-    }
-
-    /// √(12 µU/(ρD)) [m/s], the speed that belongs to the pressure by which a drop of high viscosity stops:
-    /// above that of the flow where Re < 12. Drops of Re 0.8 to 5 were seen to bear 12 to 14 µU/D; at Re 0.1 (asphalt, D/Δx
-    /// 10 to 40) density stays within 0.5 % at communication points. Below that nothing was measured.
-    pub fn viscous_speed(&self) -> f64 {
-        let Fluid { density, viscosity, .. } = self.fluid;
-        (VISCOUS_PRESSURE * viscosity * self.impact_velocity / (density * self.diameter)).sqrt()
-    }
-
     /// The speed beside which that of sound is to be large [m/s], and what it is the speed of.
     pub fn governing_speed(&self) -> (Governing, f64) {
-        [(Governing::Surface, self.surface_speed()), (Governing::Viscosity, self.viscous_speed())]
-            .into_iter()
-            .fold((Governing::Flow, self.fastest_flow()), |largest, other| {
+        let surface = self.fluid.laplace_speed(self.spacing);
+        let viscous = self.fluid.viscous_speed(self.impact_velocity, self.diameter);
+        [(Governing::Surface, surface), (Governing::Viscosity, viscous)].into_iter().fold(
+            (Governing::Flow, self.fastest_flow()),
+            |largest, other| {
                 if other.1 > largest.1 { other } else { largest }
-            })
+            },
+        )
     }
 
     /// Speed of sound of the model [m/s].
@@ -580,9 +507,9 @@ impl Droplet {
 
     /// Whether particles are shifted.
     pub fn shifts(&self) -> bool {
-        let Fluid { density, surface_tension, .. } = self.fluid;
-        let inertia = density * self.impact_velocity.powi(2) * self.diameter;
-        self.shifting.unwrap_or(inertia > INERTIAL * surface_tension || surface_tension == 0.0)
+        let tension = self.fluid.surface_tension;
+        let inertia = self.fluid.density * self.impact_velocity.powi(2) * self.diameter;
+        self.shifting.unwrap_or(inertia > INERTIAL * tension || tension == 0.0)
     }
 
     /// The impact of a drop as closed forms know it.

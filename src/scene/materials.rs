@@ -10,7 +10,7 @@ use serde::{Serialize, Serializer};
 
 use super::locate::Path;
 use super::types::{Layer, Probe, Scene, Side, Solid};
-use crate::material::{Constants, Material, Properties, Thermoelastic};
+use crate::laws::{Constants, Material, Thermoelastic};
 
 /// Part of a body's thickness within which a point lies on an interface, and by which layers may miss it.
 pub const SLACK: f64 = 1e-9;
@@ -44,17 +44,12 @@ impl MaterialChoice {
         self.material.as_ref().expect("a decoded scene's names of materials are looked up")
     }
 
-    /// The properties, to be changed.
+    /// The material, to be changed.
     ///
     /// # Panics
     /// If the scene has not been decoded, which looks all names up.
-    pub fn properties_mut(&mut self) -> &mut Properties {
-        let known = self.material.as_mut();
-        known.expect("a decoded scene's names of materials are looked up").properties_mut()
-    }
-
-    pub fn properties(&self) -> &Properties {
-        self.material().properties()
+    pub fn material_mut(&mut self) -> &mut Material {
+        self.material.as_mut().expect("a decoded scene's names of materials are looked up")
     }
 }
 
@@ -130,7 +125,7 @@ impl Solid {
         let start = self.initial_temperature;
         let bottom = -self.shape.thickness();
         let Some(layers) = &self.layers else {
-            let own = self.material.iter().map(|choice| choice.properties().at(start));
+            let own = self.material.iter().map(|choice| choice.material().at(start));
             return own
                 .map(|constants| Stratum { constants, z: [bottom, 0.0], contact_resistance: 0.0 })
                 .collect();
@@ -144,14 +139,14 @@ impl Solid {
             let z = [low, top];
             top = low;
             let contact_resistance = layer.contact_resistance.unwrap_or(0.0);
-            Stratum { constants: layer.material.properties().at(start), z, contact_resistance }
+            Stratum { constants: layer.material.material().at(start), z, contact_resistance }
         };
         layers.iter().enumerate().map(place).collect()
     }
 
     /// Whether a part of it melts.
     pub fn melts(&self) -> bool {
-        self.materials_of_layers().iter().any(|own| own.properties().melting.is_some())
+        self.materials_of_layers().iter().any(|own| own.heat.melting.is_some())
     }
 
     /// Coordinates of the interfaces between layers, from the top [m].
@@ -208,14 +203,14 @@ impl Solid {
     /// radiates.
     pub fn conducts_linearly(&self) -> bool {
         let mut materials = self.materials_of_layers().into_iter();
-        materials.all(|material| material.properties().conducts_linearly())
+        materials.all(|material| material.heat.is_linear())
             && self.faces.values().all(|face| face.radiation.is_none())
     }
 
     /// Whether stress follows linearly from deformation and temperature.
     pub fn deforms_linearly(&self) -> bool {
         let mut materials = self.materials_of_layers().into_iter();
-        materials.all(|material| material.properties().deforms_linearly())
+        materials.all(|material| material.law.deformation().is_linear())
     }
 
     /// Whether a part of the body yields.

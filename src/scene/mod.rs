@@ -31,8 +31,8 @@ use std::path::Path;
 pub use cells::Cells;
 pub use check::takes_newton;
 pub use droplet::{
-    Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Fluid, Governing, Placement,
-    Precision, ReleaseBy, Wall, WallStart, velocity,
+    Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Governing, Placement, Precision,
+    ReleaseBy, Wall, WallStart, velocity,
 };
 pub use error::{Problem, SceneError};
 pub use file::{bytes_of, open_file};

@@ -8,11 +8,11 @@ use super::materials::MaterialChoice;
 use super::refinement::MeshFactors;
 use super::reservoir::Reservoir;
 use crate::kernel::Kernel;
+use crate::laws::Material;
 use crate::limits::{
     Keys, above_zero, ambient, any, count, heat_flux, length, not_negative, own_temperature,
     plausible, tag, time, whole, within,
 };
-use crate::material::Material;
 
 pub use super::load::{Carries, CellShape, CellValues, Footprint, Load, LoadRange, LoadStart};
 

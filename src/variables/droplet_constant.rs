@@ -1,6 +1,6 @@
 //! Which constants of droplets units offer as parameters: a row for each.
 
-use crate::material::AtStart;
+use crate::laws::AtStart;
 use crate::quantity::Quantity;
 use crate::scene::Droplet;
 

@@ -45,8 +45,8 @@ fn constants(
             (format!("{body}.layer[{}]", i + 1), owner, LayersOf::Single(i))
         }
     };
-    let given = |constant: &&MaterialConstant| constant.is_given(layer.material.properties());
-    for constant in MaterialConstant::ALL.iter().filter(given) {
+    let given = |constant: &&MaterialConstant| constant.is_given(layer.material.material());
+    for constant in MaterialConstant::all().into_iter().filter(given) {
         let (body, layers) = (body.to_owned(), layers.clone());
         add(
             format!("{prefix}.{}", constant.key),

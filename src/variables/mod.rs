@@ -15,7 +15,7 @@ mod plausibility;
 mod registry;
 
 pub use crate::inputs::InputLayout;
-pub use crate::material::MaterialConstant;
+pub use crate::laws::MaterialConstant;
 pub use crate::quantity::{DisplayUnit, Quantity};
 pub use arrays::{ArrayRegistry, ArrayVariable, Content};
 pub use cells::CellFamily;

@@ -1,5 +1,5 @@
 use super::DropletConstant;
-use crate::material::MaterialConstant;
+use crate::laws::MaterialConstant;
 use crate::scene::{Body, FaceName, Layer, Scene};
 
 /// A constant of the scene that may be set until initialisation ends.
@@ -88,12 +88,12 @@ impl Parameter {
             }
             (Parameter::Material { constant, .. }, Body::Solid(solid)) => {
                 let own = solid.material.iter_mut();
-                own.filter_map(|choice| constant.place(choice.properties_mut())).collect()
+                own.filter_map(|choice| constant.place(choice.material_mut())).collect()
             }
             (Parameter::LayerMaterial { layers, constant, .. }, Body::Solid(solid)) => {
                 let all = solid.layers.iter_mut().flatten().enumerate();
                 all.filter(|(i, layer)| layers.contains(*i, layer))
-                    .filter_map(|(_, layer)| constant.place(layer.material.properties_mut()))
+                    .filter_map(|(_, layer)| constant.place(layer.material.material_mut()))
                     .collect()
             }
             (Parameter::ContactResistance { layer, .. }, Body::Solid(solid)) => {

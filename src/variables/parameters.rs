@@ -23,8 +23,8 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
     };
     for (body, solid) in scene.solids() {
         if let Some(choice) = &solid.material {
-            let given = |constant: &&MaterialConstant| constant.is_given(choice.properties());
-            for constant in MaterialConstant::ALL.iter().filter(given) {
+            let given = |constant: &&MaterialConstant| constant.is_given(choice.material());
+            for constant in MaterialConstant::all().into_iter().filter(given) {
                 add(
                     format!("{body}.{}", constant.key),
                     format!("{} of {body}", constant.description),

@@ -144,11 +144,8 @@ fn fields_hold_both_sides_of_interfaces() {
                 fields.stress[node][0]
             );
         }
-        let highest = fields
-            .stress
-            .iter()
-            .map(|&s| impinge::material::stress::von_mises(s))
-            .fold(0.0, f64::max);
+        let highest =
+            fields.stress.iter().map(|&s| impinge::laws::stress::von_mises(s)).fold(0.0, f64::max);
         assert!(off(trial.get("plate.max_von_mises"), highest) < 1e-12);
         assert!(trial.get("plate.max_temperature") >= trial.get("above.temperature"));
     }

@@ -5,7 +5,7 @@ mod ranges;
 use impinge::closed_form::{
     Conductor, Contact as TwoBodies, LinearConductivity, MeltingFront, RadiatingLump,
 };
-use impinge::material::{Melting, Property, Substance, Table};
+use impinge::laws::{Conduction, Melting, Property, Table};
 use impinge::method::enthalpy::{Condition, Contact, EnthalpyHeat, Face, Loads, Setup};
 use impinge::method::fem::{
     Axis, Geometry, HeatLoads, HeatProblem, Layering, Mesh, MeshFace, ThermalFace, Weight,
@@ -44,9 +44,9 @@ fn disc(radius: f64, depth: f64, counts: [usize; 2]) -> Mesh {
     }
 }
 
-fn plain(density: f64, specific_heat: f64, conductivity: f64) -> Substance {
+fn plain(density: f64, specific_heat: f64, conductivity: f64) -> Conduction {
     let (specific_heat, conductivity) = (specific_heat.into(), conductivity.into());
-    Substance { density, specific_heat, conductivity, melting: None }
+    Conduction { density, specific_heat, conductivity, melting: None }
 }
 
 fn table(temperature: &[f64], value: &[f64]) -> Property {
@@ -56,7 +56,7 @@ fn table(temperature: &[f64], value: &[f64]) -> Property {
 fn setup(
     mesh: Mesh,
     reference: f64,
-    material: Substance,
+    material: Conduction,
     faces: &[(MeshFace, Condition)],
 ) -> Setup {
     let faces = faces.iter().map(|&(place, condition)| Face { place, condition }).collect();
@@ -151,10 +151,10 @@ fn constant_constants_give_the_exact_modes_at_second_order() {
 }
 
 /// `k` and `c` that grow linearly from 300 K on by 0.3 % per kelvin.
-fn kirchhoff() -> (LinearConductivity, Substance) {
+fn kirchhoff() -> (LinearConductivity, Conduction) {
     let body = Conductor { conductivity: 5.0, heat_capacity: 6.0 };
     let grown = |value: f64| table(&[200.0, 900.0], &[0.7 * value, 2.8 * value]);
-    let material = Substance {
+    let material = Conduction {
         density: 2.0,
         specific_heat: grown(3.0),
         conductivity: grown(5.0),
@@ -205,8 +205,8 @@ fn a_steady_slab_of_changing_conductivity_is_exact_at_the_nodes() {
 }
 
 /// Ice and water of one density.
-fn water(solidus: f64, liquidus: f64) -> Substance {
-    Substance {
+fn water(solidus: f64, liquidus: f64) -> Conduction {
+    Conduction {
         density: 1000.0,
         specific_heat: table(&[273.1499, 273.1501], &[2050.0, 4200.0]),
         conductivity: table(&[273.1499, 273.1501], &[2.2, 0.57]),
@@ -273,7 +273,7 @@ fn fronts_go_as_neumann_says_and_do_not_stall() {
 #[test]
 fn a_molten_pool_freezes_and_every_joule_is_accounted_for() {
     // A hot disc melts a pool, which freezes when the heat is off and the disc radiates.
-    let steel = Substance {
+    let steel = Conduction {
         density: 7500.0,
         specific_heat: table(&[300.0, 1000.0, 1050.0, 1800.0], &[450.0, 800.0, 700.0, 830.0]),
         conductivity: table(&[300.0, 1100.0, 1750.0], &[50.0, 27.0, 34.0]),
@@ -376,8 +376,10 @@ fn layers_with_a_contact_have_the_steady_temperatures_of_resistances_in_series()
 #[test]
 fn two_bodies_in_contact_share_the_temperature_that_their_effusivities_say() {
     let (first, second) = (plain(2700.0, 900.0, 200.0), plain(1000.0, 4000.0, 0.6));
-    let of =
-        |m: &Substance, c: f64, k: f64| Conductor { heat_capacity: m.density * c, conductivity: k };
+    let of = |m: &Conduction, c: f64, k: f64| Conductor {
+        heat_capacity: m.density * c,
+        conductivity: k,
+    };
     let exact = TwoBodies {
         first: of(&first, 900.0, 200.0),
         first_temperature: 400.0,

@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use impinge::material::stress::{max_principal, von_mises};
+use impinge::laws::stress::{max_principal, von_mises};
 use impinge::model::{Cache, NodalFields, State, forecast};
 use impinge::scene::{self, Scene};
 use impinge::variables::{Registry, Slot};

@@ -46,7 +46,7 @@ const SECTIONS: [Section; 30] = [
     ),
     ("`shape` of a solid", IMPACT, "shape = {", "shape = { zz = 1, aa = 1 } # {", &[]),
     ("`shape.disc`", IMPACT, "shape = {", "shape = { disc = { zz = 1 } } # {", &[]),
-    ("`material` of a solid", PLATE, "density = 3950.0", "density = 3950.0, zz = 1", &["model"]),
+    ("`material` of a solid", PLATE, "\"thermoelastic\"", "\"viscoplastic\", zz = 1", &["model"]),
     (
         "`melting` of a material",
         PLATE,
@@ -57,8 +57,8 @@ const SECTIONS: [Section; 30] = [
     (
         "`creep` of a material",
         PLATE,
-        "density = 3950.0",
-        "density = 3950.0, creep = { zz = 1 }",
+        "\"thermoelastic\"",
+        "\"viscoplastic\", creep = { zz = 1 }",
         &[],
     ),
     ("`layers` of a solid", PLATE, "material = {", "layers = [{ zz = 1 }] # {", &[]),

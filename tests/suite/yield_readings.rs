@@ -1,7 +1,7 @@
 //! Stress and plastic strain that are read of bodies that yield or creep, anywhere on coarse meshes.
 
 use impinge::closed_form::{Bilinear, Conductor, HeatedSlab};
-use impinge::material::stress::{max_principal, von_mises};
+use impinge::laws::stress::{max_principal, von_mises};
 use impinge::model::NodalFields;
 
 use crate::common::{Trial, off};

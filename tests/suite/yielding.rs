@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use impinge::closed_form::{Bilinear, YieldingCylinder};
-use impinge::material::{Elastoplastic, Thermoelastic, constant};
+use impinge::laws::{Elastoplastic, Thermoelastic, constant};
 use impinge::method::fem::elastic::{ElasticProblem, ElasticSetup, Support};
 use impinge::method::fem::{Axis, Geometry, Layering, Mesh, MeshFace, Weight};
 use impinge::method::inelastic::{InelasticError, InelasticProblem};

@@ -1,7 +1,8 @@
 //! Points at which a fluid would freeze or boil, which no droplet does.
 
+use crate::laws::Fluid;
 use crate::method::sph::WarmPlace;
-use crate::scene::{Fluid, Scene};
+use crate::scene::Scene;
 
 /// A change of phase that the model leaves out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! Whether a solid is expected to melt, which decides what its heat costs.
 
-use crate::material::{Melting, Properties};
+use crate::laws::{Conduction, Melting};
 use crate::scene::{Carries, Face, Load, Scene, Solid};
 
 /// Returns true unless everything that acts from the start is known to leave the solid below every solidus.
@@ -9,10 +9,9 @@ use crate::scene::{Carries, Face, Load, Scene, Solid};
 pub fn may_melt(scene: &Scene, name: &str, solid: &Solid) -> bool {
     let heat = Heat::on(scene, name, solid);
     solid.materials_of_layers().into_iter().any(|material| {
-        let properties = material.properties();
         let melts =
-            |melting: &Melting| heat.hottest(properties, scene.stop_time) >= melting.solidus;
-        properties.melting.as_ref().is_some_and(melts)
+            |melting: &Melting| heat.hottest(&material.heat, scene.stop_time) >= melting.solidus;
+        material.heat.melting.as_ref().is_some_and(melts)
     })
 }
 
@@ -40,10 +39,10 @@ impl Heat {
 
     /// Temperature in the middle of all fluxes at once after a time [K]: `q/k · min(2√(at/π), R)` each, of a half space
     /// under an even flux, and under a disc that has come to rest.
-    fn hottest(&self, properties: &Properties, time: f64) -> f64 {
+    fn hottest(&self, conduction: &Conduction, time: f64) -> f64 {
         let least = |values: &[f64]| values.iter().copied().fold(f64::INFINITY, f64::min);
-        let conductivity = least(properties.conductivity.values());
-        let capacity = properties.density * least(properties.specific_heat.values());
+        let conductivity = least(conduction.conductivity.values());
+        let capacity = conduction.density * least(conduction.specific_heat.values());
         let depth = 2.0 * (conductivity / capacity * time / std::f64::consts::PI).sqrt();
         let rise = |(flux, radius): &(f64, f64)| flux / conductivity * depth.min(*radius);
         self.hottest + self.fluxes.iter().map(rise).sum::<f64>()

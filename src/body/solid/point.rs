@@ -4,8 +4,8 @@ use super::linear::SolidChange;
 use super::reader::SolidReader;
 use super::rows;
 use crate::body::{BodyError, Descriptor, Direct};
-use crate::material::stress::{max_principal, von_mises};
-use crate::material::stress_rate::{max_principal_rate, von_mises_rate};
+use crate::laws::stress::{max_principal, von_mises};
+use crate::laws::stress_rate::{max_principal_rate, von_mises_rate};
 use crate::quantity::Quantity;
 use crate::scene::Gives;
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::SolidBody;
 use crate::body::{Acts, BodyError};
-use crate::material::FlowLaw;
+use crate::laws::FlowLaw;
 use crate::math::cholesky::SolverError;
 use crate::method::fem::{Deformation, Plan, Remembered, SolidLoads, Temperatures};
 use crate::method::inelastic::{

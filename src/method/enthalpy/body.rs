@@ -3,7 +3,7 @@
 use super::grid::Grid;
 use super::lateral::{End, Lateral};
 use super::setup::{Condition, Loads, Setup};
-use crate::material::{Curve, Enthalpy, radiative_flux, radiative_slope};
+use crate::laws::{Curve, Enthalpy, radiative_flux, radiative_slope};
 
 /// All that is known before time starts.
 pub struct Body {
@@ -66,7 +66,7 @@ impl Body {
     pub fn new(setup: &Setup) -> Self {
         let grid = Grid::new(setup);
         let (laws, law_of) = laws(setup, &grid);
-        let curve = |substance: &crate::material::Substance| substance.kirchhoff(setup.reference);
+        let curve = |substance: &crate::laws::Conduction| substance.kirchhoff(setup.reference);
         let curves: Vec<Curve> = setup.materials.iter().map(curve).collect();
         let areas = grid.areas();
         let volumes = grid.levels.iter().flat_map(|l| areas.iter().map(|area| area * l.height()));

@@ -1,6 +1,6 @@
 //! What a nonlinear heat problem is made of, as plain data.
 
-use crate::material::{Substance, SubstanceError};
+use crate::laws::{Conduction, ConductionError};
 use crate::method::mesh::{Mesh, MeshFace};
 
 /// A body and what surrounds it.
@@ -10,7 +10,7 @@ pub struct Setup {
     pub mesh: Mesh,
     /// Temperature [K] from which enthalpies count; best that of the body at time zero.
     pub reference: f64,
-    pub materials: Vec<Substance>,
+    pub materials: Vec<Conduction>,
     /// For each element of the mesh along z, its material; empty for the first one throughout.
     pub layers: Vec<usize>,
     pub contacts: Vec<Contact>,
@@ -63,7 +63,7 @@ pub enum SetupError {
     #[error("reference temperature {0} K (allowed: finite, above 0)")]
     Reference(f64),
     #[error("material {0}: {1}")]
-    Material(usize, SubstanceError),
+    Material(usize, ConductionError),
     #[error("{layers} layers for {elements} elements along z (allowed: one for each, or none)")]
     Layers { layers: usize, elements: usize },
     #[error("a layer of material {material} (allowed: below {materials})")]

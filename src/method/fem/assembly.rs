@@ -2,7 +2,7 @@
 
 use super::axisymmetric::{QuadrilateralMatrices, Rectangle};
 use super::hexahedron::HexahedronMatrices;
-use crate::material::Thermoelastic;
+use crate::laws::Thermoelastic;
 use crate::math::cholesky::LowerTriangle;
 use crate::math::stencil_matrix::{Reach, StencilMatrix};
 use crate::method::mesh::{Geometry, Mesh};

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{DMatrix, DVector, Matrix4, Vector4};
 
-use crate::material::Thermoelastic;
+use crate::laws::Thermoelastic;
 use crate::math::gauss::gauss_legendre;
 use crate::math::lagrange::{shape, slope};
 

@@ -17,7 +17,7 @@ use num_traits::{AsPrimitive, Float};
 
 use super::brick_polynomials::{PolynomialModuli, legendre, moduli, strain_of};
 use super::modes::{AxisModes, EndCondition};
-use crate::material::Thermoelastic;
+use crate::laws::Thermoelastic;
 use crate::math::product::product;
 use crate::method::mesh::Axis;
 use crate::method::mesh::Mesh;

@@ -11,7 +11,7 @@
 //!   their own polynomials: a normal strain along i where l_i = 1, the shear ij for l = e_i and l = e_j. What is left
 //!   are plane and uniaxial stress, and no energy of those shears.
 
-use crate::material::Thermoelastic;
+use crate::laws::Thermoelastic;
 
 /// Moduli of one product of Legendre polynomials.
 #[derive(Debug, Clone, Copy, PartialEq)]

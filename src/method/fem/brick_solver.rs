@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::brick_inverse::BrickInverse;
 use super::brick_stiffness::BrickStiffness;
-use crate::material::Thermoelastic;
+use crate::laws::Thermoelastic;
 use crate::math::conjugate_gradients::{self, NotConverged, Operator};
 use crate::method::mesh::Mesh;
 use crate::runtime::parallel::Team;

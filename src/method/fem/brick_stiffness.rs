@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use super::brick_polynomials::{PolynomialModuli, legendre, moduli};
 use super::brick_row::{Row, RowLengths, RowPlace};
-use crate::material::Thermoelastic;
+use crate::laws::Thermoelastic;
 use crate::math::eight::{self, Eight};
 use crate::method::mesh::Layering;
 use crate::method::mesh::Mesh;

@@ -11,7 +11,7 @@ use faer::linalg::triangular_solve::{
 use faer::{Mat, Par};
 
 use super::modes::{EndCondition, cholesky_factor, deflate_constant};
-use crate::material::Constants;
+use crate::laws::Constants;
 use crate::math::eigenvectors::eigenvectors;
 use crate::math::gauss::gauss_on;
 use crate::method::mesh::Mesh;

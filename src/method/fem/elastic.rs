@@ -14,7 +14,7 @@ use super::brick_solver::{self, BrickSolver};
 use super::dilatation::{DilatationProjection, POLYNOMIALS, evaluate};
 use super::recovery::sampling_places;
 use super::solver_choice::{solver_memory, suits_conjugate_gradients};
-use crate::material::Thermoelastic;
+use crate::laws::Thermoelastic;
 use crate::math::cholesky::{SolverError, SparseCholesky};
 use crate::math::nested_dissection::nested_dissection;
 use crate::math::stencil_matrix::StencilMatrix;

@@ -11,7 +11,7 @@
 use nalgebra::SMatrix;
 
 use super::dilatation::{DilatationProjection, POLYNOMIALS};
-use crate::material::Thermoelastic;
+use crate::laws::Thermoelastic;
 use crate::math::gauss::gauss_legendre;
 use crate::math::lagrange::{shape, slope};
 

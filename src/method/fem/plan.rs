@@ -6,7 +6,7 @@ use super::elastic::Support;
 use super::fineness::{Fineness, Resolution};
 use super::heat::ThermalFace;
 use super::solver_choice::note_on_solver;
-use crate::material::{Constants, FlowLaw, Substance, Thermoelastic};
+use crate::laws::{Conduction, Constants, FlowLaw, Thermoelastic};
 use crate::method::mesh::{Axis, Weight};
 use crate::method::mesh::{Geometry, Mesh, MeshFace};
 use crate::scene::{
@@ -50,7 +50,7 @@ pub struct Plan {
 #[derive(Debug, Clone, PartialEq)]
 pub struct NewtonPlan {
     /// What each layer is made of, from the lowest on.
-    pub materials: Vec<Substance>,
+    pub materials: Vec<Conduction>,
     pub radiation: Vec<(MeshFace, Radiation)>,
     /// What a step in time may err by [K].
     pub tolerance: f64,
@@ -345,8 +345,8 @@ fn thermal_condition(face: &Face) -> Option<ThermalFace> {
 }
 
 fn newton_plan(solid: &Solid, mesh: &Mesh, tolerance: f64) -> NewtonPlan {
-    let mut materials: Vec<Substance> =
-        solid.materials_of_layers().iter().map(|own| own.properties().substance()).collect();
+    let mut materials: Vec<Conduction> =
+        solid.materials_of_layers().iter().map(|own| own.heat.clone()).collect();
     materials.reverse();
     let radiating = solid.shape.faces().iter().filter_map(|&name| {
         let radiation = solid.face(name).radiation?;
@@ -365,7 +365,7 @@ fn inelastic_laws(solid: &Solid, mesh: &Mesh) -> Vec<Arc<dyn FlowLaw>> {
     materials.reverse();
     let stress_free = solid.temperature_without_stress();
     let laws: Vec<Arc<dyn FlowLaw>> =
-        materials.iter().map(|own| own.properties().flow_law(stress_free)).collect();
+        materials.iter().map(|own| own.flow_law(stress_free)).collect();
     let elements = mesh.axes[2].elements();
     (0..elements).map(|element| laws[mesh.layering.layer_of(element)].clone()).collect()
 }

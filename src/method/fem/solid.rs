@@ -15,7 +15,7 @@ use super::end_response::EndResponse;
 use super::free_faces::FreeFaces;
 use super::heat::HeatLoads;
 use super::plan::Plan;
-use crate::material::{FlowLaw, Thermoelastic};
+use crate::laws::{FlowLaw, Thermoelastic};
 use crate::math::cholesky::SolverError;
 use crate::method::heat_totals::HeatTotals;
 use crate::method::mesh::Axis;

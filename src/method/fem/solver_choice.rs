@@ -1,7 +1,7 @@
 //! How displacements are found: by a factor of stiffness or by conjugate gradients, and what that takes.
 
 use super::brick_solver::BrickSolver;
-use crate::material::Thermoelastic;
+use crate::laws::Thermoelastic;
 use crate::method::mesh::{Geometry, Mesh};
 
 /// Entries of the factor of a solid mesh per unknown^(4/3), and of a meridian section per

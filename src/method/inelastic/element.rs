@@ -3,7 +3,7 @@
 use super::locking::{LockingTreatment, MOST_MODES, SmallFactor};
 use super::problem::PointState;
 use super::shapes::{Scratch, Shapes};
-use crate::material::{History, PointConstants, PointTangent};
+use crate::laws::{PlasticHistory, PointConstants, PointTangent};
 
 /// Tables that all elements share.
 pub struct Kit {
@@ -165,12 +165,12 @@ impl Kit {
             let dilatation = self.split(&volumes, |q| constants[q].thermal_strain, strains);
             let mut most = 0.0_f64;
             for q in 0..points {
-                let at = (e * points + q) * History::LEN;
-                let old = History::read(&given.old[at..]);
-                let mut new = History::default();
+                let at = (e * points + q) * PlasticHistory::LEN;
+                let old = PlasticHistory::read(&given.old[at..]);
+                let mut new = PlasticHistory::default();
                 let (stress, mut tangent) =
                     constants[q].return_to_yield(&strains[q], &old, &mut new);
-                new.write(&mut answer.new[at..at + History::LEN]);
+                new.write(&mut answer.new[at..at + PlasticHistory::LEN]);
                 tangent.along = tangent.along.max(2.0 * LEAST * constants[q].shear - tangent.all);
                 answer.tangents[e * points + q] = tangent;
                 pressures[q] = constants[q].bulk * dilatation[q];
@@ -206,7 +206,8 @@ impl Kit {
             let first = out.len();
             let mut pressures = Vec::with_capacity(points);
             for (q, (constants, shape)) in constants.iter().zip(&mut *strains).enumerate() {
-                let history = History::read(&given.old[(e * points + q) * History::LEN..]);
+                let history =
+                    PlasticHistory::read(&given.old[(e * points + q) * PlasticHistory::LEN..]);
                 let elastic: [f64; 6] =
                     std::array::from_fn(|i| shape[i] - history.plastic_strain[i]);
                 *shape = constants.elastic_tangent().of_shape(&elastic);

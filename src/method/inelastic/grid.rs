@@ -3,7 +3,7 @@
 use super::element::{Answer, Given, Kit, Known};
 use super::locking::LockingTreatment;
 use super::shapes::{Scratch, Shapes};
-use crate::material::{History, PointConstants, PointTangent};
+use crate::laws::{PlasticHistory, PointConstants, PointTangent};
 use crate::method::fem::{Geometry, Mesh};
 use crate::runtime::parallel::Team;
 
@@ -172,7 +172,7 @@ impl Grid {
         Iterate {
             displacement: vec![0.0; self.unknowns()],
             amplitudes: vec![0.0; elements * modes],
-            new: vec![0.0; self.points() * History::LEN],
+            new: vec![0.0; self.points() * PlasticHistory::LEN],
             tangents: vec![none; self.points()],
             forces: vec![0.0; self.unknowns()],
             mode_forces: vec![0.0; elements * modes],
@@ -195,7 +195,7 @@ impl Grid {
         let mut items = Vec::new();
         let mut on_modes = mode_forces.chunks_mut((count * modes).max(1));
         for ((new, tangents), scales) in new
-            .chunks_mut(count * points * History::LEN)
+            .chunks_mut(count * points * PlasticHistory::LEN)
             .zip(tangents.chunks_mut(count * points))
             .zip(scales.chunks_mut(count))
         {
@@ -220,10 +220,10 @@ impl Grid {
                         displacement: &u,
                         amplitudes: &amplitudes[at(modes)],
                         constants: &constants[at(points)],
-                        old: &old[at(points * History::LEN)],
+                        old: &old[at(points * PlasticHistory::LEN)],
                     };
                     let mut answer = Answer {
-                        new: &mut new[within(points * History::LEN)],
+                        new: &mut new[within(points * PlasticHistory::LEN)],
                         tangents: &mut tangents[within(points)],
                         forces: &mut f,
                         mode_forces: &mut mode_forces[within(modes)],

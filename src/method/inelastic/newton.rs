@@ -8,7 +8,7 @@
 use super::grid::{Grid, Iterate};
 use super::problem::InelasticError;
 use super::tangent::TangentSolver;
-use crate::material::PointConstants;
+use crate::laws::PointConstants;
 use crate::math::separable::dot;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;

@@ -10,7 +10,7 @@ use super::element::Given;
 use super::grid::{Grid, Iterate};
 use super::problem::{InelasticProblem, PointState};
 use super::shapes::Scratch;
-use crate::material::{History, PointConstants};
+use crate::laws::{PlasticHistory, PointConstants};
 use crate::math::gauss::gauss_legendre;
 use crate::math::separable::{Side, transform};
 use crate::method::fem::recovery::{Beyond, Recovery};
@@ -38,7 +38,7 @@ impl Grid {
                     displacement: &u,
                     amplitudes: &iterate.amplitudes[at(modes)],
                     constants: &constants[at(points)],
-                    old: &history[at(points * History::LEN)],
+                    old: &history[at(points * PlasticHistory::LEN)],
                 };
                 self.kit.read(&given, &mut scratch, &mut out);
             }

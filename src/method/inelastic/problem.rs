@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::grid::{Grid, Iterate};
 use super::newton::{Progress, Step};
 use super::tangent::TangentSolver;
-use crate::material::{FlowLaw, History, PointConstants};
+use crate::laws::{FlowLaw, PlasticHistory, PointConstants};
 use crate::math::cholesky::SolverError;
 use crate::method::fem::elastic::Support;
 use crate::method::fem::free_faces::FreeFaces;
@@ -50,7 +50,7 @@ pub struct StateLayout {
     /// Amplitudes of enhanced strains of each element [1]: 15 of linear bricks, 7 of linear rings, 0 of quadratic
     /// elements.
     pub amplitudes: std::ops::Range<usize>,
-    /// Histories of each element's points, both x fastest: [`History::LEN`] numbers each, as [`History::read`] has
+    /// Histories of each element's points, both x fastest: [`PlasticHistory::LEN`] numbers each, as [`PlasticHistory::read`] has
     /// them.
     pub history: std::ops::Range<usize>,
     /// Points of an element: (p + 1)³ of a brick of order p, (p + 2)² of a ring.
@@ -70,7 +70,7 @@ pub struct PointState {
     pub tension: f64,
     /// Energy per volume that elasticity and hardening keep [J/m³].
     pub stored: f64,
-    pub history: History,
+    pub history: PlasticHistory,
 }
 
 /// The equilibrium of a body with elastic–plastic layers.
@@ -114,7 +114,7 @@ impl InelasticProblem {
     pub fn layout(&self) -> StateLayout {
         let displacement = self.grid.unknowns();
         let amplitudes = displacement + self.grid.elements() * self.grid.kit.treatment.modes();
-        let history = amplitudes + self.grid.points() * History::LEN;
+        let history = amplitudes + self.grid.points() * PlasticHistory::LEN;
         StateLayout {
             displacement: 0..displacement,
             amplitudes: displacement..amplitudes,
@@ -131,7 +131,7 @@ impl InelasticProblem {
     /// What a step takes, at most, besides the state [B].
     pub fn memory(&self) -> f64 {
         // Constants, tangents twice, histories new and old; of linear bricks the triangle of a matrix.
-        const POINT: f64 = 8.0 * (8.0 + 2.0 * 9.0 + 2.0 * History::LEN as f64);
+        const POINT: f64 = 8.0 * (8.0 + 2.0 * 9.0 + 2.0 * PlasticHistory::LEN as f64);
         // Vectors of Newton's method and of conjugate gradients.
         const VECTORS: f64 = 24.0;
         let unknowns = self.grid.unknowns() as f64;
@@ -323,21 +323,21 @@ impl InelasticProblem {
 
     /// Largest accumulated plastic strain of all quadrature points [1].
     pub fn max_plastic_strain(&self, state: &[f64]) -> f64 {
-        let histories = state[self.layout().history].chunks_exact(History::LEN);
-        histories.map(|history| History::read(history).accumulated).fold(0.0, f64::max)
+        let histories = state[self.layout().history].chunks_exact(PlasticHistory::LEN);
+        histories.map(|history| PlasticHistory::read(history).accumulated).fold(0.0, f64::max)
     }
 
     /// Energy that the body has dissipated, mirror images included [J].
     pub fn dissipated_energy(&self, state: &[f64]) -> f64 {
         let shapes = &self.grid.kit.shapes;
-        let mut histories = state[self.layout().history].chunks_exact(History::LEN);
+        let mut histories = state[self.layout().history].chunks_exact(PlasticHistory::LEN);
         let mut sum = 0.0;
         for layer in 0..self.grid.layers() {
             for e in 0..self.grid.per_layer() {
                 for (volume, history) in
                     shapes.volumes(self.grid.place(layer, e)).into_iter().zip(&mut histories)
                 {
-                    sum += volume * History::read(history).dissipated;
+                    sum += volume * PlasticHistory::read(history).dissipated;
                 }
             }
         }

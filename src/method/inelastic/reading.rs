@@ -8,7 +8,7 @@
 //! part of the stress by which it would flow faster than the fastest of the points around it.
 
 use super::problem::{InelasticError, InelasticProblem, PointState};
-use crate::material::{History, Overstress, PointConstants, admissible};
+use crate::laws::{Overstress, PlasticHistory, PointConstants, admissible};
 use crate::method::fem::Mesh;
 use crate::runtime::parallel::Team;
 
@@ -119,7 +119,7 @@ impl NodalValues {
     ) {
         let (stress, back_strain) = (&mut self.stress[number], self.back_strain[number]);
         let accumulated = self.plastic_strain[number];
-        let history = History { back_strain, accumulated, ..History::default() };
+        let history = PlasticHistory { back_strain, accumulated, ..PlasticHistory::default() };
         let mut radius = own.radius(accumulated);
         if own.overstress != Overstress::NONE {
             let beyond = own.beyond_yield(stress, &history).max(0.0);

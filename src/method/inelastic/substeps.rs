@@ -6,8 +6,8 @@
 
 use super::newton::Progress;
 use super::problem::{InelasticError, InelasticProblem};
-use crate::material::History;
-use crate::material::stress::von_mises;
+use crate::laws::PlasticHistory;
+use crate::laws::stress::von_mises;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
@@ -120,9 +120,10 @@ impl InelasticProblem {
     fn error(&self, states: [&[f64]; 2], rates: &Rates, length: f64) -> f64 {
         let layout = self.layout();
         let [before, after] =
-            states.map(|state| state[layout.history.clone()].chunks_exact(History::LEN));
+            states.map(|state| state[layout.history.clone()].chunks_exact(PlasticHistory::LEN));
         let of_point = |((old, new), rate): ((&[f64], &[f64]), &Option<f64>)| {
-            let grown = History::read(new).accumulated - History::read(old).accumulated;
+            let grown =
+                PlasticHistory::read(new).accumulated - PlasticHistory::read(old).accumulated;
             rate.map_or(0.0, |rate| 0.5 * (grown - rate * length).abs())
         };
         before.zip(after).zip(&rates.flow).map(of_point).fold(0.0, f64::max)

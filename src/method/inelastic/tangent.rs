@@ -8,7 +8,7 @@
 use super::element::Kit;
 use super::grid::{Grid, Iterate};
 use super::shapes::Scratch;
-use crate::material::{PointConstants, PointTangent, Thermoelastic};
+use crate::laws::{PointConstants, PointTangent, Thermoelastic};
 use crate::math::cholesky::{SolverError, SparseCholesky};
 use crate::math::conjugate_gradients::{self, Operator};
 use crate::math::nested_dissection::nested_dissection;

@@ -379,7 +379,7 @@ fn nodes_of(bodies: &[BodyForecast]) -> f64 {
 /// Most nodes of trials of a body whose stress depends on its history.
 fn most_with_history(scene: &Scene) -> f64 {
     let creeps = scene.solids().any(|(_, solid)| {
-        solid.materials_of_layers().iter().any(|own| own.properties().creep.is_some())
+        solid.materials_of_layers().iter().any(|own| own.law.deformation().creeps())
     });
     MOST_NODES_WITH_HISTORY * if creeps { PART_OF_CREEP } else { 1.0 }
 }

@@ -3,7 +3,7 @@
 use super::experiment::tries_least_radii;
 use super::sample::sample;
 use crate::body::fine_radius;
-use crate::material::{Material, Properties, Property, radiative_coefficient};
+use crate::laws::radiative_coefficient;
 use crate::scene::{
     Body, Carries, CellValues, Convection, Coupling, Droplet, Face, FidelityLevel, Footprint,
     Gives, Load, LoadRange, LoadStart, MaterialChoice, MeshFactors, PeakOf, Radiation, Role, Scene,
@@ -201,28 +201,7 @@ fn linearise(solid: &mut Solid, has_history: bool) {
         .iter_mut()
         .chain(solid.layers.iter_mut().flatten().map(|layer| &mut layer.material));
     choices.for_each(|choice: &mut MaterialChoice| {
-        let own = choice.properties();
-        let number = |property: &Property| Property::Constant(property.value(temperature));
-        let constants = Properties {
-            specific_heat: number(&own.specific_heat),
-            conductivity: number(&own.conductivity),
-            melting: None,
-            ..own.clone()
-        };
-        *choice = MaterialChoice::of(match (has_history, choice.material()) {
-            (true, Material::Elastoplastic(_)) => Material::Elastoplastic(constants),
-            (true, Material::Viscoplastic(_)) => Material::Viscoplastic(constants),
-            (true, Material::Thermoelastic(_)) => Material::Thermoelastic(constants),
-            (false, _) => Material::Thermoelastic(Properties {
-                young: own.young.as_ref().map(number),
-                poisson: own.poisson.as_ref().map(number),
-                expansion: own.expansion.as_ref().map(number),
-                yield_stress: None,
-                isotropic_hardening: None,
-                kinematic_hardening: None,
-                creep: None,
-                ..constants
-            }),
-        });
+        let own = choice.material().linearised(temperature, !has_history);
+        *choice = MaterialChoice::of(own);
     });
 }

@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use quick_xml::Writer;
 
 use super::{AXES, Array, Values, write_file, write_structure};
-use crate::material::stress::{max_principal, von_mises};
+use crate::laws::stress::{max_principal, von_mises};
 use crate::model::NodalFields;
 
 const STRESSES: [&str; 6] = ["xx", "yy", "zz", "xy", "yz", "xz"];

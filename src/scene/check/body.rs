@@ -1,7 +1,7 @@
 //! Shape, material, faces, symmetry and mesh of each solid.
 
 use super::{Checker, MOST_ELEMENTS, fits, is_sound, layers, material, nonlinear, number};
-use crate::material::Material;
+use crate::laws::solid::Elasticity;
 use crate::scene::grid::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::types::{
@@ -15,9 +15,10 @@ pub fn check(checker: &mut Checker) {
         layers::check(checker, &path, solid);
         if checker.scene.needs_mechanics(name) {
             for (place, own) in solid.materials(&path) {
-                if matches!(own, Material::Thermoelastic(_)) {
+                // Laws that need them anyway were checked where they stand.
+                if own.law.deformation().needs().is_empty() {
                     let why = "stress, displacement or traction is asked for";
-                    material::elasticity(checker, &place, own.properties(), why);
+                    material::needs(checker, &place, own, Elasticity::needs(why));
                 }
             }
         }

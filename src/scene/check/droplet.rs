@@ -58,7 +58,7 @@ fn resolution(checker: &mut Checker, path: &Path, droplet: &Droplet) {
 }
 
 fn sound(checker: &mut Checker, path: &Path, droplet: &Droplet) {
-    let (flow, surface) = (droplet.fastest_flow(), droplet.surface_speed());
+    let (flow, surface) = (droplet.fastest_flow(), droplet.fluid.laplace_speed(droplet.spacing));
     match droplet.fluid.sound_speed {
         None => {
             let message = "neither impact, gravity nor surface tension gives the flow a speed to \

@@ -1,7 +1,8 @@
 //! The constants of materials: tables, melting and yield.
 
 use super::{Checker, number};
-use crate::material::{Material, Melting, Properties, Property, PropertyError, Table};
+use crate::laws::solid::Need;
+use crate::laws::{Material, Melting, Property, PropertyError, Table};
 use crate::scene::locate::Path;
 
 /// The materials that have names.
@@ -12,18 +13,17 @@ pub fn named(checker: &mut Checker) {
 }
 
 pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
-    let law = material.properties();
-    for (key, property) in law.tables() {
-        if let Some(Property::Table(values)) = property {
+    for (key, property) in material.properties() {
+        if let Property::Table(values) = property {
             table(checker, &path.key(key), values);
         }
     }
-    if let Some(Melting { solidus, liquidus, .. }) = law.melting {
+    if let Some(Melting { solidus, liquidus, .. }) = material.heat.melting {
         let message = "melting ends below where it begins";
         let allowed = format!("liquidus >= {}", number(solidus));
         checker.require(liquidus >= solidus, &path.at("melting.liquidus"), message, allowed);
     }
-    yields(checker, path, material);
+    needs(checker, path, material, material.law.deformation().needs());
 }
 
 fn table(checker: &mut Checker, path: &Path, table: &Table) {
@@ -42,58 +42,18 @@ fn table(checker: &mut Checker, path: &Path, table: &Table) {
     }
 }
 
-/// A yield stress goes with the model that has one.
-fn yields(checker: &mut Checker, path: &Path, material: &Material) {
-    let law = material.properties();
-    let given = [
-        ("yield_stress", law.yield_stress.is_some()),
-        ("isotropic_hardening", law.isotropic_hardening.is_some()),
-        ("kinematic_hardening", law.kinematic_hardening.is_some()),
-    ];
-    if !matches!(material, Material::Viscoplastic(_)) {
-        let message = "only a viscoplastic material creeps";
-        let allowed = "model = \"viscoplastic\", or no such key";
-        checker.require(law.creep.is_none(), &path.key("creep"), message, allowed);
-    }
-    match material {
-        Material::Thermoelastic(_) => {
-            for (key, _) in given.iter().filter(|(_, given)| *given) {
-                let message = "a thermoelastic material does not yield";
-                checker.refuse(
-                    &path.key(key),
-                    message,
-                    "model = \"elastoplastic\", or no such key",
-                );
-            }
-        }
-        Material::Elastoplastic(_) => {
-            let message = "the key `yield_stress` is missing";
-            let allowed = "a positive number or table (Pa)";
-            checker.require(
-                law.yield_stress.is_some(),
-                &path.key("yield_stress"),
-                message,
-                allowed,
-            );
-            elasticity(checker, path, law, "an elastoplastic material deforms");
-        }
-        Material::Viscoplastic(_) => {
-            let message = "the key `creep` is missing";
-            let allowed = "creep = { coefficient = A, exponent = n }";
-            checker.require(law.creep.is_some(), &path.key("creep"), message, allowed);
-            elasticity(checker, path, law, "a viscoplastic material deforms");
-        }
-    }
-}
-
-/// Refuses materials without the constants of a body whose mechanics is needed.
-pub fn elasticity(checker: &mut Checker, path: &Path, constants: &Properties, why: &str) {
-    for (key, is_given, allowed) in [
-        ("young", constants.young.is_some(), "a positive number (Pa)"),
-        ("poisson", constants.poisson.is_some(), "-1 < poisson < 0.5"),
-        ("expansion", constants.expansion.is_some(), "a number (1/K)"),
-    ] {
-        let message = format!("the key `{key}` is missing: {why}");
+/// Refuses a material that does not give all keys that are needed.
+pub fn needs(
+    checker: &mut Checker,
+    path: &Path,
+    material: &Material,
+    needs: impl IntoIterator<Item = Need>,
+) {
+    let given = material.properties();
+    for Need { key, why, allowed } in needs {
+        let is_given = given.iter().any(|(own, _)| *own == key);
+        let reason = if why.is_empty() { String::new() } else { format!(": {why}") };
+        let message = format!("the key `{key}` is missing{reason}");
         checker.require(is_given, &path.at(key), message, allowed);
     }
 }

@@ -18,8 +18,8 @@ pub struct Failure {
 /// What does not fit.
 #[derive(Debug)]
 pub enum Misfit {
-    UnknownKey { key: String, known: &'static [&'static str] },
-    UnknownName { name: String, known: &'static [&'static str] },
+    UnknownKey { key: String, known: Vec<&'static str> },
+    UnknownName { name: String, known: Vec<&'static str> },
     MissingKey(&'static str),
     Unexpected { expected: String },
 }
@@ -122,11 +122,11 @@ impl Error for Failure {
     }
 
     fn unknown_field(key: &str, known: &'static [&'static str]) -> Self {
-        Misfit::UnknownKey { key: key.to_owned(), known }.into()
+        Misfit::UnknownKey { key: key.to_owned(), known: known.to_vec() }.into()
     }
 
     fn unknown_variant(name: &str, known: &'static [&'static str]) -> Self {
-        Misfit::UnknownName { name: name.to_owned(), known }.into()
+        Misfit::UnknownName { name: name.to_owned(), known: known.to_vec() }.into()
     }
 
     fn missing_field(key: &'static str) -> Self {

@@ -4,6 +4,8 @@
 //! until nothing new turns up, so that one run reports what one run can.
 
 mod failure;
+mod keys;
+mod material;
 mod unit;
 mod value;
 
@@ -19,10 +21,9 @@ use super::reservoir::Reservoir;
 use super::schema::Schema;
 use super::spelling::hint;
 use super::types::{Body, Scene, Solid};
-use crate::material::Properties;
 use failure::{Failure, Misfit, expectation};
 use unit::with_unit;
-use value::{Node, View};
+use value::{Keys, Node, View};
 
 /// More problems than this are not worth reading.
 const MOST_PROBLEMS: usize = 100;
@@ -34,7 +35,7 @@ pub fn decode(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
     decoder.refuse_numbers_that_are_not_finite(source.root(), &Path::default());
     decoder.read_materials();
     decoder.read_bodies();
-    let mut scene = decoder.read::<Scene>(&Path::default(), None);
+    let mut scene = decoder.read::<Scene>(&Path::default(), Keys::All);
     if let Some(scene) = &mut scene {
         decoder.look_up_materials(scene);
     }
@@ -59,13 +60,6 @@ impl Decoder<'_> {
         let Some(DeValue::Table(materials)) = self.source.value(&path) else { return };
         for name in materials.keys() {
             self.read_material(&path.key(name.get_ref()));
-        }
-    }
-
-    /// Reads the table of a material, whatever its model.
-    fn read_material(&mut self, path: &Path) {
-        for model in ["thermoelastic", "elastoplastic", "viscoplastic"] {
-            self.read_if::<Properties>(path, "model", model);
         }
     }
 
@@ -125,22 +119,22 @@ impl Decoder<'_> {
     fn read_if<T: DeserializeOwned>(&mut self, path: &Path, tag: &'static str, name: &str) {
         let chosen = self.source.value(&path.key(tag)).and_then(DeValue::as_str);
         if chosen == Some(name) {
-            self.read::<T>(path, Some(tag));
+            self.read::<T>(path, Keys::But(tag));
         }
     }
 
     /// Reads the table at `path`, notes all that is wrong with it and leaves that out from then on.
-    fn read<T: DeserializeOwned>(&mut self, path: &Path, tag: Option<&'static str>) -> Option<T> {
+    fn read<T: DeserializeOwned>(&mut self, path: &Path, keys: Keys) -> Option<T> {
         let value = self.source.value(path)?;
         while self.problems.len() < MOST_PROBLEMS && !self.left_out.contains(path) {
             let view = View { left_out: &self.left_out, blank: None };
-            let failure = match T::deserialize(Node::new(value, path.clone(), &view).without(tag)) {
+            let failure = match T::deserialize(Node::new(value, path.clone(), &view).with(keys)) {
                 Ok(read) => return Some(read),
                 Err(failure) => failure,
             };
             let place = failure.path.clone().unwrap_or_else(|| path.clone());
             if !self.is_echo(&place, &failure.misfit) {
-                let allowed = self.allowed::<T>(value, path, tag, &failure, &place);
+                let allowed = self.allowed::<T>(value, path, keys, &failure, &place);
                 self.note(&failure.misfit, &place, allowed);
             }
             if !self.leave_out(&failure.misfit, place) {
@@ -192,14 +186,14 @@ impl Decoder<'_> {
         &self,
         value: &DeValue,
         path: &Path,
-        tag: Option<&'static str>,
+        keys: Keys,
         failure: &Failure,
         place: &Path,
     ) -> String {
         let Misfit::MissingKey(key) = failure.misfit else { return failure.misfit.allowed() };
         let blank = place.key(key);
         let view = View { left_out: &self.left_out, blank: Some(&blank) };
-        match T::deserialize(Node::new(value, path.clone(), &view).without(tag)) {
+        match T::deserialize(Node::new(value, path.clone(), &view).with(keys)) {
             Err(failure) if failure.path.as_ref() == Some(&blank) => failure.misfit.allowed(),
             _ => failure.misfit.allowed(),
         }

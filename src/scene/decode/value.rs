@@ -28,19 +28,37 @@ pub struct Node<'a> {
     value: Option<&'a DeValue<'a>>,
     path: Path,
     view: &'a View<'a>,
-    /// A key of this table that reads as if it were not there.
-    without: Option<&'static str>,
+    keys: Keys,
+}
+
+/// The keys of a table that are read; the others read as if they were not there.
+#[derive(Debug, Clone, Copy)]
+pub enum Keys {
+    All,
+    /// All but one.
+    But(&'static str),
+    Among(&'static [&'static str]),
+}
+
+impl Keys {
+    fn contain(self, key: &str) -> bool {
+        match self {
+            Self::All => true,
+            Self::But(other) => key != other,
+            Self::Among(list) => list.contains(&key),
+        }
+    }
 }
 
 impl<'a> Node<'a> {
     /// The value that stands at `path`.
     pub fn new(value: &'a DeValue<'a>, path: Path, view: &'a View<'a>) -> Self {
-        Self { value: Some(value), path, view, without: None }
+        Self { value: Some(value), path, view, keys: Keys::All }
     }
 
-    /// The same table without one of its keys.
-    pub fn without(self, key: Option<&'static str>) -> Self {
-        Self { without: key, ..self }
+    /// The same table of which some keys are read.
+    pub fn with(self, keys: Keys) -> Self {
+        Self { keys, ..self }
     }
 
     fn read<T: DeserializeSeed<'a>>(self, seed: T) -> Result<T::Value, Failure> {
@@ -53,7 +71,7 @@ impl<'a> Node<'a> {
         for (key, value) in table {
             let key: &str = key.get_ref();
             let path = self.path.key(key);
-            if self.without != Some(key) && !self.view.left_out.contains(&path) {
+            if self.keys.contain(key) && !self.view.left_out.contains(&path) {
                 entries.push((key, Node::new(value.get_ref(), path, self.view)));
             }
         }
@@ -75,7 +93,7 @@ impl<'a> Node<'a> {
     ) -> Result<V::Value, Failure> {
         let mut entries = self.entries(table);
         if let Some(blank) = self.view.blank.filter(|blank| blank.parent() == self.path) {
-            let node = Node { value: None, path: blank.clone(), view: self.view, without: None };
+            let node = Node { value: None, path: blank.clone(), view: self.view, keys: Keys::All };
             entries.push((blank.last_key(), node));
         }
         visitor.visit_map(Entries { entries: entries.into_iter(), value: None })

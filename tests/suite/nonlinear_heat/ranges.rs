@@ -7,11 +7,11 @@ use impinge::method::enthalpy::{Failure, SetupError, linear_mesh};
 use impinge::runtime::allowance::Interrupt;
 
 /// Mercury, ice, aluminium, iron, steel and aerogel, with a temperature at which each is near its change.
-fn materials() -> Vec<(&'static str, f64, Substance)> {
+fn materials() -> Vec<(&'static str, f64, Conduction)> {
     let melting = |solidus: f64, liquidus: f64, latent_heat: f64| {
         Some(Melting { solidus, liquidus, latent_heat })
     };
-    let of = |density: f64, specific_heat: Property, conductivity: Property, melting| Substance {
+    let of = |density: f64, specific_heat: Property, conductivity: Property, melting| Conduction {
         density,
         specific_heat,
         conductivity,

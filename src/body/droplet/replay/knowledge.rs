@@ -6,12 +6,13 @@ use serde::Serialize;
 
 use super::super::plan_of;
 use crate::body::BodyError;
+use crate::laws::Fluid;
 use crate::method::record::{Course, Film, Profile, Recorder, film_profile, record_profile};
 use crate::method::sph::{DropletPlan, Failure};
 use crate::port::WallCells;
 use crate::runtime::shared_values::SharedValues;
 use crate::runtime::thread::aside;
-use crate::scene::{Droplet, DropletMethod, DropletSymmetry, Fluid, ReleaseBy, Scene};
+use crate::scene::{Droplet, DropletMethod, DropletSymmetry, ReleaseBy, Scene};
 
 /// Times at which a course is known, and most rings.
 pub const SAMPLES: usize = 200;

@@ -9,7 +9,7 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use super::{ElasticProblem, SOLUTION, Solver};
-use crate::material::Thermoelastic;
+use crate::laws::Thermoelastic;
 use crate::math::cholesky::SolverError;
 use crate::math::conjugate_gradients::NotConverged;
 use crate::method::fem::brick_solver::{self, BrickSolver};

@@ -13,7 +13,7 @@ use faer::Mat;
 use super::class::Class;
 use super::depth::DepthModes;
 use super::{HeatProblem, ThermalFace, end_conditions};
-use crate::material::Constants;
+use crate::laws::Constants;
 use crate::method::fem::columns::{Column, DepthProblem};
 use crate::method::fem::modes::{AxisModes, EndCondition};
 use crate::method::mesh::{Mesh, MeshFace};

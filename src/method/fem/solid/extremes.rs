@@ -1,7 +1,7 @@
 //! The highest and lowest values of a solid, and where they are.
 
 use super::{Deformation, SolidFem, Temperatures};
-use crate::material::stress::{max_principal, von_mises};
+use crate::laws::stress::{max_principal, von_mises};
 use crate::method::mesh::Geometry;
 
 /// The highest of some values over a body, and its place [m]. Of places whose values differ by rounding alone it is the

@@ -9,8 +9,8 @@ use std::sync::Arc;
 
 use super::recovered::{Quantity, per_area_row, quantities, through, traction_of};
 use super::{SolidFem, SolidLoads, Weights};
-use crate::material::Thermoelastic;
-use crate::material::stress::from_cylindrical;
+use crate::laws::Thermoelastic;
+use crate::laws::stress::from_cylindrical;
 use crate::math::cholesky::SolverError;
 use crate::math::separable::dot;
 use crate::method::fem::elastic::{

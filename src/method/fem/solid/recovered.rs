@@ -6,8 +6,8 @@
 use faer::Mat;
 
 use super::{Deformation, SolidFem, Temperatures, Weights, weighted};
-use crate::material::Thermoelastic;
-use crate::material::stress::from_cylindrical;
+use crate::laws::Thermoelastic;
+use crate::laws::stress::from_cylindrical;
 use crate::math::separable::{Side, transform};
 use crate::method::fem::elastic::{ElasticProblem, Strains, Support};
 use crate::method::fem::plan::Plan;

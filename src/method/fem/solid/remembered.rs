@@ -6,8 +6,8 @@
 //! whole body.
 
 use super::{SolidFem, Temperatures, Weights, weighted};
-use crate::material::stress::{max_principal, von_mises};
-use crate::material::{FlowLaw, Overstress, admissible};
+use crate::laws::stress::{max_principal, von_mises};
+use crate::laws::{FlowLaw, Overstress, admissible};
 use crate::method::mesh::Axis;
 
 /// Stress at the nodes, those on interfaces twice, even about planes of symmetry.

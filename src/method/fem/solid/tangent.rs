@@ -2,8 +2,8 @@
 //! functions serve a change of temperatures, deformation and loads.
 
 use super::{Deformation, SolidFem, SolidLoads, Temperatures};
-use crate::material::stress::{max_principal, von_mises};
-use crate::material::stress_rate::{max_principal_rate, von_mises_rate};
+use crate::laws::stress::{max_principal, von_mises};
+use crate::laws::stress_rate::{max_principal_rate, von_mises_rate};
 
 impl SolidFem {
     /// Time derivative of a state, laid out like the state, where heat is linear; `rates` is that of the loads.

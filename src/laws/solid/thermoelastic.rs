@@ -1,3 +1,37 @@
+//! Isotropic, linear, small-strain thermo-elasticity.
+
+use std::sync::Arc;
+
+use super::law::{Deformation, FlowLaw};
+use super::{Elasticity, Elastoplastic, SolidLaw, Yielding, law_of_parts};
+
+law_of_parts! {
+    /// Keys of thermo-elasticity.
+    ThermoelasticLaw { elasticity: Elasticity }
+}
+
+impl Deformation for ThermoelasticLaw {
+    fn elasticity(&self) -> &Elasticity {
+        &self.elasticity
+    }
+
+    fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {
+        let never = f64::INFINITY;
+        Arc::new(Elastoplastic::of(
+            &self.elasticity,
+            &Yielding::default(),
+            never,
+            stress_free_temperature,
+        ))
+    }
+}
+
+impl From<Elasticity> for SolidLaw {
+    fn from(elasticity: Elasticity) -> Self {
+        Self::Thermoelastic(ThermoelasticLaw { elasticity })
+    }
+}
+
 /// Isotropic, linear, small-strain thermo-elasticity.
 ///
 /// `σ = λ tr(ε) 1 + 2 G ε − (3 λ + 2 G) α ΔT 1`.

@@ -13,9 +13,41 @@
 
 use std::sync::Arc;
 
-use super::Thermoelastic;
-use super::law::{FlowLaw, History, Law, Response};
+use super::law::{Deformation, FlowLaw, Law, Need, Response};
 use super::viscoplastic::{Overstress, Parted};
+use super::{Elasticity, PlasticHistory, Thermoelastic, Yielding, law_of_parts};
+use crate::laws::Property;
+
+law_of_parts! {
+    /// Keys of J₂ plasticity.
+    ElastoplasticLaw { elasticity: Elasticity, yielding: Yielding }
+}
+
+impl Deformation for ElastoplasticLaw {
+    fn elasticity(&self) -> &Elasticity {
+        &self.elasticity
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        let yields =
+            Need { key: "yield_stress", why: "", allowed: "a positive number or table (Pa)" };
+        [yields].into_iter().chain(Elasticity::needs("an elastoplastic material deforms")).collect()
+    }
+
+    fn yields(&self) -> bool {
+        true
+    }
+
+    fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {
+        let never = f64::INFINITY;
+        Arc::new(Elastoplastic::of(
+            &self.elasticity,
+            &self.yielding,
+            never,
+            stress_free_temperature,
+        ))
+    }
+}
 
 /// A constant as a function of temperature [K].
 pub type OfTemperature = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
@@ -98,6 +130,35 @@ fn tensor(strain: &[f64; 6]) -> [f64; 6] {
 }
 
 impl Elastoplastic {
+    /// The law with these constants; `otherwise` is the yield stress [Pa] where the scene gives none.
+    ///
+    /// # Panics
+    /// If constants of elasticity are missing, which checked scenes that ask for mechanics have.
+    pub fn of(
+        elasticity: &Elasticity,
+        yielding: &Yielding,
+        otherwise: f64,
+        stress_free_temperature: f64,
+    ) -> Self {
+        let given = |property: &Option<Property>| -> OfTemperature {
+            let property = property.clone().expect("mechanics has its constants");
+            Arc::new(move |temperature| property.value(temperature))
+        };
+        let or = |property: &Option<Property>, other: f64| match property {
+            Some(_) => given(property),
+            None => constant(other),
+        };
+        Self {
+            young: given(&elasticity.young),
+            poisson: given(&elasticity.poisson),
+            expansion: given(&elasticity.expansion),
+            yield_stress: or(&yielding.yield_stress, otherwise),
+            isotropic: or(&yielding.isotropic_hardening, 0.0),
+            kinematic: or(&yielding.kinematic_hardening, 0.0),
+            stress_free_temperature,
+        }
+    }
+
     /// The law that never yields.
     pub fn elastic(law: &Thermoelastic, stress_free_temperature: f64) -> Self {
         Self {
@@ -154,8 +215,8 @@ impl PointConstants {
     pub fn return_to_yield(
         &self,
         shape: &[f64; 6],
-        old: &History,
-        new: &mut History,
+        old: &PlasticHistory,
+        new: &mut PlasticHistory,
     ) -> ([f64; 6], PointTangent) {
         *new = *old;
         let mut tangent = self.elastic_tangent();
@@ -196,7 +257,7 @@ impl PointConstants {
     }
 
     /// Distance of a stress [Pa] beyond the yield surface, `‖ξ‖ − √⅔ (σ_y + H_i p)` [Pa]; negative within it.
-    pub fn beyond_yield(&self, stress: &[f64; 6], history: &History) -> f64 {
+    pub fn beyond_yield(&self, stress: &[f64; 6], history: &PlasticHistory) -> f64 {
         let mean = (stress[0] + stress[1] + stress[2]) / 3.0;
         let back = self.back_stress(&history.back_strain);
         let xi = std::array::from_fn(|i| stress[i] - back[i] - if i < 3 { mean } else { 0.0 });
@@ -204,7 +265,7 @@ impl PointConstants {
     }
 
     /// Plastic strain that would accumulate over the step if a stress [Pa] stayed; nothing where flow takes no time.
-    pub fn flow_at(&self, stress: &[f64; 6], history: &History) -> Option<f64> {
+    pub fn flow_at(&self, stress: &[f64; 6], history: &PlasticHistory) -> Option<f64> {
         if self.overstress == Overstress::NONE {
             return None;
         }
@@ -217,7 +278,7 @@ impl PointConstants {
     }
 
     /// Energy that hardening keeps per volume, `½ H_i p² + ⅓ H_k a:a` [J/m³].
-    pub fn hardening_energy(&self, history: &History) -> f64 {
+    pub fn hardening_energy(&self, history: &PlasticHistory) -> f64 {
         let back = tensor(&history.back_strain);
         0.5 * self.isotropic * history.accumulated.powi(2)
             + self.kinematic / 3.0 * inner(&back, &back)
@@ -245,14 +306,18 @@ impl PointTangent {
 }
 
 impl Law for Elastoplastic {
+    fn history_len(&self) -> usize {
+        PlasticHistory::LEN
+    }
+
     /// Where the constants are none at this temperature, the answer is no number.
     fn respond(
         &self,
         strain: &[f64; 6],
         temperature: f64,
         _: f64,
-        old: &History,
-        new: &mut History,
+        old: &[f64],
+        new: &mut [f64],
     ) -> Response {
         respond_at(self.at(temperature), strain, old, new)
     }
@@ -278,24 +343,26 @@ impl From<Elastoplastic> for Arc<dyn FlowLaw> {
 pub(super) fn respond_at(
     constants: Option<PointConstants>,
     strain: &[f64; 6],
-    old: &History,
-    new: &mut History,
+    old: &[f64],
+    new: &mut [f64],
 ) -> Response {
     let Some(constants) = constants else {
-        *new = *old;
+        new.copy_from_slice(old);
         return Response { stress: [f64::NAN; 6], tangent: [[f64::NAN; 6]; 6], dissipation: 0.0 };
     };
     let volume = strain[0] + strain[1] + strain[2];
     let mut shape = *strain;
     shape[..3].iter_mut().for_each(|e| *e -= volume / 3.0);
-    let (mut stress, tangent) = constants.return_to_yield(&shape, old, new);
+    let (before, mut after) = (PlasticHistory::read(old), PlasticHistory::default());
+    let (mut stress, tangent) = constants.return_to_yield(&shape, &before, &mut after);
+    after.write(new);
     let pressure = constants.bulk * (volume - 3.0 * constants.thermal_strain);
     stress[..3].iter_mut().for_each(|s| *s += pressure);
     // Symmetric: its columns are its rows.
     let rows = std::array::from_fn(|j| {
         tangent.of_strain(&std::array::from_fn(|i| f64::from(u8::from(i == j))))
     });
-    Response { stress, tangent: rows, dissipation: new.dissipated - old.dissipated }
+    Response { stress, tangent: rows, dissipation: after.dissipated - before.dissipated }
 }
 
 #[cfg(test)]

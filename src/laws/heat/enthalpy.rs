@@ -1,4 +1,4 @@
-use super::substance::Substance;
+use super::conduction::Conduction;
 
 /// Volumetric enthalpy over temperature, and its inverse, exact: pieces of second degree, and jumps where something
 /// melts at one temperature.
@@ -41,8 +41,8 @@ pub struct EnthalpyPoint {
 }
 
 impl Enthalpy {
-    /// Of substances side by side at one temperature, with the part of the volume that each has.
-    pub fn of_mixture(parts: &[(f64, &Substance)], reference: f64) -> Self {
+    /// Of materials side by side at one temperature, with the part of the volume that each has.
+    pub fn of_mixture(parts: &[(f64, &Conduction)], reference: f64) -> Self {
         let knots = knots(parts, reference);
         let sensible = |t: f64| -> f64 {
             parts.iter().map(|(part, s)| part * s.density * s.specific_heat.value(t)).sum()
@@ -82,7 +82,7 @@ impl Enthalpy {
             latent += width * latent_rate;
         }
         pieces.iter_mut().for_each(|piece| piece.content -= base);
-        let melting = |(part, s): &(f64, &Substance)| {
+        let melting = |(part, s): &(f64, &Conduction)| {
             s.melting.map_or(0.0, |melting| part * s.density * melting.latent_heat)
         };
         Self { pieces, latent: parts.iter().map(melting).sum() }
@@ -124,7 +124,7 @@ impl Enthalpy {
 
 /// Where pieces begin, above the reference; the reference is one of them, so that small differences to it keep
 /// all digits.
-fn knots(parts: &[(f64, &Substance)], reference: f64) -> Vec<f64> {
+fn knots(parts: &[(f64, &Conduction)], reference: f64) -> Vec<f64> {
     let mut knots = vec![0.0];
     for (_, substance) in parts {
         knots.extend(substance.specific_heat.knots().iter().map(|t| t - reference));
@@ -138,8 +138,8 @@ fn knots(parts: &[(f64, &Substance)], reference: f64) -> Vec<f64> {
 }
 
 /// What melts at one temperature [J/m³].
-fn latent_jump(parts: &[(f64, &Substance)], rise: f64, reference: f64) -> f64 {
-    let melts = |(part, substance): &(f64, &Substance)| {
+fn latent_jump(parts: &[(f64, &Conduction)], rise: f64, reference: f64) -> f64 {
+    let melts = |(part, substance): &(f64, &Conduction)| {
         let melting = substance.melting.filter(|m| m.is_isothermal())?;
         (melting.solidus - reference == rise)
             .then_some(part * substance.density * melting.latent_heat)
@@ -148,8 +148,8 @@ fn latent_jump(parts: &[(f64, &Substance)], rise: f64, reference: f64) -> f64 {
 }
 
 /// What melts over a range of temperatures around one [J/(m³ K)].
-fn latent_rate(parts: &[(f64, &Substance)], temperature: f64) -> f64 {
-    let melts = |(part, substance): &(f64, &Substance)| {
+fn latent_rate(parts: &[(f64, &Conduction)], temperature: f64) -> f64 {
+    let melts = |(part, substance): &(f64, &Conduction)| {
         let melting = substance.melting.filter(|m| !m.is_isothermal())?;
         let range = melting.liquidus - melting.solidus;
         (melting.solidus < temperature && temperature < melting.liquidus)
@@ -161,13 +161,13 @@ fn latent_rate(parts: &[(f64, &Substance)], temperature: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::melting::Melting;
-    use super::super::property::{Property, Table};
     use super::*;
+    use crate::laws::{Property, Table};
 
-    fn alloy(solidus: f64, liquidus: f64) -> Substance {
+    fn alloy(solidus: f64, liquidus: f64) -> Conduction {
         let temperature = vec![300.0, 700.0, 900.0, 1500.0];
         let value = vec![450.0, 600.0, 900.0, 800.0];
-        Substance {
+        Conduction {
             density: 7800.0,
             specific_heat: Property::Table(Table { temperature, value }),
             conductivity: 30.0.into(),

@@ -13,14 +13,68 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use std::sync::Arc;
+
 use super::elastoplastic::respond_at;
-use super::law::{FlowLaw, History, Law, Response};
-use super::{Elastoplastic, PointConstants};
+use super::law::{Deformation, FlowLaw, Law, Need, Response};
+use super::{Elasticity, Elastoplastic, PlasticHistory, PointConstants, Yielding, law_of_parts};
+use crate::laws::{MaterialConstant, Part, Property};
 use crate::limits::within;
+
+law_of_parts! {
+    /// Keys of viscoplasticity.
+    ViscoplasticLaw { elasticity: Elasticity, yielding: Yielding, flow: Flow }
+}
+
+/// What flow follows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Flow {
+    /// Rate at which the body flows.
+    pub creep: Creep,
+}
+
+impl Part for Flow {
+    fn parameters() -> &'static [MaterialConstant] {
+        &[]
+    }
+
+    fn properties(&self) -> Vec<(&'static str, &Property)> {
+        Vec::new()
+    }
+
+    fn number(&mut self, _: &str) -> Option<&mut f64> {
+        None
+    }
+}
+
+impl Deformation for ViscoplasticLaw {
+    fn elasticity(&self) -> &Elasticity {
+        &self.elasticity
+    }
+
+    fn needs(&self) -> Vec<Need> {
+        Elasticity::needs("a viscoplastic material deforms").to_vec()
+    }
+
+    fn yields(&self) -> bool {
+        true
+    }
+
+    fn creeps(&self) -> bool {
+        true
+    }
+
+    /// Without a yield stress the body creeps under any stress.
+    fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {
+        let plastic =
+            Elastoplastic::of(&self.elasticity, &self.yielding, 0.0, stress_free_temperature);
+        Arc::new(Viscoplastic { plastic, creep: self.flow.creep })
+    }
+}
 
 /// Constants of the rate of flow as a scene names them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, expecting = "a table, `{ coefficient = A, exponent = n }`")]
 pub struct Creep {
     /// A, whose unit has a power of Pa in it [1/(s Paⁿ)].
     #[schemars(transform = within(1e-300, 1e300, "1/(s Paⁿ)", "the coefficient of creep"))]
@@ -147,14 +201,18 @@ impl FlowLaw for Viscoplastic {
 }
 
 impl Law for Viscoplastic {
+    fn history_len(&self) -> usize {
+        PlasticHistory::LEN
+    }
+
     /// Where the constants are none at this temperature, the answer is no number.
     fn respond(
         &self,
         strain: &[f64; 6],
         temperature: f64,
         duration: f64,
-        old: &History,
-        new: &mut History,
+        old: &[f64],
+        new: &mut [f64],
     ) -> Response {
         respond_at(self.over_step(temperature, duration), strain, old, new)
     }

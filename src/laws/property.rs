@@ -64,6 +64,24 @@ impl Property {
         self.about(temperature).at(0.0).0
     }
 
+    /// Returns true unless the property depends on the temperature.
+    pub fn is_constant(&self) -> bool {
+        matches!(self, Self::Constant(_))
+    }
+
+    /// The constant property that has the value of this one at a temperature [K].
+    pub fn at(&self, temperature: f64) -> Self {
+        Self::Constant(self.value(temperature))
+    }
+
+    /// The number, unless it is a table.
+    pub fn number(&mut self) -> Option<&mut f64> {
+        match self {
+            Self::Constant(value) => Some(value),
+            Self::Table(_) => None,
+        }
+    }
+
     /// Derivative over temperature [1/K]: of the interval above where two meet, zero outside of a table.
     pub fn derivative(&self, temperature: f64) -> f64 {
         let Self::Table(table) = self else { return 0.0 };

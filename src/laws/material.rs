@@ -1,0 +1,111 @@
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::solid::{Elasticity, FlowLaw};
+use super::{Conduction, Constants, Part, PartVisitor, Property, SolidLaw};
+
+/// What a solid is made of: how it conducts heat, and how it deforms.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Material {
+    #[serde(flatten)]
+    pub heat: Conduction,
+    #[serde(flatten)]
+    pub law: SolidLaw,
+}
+
+impl Material {
+    /// Visits the types of the parts that the table of a model consists of.
+    pub fn visit_parts(model: &str, visitor: &mut impl PartVisitor) {
+        visitor.part::<Conduction>();
+        SolidLaw::visit_parts(model, visitor);
+    }
+
+    /// The numbers that hold at a temperature [K], without latent heat.
+    pub fn at(&self, temperature: f64) -> Constants {
+        let value = |property: &Property| property.value(temperature);
+        let Elasticity { young, poisson, expansion } = self.law.deformation().elasticity();
+        Constants {
+            density: self.heat.density,
+            specific_heat: value(&self.heat.specific_heat),
+            conductivity: value(&self.heat.conductivity),
+            young: young.as_ref().map(value),
+            poisson: poisson.as_ref().map(value),
+            expansion: expansion.as_ref().map(value),
+        }
+    }
+
+    /// The given constants that may be tables over the temperature, each with its key.
+    pub fn properties(&self) -> Vec<(&'static str, &Property)> {
+        let of_law = self.law.deformation().properties();
+        self.heat.properties().into_iter().chain(of_law).collect()
+    }
+
+    /// The number that the scene gives for a key; `None` if there is none, or a table.
+    pub fn number(&mut self, key: &str) -> Option<&mut f64> {
+        let Self { heat, law } = self;
+        heat.number(key).or_else(|| law.parts_mut().into_iter().find_map(|part| part.number(key)))
+    }
+
+    /// Returns true if strain may stay.
+    pub fn yields(&self) -> bool {
+        self.law.deformation().yields()
+    }
+
+    /// The law by which the body deforms, free of stress at a temperature [K].
+    ///
+    /// # Panics
+    /// If constants of elasticity are missing, which checked scenes that ask for mechanics have.
+    pub fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw> {
+        self.law.deformation().flow_law(stress_free_temperature)
+    }
+
+    /// The material without melting and without constants that depend on the temperature, as it is at one [K].
+    /// A law with a history stays, unless `elastic` is asked for.
+    pub fn linearised(&self, temperature: f64, elastic: bool) -> Self {
+        let heat = self.heat.linearised(temperature);
+        let law = match elastic {
+            true => self.law.deformation().elasticity().linearised(temperature).into(),
+            false => self.law.clone(),
+        };
+        Self { heat, law }
+    }
+}
+
+/// As a table of keys for each model; those of heat stand in all of them.
+impl JsonSchema for Material {
+    fn schema_name() -> Cow<'static, str> {
+        "Material".into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let heat = Conduction::json_schema(generator);
+        let mut schema = SolidLaw::json_schema(generator);
+        let models = schema.get_mut("oneOf").and_then(Value::as_array_mut);
+        models.into_iter().flatten().for_each(|model| join(model, heat.as_value()));
+        schema.insert(
+            "description".into(),
+            "Conduction and a constitutive law, with their constants.".into(),
+        );
+        schema
+    }
+}
+
+/// Inserts the keys of another table behind the first of a table, the tag, and allows no further ones.
+fn join(table: &mut Value, other: &Value) {
+    let of = |value: &Value| {
+        value.get("properties").and_then(Value::as_object).cloned().unwrap_or_default()
+    };
+    let mut own = of(table).into_iter();
+    table["properties"] =
+        Value::Object(own.next().into_iter().chain(of(other)).chain(own).collect());
+    if let (Some(Value::Array(needed)), Some(Value::Array(own))) =
+        (other.get("required"), table.get_mut("required"))
+    {
+        own.extend(needed.clone());
+    }
+    table["additionalProperties"] = false.into();
+}

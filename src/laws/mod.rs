@@ -1,0 +1,29 @@
+//! Constitutive laws, one a file. Each owns its keys with their limits, its history and its response.
+//!
+//! A [`Material`] conducts heat by [`heat::Conduction`] and deforms by one of [`solid::SolidLaw`]; these types are also
+//! the parser, the schema and the documentation of a scene's `material` table.
+
+mod constants;
+pub mod fluid;
+pub mod heat;
+mod material;
+mod parameters;
+mod part;
+mod property;
+pub mod solid;
+
+pub use constants::Constants;
+pub use fluid::Fluid;
+pub use heat::{
+    Conduction, ConductionError, Enthalpy, EnthalpyPoint, Melting, MeltingError,
+    radiative_coefficient, radiative_flux, radiative_slope,
+};
+pub use material::Material;
+pub use parameters::{AtStart, MaterialConstant};
+pub use part::{Part, PartVisitor};
+pub use property::{Curve, Property, PropertyError, Table};
+pub use solid::{
+    Creep, Elastic, Elastoplastic, FlowLaw, Law, OfTemperature, Overstress, Parted, PlasticHistory,
+    PointConstants, PointTangent, Response, SolidLaw, Thermoelastic, Viscoplastic, admissible,
+    constant, stress, stress_rate,
+};

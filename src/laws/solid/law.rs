@@ -1,0 +1,136 @@
+//! The interfaces of laws by which solids deform.
+
+use std::sync::Arc;
+
+use super::{Elasticity, PointConstants, Thermoelastic};
+use crate::laws::{Part, Property};
+
+/// Constants of a law as groups of keys.
+pub trait Keys {
+    fn parts(&self) -> Vec<&dyn Part>;
+
+    fn parts_mut(&mut self) -> Vec<&mut dyn Part>;
+
+    /// The given constants that may be tables over the temperature, each with its key.
+    fn properties(&self) -> Vec<(&'static str, &Property)> {
+        self.parts().into_iter().flat_map(|part| part.properties()).collect()
+    }
+}
+
+/// A law as a scene names it.
+pub trait Deformation: Keys {
+    fn elasticity(&self) -> &Elasticity;
+
+    /// Keys that a scene must give, each with what it is and why it must be there.
+    fn needs(&self) -> Vec<Need> {
+        Vec::new()
+    }
+
+    /// Returns true if strain may stay.
+    fn yields(&self) -> bool {
+        false
+    }
+
+    /// Returns true if strain goes on under a stress that stays.
+    fn creeps(&self) -> bool {
+        false
+    }
+
+    /// Returns true if stress follows from deformation and temperature alone, and linearly.
+    fn is_linear(&self) -> bool {
+        !self.yields() && self.properties().iter().all(|(_, property)| property.is_constant())
+    }
+
+    /// The law, free of stress at a temperature [K].
+    ///
+    /// # Panics
+    /// If constants of elasticity are missing, which checked scenes that ask for mechanics have.
+    fn flow_law(&self, stress_free_temperature: f64) -> Arc<dyn FlowLaw>;
+}
+
+/// A key without which a law cannot respond.
+#[derive(Debug, Clone, Copy)]
+pub struct Need {
+    pub key: &'static str,
+    pub why: &'static str,
+    /// Allowed values, in words.
+    pub allowed: &'static str,
+}
+
+/// Response of a law to a strain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Response {
+    /// Stress xx, yy, zz, xy, yz, xz [Pa].
+    pub stress: [f64; 6],
+    /// `∂σ_i/∂ε_j` with engineering shears [Pa]: consistent with how the law goes over the step.
+    pub tangent: [[f64; 6]; 6],
+    /// Energy dissipated per volume in the step [J/m³].
+    pub dissipation: f64,
+}
+
+/// A constitutive law of small strains.
+pub trait Law: Send + Sync {
+    /// Length of the history that the law keeps at a point, a list of numbers that begins as zeros.
+    fn history_len(&self) -> usize;
+
+    /// The response to a strain xx, yy, zz, xy, yz, xz (engineering shears) at a temperature [K] after a step of some
+    /// duration [s].
+    ///
+    /// The last accepted step left the history `old`; this one would leave `new`. As `old` never changes, a strain may
+    /// be tried and given up at any time.
+    fn respond(
+        &self,
+        strain: &[f64; 6],
+        temperature: f64,
+        duration: f64,
+        old: &[f64],
+        new: &mut [f64],
+    ) -> Response;
+}
+
+/// A law by which stress returns along its deviator, as equilibrium of whole bodies takes them.
+pub trait FlowLaw: Law {
+    /// Temperature without thermal strain [K].
+    fn stress_free_temperature(&self) -> f64;
+
+    /// The constants at a temperature [K] over a step [s]; nothing where they are none.
+    fn over_step(&self, temperature: f64, duration: f64) -> Option<PointConstants>;
+
+    /// Whether strain goes on under a stress that stays.
+    fn creeps(&self) -> bool {
+        false
+    }
+}
+
+/// Thermo-elasticity as a law without a history.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Elastic {
+    pub law: Thermoelastic,
+    /// Temperature without thermal strain [K].
+    pub stress_free_temperature: f64,
+}
+
+impl Law for Elastic {
+    fn history_len(&self) -> usize {
+        0
+    }
+
+    fn respond(
+        &self,
+        strain: &[f64; 6],
+        temperature: f64,
+        _: f64,
+        _: &[f64],
+        _: &mut [f64],
+    ) -> Response {
+        let (lame, shear) = (self.law.lame_first(), self.law.shear_modulus());
+        let mut tangent = [[0.0; 6]; 6];
+        for i in 0..3 {
+            tangent[i][..3].fill(lame);
+            tangent[i][i] += 2.0 * shear;
+            tangent[i + 3][i + 3] = shear;
+        }
+        let stress = self.law.stress(*strain, temperature - self.stress_free_temperature);
+        Response { stress, tangent, dissipation: 0.0 }
+    }
+}
