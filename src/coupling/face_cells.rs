@@ -4,11 +4,11 @@ use faer::Mat;
 
 use crate::math::gauss::gauss_on;
 use crate::math::separable::{Side, transform};
-use crate::method::fem::Temperatures;
 use crate::method::mesh::{Axis, Geometry, Mesh};
 use crate::port::WallCells;
 
 use super::symmetry::split_load;
+use super::transfer::Transfer;
 
 /// The whole top or bottom of a solid, images at mirrors included, in cells about the ends of elements.
 ///
@@ -19,7 +19,6 @@ use super::symmetry::split_load;
 /// the fluid that warms it.
 pub struct FaceCells {
     mesh: Mesh,
-    high: bool,
     /// `(node, is it the image)` of the ends of elements along x and y, coordinates ascending.
     places: [Vec<(usize, bool)>; 2],
     /// From amounts on the linear functions to nodal vectors, along x and y of the mesh.
@@ -27,11 +26,10 @@ pub struct FaceCells {
 }
 
 impl FaceCells {
-    /// Of the top if `high`; `lumped` for particles, each of which has a volume of its own.
-    pub fn of(mesh: &Mesh, high: bool, lumped: bool) -> Self {
+    /// Of the top or the bottom, whose nodes lie alike; `lumped` for particles, each of which has a volume of its own.
+    pub fn of(mesh: &Mesh, lumped: bool) -> Self {
         Self {
             mesh: mesh.clone(),
-            high,
             places: [0, 1].map(|axis| {
                 let order = mesh.order();
                 let is_end = |&(node, _): &(usize, bool)| node % order == 0;
@@ -42,39 +40,6 @@ impl FaceCells {
                 false => consistent(&mesh.axes[axis]),
             }),
         }
-    }
-
-    /// The cells through which others exchange with the face.
-    pub fn cells(&self) -> WallCells {
-        let [x, y] = [0, 1].map(|a| {
-            let signed = |&(node, image): &(usize, bool)| {
-                let at = self.mesh.axes[a].nodes[node];
-                if image { -at } else { at }
-            };
-            self.places[a].iter().map(signed).collect::<Vec<f64>>()
-        });
-        match self.mesh.geometry {
-            Geometry::Box => WallCells::Nodes { x, y },
-            Geometry::Axisymmetric => WallCells::RadialNodes { r: x },
-        }
-    }
-
-    /// Temperature above the initial one at each cell [K].
-    pub fn rise(&self, temperatures: &Temperatures) -> Vec<f64> {
-        let [.., nz] = self.mesh.sided_counts();
-        self.unfolded(temperatures, if self.high { nz - 1 } else { 0 })
-    }
-
-    /// Parts of the temperature at each cell [K], those of each cell together, from lists of `count` layers of
-    /// top nodes, class by class.
-    pub fn parts(&self, layers: &[Vec<f64>], count: usize) -> Vec<f64> {
-        let cells = self.places[0].len() * self.places[1].len();
-        let mut parts = vec![0.0; cells * count];
-        for layer in 0..count {
-            let values = self.unfolded(layers, layer).into_iter().enumerate();
-            values.for_each(|(cell, value)| parts[cell * count + layer] = value);
-        }
-        parts
     }
 
     /// The whole face from a layer of nodes of each symmetry class; classes that are zero are empty.
@@ -98,7 +63,7 @@ impl FaceCells {
     /// Nodal vectors, one a symmetry class, of an amount at each cell: heat, or a component of a
     /// force that mirrors turn round along the axes in `flips`. Classes that are odd about a plane
     /// in which the fluid is `symmetric` have none.
-    pub fn nodal(&self, amounts: &[f64], flips: [bool; 2], symmetric: [bool; 2]) -> Vec<Vec<f64>> {
+    fn nodal(&self, amounts: &[f64], flips: [bool; 2], symmetric: [bool; 2]) -> Vec<Vec<f64>> {
         let one = Mat::from_fn(1, 1, |_, _| 1.0);
         let matrices = [&self.consistent[0], &self.consistent[1], &one];
         let of_image = |image| transform(&self.seen(amounts, image), matrices, Side::Direct);
@@ -133,6 +98,54 @@ impl FaceCells {
             }
         }
         out
+    }
+}
+
+impl Transfer for FaceCells {
+    fn cells(&self) -> WallCells {
+        let [x, y] = [0, 1].map(|a| {
+            let signed = |&(node, image): &(usize, bool)| {
+                let at = self.mesh.axes[a].nodes[node];
+                if image { -at } else { at }
+            };
+            self.places[a].iter().map(signed).collect::<Vec<f64>>()
+        });
+        match self.mesh.geometry {
+            Geometry::Box => WallCells::Nodes { x, y },
+            Geometry::Axisymmetric => WallCells::RadialNodes { r: x },
+        }
+    }
+
+    fn at_cells(&self, planes: &[Vec<f64>], count: usize) -> Vec<f64> {
+        let cells = self.places[0].len() * self.places[1].len();
+        let mut parts = vec![0.0; cells * count];
+        for layer in 0..count {
+            let values = self.unfolded(planes, layer).into_iter().enumerate();
+            values.for_each(|(cell, value)| parts[cell * count + layer] = value);
+        }
+        parts
+    }
+
+    fn heat(&self, amounts: &[f64], symmetric: [bool; 2]) -> Vec<Vec<f64>> {
+        self.nodal(amounts, [false; 2], symmetric)
+    }
+
+    fn forces(
+        &self,
+        along: &dyn Fn(usize) -> Vec<f64>,
+        symmetric: [bool; 2],
+    ) -> Vec<(usize, Vec<Vec<f64>>)> {
+        match self.mesh.geometry {
+            Geometry::Box => {
+                let flips = [[true, false], [false, true], [false; 2]];
+                let nodal = |axis| (axis, self.nodal(&along(axis), flips[axis], symmetric));
+                (0..3).map(nodal).collect()
+            }
+            Geometry::Axisymmetric => {
+                let radial = self.nodal(&along(0), [true, false], symmetric);
+                vec![(0, radial), (1, self.nodal(&along(2), [false; 2], symmetric))]
+            }
+        }
     }
 }
 
@@ -200,7 +213,7 @@ mod tests {
     #[test]
     fn all_that_is_given_anywhere_arrives() {
         for mesh in meshes() {
-            let face = FaceCells::of(&mesh, true, false);
+            let face = FaceCells::of(&mesh, false);
             for (x, y) in [(0.0, 0.0), (-0.33, 0.2), (0.7, -1.0), (0.05, 0.05)] {
                 let parts = face.nodal(&given(&face, x, y, 3.0), [false; 2], [false; 2]);
                 let total = mesh.copies() * parts[0].iter().sum::<f64>();
@@ -212,7 +225,7 @@ mod tests {
     #[test]
     fn the_parts_of_a_force_give_back_the_force_on_each_side() {
         let mesh = mesh(2, [true, false]);
-        let face = FaceCells::of(&mesh, true, false);
+        let face = FaceCells::of(&mesh, false);
         let flips = [true, false]; // A force along x.
         let parts = face.nodal(&given(&face, -0.6, 0.1, 2.0), flips, [false; 2]);
         let side = |image: bool| -> f64 {
@@ -226,7 +239,7 @@ mod tests {
     #[test]
     fn a_uniform_density_becomes_the_load_of_the_shape_functions() {
         let mesh = mesh(2, [false, false]);
-        let face = FaceCells::of(&mesh, true, false);
+        let face = FaceCells::of(&mesh, false);
         let [x, y] = [&mesh.axes[0], &mesh.axes[1]];
         let widths = |axis: &Axis| -> Vec<f64> {
             let ends: Vec<f64> = axis.nodes.iter().copied().step_by(2).collect();
@@ -246,7 +259,7 @@ mod tests {
     #[test]
     fn a_symmetric_fluid_makes_no_odd_part() {
         let mesh = mesh(1, [true, true]);
-        let face = FaceCells::of(&mesh, true, false);
+        let face = FaceCells::of(&mesh, false);
         let amounts: Vec<f64> = (0..face.cells().len()).map(|i| 1.0 + 1e-16 * i as f64).collect();
         let parts = face.nodal(&amounts, [false; 2], [true; 2]);
         assert!(!parts[0].is_empty() && parts[1..].iter().all(Vec::is_empty));
@@ -255,12 +268,12 @@ mod tests {
     #[test]
     fn temperatures_are_seen_on_both_sides_of_a_mirror() {
         let mesh = mesh(1, [true, false]);
-        let face = FaceCells::of(&mesh, true, false);
-        let [nx, ny, nz] = mesh.node_counts();
+        let face = FaceCells::of(&mesh, false);
+        let [nx, ny, _] = mesh.node_counts();
         let field = |f: &dyn Fn(f64) -> f64| -> Vec<f64> {
-            (0..nx * ny * nz).map(|node| f(mesh.axes[0].nodes[node % nx])).collect()
+            (0..nx * ny).map(|node| f(mesh.axes[0].nodes[node % nx])).collect()
         };
-        let rise = face.rise(&vec![field(&|x| x * x), field(&|x| x)]);
+        let rise = face.at_cells(&[field(&|x| x * x), field(&|x| x)], 1);
         let WallCells::Nodes { x, .. } = face.cells() else { unreachable!() };
         for (i, rise) in rise.iter().enumerate() {
             let x = x[i % x.len()];
@@ -279,7 +292,7 @@ mod tests {
             geometry: Geometry::Axisymmetric,
             layering: Layering::default(),
         };
-        let face = FaceCells::of(&mesh, true, false);
+        let face = FaceCells::of(&mesh, false);
         for x in [0.0, 0.05, 0.6] {
             let parts = face.nodal(&given(&face, x, 0.0, 1.0), [true, false], [true; 2]);
             assert!((parts[0].iter().sum::<f64>() - 1.0).abs() < 1e-14);

@@ -6,9 +6,9 @@ use std::f64::consts::PI;
 use faer::Mat;
 
 use super::face_cells::consistent;
+use super::transfer::Transfer;
 use crate::math::gauss::gauss_on;
 use crate::math::separable::{Side, transform};
-use crate::method::fem::Temperatures;
 use crate::method::mesh::Mesh;
 use crate::port::WallCells;
 
@@ -20,7 +20,6 @@ use crate::port::WallCells;
 /// stays so, and of the body's symmetry classes only the even one takes part.
 pub struct FaceRings {
     mesh: Mesh,
-    high: bool,
     /// [m]
     radii: Vec<f64>,
     /// Nodes on the meshed part of the face at ends of elements along x and y.
@@ -51,15 +50,14 @@ const CELLS_OF_A_LINE: f64 = 7.0;
 const SAME: f64 = 1e-9;
 
 impl FaceRings {
-    /// Of the top if `high`; `lumped` for nodes each of which has a volume of its own.
-    pub fn of(mesh: &Mesh, high: bool, lumped: bool) -> Self {
+    /// Of the top or the bottom, whose nodes lie alike; `lumped` for nodes each of which has a volume of its own.
+    pub fn of(mesh: &Mesh, lumped: bool) -> Self {
         let order = mesh.order();
         let ends = [0, 1].map(|axis| (0..mesh.axes[axis].len()).step_by(order).collect());
         let radii = radii(mesh);
         Self {
             shares: shares(mesh, &radii),
             mesh: mesh.clone(),
-            high,
             radii,
             ends,
             consistent: [0, 1].map(|axis| match lumped {
@@ -73,28 +71,6 @@ impl FaceRings {
     pub fn expected_bytes(mesh: &Mesh) -> f64 {
         let [x, y] = [0, 1].map(|axis| mesh.axes[axis].elements() as f64);
         CELLS_OF_A_LINE * size_of::<Share>() as f64 * x * (x + y)
-    }
-
-    /// The cells through which others exchange with the face.
-    pub fn cells(&self) -> WallCells {
-        WallCells::RadialNodes { r: self.radii.clone() }
-    }
-
-    /// Mean temperature above the initial one of each ring [K].
-    pub fn rise(&self, temperatures: &Temperatures) -> Vec<f64> {
-        let [.., nz] = self.mesh.sided_counts();
-        self.means(temperatures, if self.high { nz - 1 } else { 0 })
-    }
-
-    /// Parts of the temperature of each ring [K], those of each ring together, from lists of `count` layers of nodes,
-    /// class by class.
-    pub fn parts(&self, layers: &[Vec<f64>], count: usize) -> Vec<f64> {
-        let mut parts = vec![0.0; self.radii.len() * count];
-        for layer in 0..count {
-            let means = self.means(layers, layer).into_iter().enumerate();
-            means.for_each(|(ring, mean)| parts[ring * count + layer] = mean);
-        }
-        parts
     }
 
     /// Means over rings of a layer of nodes; the odd classes, which mirrors turn round, have none.
@@ -115,12 +91,12 @@ impl FaceRings {
     }
 
     /// Nodal vectors, one a symmetry class, of an amount of each ring that is even round it: heat, or force along z.
-    pub fn nodal(&self, amounts: &[f64]) -> Vec<Vec<f64>> {
+    fn nodal(&self, amounts: &[f64]) -> Vec<Vec<f64>> {
         self.nodal_of(amounts, |share| share.weight)
     }
 
     /// The same of the component along x (0) or y (1) of forces that point outward.
-    pub fn nodal_outward(&self, amounts: &[f64], axis: usize) -> Vec<Vec<f64>> {
+    fn nodal_outward(&self, amounts: &[f64], axis: usize) -> Vec<Vec<f64>> {
         self.nodal_of(amounts, |share| share.outward[axis])
     }
 
@@ -144,6 +120,35 @@ impl FaceRings {
     fn even(&self) -> usize {
         let parities = self.mesh.parities();
         parities.iter().position(|parity| parity.is_even()).unwrap_or(0)
+    }
+}
+
+impl Transfer for FaceRings {
+    fn cells(&self) -> WallCells {
+        WallCells::RadialNodes { r: self.radii.clone() }
+    }
+
+    fn at_cells(&self, planes: &[Vec<f64>], count: usize) -> Vec<f64> {
+        let mut parts = vec![0.0; self.radii.len() * count];
+        for layer in 0..count {
+            let means = self.means(planes, layer).into_iter().enumerate();
+            means.for_each(|(ring, mean)| parts[ring * count + layer] = mean);
+        }
+        parts
+    }
+
+    fn heat(&self, amounts: &[f64], _: [bool; 2]) -> Vec<Vec<f64>> {
+        self.nodal(amounts)
+    }
+
+    fn forces(
+        &self,
+        along: &dyn Fn(usize) -> Vec<f64>,
+        _: [bool; 2],
+    ) -> Vec<(usize, Vec<Vec<f64>>)> {
+        let outward = along(0);
+        let aside = [0, 1].map(|axis| (axis, self.nodal_outward(&outward, axis)));
+        aside.into_iter().chain([(2, self.nodal(&along(2)))]).collect()
     }
 }
 
@@ -286,10 +291,10 @@ mod tests {
 
     /// The nodal temperatures of the even class, of a function of places.
     fn field(mesh: &Mesh, f: impl Fn(f64, f64) -> f64) -> Vec<Vec<f64>> {
-        let [nx, ny, nz] = mesh.node_counts();
-        let at = |node: usize| f(mesh.axes[0].nodes[node % nx], mesh.axes[1].nodes[node / nx % ny]);
+        let [nx, ny, _] = mesh.node_counts();
+        let at = |node: usize| f(mesh.axes[0].nodes[node % nx], mesh.axes[1].nodes[node / nx]);
         let mut classes = vec![Vec::new(); mesh.parities().len()];
-        classes[0] = (0..nx * ny * nz).map(at).collect();
+        classes[0] = (0..nx * ny).map(at).collect();
         classes
     }
 
@@ -300,7 +305,7 @@ mod tests {
     #[test]
     fn all_that_rings_get_arrives_and_points_outward() {
         for mesh in meshes() {
-            let rings = FaceRings::of(&mesh, true, false);
+            let rings = FaceRings::of(&mesh, false);
             assert_eq!(*rings.radii.last().unwrap(), 1.0);
             let amounts = amounts(&rings);
             let given: f64 = amounts.iter().sum();
@@ -322,13 +327,12 @@ mod tests {
     #[test]
     fn means_and_loads_are_each_others_transpose() {
         for mesh in meshes().into_iter().filter(|mesh| mesh.order() == 1) {
-            let rings = FaceRings::of(&mesh, true, true);
+            let rings = FaceRings::of(&mesh, true);
             let temperatures = field(&mesh, |x, y| (3.0 * x).cos() + x * x * y * y);
             let amounts = amounts(&rings);
             let power: f64 =
-                rings.rise(&temperatures).iter().zip(&amounts).map(|(t, q)| t * q).sum();
-            let [nx, ny, nz] = mesh.node_counts();
-            let top = &temperatures[0][nx * ny * (nz - 1)..];
+                rings.at_cells(&temperatures, 1).iter().zip(&amounts).map(|(t, q)| t * q).sum();
+            let top = &temperatures[0];
             let nodal = &rings.nodal(&amounts)[0];
             let of_body: f64 = top.iter().zip(nodal).map(|(t, q)| t * q).sum();
             let whole = mesh.copies() * of_body;
@@ -340,7 +344,7 @@ mod tests {
     #[test]
     fn even_heat_on_rings_is_even_on_the_face() {
         for mesh in meshes() {
-            let rings = FaceRings::of(&mesh, true, false);
+            let rings = FaceRings::of(&mesh, false);
             let areas = rings.cells().areas(Domain::whole(3));
             let vector = &rings.nodal(&areas)[0];
             let [x, y] = [0, 1].map(|axis| mesh.axes[axis].integrals());
@@ -361,10 +365,10 @@ mod tests {
     #[test]
     fn rings_are_as_warm_as_the_face_below_them() {
         for mesh in meshes() {
-            let rings = FaceRings::of(&mesh, true, false);
-            let even = rings.rise(&field(&mesh, |_, _| 1.0));
+            let rings = FaceRings::of(&mesh, false);
+            let even = rings.at_cells(&field(&mesh, |_, _| 1.0), 1);
             assert!(even.iter().all(|mean| (mean - 1.0).abs() < 1e-13), "{even:?}");
-            let found = rings.rise(&field(&mesh, |x, y| x * x + y * y));
+            let found = rings.at_cells(&field(&mesh, |x, y| x * x + y * y), 1);
             for (n, mean) in found.iter().enumerate().take(5) {
                 // Of r² over a function that is linear on both sides of n h, with the same error of its own.
                 let h = 0.1;
@@ -373,7 +377,7 @@ mod tests {
                 assert!((mean - exact - h * h / 3.0).abs() < 0.03 * h * h, "{n}: {mean} {exact}");
             }
             if mesh.mirrored == [false; 2] {
-                let tilted = rings.rise(&field(&mesh, |x, y| x - 2.0 * y));
+                let tilted = rings.at_cells(&field(&mesh, |x, y| x - 2.0 * y), 1);
                 assert!(tilted.iter().all(|mean| mean.abs() < 1e-13), "{tilted:?}");
             }
         }

@@ -5,9 +5,11 @@ mod face_means;
 mod face_rings;
 mod footprint;
 mod symmetry;
+mod transfer;
 
 pub use face_cells::FaceCells;
 pub use face_means::FaceMeans;
 pub use face_rings::FaceRings;
 pub use footprint::{Pattern, Placement};
 pub use symmetry::split_load;
+pub use transfer::Transfer;

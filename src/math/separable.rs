@@ -20,24 +20,44 @@ pub fn transform(values: &[f64], matrices: [&Mat<f64>; 3], side: Side) -> Vec<f6
         Side::Direct => m.as_ref(),
         Side::Transposed => m.transpose(),
     });
-    let (nx, ny, nz) = (a.ncols(), b.ncols(), c.ncols());
+    let nz = c.ncols();
     let (mx, my, mz) = (a.nrows(), b.nrows(), c.nrows());
-    assert_eq!(values.len(), nx * ny * nz, "array and matrices disagree in shape");
+    assert_eq!(values.len(), a.ncols() * b.ncols() * nz, "array and matrices disagree in shape");
 
-    let mut along_x = vec![0.0; mx * ny * nz];
-    let source = MatRef::from_column_major_slice(values, nx, ny * nz);
+    let along_y = planes(values, [a, b]);
+    let mut out = vec![0.0; mx * my * mz];
+    let source = MatRef::from_column_major_slice(&along_y, mx * my, nz);
+    product(&mut out, source, c.transpose());
+    out
+}
+
+/// `out[a, b, k] = Σ A[a, i] B[b, j] in[i, j, k]`, for any number of planes k.
+pub fn transform_planes(values: &[f64], [a, b]: [&Mat<f64>; 2]) -> Vec<f64> {
+    planes(values, [a.as_ref(), b.as_ref()])
+}
+
+fn planes(values: &[f64], [a, b]: [MatRef<'_, f64>; 2]) -> Vec<f64> {
+    let (nx, ny, mx, my) = (a.ncols(), b.ncols(), a.nrows(), b.nrows());
+    let count = values.len() / (nx * ny);
+    let mut along_x = vec![0.0; mx * ny * count];
+    let source = MatRef::from_column_major_slice(values, nx, ny * count);
     product(&mut along_x, a, source);
 
-    let mut along_y = vec![0.0; mx * my * nz];
-    for k in 0..nz {
+    let mut along_y = vec![0.0; mx * my * count];
+    for k in 0..count {
         let source = MatRef::from_column_major_slice(&along_x[k * mx * ny..][..mx * ny], mx, ny);
         let target = &mut along_y[k * mx * my..][..mx * my];
         product(target, source, b.transpose());
     }
+    along_y
+}
 
-    let mut out = vec![0.0; mx * my * mz];
-    let source = MatRef::from_column_major_slice(&along_y, mx * my, nz);
-    product(&mut out, source, c.transpose());
+/// `out[i, j, c] = Σ C[c, k] in[i, j, k]`, for planes of any shape.
+pub fn transform_depth(values: &[f64], rows: &Mat<f64>) -> Vec<f64> {
+    let plane = values.len() / rows.ncols();
+    let mut out = vec![0.0; plane * rows.nrows()];
+    let source = MatRef::from_column_major_slice(values, plane, rows.ncols());
+    product(&mut out, source, rows.transpose());
     out
 }
 
@@ -104,6 +124,16 @@ mod tests {
             }
             assert!((out[p + 2 * (q + 4 * r)] - sum).abs() < 1e-13);
         }
+    }
+
+    #[test]
+    fn planes_and_depth_are_parts_of_the_transform() {
+        let (a, b, c) = (matrix(2, 3, 0.1), matrix(4, 2, 0.5), matrix(3, 5, 0.9));
+        let values: Vec<f64> = (0..30).map(|i| (0.3 * i as f64).cos()).collect();
+        let whole = transform(&values, [&a, &b, &c], Side::Direct);
+        assert_eq!(transform_depth(&transform_planes(&values, [&a, &b]), &c), whole);
+        let other = transform_planes(&transform_depth(&values, &c), [&a, &b]);
+        assert!(other.iter().zip(&whole).all(|(o, w)| (o - w).abs() < 1e-13));
     }
 
     #[test]

@@ -1,12 +1,14 @@
 //! A face through which a solid exchanges heat and force with another body.
 
+use std::borrow::Cow;
+
 use super::SolidBody;
 use super::loads::add;
 use super::memo::SolidMemo;
 use crate::body::{Acts, BodyError, Conductor, Given, Memo};
-use crate::coupling::{FaceCells, FaceRings};
+use crate::coupling::{FaceCells, FaceRings, Transfer};
 use crate::inputs::InputPath;
-use crate::method::fem::{Geometry, Plan, SolidFem, SolidLoads, Temperatures, heat_mesh};
+use crate::method::fem::{Plan, SolidFem, SolidLoads, heat_mesh};
 use crate::port::{Surface, SurfaceResponse, WallCells};
 use crate::runtime::allowance::Allowance;
 use crate::scene::FaceName;
@@ -14,10 +16,9 @@ use crate::scene::FaceName;
 /// How a face takes what comes through its cells, and how it answers.
 pub struct Port {
     pub face: FaceName,
-    cells: Cells,
+    transfer: Box<dyn Transfer>,
     response: SurfaceResponse,
     initial_temperature: f64,
-    geometry: Geometry,
 }
 
 impl Port {
@@ -29,13 +30,12 @@ impl Port {
         let [rates, gains] = solid.end_modes(high);
         Self {
             face,
-            cells: match meets_rings {
-                true => Cells::Rings(FaceRings::of(&heat_mesh(plan), high, has_volumes)),
-                false => Cells::Face(FaceCells::of(&heat_mesh(plan), high, has_volumes)),
+            transfer: match meets_rings {
+                true => Box::new(FaceRings::of(&heat_mesh(plan), has_volumes)),
+                false => Box::new(FaceCells::of(&heat_mesh(plan), has_volumes)),
             },
             response: SurfaceResponse { rates, gains },
             initial_temperature: plan.initial_temperature,
-            geometry: plan.mesh.geometry,
         }
     }
 
@@ -44,29 +44,34 @@ impl Port {
         usize::from(self.face == FaceName::Top)
     }
 
-    /// Temperature of each cell [K].
-    fn at_cells(&self, temperatures: &Temperatures) -> Vec<f64> {
-        let rise = self.cells.rise(temperatures);
+    /// Temperature of each cell [K] in a state, where these loads act.
+    fn temperatures(&self, solid: &SolidFem, state: &[f64], loads: &SolidLoads) -> Vec<f64> {
+        let planes = solid.end_rise(state, loads, self.side() == 1);
+        let rise = self.transfer.at_cells(&planes, 1);
         rise.into_iter().map(|rise| self.initial_temperature + rise).collect()
     }
 
-    /// The face over a step between these temperatures at its beginning and, if nothing is given, at its end.
+    /// The face over a step that begins in a state and ends in another if nothing is given; loads act at both.
     ///
     /// Every place answers as the whole face would that is heated as it is: during a step heat hardly passes
     /// along the surface. How far the solid itself goes in the step is exact, as drift about these modes.
     fn surface(
         &self,
         solid: &SolidFem,
-        [start, end]: [&Temperatures; 2],
+        start: (&[f64], &SolidLoads),
+        end: (&[f64], &SolidLoads),
         duration: f64,
     ) -> Surface {
         let response = self.response.clone();
-        let count = response.len();
-        let amplitudes = self.cells.parts(&solid.end_amplitudes(start, self.side() == 1), count);
-        let rest = |(t, parts): (f64, &[f64])| t - parts.iter().sum::<f64>();
-        let cells = self.at_cells(start).into_iter().zip(amplitudes.chunks_exact(count));
-        let base = cells.map(rest).collect();
-        let end = self.at_cells(end);
+        let planes = solid.end_parts(start.0, start.1, self.side() == 1);
+        let parts = self.transfer.at_cells(&planes, 1 + response.len());
+        let (mut base, mut amplitudes) = (Vec::new(), Vec::new());
+        for cell in parts.chunks_exact(1 + response.len()) {
+            let (rise, modes) = (cell[0], &cell[1..]);
+            base.push(self.initial_temperature + rise - modes.iter().sum::<f64>());
+            amplitudes.extend_from_slice(modes);
+        }
+        let end = self.temperatures(solid, end.0, end.1);
         let mut surface = Surface { response, base, amplitudes, drift: vec![0.0; end.len()] };
         let free = surface.free(1.0, duration);
         surface.drift = end.iter().zip(free).map(|(end, free)| end - free).collect();
@@ -86,7 +91,7 @@ impl Port {
         let along = |axis: usize| -> Vec<f64> {
             given.impulse.iter().map(|impulse| impulse[axis] * rate).collect()
         };
-        for (component, vectors) in self.cells.forces(along, self.geometry, given.symmetric) {
+        for (component, vectors) in self.transfer.forces(&along, given.symmetric) {
             for (class, vector) in vectors.into_iter().enumerate() {
                 add(&mut loads.force[class][side][component], &vector, 1.0);
             }
@@ -122,74 +127,9 @@ impl Port {
     ) -> impl Iterator<Item = (usize, Vec<f64>)> + use<> {
         let vectors = match amounts.is_empty() {
             true => Vec::new(),
-            false => self.cells.heat(amounts, given.symmetric),
+            false => self.transfer.heat(amounts, given.symmetric),
         };
         vectors.into_iter().enumerate()
-    }
-}
-
-/// Cells of a face: its own, or rings about the middle of a box.
-enum Cells {
-    Face(FaceCells),
-    Rings(FaceRings),
-}
-
-impl Cells {
-    fn as_wall(&self) -> WallCells {
-        match self {
-            Cells::Face(face) => face.cells(),
-            Cells::Rings(rings) => rings.cells(),
-        }
-    }
-
-    /// Temperature above the initial one at each cell [K].
-    fn rise(&self, temperatures: &Temperatures) -> Vec<f64> {
-        match self {
-            Cells::Face(face) => face.rise(temperatures),
-            Cells::Rings(rings) => rings.rise(temperatures),
-        }
-    }
-
-    /// Parts of the temperature at each cell [K] from `count` layers of nodes, class by class.
-    fn parts(&self, layers: &[Vec<f64>], count: usize) -> Vec<f64> {
-        match self {
-            Cells::Face(face) => face.parts(layers, count),
-            Cells::Rings(rings) => rings.parts(layers, count),
-        }
-    }
-
-    /// Nodal vectors of heat at each cell, one a symmetry class.
-    fn heat(&self, amounts: &[f64], symmetric: [bool; 2]) -> Vec<Vec<f64>> {
-        match self {
-            Cells::Face(face) => face.nodal(amounts, [false; 2], symmetric),
-            Cells::Rings(rings) => rings.nodal(amounts),
-        }
-    }
-
-    /// The same of forces, of which a component `along` each axis is given (that along x is radial for rings): each with
-    /// the displacement component of the solid that it acts on.
-    fn forces(
-        &self,
-        along: impl Fn(usize) -> Vec<f64>,
-        geometry: Geometry,
-        symmetric: [bool; 2],
-    ) -> Vec<(usize, Vec<Vec<f64>>)> {
-        match (self, geometry) {
-            (Cells::Rings(rings), _) => {
-                let outward = along(0);
-                let aside = [0, 1].map(|axis| (axis, rings.nodal_outward(&outward, axis)));
-                aside.into_iter().chain([(2, rings.nodal(&along(2)))]).collect()
-            }
-            (Cells::Face(face), Geometry::Box) => {
-                let flips = [[true, false], [false, true], [false; 2]];
-                let nodal = |axis| (axis, face.nodal(&along(axis), flips[axis], symmetric));
-                (0..3).map(nodal).collect()
-            }
-            (Cells::Face(face), Geometry::Axisymmetric) => {
-                let radial = face.nodal(&along(0), [true, false], symmetric);
-                vec![(0, radial), (1, face.nodal(&along(2), [false; 2], symmetric))]
-            }
-        }
     }
 }
 
@@ -200,18 +140,12 @@ impl SolidBody {
         known.expect("a body has a port on every face that is linked")
     }
 
-    fn temperatures_at(
-        &self,
-        state: &[f64],
-        memo: &Memo,
-        path: &InputPath,
-        s: f64,
-    ) -> Temperatures {
-        if path.is_held() {
-            return self.solid.temperatures(state, SolidMemo::of(memo).outside());
+    /// The loads on faces a time after the beginning of what acts.
+    fn face_loads<'m>(&self, memo: &'m Memo, path: &InputPath, s: f64) -> Cow<'m, SolidLoads> {
+        match path.is_held() {
+            true => Cow::Borrowed(SolidMemo::of(memo).outside()),
+            false => Cow::Owned(self.loads.of_faces(&path.at(0, s), self.solid.mesh())),
         }
-        let loads = self.loads.of_faces(&path.at(0, s), self.solid.mesh());
-        self.solid.temperatures(state, &loads)
     }
 }
 
@@ -231,7 +165,7 @@ impl Conductor for SolidBody {
     }
 
     fn cells(&self, face: FaceName) -> Option<WallCells> {
-        Some(self.port(face).cells.as_wall())
+        Some(self.port(face).transfer.cells())
     }
 
     fn surfaces(
@@ -245,10 +179,10 @@ impl Conductor for SolidBody {
         let state = self.heat_of(state);
         let mut later = state.to_vec();
         self.advance_here(&mut later, SolidMemo::of(memo), acts, allowance)?;
-        let start = self.temperatures_at(state, memo, acts.path, 0.0);
-        let end = self.temperatures_at(&later, memo, acts.path, acts.duration);
+        let loads = [0.0, acts.duration].map(|s| self.face_loads(memo, acts.path, s));
+        let (start, end) = ((state, &*loads[0]), (&*later, &*loads[1]));
         let surface =
-            |&face: &FaceName| self.port(face).surface(&self.solid, [&start, &end], acts.duration);
+            |&face: &FaceName| self.port(face).surface(&self.solid, start, end, acts.duration);
         Ok(faces.iter().map(surface).collect())
     }
 
@@ -265,7 +199,8 @@ impl Conductor for SolidBody {
         if acts.duration > 0.0 {
             self.advance_here(&mut later, SolidMemo::of(memo), acts, allowance)?;
         }
-        let end = self.temperatures_at(&later, memo, acts.path, acts.duration);
-        Ok(faces.iter().map(|&face| self.port(face).at_cells(&end)).collect())
+        let loads = self.face_loads(memo, acts.path, acts.duration);
+        let at_cells = |&face: &FaceName| self.port(face).temperatures(&self.solid, &later, &loads);
+        Ok(faces.iter().map(at_cells).collect())
     }
 }

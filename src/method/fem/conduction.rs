@@ -4,9 +4,12 @@ mod modal;
 mod nonlinear;
 mod particles;
 
+use faer::Mat;
+
 use super::heat::{HeatLoads, HeatProblem, ModalRow};
 use super::nonlinear::{NonlinearFailure, NonlinearHeat, heat_mesh};
 use super::plan::Plan;
+use crate::math::separable::transform_depth;
 use crate::method::enthalpy::Failure;
 use crate::method::heat_totals::HeatTotals;
 use crate::method::mesh::Mesh;
@@ -40,6 +43,17 @@ pub trait Heat: Send + Sync {
     /// Temperature above the initial one at all nodes, those on interfaces between layers twice, class by class
     /// [K]; empty for a class that is zero. `faces` holds the present face values of each class.
     fn nodal(&self, state: &[f64], faces: &[Vec<f64>]) -> Vec<Vec<f64>>;
+
+    /// The same after a matrix was applied along z, of which each row weights the nodes there: as many planes of nodes
+    /// as the matrix has rows. Much less work than all nodes where these are few.
+    fn along_depth(&self, state: &[f64], faces: &[Vec<f64>], rows: &Mat<f64>) -> Vec<Vec<f64>> {
+        let nodal = self.nodal(state, faces);
+        let of_class = |part: &Vec<f64>| match part.is_empty() {
+            true => Vec::new(),
+            false => transform_depth(part, rows),
+        };
+        nodal.iter().map(of_class).collect()
+    }
 
     /// Heat stored since time zero [J].
     fn stored(&self, state: &[f64]) -> f64;

@@ -6,7 +6,6 @@ use super::columns::DepthProblem;
 use super::heat::{depth_ends, end_conditions};
 use super::modes::AxisModes;
 use super::plan::Plan;
-use crate::math::separable::{Side, transform};
 
 /// The answer of that end to an impulse of heat per area, uniform along it: `Σ g e^{−λt}`.
 pub struct EndResponse {
@@ -14,8 +13,9 @@ pub struct EndResponse {
     pub rates: Vec<f64>,
     /// g [K m²/J]
     pub gains: Vec<f64>,
-    /// What each mode adds to the temperature of the end from the temperatures of nodes along z: `modes × nodes`.
-    projection: Mat<f64>,
+    /// Weights of the temperatures of nodes along z: a row for the temperature of the end, and one for each mode's
+    /// contribution to that.
+    pub rows: Mat<f64>,
 }
 
 impl EndResponse {
@@ -31,7 +31,7 @@ impl EndResponse {
         Self {
             rates: modes.decay.iter().map(rate).collect(),
             gains: end.iter().map(|value| value * value / capacity).collect(),
-            projection: projection(&end, &modes.shapes, &modes.mass),
+            rows: rows(high, &end, &modes.shapes, &modes.mass),
         }
     }
 
@@ -47,25 +47,19 @@ impl EndResponse {
         Self {
             rates: column.decay,
             gains: end.iter().map(|value| value * value).collect(),
-            projection: projection(&end, &column.shapes, &depth.capacity),
+            rows: rows(high, &end, &column.shapes, &depth.capacity),
         }
-    }
-
-    /// What each mode adds to the temperature of the end's nodes [K], mode after mode, from nodal temperatures of
-    /// which a plane has `nx · ny`; empty for none.
-    pub fn amplitudes(&self, temperatures: &[f64], [nx, ny]: [usize; 2]) -> Vec<f64> {
-        if temperatures.is_empty() {
-            return Vec::new();
-        }
-        let [x, y] = [nx, ny].map(|n| Mat::<f64>::identity(n, n));
-        transform(temperatures, [&x, &y, &self.projection], Side::Direct)
     }
 }
 
-/// `e_m φ_mᵀ M`, e at the end, of mass-orthonormal modes.
-fn projection(end: &[f64], shapes: &Mat<f64>, mass: &Mat<f64>) -> Mat<f64> {
+/// 1 at the end's node, then `e_m φ_mᵀ M` of mass-orthonormal modes with their values `e` at the end.
+fn rows(high: bool, end: &[f64], shapes: &Mat<f64>, mass: &Mat<f64>) -> Mat<f64> {
     let nodes = shapes.nrows();
+    let node = if high { nodes - 1 } else { 0 };
     let part = |m: usize, i: usize, k: usize| shapes[(i, m)] * mass[(i, k)];
     let projected = |m: usize, k: usize| (0..nodes).map(|i| part(m, i, k)).sum::<f64>();
-    Mat::from_fn(end.len(), nodes, |m, k| end[m] * projected(m, k))
+    Mat::from_fn(1 + end.len(), nodes, |row, k| match row.checked_sub(1) {
+        None => f64::from(u8::from(k == node)),
+        Some(m) => end[m] * projected(m, k),
+    })
 }

@@ -7,8 +7,11 @@ mod recovered;
 mod remembered;
 mod tangent;
 
-use super::conduction::{Heat, HeatFailure, heat_of};
 use std::sync::Arc;
+
+use faer::Mat;
+
+use super::conduction::{Heat, HeatFailure, heat_of};
 
 use super::elastic::{ElasticProblem, ElasticSetup, Strains};
 use super::end_response::EndResponse;
@@ -285,12 +288,18 @@ impl SolidFem {
         [end.rates.clone(), end.gains.clone()]
     }
 
-    /// What each of these modes adds to the temperature of that end's nodes [K], mode after mode, class by
-    /// class; empty for a class that is zero.
-    pub fn end_amplitudes(&self, temperatures: &Temperatures, high: bool) -> Vec<Vec<f64>> {
-        let end = &self.ends[usize::from(high)];
-        let [nx, ny, _] = self.mesh.node_counts();
-        temperatures.iter().map(|part| end.amplitudes(part, [nx, ny])).collect()
+    /// Temperature above the initial one at the nodes of that end [K], then the contribution of each of these modes to
+    /// it, class by class; empty for a class that is zero.
+    pub fn end_parts(&self, state: &[f64], loads: &SolidLoads, high: bool) -> Vec<Vec<f64>> {
+        self.heat.along_depth(state, &loads.faces, &self.ends[usize::from(high)].rows)
+    }
+
+    /// Temperature above the initial one at the nodes of the top or the bottom [K], class by class; empty for a class
+    /// that is zero.
+    pub fn end_rise(&self, state: &[f64], loads: &SolidLoads, high: bool) -> Vec<Vec<f64>> {
+        let rows = &self.ends[usize::from(high)].rows;
+        let node = Mat::from_fn(1, rows.ncols(), |_, k| rows[(0, k)]);
+        self.heat.along_depth(state, &loads.faces, &node)
     }
 
     pub fn temperatures(&self, state: &[f64], loads: &SolidLoads) -> Temperatures {

@@ -1,5 +1,7 @@
 //! Finite elements, exact in time by their modes, in one material or through layers of several.
 
+use faer::Mat;
+
 use super::{Heat, HeatFailure, HeatValue, ModalHeat};
 use crate::method::fem::heat::{DepthModes, HeatLoads, HeatProblem, ModalRow};
 use crate::method::heat_totals::HeatTotals;
@@ -27,6 +29,10 @@ impl<D: DepthModes> Heat for HeatProblem<D> {
 
     fn nodal(&self, state: &[f64], faces: &[Vec<f64>]) -> Vec<Vec<f64>> {
         self.nodal(state, faces)
+    }
+
+    fn along_depth(&self, state: &[f64], faces: &[Vec<f64>], rows: &Mat<f64>) -> Vec<Vec<f64>> {
+        self.along_depth(state, faces, rows)
     }
 
     fn stored(&self, state: &[f64]) -> f64 {

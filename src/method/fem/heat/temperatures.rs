@@ -1,9 +1,13 @@
 //! What is read of a state: temperatures, and the heat that they store.
 
+use faer::Mat;
+
 use super::class::{dot, multiply};
 use super::depth::DepthModes;
 use super::{HeatProblem, is_zero};
-use crate::math::separable::{Side, add_product, contract, transform};
+use crate::math::separable::{
+    Side, add_product, contract, transform, transform_depth, transform_planes,
+};
 use crate::method::mesh::Mesh;
 
 impl<D: DepthModes> HeatProblem<D> {
@@ -76,6 +80,34 @@ impl<D: DepthModes> HeatProblem<D> {
                     add_product(&mut nodal, values[f], b);
                 }
                 nodal
+            })
+            .collect()
+    }
+
+    /// The same after a matrix was applied along z, of which each row weights the nodes there: as many planes of nodes
+    /// as the matrix has rows.
+    pub fn along_depth(&self, state: &[f64], faces: &[Vec<f64>], rows: &Mat<f64>) -> Vec<Vec<f64>> {
+        let basis = self.depth.basis();
+        let mut product = vec![0.0; rows.nrows() * basis.ncols()];
+        crate::math::product::product(&mut product, rows.as_ref(), basis.as_ref());
+        let of_basis =
+            Mat::from_fn(rows.nrows(), basis.ncols(), |i, k| product[i + rows.nrows() * k]);
+        let parts = self.contents(state).zip(faces).zip(&self.classes);
+        parts
+            .map(|((content, values), class)| {
+                if is_zero(content, values) {
+                    return Vec::new();
+                }
+                let content = self.effective(class, content, values);
+                let mixed = self.depth.to_mixed(class, &content);
+                let [x, y] = class.lateral.each_ref().map(|modes| &modes.shapes);
+                let mut planes = transform_planes(&transform_depth(&mixed, &of_basis), [x, y]);
+                for f in self.prescribed() {
+                    let [x, y, z] = &class.drives[f].boundary;
+                    let z = multiply(rows, z);
+                    add_product(&mut planes, values[f], [x, y, &z]);
+                }
+                planes
             })
             .collect()
     }
