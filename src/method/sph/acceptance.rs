@@ -1,4 +1,4 @@
-//! Whether a vector that comes from elsewhere is a state that these droplets could have come to.
+//! Checks whether a vector from outside is a state that a run of these droplets can reach.
 
 use super::cloud::{Cloud, HeadNumbers, cloud_of, head_len, ledger_of, particles_in};
 use super::images::Source;
@@ -8,7 +8,7 @@ use super::plan::{Demand, DropletPlan};
 use super::requests::Requests;
 use crate::runtime::parallel::Team;
 
-/// Particles of the drops that a state has released, and their mass over ρ₀H^d.
+/// Particles of the drops released so far, and their mass over ρ₀H^d.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Released {
     pub particles: usize,
@@ -18,8 +18,9 @@ pub struct Released {
 /// Relative rounding of a sum of masses.
 const ROUNDING: f64 = 1e-9;
 
-/// Refuses what the loops over particles could not go on from, or no run leads to. `coldest` tells the
-/// lowest temperature [K], `released` what there is after so many releases.
+/// Returns the reason why a state must not be loaded: the particle loops cannot process it, or no
+/// run leads to it. `coldest` returns the lowest temperature [K] of a cloud, `released` the
+/// particles after a number of releases.
 pub fn check(
     state: &[f64],
     (plan, method, head): (&DropletPlan, &Method, HeadNumbers),
@@ -60,7 +61,7 @@ pub fn check(
     Ok(())
 }
 
-/// Refuses a ledger that contradicts itself or the plan; how many drops have been released.
+/// Refuses a ledger that contradicts itself or the plan; returns the number of released drops.
 fn check_head(
     numbers: &[f64],
     plan: &DropletPlan,
@@ -92,7 +93,7 @@ fn check_head(
     }
 }
 
-/// Refuses drops on demand that nobody can have asked for.
+/// Refuses requests for drops that no caller can have made.
 fn check_requests(
     requests: &Requests,
     released: f64,

@@ -1,10 +1,10 @@
-//! Why a droplet could not be advanced.
+//! Reasons why a droplet could not be advanced.
 
 use super::kick::{FARTHEST, FASTEST};
 use crate::quantity::kelvin;
 use crate::runtime::allowance::Halt;
 
-/// A step that would have no physical meaning; the state is as it was before.
+/// A step without physical meaning; the state is unchanged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
     #[error(

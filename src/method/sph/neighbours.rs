@@ -1,8 +1,8 @@
-//! Which particles and images lie near which: for every block a list of what surrounds it, and for
-//! every particle a list of places in that.
+//! Lists of neighbouring particles and images: for every block its surroundings, and for every
+//! particle a list of places in these.
 //!
-//! Lengths are in units of the support radius. The lists reach farther than the kernel by a skin, so
-//! that they serve until neighbours have moved against each other by its width.
+//! Lengths are in units of the support radius. The lists reach farther than the kernel by a skin,
+//! so they remain valid until neighbours have moved against each other by its width.
 
 use std::ops::Range;
 
@@ -12,41 +12,41 @@ use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, GROUP};
 use crate::runtime::parallel::Team;
 
-/// Reach of the lists beyond the kernel over the root of the motion against neighbours in a step, and
-/// its bounds. A step costs in proportion to `(1 + s)³ P + L m/s`, with s the skin, m the motion, P the
-/// time of all sums and L that of making lists, L a fifth to a half of it; it is least at
-/// `s = √(m L/3P)`.
+/// Reach of the lists beyond the kernel over the root of the relative motion of neighbours in a
+/// step, and its bounds. The cost of a step is proportional to `(1 + s)³ P + L m/s`, with the skin
+/// s, the motion m, the time P of all sums and the time L of making lists. L is a fifth to a half
+/// of P; the cost is least at `s = √(m L/3P)`.
 const SKIN: f64 = 0.3;
 const SKINS: [f64; 2] = [1e-3, 0.3];
-/// Share of the skin that rounding in single precision could use.
+/// Fraction of the skin reserved for rounding in single precision.
 const MARGIN: f64 = 1e-5;
 
-/// Particles that stand together and all that surrounds them.
+/// Particles of a block and all that surrounds them.
 pub struct Block {
     /// Index of the first particle.
     pub first: usize,
     pub count: usize,
     /// Origin of local coordinates.
     pub centre: [f64; 3],
-    /// The particles' neighbours, themselves included, first without and then with an image at the
-    /// wall. Place 0 of local copies is nowhere, so the k-th source has place k + 1.
+    /// The particles' neighbours, themselves included: first those without, then those with an
+    /// image at the wall. Place 0 of local copies is a dummy, so the k-th source has place k + 1.
     sources: Vec<Source>,
     /// Places of neighbours, in runs whose lengths are multiples of [`WIDTH`]: 0, or those of sources.
     places: Vec<u16>,
     /// For each particle the ends of its runs: neighbours, and images at the wall.
     ends: Vec<[u32; 2]>,
-    /// Blocks that hold all sources, with the codes of their images.
+    /// Blocks that contain all sources, with the codes of their images.
     surroundings: Vec<(usize, u8)>,
-    /// How far neighbours may still move against each other.
+    /// Remaining relative motion of neighbours before the lists expire.
     slack: f64,
-    /// How far anything may still move against anything before what is not among the surroundings
-    /// could be a neighbour.
+    /// Remaining relative motion of any two particles before one outside the surroundings can
+    /// become a neighbour.
     clearance: f64,
-    /// Whether more surrounds the block than its lists can hold: then they hold nothing.
+    /// True if the block has more surroundings than its lists can hold; they are then empty.
     is_crowded: bool,
 }
 
-/// Memory that searches share.
+/// Memory shared by searches.
 #[derive(Default)]
 struct SearchBuffers {
     near_block: Candidates,
@@ -61,15 +61,15 @@ pub struct Neighbours {
     tree: BlockTree,
 }
 
-/// Ways that the particles of each block are about to go: the box of them all.
+/// Predicted displacements of each block's particles: the bounding box of all.
 pub struct Ways {
     pub of_blocks: Vec<Bounds>,
-    /// Further steps for which the lists that are made now are to serve.
+    /// Number of further steps for which new lists are to serve.
     pub steps: f64,
 }
 
 impl Ways {
-    /// These vectors.
+    /// Boxes of these displacements.
     pub fn along(ways: &[[f64; 3]], steps: f64, team: &Team) -> Self {
         let of_block = |b: usize| {
             let range = b * BLOCK..((b + 1) * BLOCK).min(ways.len());
@@ -78,7 +78,7 @@ impl Ways {
         Self { of_blocks: team.map(ways.len().div_ceil(BLOCK), of_block), steps }
     }
 
-    /// Ways over a time, from velocities.
+    /// Displacements over a time, from velocities.
     pub fn times(mut self, dt: f64) -> Self {
         for Bounds { low, high } in &mut self.of_blocks {
             low.iter_mut().chain(high).for_each(|v| *v *= dt);
@@ -86,7 +86,7 @@ impl Ways {
         self
     }
 
-    /// None.
+    /// No displacements.
     pub fn none(particles: usize) -> Self {
         let nowhere = Bounds { low: [0.0; 3], high: [0.0; 3] };
         Self { of_blocks: vec![nowhere; particles.div_ceil(BLOCK)], steps: f64::INFINITY }
@@ -121,7 +121,7 @@ impl Block {
         [start..middle, middle..end].map(|range| self.places[range].as_chunks().0)
     }
 
-    /// Finds the neighbours of the block's particles among what is near the block, of which those from
+    /// Finds the neighbours of the block's particles among its surroundings, of which those from
     /// `wall` on are at the wall.
     fn find_places(
         &mut self,
@@ -160,12 +160,12 @@ impl Block {
                 self.ends.push(ends);
             }
         }
-        // Loops over pairs rely on it without another look.
+        // Loops over pairs rely on this without a further check.
         let last = self.places.iter().fold(0, |last, &place| last.max(place));
         assert!(usize::from(last) <= self.sources.len(), "a place beyond all sources");
     }
 
-    /// Takes no neighbours at all, of which there would be too many.
+    /// Empties the lists of a block with too many neighbours.
     fn give_up(&mut self) {
         self.sources.clear();
         self.places.clear();
@@ -176,7 +176,7 @@ impl Block {
 }
 
 impl Neighbours {
-    /// Neighbours of particles that stand in blocks; the lists are made when they are first needed.
+    /// Neighbours of particles sorted into blocks; the lists are made when first needed.
     ///
     /// # Panics
     /// If there are more particles than [`Source::MOST`].
@@ -188,17 +188,18 @@ impl Neighbours {
         Self { blocks, tree: BlockTree::over(points, team) }
     }
 
-    /// Volume that surrounded the blocks when lists were last made, each counted for itself.
+    /// Volume of the blocks' surroundings when lists were last made, summed over blocks.
     pub fn surrounded(&self) -> f64 {
         self.tree.surrounded(1.0)
     }
 
-    /// Where a block stands that so many particles surround that its lists cannot hold them.
+    /// Position of a block with more surroundings than its lists can hold.
     pub fn crowded(&self) -> Option<[f64; 3]> {
         self.blocks.iter().find(|block| block.is_crowded).map(|block| block.centre)
     }
 
-    /// Makes the lists hold all neighbours of particles where they are and on their ways.
+    /// Updates the lists so that they hold all neighbours of particles at their positions and along
+    /// their paths.
     pub fn prepare(&mut self, points: &[[f64; 3]], ways: &Ways, images: &Images, team: &Team) {
         let drifts = &ways.of_blocks;
         let motion = widest(drifts, images);
@@ -235,7 +236,7 @@ impl Neighbours {
     }
 }
 
-/// How far any particle moves against any particle or image at most.
+/// Upper bound on the motion of any particle against any particle or image.
 fn widest(drifts: &[Bounds], images: &Images) -> f64 {
     let all = drifts.iter().copied().reduce(|all, part| all.joined(&part));
     let Some(drift) = all else { return 0.0 };
@@ -243,20 +244,20 @@ fn widest(drifts: &[Bounds], images: &Images) -> f64 {
     images.codes().iter().fold(drift, image).diagonal()
 }
 
-/// How far the particles of a block and what surrounds them move against each other at most.
+/// Upper bound on the motion of a block's particles against their surroundings.
 fn span(own: &Bounds, drifts: &[Bounds], surroundings: &[(usize, u8)], images: &Images) -> f64 {
     let drift = |&(block, code): &(usize, u8)| drifts[block].turned(images.get(code));
     surroundings.iter().fold(*own, |all, part| all.joined(&drift(part))).diagonal()
 }
 
-/// What lists are made from.
+/// Inputs from which lists are made.
 struct Search<'a> {
     points: &'a [[f64; 3]],
     ways: &'a Ways,
     spots: Vec<Spots>,
     tree: &'a BlockTree,
     images: &'a Images,
-    /// How far anything moves against anything at most.
+    /// Upper bound on the motion of any two particles.
     motion: f64,
 }
 
@@ -265,14 +266,14 @@ impl Search<'_> {
         &self.points[block.first..block.first + block.count]
     }
 
-    /// Whether only its surroundings are still near a block.
+    /// Returns true if no particle from outside its surroundings has come near a block.
     fn nothing_came_to(&self, block: &Block) -> bool {
         let bounds = Bounds::of(self.own(block).iter().copied());
         let near = surroundings(&bounds, self.tree, self.images, 1.0 + SKINS[1]);
         self.motion < SKINS[1] - MARGIN && near.iter().all(|part| block.surroundings.contains(part))
     }
 
-    /// Lists what surrounds a block.
+    /// Lists the surroundings of a block.
     fn list(&self, block: &mut Block, buffers: &mut SearchBuffers) {
         let Search { ways, spots, tree, images, .. } = self;
         let own = self.own(block);
@@ -312,14 +313,14 @@ impl Search<'_> {
     }
 }
 
-/// Reach beyond the kernel of lists that are to serve for some steps of a motion.
+/// Reach of lists beyond the kernel, if they are to serve for a number of steps of a motion.
 fn skin(motion: f64, steps: f64) -> f64 {
     // Particles may become faster by half, and do not leave the lists within this step.
     let needed = 1.5 * motion;
     (SKIN * motion.sqrt()).min(steps * needed).clamp(SKINS[0], SKINS[1]).max(needed)
 }
 
-/// Blocks whose images come near to `bounds`, those at the wall last.
+/// Blocks whose images come close to `bounds`, those at the wall last.
 fn surroundings(
     bounds: &Bounds,
     tree: &BlockTree,
@@ -336,15 +337,16 @@ fn surroundings(
     all
 }
 
-/// Points nearer to a point than the root of a square.
+/// Points within a distance of a point, given by its square.
 #[derive(Debug, Clone, Copy)]
 struct Within {
     at: [f32; 3],
     square: f32,
 }
 
-/// Writes the places of points of a range that are within, in order; how many they are. There is room
-/// for the whole range and a vector more, and behind the points there are as many others.
+/// Writes the places of those points of a range that are within the distance, in order; returns
+/// their number. There must be room for the whole range and one vector more, and as much padding
+/// behind the points.
 fn select(
     along: [&[f32]; 3],
     numbers: &[u32],
@@ -354,13 +356,13 @@ fn select(
 ) -> usize {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx512f") {
-        // SAFETY: the processor has what the function asks for.
+        // SAFETY: the processor has the features that the function requires.
         return unsafe { select_avx512(along, numbers, range, within, places) };
     }
     select_each(along, numbers, range, within, places)
 }
 
-/// One point after the other without a branch: written always, kept if near.
+/// Processes one point at a time without a branch: always writes, keeps what is near.
 fn select_each(
     [x, y, z]: [&[f32]; 3],
     numbers: &[u32],
@@ -378,7 +380,7 @@ fn select_each(
     found
 }
 
-/// Sixteen points at once, with the same roundings.
+/// Processes sixteen points at a time, with the same roundings.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
 fn select_avx512(
@@ -442,7 +444,7 @@ mod tests {
         (points, neighbours)
     }
 
-    /// Asserts that the lists hold all pairs within the support, and tells how many pairs they hold.
+    /// Asserts that the lists hold all pairs within the support, and returns the number of pairs.
     fn assert_complete(points: &[[f64; 3]], neighbours: &Neighbours, images: &Images) -> usize {
         let mut listed_pairs = 0;
         for block in &neighbours.blocks {
@@ -473,7 +475,7 @@ mod tests {
     }
 
     #[test]
-    fn the_lists_hold_what_a_loop_over_all_pairs_finds() {
+    fn lists_match_brute_force() {
         for (images, threads) in models().into_iter().zip([1, 3]) {
             let (points, mut neighbours) = ordered(700);
             neighbours.prepare(&points, &Ways::none(700), &images, &Team::new(threads));
@@ -493,7 +495,7 @@ mod tests {
     }
 
     #[test]
-    fn the_lists_stay_complete_while_particles_move() {
+    fn lists_remain_complete_while_particles_move() {
         let drift =
             |i: usize, step: usize| [0, 1, 2].map(|a| 0.03 * (number(i + 11 * a + step / 9) - 0.5));
         for (images, steps) in models().into_iter().zip([1.0, 9.0]) {
@@ -512,7 +514,7 @@ mod tests {
     }
 
     #[test]
-    fn a_common_motion_wears_no_list_out() {
+    fn common_motion_does_not_expire_lists() {
         let (mut points, mut neighbours) = ordered(500);
         let images = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
         let team = Team::new(1);
@@ -525,8 +527,8 @@ mod tests {
     }
 
     #[test]
-    fn what_comes_from_far_away_is_seen() {
-        // Two clouds, each as stiff as a body, of which one flies through the other.
+    fn particles_from_afar_are_found() {
+        // Two clouds, each moving as a rigid body, one through the other.
         let open = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
         let (mut points, _) = ordered(2 * BLOCK);
         points[BLOCK..].iter_mut().for_each(|x| x[0] += 7.0);
