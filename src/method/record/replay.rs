@@ -1,4 +1,4 @@
-//! Drops that give what is known of one.
+//! Drops that repeat a recorded one.
 
 mod extremes;
 
@@ -13,25 +13,26 @@ use super::surface::SurfaceAt;
 use crate::port::{Domain, Surface, WallCells, WallExchange};
 use crate::state::Layout;
 
-/// What drops are replayed from.
+/// Inputs of a replay.
 #[derive(Debug, Clone)]
 pub struct ReplayPlan {
     pub course: std::sync::Arc<Course>,
     pub cells: WallCells,
-    /// Of a drop [kg] and [J/K].
+    /// Mass [kg] and heat capacity [J/K] of a drop.
     pub mass: f64,
     pub heat_capacity: f64,
-    /// Drops that there may be, and how far from the origin along x and y [m].
+    /// Largest number of drops, and largest distance from the origin along x and y [m].
     pub most: usize,
     pub reach: [f64; 2],
-    /// Largest diffusivity of what is below [m²/s].
+    /// Largest diffusivity of the solid below [m²/s].
     pub diffusivity: f64,
 }
 
-/// Drops above a wall: everything known before time starts. What changes is a flat vector.
+/// Drops above a wall: everything known before time starts. The variables of state form a flat
+/// vector.
 pub struct Replay {
     plan: ReplayPlan,
-    /// Of the cells [m²].
+    /// Areas of the cells [m²].
     areas: Vec<f64>,
     lateral: Lateral,
 }
@@ -39,7 +40,7 @@ pub struct Replay {
 /// A drop that has been released.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Falling {
-    /// When it touches the wall [s], where along x and y [m], how fast [m/s] and how warm [K].
+    /// Contact time [s], position along x and y [m], speed [m/s] and temperature [K] of the drop.
     pub contact: f64,
     pub place: [f64; 2],
     pub speed: f64,
@@ -49,21 +50,22 @@ pub struct Falling {
 /// Sums over all drops.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ReplayTotals {
-    /// Drops asked for, released, in the air or giving, and come down where another was still giving.
+    /// Numbers of drops: requested, released, falling or active, and landed where another was still
+    /// active.
     pub asked: f64,
     pub released: f64,
     pub active: f64,
     pub overlapping: f64,
-    /// Of the drops released [kg].
+    /// Mass of the released drops [kg].
     pub mass: f64,
-    /// Given to the wall since time zero [J], [N s].
+    /// Heat [J] and impulse [N s] transferred to the wall since time zero.
     pub heat: f64,
     pub impulse: [f64; 3],
-    /// Diameter of the film of the drop that came down last [m].
+    /// Film diameter of the drop that landed last [m].
     pub spread: f64,
 }
 
-/// A flow of heat of each cell that falls evenly over a step, see [`Surface::falling_parts`].
+/// A heat flux of each cell that falls linearly over a step, see [`Surface::falling_parts`].
 pub type Falls = Vec<f64>;
 
 impl Replay {
@@ -81,24 +83,24 @@ impl Replay {
         flatten(&mut Ledger::default(), &mut [])
     }
 
-    /// The fields of a state; nothing of a length that fits no number of drops.
+    /// Fields of a state; `None` if its length fits no number of drops.
     pub fn layout(&self, state: &[f64]) -> Option<Layout> {
         let rings = self.plan.course.rings();
         drops_in(state, rings).map(|drops| layout(drops, rings))
     }
 
-    /// Drops asked for so far, and released.
+    /// Numbers of drops requested so far, and released.
     pub fn counts(&self, state: &[f64]) -> [f64; 2] {
         let (ledger, _) = self.of(state);
         [ledger.asked, ledger.released]
     }
 
-    /// Most films that have stood on one place so far.
+    /// Largest number of films on one place so far.
     pub fn most_films(&self, state: &[f64]) -> f64 {
         self.of(state).0.stacked
     }
 
-    /// [s]
+    /// Time [s].
     pub fn time(&self, state: &[f64]) -> f64 {
         self.of(state).0.time
     }
@@ -107,13 +109,14 @@ impl Replay {
         unflatten(state, self.plan.course.rings())
     }
 
-    /// When a drop gives nothing more [s], if its heat lags behind no further.
+    /// Time at which a drop becomes inactive [s], if its heat is delayed no further.
     fn end(&self, drop: &Drop) -> f64 {
         drop.contact + self.plan.course.duration(drop.speed) + drop.longest_lag()
     }
 
-    /// Advances by `duration` [s] with drops that are released meanwhile, of which some have been `asked` for, above
-    /// a surface as it would be without all drops of this step. What the cells got, and how it fell over the step.
+    /// Advances by `duration` [s] with newly released drops, `asked` of them on request, above a
+    /// surface as it would be without all drops of this step. Returns the exchange of the cells,
+    /// and its fall over the step.
     pub fn advance(
         &self,
         state: &mut Vec<f64>,
@@ -145,12 +148,12 @@ impl Replay {
         (exchange, falls)
     }
 
-    /// Rings push along their radius, which is no direction.
+    /// The impulses of rings are radial and have no direction.
     fn as_vector(&self, given: f64, axis: usize) -> f64 {
         if axis < 2 && self.plan.cells.are_radial() { 0.0 } else { given }
     }
 
-    /// Notes how warm the wall is where drops touch it, and which of them meet others.
+    /// Records the wall temperature where drops land, and which of them meet others.
     fn touch_down(&self, ledger: &mut Ledger, drops: &mut [Drop], surface: &Surface, start: f64) {
         for n in 0..drops.len() {
             if drops[n].is_down() || drops[n].contact >= ledger.time {
@@ -181,8 +184,9 @@ impl Replay {
         }
     }
 
-    /// Moments within a step of this length [s] at which the wall should be asked anew: as drops touch down, and as they
-    /// cool. A moment at which a drop has cooled may be another that is near.
+    /// Instants within a step of this length [s] at which the wall temperature should be updated:
+    /// as drops land, and as they cool. An instant due to cooling may be shifted to another one
+    /// nearby.
     pub fn moments(&self, state: &[f64], released: &[Falling], duration: f64) -> Vec<f64> {
         let (ledger, drops) = self.of(state);
         let known = drops.iter().map(|drop| (drop.contact, drop.speed));
@@ -212,13 +216,14 @@ impl Replay {
         Footprint::of(&self.plan.cells, drop.place, course.rings(), course.radius())
     }
 
-    /// What the cells got during the last step.
+    /// Exchange of the cells during the last step.
     pub fn exchange(&self, state: &[f64]) -> WallExchange {
         let (ledger, drops) = self.of(state);
         self.exchanged(&ledger, &drops, &self.before(&ledger, &drops), |_, _, _| ()).0
     }
 
-    /// Lets drops give what they give during the last step, above a surface as it would be without them.
+    /// Applies the drops' contributions of the last step, above a surface as it would be without
+    /// them.
     fn give(
         &self,
         ledger: &Ledger,
@@ -254,7 +259,7 @@ impl Replay {
         })
     }
 
-    /// How far the heat of rings lags behind where the wall cannot take all of it [s], and how it falls then [W].
+    /// Lag of the rings' heat where the wall cannot absorb all of it [s], and its fall then [W].
     fn held_back(
         &self,
         ledger: &Ledger,
@@ -270,7 +275,7 @@ impl Replay {
         footprint.rings.iter().zip(rings).enumerate().map(of_ring).unzip()
     }
 
-    /// The lag after which a ring has given a part of what it would have during the last step [s].
+    /// Lag at which a ring has transferred a fraction `part` of its heat in the last step [s].
     fn lag_for(&self, ledger: &Ledger, drop: &Drop, ring: usize, part: f64) -> f64 {
         let age = ledger.time - drop.contact;
         let heat = |age: f64| self.plan.course.heat(drop.speed, ring, age);
@@ -286,7 +291,8 @@ impl Replay {
         age - low
     }
 
-    /// What the cells got during the last step, and how it fell. Whoever looks sees each drop that gives anything.
+    /// Exchange of the cells during the last step, and its fall. `look` is called for each active
+    /// drop.
     fn exchanged(
         &self,
         ledger: &Ledger,
@@ -297,7 +303,7 @@ impl Replay {
         let mut exchange = WallExchange::none(self.plan.cells.len());
         exchange.duration = ledger.duration;
         let mut falls = vec![0.0; exchange.heat.len()];
-        // Drops released at once come down on one place.
+        // Drops released at once land on one place.
         let mut last: Option<([f64; 2], Footprint)> = None;
         let down = |(_, drop): &(usize, &Drop)| drop.is_down() && ledger.duration > 0.0;
         for (n, drop) in drops.iter().enumerate().filter(down) {
@@ -307,7 +313,7 @@ impl Replay {
                 None => last.insert((drop.place, self.footprint(drop))),
             };
             look(n, footprint, &mut rings);
-            // What lies beside a body keeps its heat.
+            // What lies beyond a body keeps its heat.
             let keeps = self.plan.cells.end_with_the_body();
             for (ring, given) in footprint.rings.iter().zip(&rings) {
                 ring.parts.iter().for_each(|part| given.to_cell(part, &mut exchange, &mut falls));
@@ -317,7 +323,7 @@ impl Replay {
         (exchange, falls)
     }
 
-    /// What the rings of each drop that is down had got before the last step.
+    /// Amounts that the rings of each landed drop had transferred before the last step.
     fn before(&self, ledger: &Ledger, drops: &[Drop]) -> Vec<Vec<Amounts>> {
         let start = ledger.time - ledger.duration;
         let of_drop = |drop: &Drop| match drop.is_down() {
@@ -327,7 +333,7 @@ impl Replay {
         drops.iter().map(of_drop).collect()
     }
 
-    /// What the rings of a drop gave during the last step, if it gave anything.
+    /// Contributions of a drop's rings during the last step, if it was active.
     fn given(&self, ledger: &Ledger, drop: &Drop, before: &[Amounts]) -> Option<Vec<Given>> {
         let Drop { contact, speed, lag_before, lag, .. } = drop;
         let start = ledger.time - ledger.duration;
@@ -349,7 +355,7 @@ impl Replay {
         Some((0..before.len()).map(of_ring).collect())
     }
 
-    /// Counts the step before the last as part of that.
+    /// Adds the step before the last to the last.
     pub fn join_steps(&self, before: &[f64], state: &mut Vec<f64>) {
         let (earlier, mut drops) = self.of(before);
         let (mut ledger, mut later) = self.of(state);
@@ -378,7 +384,7 @@ impl Replay {
         }
     }
 
-    /// Refuses a vector that no run of these drops leads to, with what is wrong with it.
+    /// Refuses a vector that no run of these drops leads to, with the reason.
     pub fn check_state(&self, state: &[f64]) -> Result<(), String> {
         let rings = self.plan.course.rings();
         if drops_in(state, rings).is_none() {
@@ -442,7 +448,7 @@ impl Replay {
     }
 }
 
-/// Part of its age by which a moment at which a drop has cooled may be moved.
+/// Fraction of its age by which an instant due to cooling may be shifted.
 pub const NEAR: f64 = 0.08;
 /// Relative rounding of times and places.
 const ROUNDING: f64 = 1e-9;
@@ -451,10 +457,11 @@ fn minus(after: &Amounts, before: &Amounts) -> [f64; 2] {
     [after.push - before.push, after.outward - before.outward]
 }
 
-/// Halvings of the time in which a lag is searched for.
+/// Number of bisections when a lag is searched for.
 const HALVINGS: usize = 60;
 
-/// What a ring gave during a step: heat [J], how it fell [W] and to what end, momentum into the wall and outward [N s].
+/// Contribution of a ring during a step: heat [J], its fall [W] and the resulting end value,
+/// impulse into the wall and outward [N s].
 pub struct Given {
     pub heat: f64,
     pub fall: f64,
