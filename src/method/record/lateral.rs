@@ -18,9 +18,8 @@ impl Lateral {
         Self { places: cells.middles(), areas: areas.to_vec(), diffusivity }
     }
 
-    /// Cells among which the heat of a cell spreads within a time [s]: the cell itself and its
-    /// neighbours with their shares. The shares sum to 1 together with those of cells that received
-    /// nothing.
+    /// Cells among which the heat of a cell spreads within a time [s]: the cell itself and its neighbours, with their
+    /// shares. The shares sum to 1, including those of cells that received nothing.
     pub fn around(&self, cell: usize, time: f64) -> Vec<(usize, f64)> {
         let scale = 4.0 * self.diffusivity * time;
         let near = (0..self.places.len()).filter_map(|other| {

@@ -460,8 +460,8 @@ fn minus(after: &Amounts, before: &Amounts) -> [f64; 2] {
 /// Number of bisections when a lag is searched for.
 const HALVINGS: usize = 60;
 
-/// Contribution of a ring during a step: heat [J], its fall [W] and the resulting end value,
-/// impulse into the wall and outward [N s].
+/// Contribution of a ring during a step: heat [J], its fall [W], its effect on the wall,
+/// and impulse into the wall and outward [N s].
 pub struct Given {
     pub heat: f64,
     pub fall: f64,

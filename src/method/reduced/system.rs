@@ -156,13 +156,13 @@ impl ReducedSystem {
         self.from_unknowns(x, place) + self.at_once(inputs, place)
     }
 
-    /// Contribution of the unknowns to an output; the direct contribution of the inputs is
-    /// separate.
+    /// Contribution of the unknowns to an output.
     pub fn from_unknowns(&self, x: &[f64], place: usize) -> f64 {
         let order = self.order();
         dot(&self.leaving[place * order..][..order], x)
     }
 
+    /// Direct contribution of the inputs to an output.
     pub fn at_once(&self, inputs: &[f64], place: usize) -> f64 {
         dot(&self.direct[place * self.inputs..][..self.inputs], inputs)
     }
