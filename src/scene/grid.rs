@@ -32,7 +32,7 @@ impl Grid {
         let (_, place) = field.body_and_place();
         let mut grid = Self::at(place, field, &solid.shape);
         if grid.normal == 2 {
-            // On an interface between layers, that of the upper one.
+            // On an interface between layers, z of the upper layer.
             grid.offset = solid.interface_at(grid.offset).unwrap_or(grid.offset);
         }
         grid
@@ -95,7 +95,7 @@ pub fn lateral_extents(shape: &Shape) -> [f64; 2] {
     }
 }
 
-/// Extents of the whole face or section [m]; of the inscribed square where that is round.
+/// Extents of the whole face or section [m]; of the inscribed square if it is round.
 fn whole_size(shape: &Shape, normal: usize, offset: f64) -> [f64; 2] {
     match *shape {
         Shape::Disc(Disc { radius, .. }) if normal == 2 => [SQRT_2 * radius; 2],
@@ -103,7 +103,7 @@ fn whole_size(shape: &Shape, normal: usize, offset: f64) -> [f64; 2] {
     }
 }
 
-/// Extents of a section [m]; of the rectangle around it where it is round.
+/// Extents of a section [m]; of the bounding rectangle if it is round.
 pub(super) fn section_size(shape: &Shape, normal: usize, offset: f64) -> [f64; 2] {
     let [x, y] = lateral_extents(shape);
     let thickness = shape.thickness();

@@ -1,4 +1,4 @@
-//! Shape, material, faces, symmetry and mesh of each solid.
+//! Checks shape, material, faces, symmetry and mesh of each solid.
 
 use super::{Checker, MOST_ELEMENTS, fits, is_sound, layers, material, nonlinear, number};
 use crate::material::Material;
@@ -60,8 +60,8 @@ fn conditions(checker: &mut Checker, path: &Path, face: &Face) {
     checker.require(fine, &path.at("role"), message, "with `temperature`, `flux` or `convection`");
 }
 
-/// One of the four lateral faces and `sides` may both be given, but not with the same kind of
-/// condition.
+/// Refuses conditions of the same kind on `sides` and on one of the four lateral faces; different kinds may be
+/// combined.
 fn overlap_with_sides(checker: &mut Checker, path: &Path, solid: &Solid, name: FaceName) {
     let Some(sides) = solid.faces.get(&FaceName::Sides) else { return };
     if !name.is_one_of_four_sides() {
@@ -103,7 +103,7 @@ fn quarter(checker: &mut Checker, path: &Path, solid: &Solid) {
     }
 }
 
-/// What particles ask of a body.
+/// Checks the settings of particles and what they require of a body.
 fn sph(checker: &mut Checker, path: &Path, solid: &Solid) {
     if solid.heat != HeatMethod::Sph {
         let message = "settings of particles, but finite elements conduct the heat";
@@ -120,7 +120,7 @@ fn sph(checker: &mut Checker, path: &Path, solid: &Solid) {
     }
 }
 
-/// The plain operator is wrong by a finite amount wherever distances differ.
+/// Refuses the plain operator on unequal distances, where its error remains finite.
 fn plain_operator(checker: &mut Checker, path: &Path, solid: &Solid) {
     let mesh = &solid.mesh;
     let at = path.at("sph.operator");
@@ -153,7 +153,7 @@ fn spacing(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {
     }
 }
 
-/// Refuses distances of nodes of which a body would hold more than can be counted, wherever it is fine.
+/// Refuses node distances whose number of nodes would be too large to count.
 fn not_too_fine(checker: &mut Checker, path: &Path, spacing: f64, extent: f64) {
     let least = extent / MOST_ELEMENTS;
     let message = "the body holds more of these distances than a mesh has elements";

@@ -1,10 +1,10 @@
-//! The constants of materials: tables, melting and yield.
+//! Checks the constants of materials: tables, melting and yield.
 
 use super::{Checker, number};
 use crate::material::{Material, Melting, Properties, Property, PropertyError, Table};
 use crate::scene::locate::Path;
 
-/// The materials that have names.
+/// Checks the named materials.
 pub fn named(checker: &mut Checker) {
     for (name, material) in &checker.scene.material {
         check(checker, &Path::default().key("material").key(name), material);
@@ -28,7 +28,7 @@ pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
 
 fn table(checker: &mut Checker, path: &Path, table: &Table) {
     let Err(error) = table.check() else { return };
-    // What is allowed stands apart in a scene's errors.
+    // The allowed values are a separate part of a scene's errors.
     let message = error.to_string();
     let message = message.split(" (allowed").next().unwrap_or_default().to_owned();
     match error {
@@ -42,7 +42,7 @@ fn table(checker: &mut Checker, path: &Path, table: &Table) {
     }
 }
 
-/// A yield stress goes with the model that has one.
+/// Checks that a yield stress occurs only with a model that uses it.
 fn yields(checker: &mut Checker, path: &Path, material: &Material) {
     let law = material.properties();
     let given = [
@@ -86,7 +86,7 @@ fn yields(checker: &mut Checker, path: &Path, material: &Material) {
     }
 }
 
-/// Refuses materials without the constants of a body whose mechanics is needed.
+/// Refuses materials that lack constants which the mechanics of their body requires.
 pub fn elasticity(checker: &mut Checker, path: &Path, constants: &Properties, why: &str) {
     for (key, is_given, allowed) in [
         ("young", constants.young.is_some(), "a positive number (Pa)"),

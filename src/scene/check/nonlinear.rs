@@ -1,11 +1,11 @@
-//! Whether a solid can be solved as the scene asks, and as its constants and faces need.
+//! Checks that a solid can be solved by the method that the scene sets and that its constants and faces need.
 
 use super::Checker;
 use crate::scene::locate::Path;
 use crate::scene::lookup::split_place;
 use crate::scene::types::{HeatMethod, Layer, Scene, Solid, SolverMethod, Symmetry};
 
-/// Whether Newton's method advances the heat of a solid.
+/// Returns true if Newton's method advances the heat of a solid.
 pub fn takes_newton(scene: &Scene, solid: &Solid) -> bool {
     match scene.solver.method {
         SolverMethod::Newton => true,
@@ -14,7 +14,7 @@ pub fn takes_newton(scene: &Scene, solid: &Solid) -> bool {
     }
 }
 
-/// Refuses loads that a part of a body cannot take for the whole where it is not linear.
+/// Refuses loads without the symmetry of a nonlinear body's modelled part, which then cannot represent the whole.
 fn even_loads(checker: &mut Checker, path: &Path) {
     let name = path.last_key().to_owned();
     for (i, load) in checker.scene.load.iter().enumerate() {

@@ -1,4 +1,5 @@
-//! What drops are computed by: particles, a record of these, or the closed forms of a film, each with keys of its own.
+//! Checks how drops are computed: by particles, by a recording of these, or by the closed forms of a film. Each has
+//! keys of its own.
 
 use super::{Checker, number};
 use crate::kernel::Kernel;
@@ -56,7 +57,7 @@ fn speeds(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     }
 }
 
-/// A film has no particles, so what concerns these is refused.
+/// Refuses the keys of particles for a film, which has none.
 fn without_particles(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let given = [
         ("spacing", droplet.spacing != 0.0),
