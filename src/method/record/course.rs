@@ -134,7 +134,7 @@ impl Course {
         sums
     }
 
-    /// Heat per kelvin that one ring has received at a time after contact [J/K].
+    /// Heat per kelvin that one ring has received at a time [s] after contact [J/K].
     pub fn heat(&self, speed: f64, ring: usize, age: f64) -> f64 {
         if age <= 0.0 {
             return 0.0;

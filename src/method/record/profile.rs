@@ -63,7 +63,7 @@ impl Profile {
         from.into_iter().zip(to).map(|(a, b)| a.towards(b, part)).collect()
     }
 
-    /// Heat per kelvin of one ring at a time [J/K].
+    /// Heat per kelvin of one ring at a time [s] [J/K].
     pub fn heat_of(&self, ring: usize, time: f64) -> f64 {
         let (before, part) = self.place(time);
         let of = |sample: usize| match sample {

@@ -14,8 +14,6 @@ use crate::kernel::Shape;
 /// `dr_i/dt = (1 + r_i) Σ V_j F u_ij·x_ij + δ/2 · Σ 2 V_j (−F) [r_j − r_i + ½ (g_i + g_j)·x_ij]`,
 /// `(1 + r_i) dT_i/dt = 2 κ Σ V_j F (T_i − T_j)`,
 ///
-/// with δ for a smoothing length H/2 and `g_i = B_i Σ V_j F (r_j − r_i) x_ij`,
-/// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. Images at planes slip in the first
 /// with δ for a smoothing length H/2 and `g_i = B_i Σ V_j F (r_j − r_i) x_ij`, `B_i = [−Σ V_j F
 /// x_ij ⊗ x_ij]⁻¹`, of the step before. In the first equation images at planes slip. Under a body
 /// force the density continues in them as at rest, so that a fluid at rest is not diffused. A fluid
@@ -28,6 +26,8 @@ use crate::kernel::Shape;
 ///
 /// Heat is conducted only with `HEAT`; without `MOMENTS` all g are 0, and neither g nor the sums
 /// for B are computed.
+///
+/// Sources: Antuono, Colagrossi & Marrone (2012), Comput. Phys. Commun. 183, 2570–2580, doi
 /// 10.1016/j.cpc.2012.07.006; with g = 0 Molteni & Colagrossi (2009), Comput. Phys. Commun. 180,
 /// 861–872, doi 10.1016/j.cpc.2008.12.004; Cleary & Monaghan (1999), J. Comput. Phys. 148, 227–264,
 /// doi 10.1006/jcph.1998.6118.

@@ -29,7 +29,6 @@ const FAINT: f64 = 0.01;
 /// `E = σ ∫ f(C) |∇C| dV − σ cos θ ∫ F(C) dA`,  `F = ∫ f dC`,  `f = 15 s² (1 − s)² (3 − 2s)/c`,  `s = C/c`,
 ///
 /// the second part over the wall z = 0 with contact angle θ (Young 1805, Phil. Trans. R. Soc. 95,
-/// the second part over the wall z = 0 with contact angle θ (Young 1805, Phil. Trans. R. Soc. 95,
 /// 65–87, doi 10.1098/rstl.1805.0005). Both are sums over points of a grid, see
 /// [`FreeSurface`](super::free_surface::FreeSurface), and the forces are the exact derivatives of
 /// these sums. A plane surface has the energy σ per area without any fitted constant; that of a
