@@ -16,7 +16,7 @@ pub struct Problem {
     pub value: String,
     /// Description of the error.
     pub message: String,
-    /// What would be allowed.
+    /// The allowed values.
     pub allowed: String,
 }
 

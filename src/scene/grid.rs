@@ -137,7 +137,7 @@ mod tests {
     const DISC: &str = "{ disc = { radius = 5, thickness = 2 } }";
 
     #[test]
-    fn a_face_of_a_box_is_covered_by_default() {
+    fn box_face_is_covered_by_default() {
         let top = grid(BOX, "on = 'plate.top'\ngrid = [2, 4]");
         assert_eq!((top.axes, top.normal, top.offset, top.size), ([0, 1], 2, 0.0, [4.0, 8.0]));
         assert_eq!(top.point(0, 0), [-1.0, -3.0, 0.0]);
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_section_is_centred_at_half_the_thickness() {
+    fn section_is_centred_at_half_thickness() {
         let section = grid(BOX, "in = 'plate'\nplane = { y = 1 }\ngrid = [1, 2]\nsize = [1, 1]");
         assert_eq!((section.axes, section.normal), ([0, 2], 1));
         assert_eq!(section.point(0, 0), [0.0, 1.0, -1.25]);
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_round_face_is_covered_by_its_inscribed_square() {
+    fn round_face_is_covered_by_its_inscribed_square() {
         let top = grid(DISC, "on = 'plate.top'\ngrid = [3, 3]");
         assert_eq!(top.size, [SQRT_2 * 5.0; 2]);
         let section = grid(DISC, "in = 'plate'\nplane = { x = 3 }\ngrid = [3, 3]");

@@ -224,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn a_missing_value_has_the_line_of_its_table() {
+    fn missing_value_reports_the_line_of_its_table() {
         expect(Path::default().at("load").index(0).at("on"), 7, "load[0].on", "");
     }
 
