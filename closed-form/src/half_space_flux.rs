@@ -28,7 +28,7 @@ impl UniformFlux {
     }
 }
 
-/// Flux `q = C/√t` over the whole surface, which holds the surface at a constant temperature.
+/// Flux `q = C/√t` over the whole surface, for which the surface temperature is constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DecayingFlux {
     pub body: Conductor,
