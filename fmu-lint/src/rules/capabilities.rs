@@ -1,4 +1,4 @@
-//! Capability flags that need each other.
+//! Capability flags that depend on each other.
 
 use super::{Check, Rule};
 use crate::Subject;

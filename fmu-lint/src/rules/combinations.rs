@@ -35,7 +35,7 @@ fn check(subject: &Subject, report: &mut Report) {
     }
 }
 
-/// The attribute at fault, what is wrong with it and what would be right.
+/// The faulty attribute, a description of the fault and the allowed values.
 fn fault(variable: &Variable) -> Option<(&'static str, String, String)> {
     let (causality, variability) = (variable.causality?, variable.variability?);
     let real = variable.kind == Some(Kind::Real);

@@ -31,7 +31,7 @@ fn check(subject: &Subject, report: &mut Report) {
     }
 }
 
-/// A path without steps that lead nowhere, such as `./util/list.c`.
+/// A path without redundant steps, such as `./util/list.c`.
 fn plain(path: &str) -> String {
     path.split('/').filter(|part| *part != ".").collect::<Vec<_>>().join("/")
 }

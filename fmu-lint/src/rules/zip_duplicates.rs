@@ -1,4 +1,4 @@
-//! Paths that are one file to some file systems.
+//! Paths that are equal on some file systems.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! Sizes that the directory of the zip file gives, against those that entries have.
+//! Sizes in the zip file's directory, compared with those of the entries.
 
 use super::{Check, Rule};
 use crate::finding::{Place, Report};
@@ -11,7 +11,7 @@ pub static RULE: Rule = Rule {
     check: Check::Reading,
 };
 
-/// Bytes from which on the ratio is judged, and the largest one.
+/// Size above which the compression ratio is checked, and the largest ratio.
 const JUDGED_RATIO: u64 = 1 << 26;
 const MOST_RATIO: u64 = 100;
 
