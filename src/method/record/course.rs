@@ -216,7 +216,7 @@ fn turns(known: &(Profile, Option<Tail>)) -> Vec<f64> {
     turns_of_film(known.0.duration, half)
 }
 
-/// Same as [`turns`] for a drop recorded over a `duration` with a known half time [s].
+/// Same as `turns` for a drop recorded over a `duration` with a known half time [s].
 pub fn turns_of_film(duration: f64, half: f64) -> Vec<f64> {
     let mut age = FIRST * duration;
     let mut ages = Vec::new();

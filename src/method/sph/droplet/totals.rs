@@ -29,7 +29,7 @@ pub struct DropletTotals {
     pub impulse_to_wall: [f64; 3],
     /// Impulse of gravity since time zero [N s].
     pub impulse_of_gravity: [f64; 3],
-    /// Diameter of the film that the body of fluid forms on the wall, see [`spread_diameter`] [m].
+    /// Diameter of the film that the body of fluid forms on the wall, see `spread::spread_diameter` [m].
     pub spread_diameter: f64,
     /// Height of the highest particle of the body of fluid above the wall [m].
     pub height: f64,
