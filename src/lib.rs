@@ -96,7 +96,7 @@
 //! | [`output`] | ParaView series and CSV tables. |
 //! | [`fmi`] | The C functions of FMI 2.0 and 3.0, and the model descriptions. |
 //!
-//! [`closed_form`] is a package below the library: the closed-form solutions that tests compare with.
+//! `closed_form` is a package below the library: the closed-form solutions that tests compare with.
 //!
 //! # Features
 //!
