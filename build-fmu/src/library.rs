@@ -44,7 +44,7 @@ pub fn read(path: &Path, fmi: Version) -> Result<Vec<u8>, String> {
     }
     if !has(impinge::scene::SCHEMA.as_bytes()) {
         return Err(format!(
-            "{} is of another build: it knows other keys of scenes than this program (allowed: what `cargo build \
+            "{} is of another build: its scene keys differ from those of this program (allowed: what `cargo build \
              --release --workspace` makes)",
             path.display()
         ));

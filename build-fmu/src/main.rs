@@ -163,7 +163,7 @@ fn refuse_inputs(target: &Path, inputs: &[&Path]) -> Result<(), String> {
     match inputs.iter().find(is_it) {
         None => Ok(()),
         Some(input) => Err(format!(
-            "{} is {}, which is read (allowed: another file to write)",
+            "{} is {}, which is an input (allowed: another output file)",
             target.display(),
             input.display()
         )),
@@ -184,7 +184,7 @@ fn refuse_other_files(target: &Path, begins: &[u8]) -> Result<(), String> {
         return Ok(());
     }
     Err(format!(
-        "{} is there and was not made by this program (allowed: another file, or to remove this one first)",
+        "{} exists and was not made by this program (allowed: another file, or remove this one first)",
         target.display()
     ))
 }

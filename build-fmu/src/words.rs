@@ -54,7 +54,7 @@ fn solid(name: &str, solid: &Solid) -> String {
     let faces: Vec<String> = solid.faces.iter().map(|(name, how)| face(*name, how)).collect();
     let faces = if faces.is_empty() { String::new() } else { format!(" {}.", faces.join("; ")) };
     format!(
-        "{name}: a {shape}, at {} K in the beginning, with Fourier conduction and linear \
+        "{name}: a {shape}, initially at {} K, with Fourier conduction and linear \
          thermo-elasticity.{faces} Elsewhere it is insulated and free.",
         solid.initial_temperature
     )
@@ -109,7 +109,7 @@ fn droplet(name: &str, droplet: &Droplet) -> String {
     };
     let model = if droplet.dimension == 2 { "plane, one metre deep, " } else { "" };
     format!(
-        "{name}: {drops} of diameter {}, at {} K in the beginning, that arrives at {} m/s{angle}; {model}by \
+        "{name}: {drops} of diameter {}, initially at {} K, that arrives at {} m/s{angle}; {model}by \
          weakly compressible smoothed particle hydrodynamics with particles {} apart.",
         metres(droplet.diameter),
         droplet.initial_temperature,
@@ -136,7 +136,10 @@ fn coupling(coupling: &Coupling) -> String {
         );
     }
     let carried = if coupling.traction { "heat, pressure and shear" } else { "heat" };
-    format!("{} gives {carried} to {} and feels its temperature.", coupling.from, coupling.to)
+    format!(
+        "{} transfers {carried} to {} and receives its temperature.",
+        coupling.from, coupling.to
+    )
 }
 
 fn probe(probe: &Probe) -> String {

@@ -18,7 +18,7 @@ pub enum CliError {
     Set(#[from] SetErrors),
     #[error(transparent)]
     Table(#[from] TableError),
-    #[error("{name} is set (--set) and has a column in the table (--inputs); allowed: one of both")]
+    #[error("{name} is set (--set) and has a column in the table (--inputs); allowed: one of them")]
     GivenTwice { name: String },
     /// The run would take too long for anyone to wait.
     #[error(

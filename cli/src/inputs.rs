@@ -118,11 +118,11 @@ impl InputTable {
         let mut before = self.times.iter().rev();
         let [last, second] = [before.next(), before.next()];
         if last.is_some_and(|last| time < *last) {
-            return Err(format!("{text} s lies before the row above; allowed: times that ascend"));
+            return Err(format!("{text} s lies before the row above; allowed: ascending times"));
         }
         if second.is_some_and(|second| time == *second) {
             return Err(format!(
-                "{text} s stands in a third row; allowed: two rows of a time, a jump"
+                "{text} s occurs in a third row; allowed: two rows at one time, for a jump"
             ));
         }
         Ok(time)
@@ -297,7 +297,7 @@ fn named<'a>(registry: &'a Registry, title: &str) -> Result<Vec<&'a Variable>, S
     let variables = set::targets(registry, name).map_err(|error: SetError| error.to_string())?;
     let Slot::Input(_) = variables[0].slot else {
         return Err(format!(
-            "{name} is a parameter that is fixed; allowed: inputs (or --set {name}=VALUE)"
+            "{name} is a fixed parameter; allowed: inputs (or --set {name}=VALUE)"
         ));
     };
     let own = variables[0].quantity.map_or("1", |quantity| quantity.unit());

@@ -105,7 +105,7 @@ impl Run {
         if rows > ROWS_PER_STEP * timeline.count {
             let steps = timeline.count;
             let note = format!(
-                "{rows} rows of inputs cut {steps} steps: this takes as long as that many steps do"
+                "{rows} rows of inputs cut {steps} steps: the run takes as long as that many steps"
             );
             super::print_message("note", &note);
         }

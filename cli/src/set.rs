@@ -44,7 +44,7 @@ pub enum SetError {
     Unknown { name: String, close: Vec<String> },
     #[error("cannot set {name}: it is an output")]
     Output { name: String },
-    #[error("cannot set {name}: --out says where a run's files go")]
+    #[error("cannot set {name}: --out sets the folder of a run's files")]
     Directory { name: String },
     #[error("cannot set {name}: it is set twice; allowed: one --set {name}=VALUE")]
     Twice { name: String },

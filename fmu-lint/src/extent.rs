@@ -29,7 +29,10 @@ pub fn check(text: &str) -> Result<(), (usize, String)> {
                 }
                 depth += usize::from(!tag.is_empty);
                 if depth > DEEPEST {
-                    return Err((start, format!("more than {DEEPEST} elements lie in each other")));
+                    return Err((
+                        start,
+                        format!("elements are nested more than {DEEPEST} levels deep"),
+                    ));
                 }
                 Some(tag.end)
             }

@@ -49,7 +49,7 @@ impl Package {
         let archive_bytes = archive.into_inner().into_inner();
         let entries = directory(&archive_bytes, start);
         if entries.len() > MOST_ENTRIES {
-            let wrong = format!("{} entries; at most {MOST_ENTRIES} are looked at", entries.len());
+            let wrong = format!("{} entries; at most {MOST_ENTRIES} are checked", entries.len());
             return Err(Fault::new(Place::unit(), wrong));
         }
         let paths = entries.iter().filter_map(|entry| String::from_utf8(entry.path.clone()).ok());

@@ -18,7 +18,7 @@ pub const MOST_ITERATIONS: usize = 1000;
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
-    "conjugate gradients left {residual:e} of the load after {iterations} iterations, where {tolerance:e} is wanted"
+    "conjugate gradients reached a relative residual of {residual:e} after {iterations} iterations; required: {tolerance:e}"
 )]
 pub struct NotConverged {
     pub residual: f64,

@@ -15,7 +15,7 @@ pub enum OutputError {
     )]
     Busy { folder: PathBuf },
     /// A written file was removed, or replaced by another one.
-    #[error("{} is gone: it was removed or replaced while the run went on", path.display())]
+    #[error("{} was removed or replaced during the run", path.display())]
     Gone { path: PathBuf },
     /// The value to be written could not be computed.
     #[error(transparent)]

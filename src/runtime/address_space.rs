@@ -16,7 +16,7 @@ const SMALL: usize = 256 << 10;
 /// Error: the process may not take as much as is needed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "this takes up to {:.3} MB of address space; the limit of this process ({limit}) leaves {:.3} MB",
+    "this requires up to {:.3} MB of address space; the limit of this process ({limit}) leaves {:.3} MB",
     *needed as f64 / 1e6,
     *left as f64 / 1e6
 )]

@@ -36,10 +36,10 @@ impl Format {
         let (body, sum) = bytes.split_at(end);
         let mut reader = Reader { rest: body };
         if reader.take(magic.len()).ok_or_else(cut)? != magic.as_slice() {
-            return Err(format!("this is no {noun} of {of}, or one of another version"));
+            return Err(format!("not a {noun} of {of}, or one of another version"));
         }
         if sum != checksum(body).to_le_bytes() {
-            return Err(format!("the {noun} is damaged: its checksum is not that of its content"));
+            return Err(format!("the {noun} is damaged: its checksum does not match its content"));
         }
         let length = reader.count().ok_or_else(cut)?;
         let key = String::from_utf8(reader.take(length).ok_or_else(cut)?.to_vec());

@@ -61,11 +61,11 @@ impl Scene {
             Some(Obstacle { at, message: message.to_owned(), allowed })
         };
         if solid.heat == HeatMethod::Sph {
-            let message = "a reduced model follows from modes, not from particles";
+            let message = "a reduced model is derived from modes, not from particles";
             return obstacle(Place::Body("heat"), message, "fem");
         }
         if takes_newton(self, solid) {
-            let message = "a reduced model needs heat that modes give: constants that are numbers, nothing that melts \
+            let message = "a reduced model needs linear heat: constants independent of temperature, nothing that melts \
                            and no face that radiates";
             return obstacle(Place::Level, message, "full, auto");
         }
@@ -75,7 +75,7 @@ impl Scene {
         }
         if !solid.peaks.is_empty() {
             let message =
-                "a reduced model knows its probes and fields alone, and no extremes of the body";
+                "a reduced model computes only its probes and fields, not the extremes of the body";
             return obstacle(Place::Body("peaks"), message, "no `peaks`, or fidelity full, auto");
         }
         None
@@ -86,7 +86,8 @@ impl Scene {
             |place: &str| place == name || split_place(place).is_some_and(|(body, _)| body == name);
         let own = |coupling: &super::Coupling| touches(&coupling.from) || touches(&coupling.to);
         let place = self.coupling.iter().position(own)?;
-        let message = format!("`{name}` is a reduced model, whose faces other bodies cannot touch");
+        let message =
+            format!("`{name}` is a reduced model, which cannot be in contact with other bodies");
         Some(Obstacle {
             at: Place::Element("coupling", place),
             message,
@@ -103,7 +104,8 @@ impl Scene {
         let place = self.field.iter().position(is_of_cells)?;
         Some(Obstacle {
             at: Place::Element("field", place),
-            message: "a reduced model has no means of stress or displacement over cells".to_owned(),
+            message: "a reduced model does not compute means of stress or displacement over cells"
+                .to_owned(),
             allowed: "temperature, or points of a `grid`, or fidelity full, auto",
         })
     }
@@ -112,8 +114,8 @@ impl Scene {
         let [mechanical, thermal] = self.points_read(name);
         if mechanical > MOST_MECHANICAL {
             let message = format!(
-                "stress and displacement of {mechanical} points of `{name}`; each takes some solutions of mechanics in \
-                 a reduced model, which gives them at {MOST_MECHANICAL} at most"
+                "stress and displacement at {mechanical} points of `{name}`; each needs some solutions of mechanics in a \
+                 reduced model, which computes them at {MOST_MECHANICAL} at most"
             );
             return Some(Obstacle { at: Place::Level, message, allowed: "full, auto" });
         }

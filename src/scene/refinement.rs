@@ -23,7 +23,7 @@ pub struct MeshFactors {
     pub linear_heat: bool,
 }
 
-const FACTOR: &str = "a mesh is finer or coarser than usual by a factor";
+const FACTOR: &str = "a mesh is refined or coarsened by a factor";
 
 impl MeshFactors {
     /// Factors of a mesh with unknown error.

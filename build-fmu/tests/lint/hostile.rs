@@ -47,7 +47,7 @@ fn elements_too_wide_and_too_deep_are_refused_with_their_line() {
     change_xml(&mut deep, |xml| {
         xml.replacen("<ModelVariables>", &format!("{nest}<ModelVariables>"), 1)
     });
-    refused_for(&deep, "more than 1000 elements lie in each other");
+    refused_for(&deep, "elements are nested more than 1000 levels deep");
 }
 
 #[test]
@@ -86,7 +86,7 @@ fn many_entries_are_checked_and_too_many_refused() {
     let (code, text) = lint(&entries);
     assert_eq!(code, 0, "{text}");
     entries.extend((60_000..200_000).map(|i| (format!("extra/f{i}"), Vec::new())));
-    refused_for(&entries, "entries; at most 200000 are looked at");
+    refused_for(&entries, "entries; at most 200000 are checked");
 }
 
 #[test]
@@ -183,7 +183,7 @@ fn links_and_pipes_among_the_entries_are_found() {
 fn sizes_that_the_directory_invents_are_found() {
     for (said, words, rule) in [
         (3_u32, "unreadable: File is larger than its declared uncompressed size", "zip-readable"),
-        (0xFFFF_FFF0, "the directory says 4294967280 bytes, but there are", "zip-sizes"),
+        (0xFFFF_FFF0, "the directory states 4294967280 bytes, but the entry has", "zip-sizes"),
     ] {
         let bytes = with_directory("resources/scene.toml", |entry| {
             entry[24..28].copy_from_slice(&said.to_le_bytes());

@@ -76,7 +76,7 @@ fn table_errors_name_line_and_column() {
         ("time,spot.heat_flux\n", &["no rows"]),
         ("time,spot.heat_flix\n0,1\n", &["column `spot.heat_flix`", "did you mean spot.heat_flux"]),
         ("time,centre.temperature\n0,1\n", &["column `centre.temperature`", "it is an output"]),
-        ("time,plate.conductivity\n0,1\n", &["plate.conductivity is a parameter that is fixed"]),
+        ("time,plate.conductivity\n0,1\n", &["plate.conductivity is a fixed parameter"]),
         ("time,spot.heat_flux [MW/m2]\n0,1\n", &["is measured in W/m2"]),
         ("time,spot.heat_flux,spot.heat_flux\n0,1,1\n", &["has a column already"]),
         (

@@ -203,7 +203,7 @@ fn files_that_vanish_while_a_run_goes_on_are_noticed() {
     let mut reader = fs::File::open(&pipe).unwrap();
     fs::remove_file(&pipe).unwrap();
     std::io::copy(&mut reader, &mut std::io::sink()).unwrap();
-    Called(running.wait_with_output().unwrap()).fails(1, &["outputs.csv is gone"]);
+    Called(running.wait_with_output().unwrap()).fails(1, &["outputs.csv was removed"]);
 }
 
 #[test]

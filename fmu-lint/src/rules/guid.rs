@@ -70,7 +70,7 @@ fn ask_library(subject: &Subject, interface: &Interface, report: &mut Report) {
     match ask(guid) {
         Outcome::Made => {
             if matches!(ask(FOREIGN), Outcome::Made) {
-                let wrong = format!("the library takes any GUID, such as {FOREIGN}");
+                let wrong = format!("the library accepts any GUID, such as {FOREIGN}");
                 report.warning(Place::file(&path), wrong, RULE.says);
             }
         }
@@ -79,8 +79,9 @@ fn ask_library(subject: &Subject, interface: &Interface, report: &mut Report) {
             report.error(place(), wrong, RULE.says);
         }
         Outcome::Unloadable(reason) => {
-            let wrong =
-                format!("the library cannot be loaded here, so its GUID is not known: {reason}");
+            let wrong = format!(
+                "the library cannot be loaded here, so its GUID cannot be compared: {reason}"
+            );
             report.warning(Place::file(&path), wrong, RULE.says);
         }
         Outcome::Lost(how) => {

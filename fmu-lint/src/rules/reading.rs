@@ -15,7 +15,7 @@ pub static READABLE: Rule = Rule {
 pub static WELL_FORMED: Rule = Rule {
     name: "well-formed",
     section: "2.2",
-    says: "modelDescription.xml stands at the root of the zip file, is well-formed XML and UTF-8",
+    says: "modelDescription.xml is at the root of the zip file, is well-formed XML and UTF-8",
     check: Check::Reading,
 };
 

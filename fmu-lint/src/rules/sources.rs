@@ -8,7 +8,7 @@ use crate::finding::Report;
 pub static RULE: Rule = Rule {
     name: "sources",
     section: "4.3.1",
-    says: "every File of SourceFiles stands in the folder sources",
+    says: "every File of SourceFiles is in the folder sources",
     check: Check::Unit(check),
 };
 

@@ -112,7 +112,7 @@ impl Profile {
             return Err("a speed, time or radius is not positive".to_owned());
         }
         if self.amounts.len() != self.samples() * rings || self.samples() < 2 {
-            return Err("its numbers of rings and times do not go together".to_owned());
+            return Err("its numbers of rings and times are inconsistent".to_owned());
         }
         let of = |a: &Amounts| [a.heat, a.push, a.outward];
         let numbers = self.amounts.iter().flat_map(of).chain(self.spread.iter().copied());

@@ -28,7 +28,7 @@ pub fn check(
     released: impl Fn(usize) -> Released,
 ) -> Result<(), String> {
     let Some(count) = particles_in(state, head) else {
-        return Err(format!("{} unknowns, which are no number of particles", state.len()));
+        return Err(format!("{} unknowns, which fit no number of particles", state.len()));
     };
     let drops = check_head(&state[..head_len(head)], plan, method, head)?;
     let expected = released(drops);
@@ -46,7 +46,7 @@ pub fn check(
     for (i, (x, density)) in cloud.position.iter().zip(&cloud.density).enumerate() {
         for a in 0..3 {
             if x[a].abs() >= FARTHEST || (near_plane[a] && x[a] < 0.0) {
-                return Err(format!("particle {i} at {:?}, where none gets to", x));
+                return Err(format!("particle {i} at {:?}, which no run reaches", x));
             }
         }
         let speed = cloud.velocity[i].iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -111,7 +111,7 @@ fn check_requests(
         let speed = drop.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
         if far || speed >= FASTEST * method.units.speed || drop.temperature <= 0.0 {
             return Err(format!(
-                "a drop that waits at {:?} m, {speed} m/s and {} K",
+                "a waiting drop at {:?} m, {speed} m/s and {} K",
                 drop.centre, drop.temperature
             ));
         }

@@ -130,15 +130,19 @@ impl Fields for Ledger {
             ),
             (body("duration", "length of the last step [s]", 1), from_mut(duration)),
             (
-                body("heat_outside", "heat given beyond the cells in the last step [J]", 1),
+                body("heat_outside", "heat transferred beyond the cells in the last step [J]", 1),
                 from_mut(heat_outside),
             ),
             (
-                body("impulse_outside", "impulse given beyond the cells in the last step [N s]", 3),
+                body(
+                    "impulse_outside",
+                    "impulse transferred beyond the cells in the last step [N s]",
+                    3,
+                ),
                 impulse_outside,
             ),
             (
-                body("way", "way that particles went since they were shifted, over H", 1),
+                body("way", "mean path of particles since they were shifted, over H", 1),
                 from_mut(&mut self.way),
             ),
             (
@@ -146,7 +150,7 @@ impl Fields for Ledger {
                 from_mut(&mut self.surface_energy),
             ),
             (
-                body("surrounded", "volume about the blocks of particles, over H^d", 1),
+                body("surrounded", "volume within reach of the blocks of particles, over H^d", 1),
                 from_mut(&mut self.surrounded),
             ),
             (cell("heat", "heat given in the last step [J]", 1), heat),
@@ -155,13 +159,13 @@ impl Fields for Ledger {
                 impulse.as_flattened_mut(),
             ),
             (
-                cell("given", "rise of the solid below by the heat as it was given [K]", count),
+                cell("given", "rise of the solid below due to the varying flux [K]", count),
                 &mut self.memory.given,
             ),
             (
                 cell(
                     "reported",
-                    "rise of the solid below by the heat as it was reported [K]",
+                    "rise of the solid below due to the reported mean flux [K]",
                     count,
                 ),
                 &mut self.memory.reported,

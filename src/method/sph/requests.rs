@@ -27,7 +27,7 @@ impl Requests {
     pub fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
         let field = |name, words, per, width| Field { name, words, per, width };
         let body = |name, words| field(name, words, Per::Body, 1);
-        let waits = "place [m], velocity [m/s] and temperature [K] of a drop that waits";
+        let waits = "position [m], velocity [m/s] and temperature [K] of a waiting drop";
         vec![
             (body("asked", "drops asked for so far"), from_mut(&mut self.asked)),
             (field("waiting", waits, Per::Drop, NUMBERS), self.waiting.as_flattened_mut()),

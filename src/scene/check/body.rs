@@ -16,7 +16,7 @@ pub fn check(checker: &mut Checker) {
         if checker.scene.needs_mechanics(name) {
             for (place, own) in solid.materials(&path) {
                 if matches!(own, Material::Thermoelastic(_)) {
-                    let why = "stress, displacement or traction is asked for";
+                    let why = "outputs or loads require stress, displacement or traction";
                     material::elasticity(checker, &place, own.properties(), why);
                 }
             }
@@ -51,7 +51,7 @@ fn conditions(checker: &mut Checker, path: &Path, face: &Face) {
         let message = format!("a face takes one {kind} condition, not {}", keys.join(" and "));
         checker.require(keys.len() <= 1, path, message, format!("one of {}", keys.join(", ")));
     }
-    let message = "a face of prescribed temperature loses whatever it has to";
+    let message = "a face of prescribed temperature has no other thermal condition";
     let fine = face.radiation.is_none() || face.temperature.is_none();
     checker.require(fine, &path.at("radiation"), message, "`temperature` or `radiation`");
     let has_value = face.temperature.is_some() || face.flux.is_some() || face.convection.is_some();
@@ -113,7 +113,7 @@ fn sph(checker: &mut Checker, path: &Path, solid: &Solid) {
     }
     let order = solid.mesh.order.unwrap_or(1);
     let message =
-        "particles take linear elements, whose nodes have volumes like those of particles";
+        "particles require linear elements, whose nodes have volumes like those of particles";
     checker.require(order == 1, &path.at("mesh.order"), message, "1");
     if solid.sph.unwrap_or_default().operator == SphOperator::Plain {
         plain_operator(checker, path, solid);
@@ -141,7 +141,7 @@ fn spacing(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {
         let path = path.at("spacing");
         let fine = at_most(checker, &path, spacing, x.min(y) / 2.0, "half of the body's width");
         if fine && mesh.depth_spacing.is_none() {
-            let what = "the body's thickness, which it is for too unless `depth_spacing` is given";
+            let what = "the body's thickness, to which it applies unless `depth_spacing` is given";
             at_most(checker, &path, spacing, thickness, what);
         }
         not_too_fine(checker, &path, spacing, x.max(y));
@@ -156,7 +156,7 @@ fn spacing(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {
 /// Refuses node distances whose number of nodes would be too large to count.
 fn not_too_fine(checker: &mut Checker, path: &Path, spacing: f64, extent: f64) {
     let least = extent / MOST_ELEMENTS;
-    let message = "the body holds more of these distances than a mesh has elements";
+    let message = "the body would have more elements than a mesh can have";
     let fine = spacing <= 0.0 || spacing >= least;
     checker.require(fine, path, message, format!("{} >= {}", path.last_key(), number(least)));
 }

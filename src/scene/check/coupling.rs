@@ -78,7 +78,7 @@ fn check_contact(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
     for (key, place, found) in [("from", &coupling.from, lower), ("to", &coupling.to, upper)] {
         let Some((face, solid)) = found else { continue };
         if !solid.face(face).thermal().is_empty() || solid.face(face).radiation.is_some() {
-            let message = "the face has a thermal condition of its own beside the contact";
+            let message = "the face has a thermal condition in addition to the contact";
             checker.refuse(
                 &path.at(key),
                 message,
@@ -132,7 +132,7 @@ fn on_reservoir(checker: &mut Checker, path: &Path, place: &str, face: FaceName)
         return false;
     }
     let allowed = format!("{body}.{}", face.as_str());
-    let message = "what is below is touched at its top, what is above at its bottom";
+    let message = "a contact joins the top of the lower body with the bottom of the upper one";
     checker.require(found == face, path, message, allowed);
     true
 }
@@ -192,7 +192,7 @@ fn fit(checker: &mut Checker, path: &Path, droplet: &Droplet, shape: &Shape) {
         !fits(x + radius, half[0]) || !fits(y + radius, half[1])
     });
     if let Some(beyond) = beyond {
-        let message = format!("the drop of arrivals[{beyond}] comes down beside the face");
+        let message = format!("the drop of arrivals[{beyond}] lands outside the face");
         let [x, y] = half.map(number);
         checker.refuse(path, message, format!("|x| + radius <= {x}, |y| + radius <= {y}"));
     }

@@ -81,7 +81,7 @@ fn apart(checker: &mut Checker, owners: &BTreeMap<&str, Path>) {
         let mut others = name.match_indices('_').map(|(at, _)| &name[..at]);
         let is_taken = |other: &&str| owners.contains_key(other) || RESERVED.contains(other);
         if let Some(other) = others.find(is_taken) {
-            let message = format!("with flat names it may be taken for a part of `{other}`");
+            let message = format!("with flat names it is ambiguous with a part of `{other}`");
             checker.refuse(path, message, format!("a name that does not begin with `{other}_`"));
         }
     }
@@ -115,6 +115,6 @@ fn identifier(checker: &mut Checker, path: &Path, name: &str) {
     let allowed = "letters a-z and A-Z, digits and _, no digit first";
     checker.require(fine, path, format!("{name:?} is not a C identifier"), allowed);
     let length = name.len();
-    let message = format!("a name of {length} bytes, which no file can be called after");
+    let message = format!("a name of {length} bytes is too long for a file name");
     checker.require(length <= LONGEST_NAME, path, message, format!("at most {LONGEST_NAME} bytes"));
 }

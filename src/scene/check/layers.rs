@@ -36,7 +36,7 @@ fn layers(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
         let place = place.index(i);
         own_material(checker, &place.key("material"), &layer.material);
         sound &= checker.is_fine(&place.key("thickness"));
-        let message = "above the top layer there is none to be in contact with";
+        let message = "the top layer has no contact above it";
         let fine = i > 0 || layer.contact_resistance.is_none();
         let place = place.key("contact_resistance");
         checker.require(fine, &place, message, "a layer below another one");
@@ -81,7 +81,7 @@ fn lateral_convection(checker: &mut Checker, path: &Path, solid: &Solid) {
         if condition.convection.is_some() && !matches!(face, FaceName::Top | FaceName::Bottom) {
             let path = path.key("faces").key(face.as_str()).key("convection");
             let message = format!(
-                "a lateral face of layers that conduct differently ({} and {} W/(m K)) cannot be convective",
+                "a lateral face of layers with different conductivities ({} and {} W/(m K)) cannot be convective",
                 number(first),
                 number(other)
             );

@@ -154,7 +154,7 @@ impl<'a> Checker<'a> {
     fn not_a_solid(&self, body: &str, otherwise: String) -> String {
         match self.scene.body.get(body) {
             Some(Body::Reservoir(_)) => format!(
-                "`{body}` is a reservoir, whose values are outputs by themselves and which touches solids alone"
+                "`{body}` is a reservoir, whose values are always outputs and which can be in contact with solids only"
             ),
             Some(Body::Droplet(_)) => format!(
                 "`{body}` is a droplet, on which nothing else acts and whose values are outputs by \

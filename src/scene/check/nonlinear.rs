@@ -23,7 +23,8 @@ fn even_loads(checker: &mut Checker, path: &Path) {
         }
         let path = Path::default().key("load").index(i);
         for (key, value) in [("start.x", load.start.x), ("start.y", load.start.y)] {
-            let message = "a quarter of a body that is not linear takes loads that are even about x = 0 and y = 0 alone";
+            let message =
+                "a quarter of a nonlinear body requires loads symmetric about x = 0 and y = 0";
             let fine = value.is_none_or(|value| value == 0.0);
             checker.require(
                 fine,
@@ -38,12 +39,11 @@ fn even_loads(checker: &mut Checker, path: &Path) {
 pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
     let method = checker.scene.solver.method;
     if method == SolverMethod::Modal && !solid.conducts_linearly() {
-        let message =
-            "modes need constants that are numbers, nothing that melts and no face that radiates";
+        let message = "modes need constants independent of temperature, nothing that melts and no face that radiates";
         checker.refuse(&Path::default().at("solver.method"), message, "auto, newton");
     }
     if takes_newton(checker.scene, solid) && solid.heat == HeatMethod::Sph {
-        let message = "particles conduct heat with constants that are numbers alone, and by no Newton's method";
+        let message = "particles conduct heat only with constants independent of temperature, and without Newton's method";
         checker.refuse(&path.key("heat"), message, "fem");
     }
     let is_part = solid.symmetry == Symmetry::Quarter;

@@ -35,7 +35,8 @@ fn place(checker: &mut Checker, path: &Path, probe: &Probe, shape: &Shape) {
 fn side(checker: &mut Checker, path: &Path, probe: &Probe, solid: &Solid) {
     if probe.side.is_some() && solid.interface_at(probe.at[2]).is_none() {
         let list: Vec<String> = solid.interfaces().into_iter().map(number).collect();
-        let message = format!("the point is on no interface between layers of `{}`", probe.body);
+        let message =
+            format!("the point is not on an interface between layers of `{}`", probe.body);
         let allowed = match list.is_empty() {
             true => "a point of a body with layers".to_owned(),
             false => format!("a point with z = {}", list.join(" or ")),

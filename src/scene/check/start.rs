@@ -16,7 +16,7 @@ fn amounts(checker: &mut Checker, path: &Path, load: &Load) {
         let Some(values) = load.start.amounts(channel) else { continue };
         let path = path.key(channel.key());
         if !load.carries.contains(&Carries::of(channel)) {
-            let message = "a start value of something that the load does not carry";
+            let message = "a start value of an amount that the load does not carry";
             checker.refuse(&path, message, keys(load.channels()));
         } else if load.channels().any(|own| own == channel) {
             cells(checker, &path, values, load.footprint.cells());

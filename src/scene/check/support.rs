@@ -9,7 +9,7 @@ pub fn check(checker: &mut Checker) {
         if checker.scene.asks_mechanics(name) {
             let free = free_motions(solid);
             let message = format!(
-                "stress and displacement are asked for, but nothing holds the body against {}",
+                "stress or displacement is an output, but nothing supports the body against {}",
                 free.join(", ")
             );
             let path = Path::default().key("body").key(name);
