@@ -95,7 +95,7 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
         let mut integral = 0.0;
         for part in 0..parts as usize {
             if part > 0 {
-                go_on(&mut sources, dt);
+                advance_polynomial(&mut sources, dt);
             }
             integral += dt * dot(functional, u);
             let now: &[f64] = u;
@@ -157,7 +157,7 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
 }
 
 /// Advances a polynomial's value and derivatives by a time `dt`.
-fn go_on(derivatives: &mut [Vec<f64>], dt: f64) {
+fn advance_polynomial(derivatives: &mut [Vec<f64>], dt: f64) {
     for k in 0..derivatives.len() {
         let (own, higher) = derivatives[k..].split_at_mut(1);
         let mut weight = 1.0;

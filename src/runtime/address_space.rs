@@ -39,7 +39,7 @@ pub fn expect(bytes: usize) -> Result<(), TooLittle> {
 
 /// Returns true if the process may take so many more bytes.
 pub fn fits(bytes: usize) -> bool {
-    bytes <= SMALL || !system::is_limited() || system::is_to_be_had(bytes)
+    bytes <= SMALL || !system::is_limited() || system::can_be_reserved(bytes)
 }
 
 /// Largest single request in bytes; `None` without a limit.
@@ -50,7 +50,7 @@ pub fn left() -> Option<usize> {
     let (mut had, mut missed) = (0, 1 << 46);
     while missed - had > 1 << 16 {
         let middle = had + (missed - had) / 2;
-        match system::is_to_be_had(middle) {
+        match system::can_be_reserved(middle) {
             true => had = middle,
             false => missed = middle,
         }
@@ -96,7 +96,7 @@ mod system {
 
     /// Tests a reservation by making and releasing it, since only the system knows what counts. Only writable space
     /// counts as data.
-    pub fn is_to_be_had(bytes: usize) -> bool {
+    pub fn can_be_reserved(bytes: usize) -> bool {
         let flags = libc::MAP_PRIVATE | libc::MAP_ANONYMOUS | libc::MAP_NORESERVE;
         let access = match has_limit_of_data() {
             true => libc::PROT_READ | libc::PROT_WRITE,
@@ -120,7 +120,7 @@ mod system {
         "none"
     }
 
-    pub fn is_to_be_had(_bytes: usize) -> bool {
+    pub fn can_be_reserved(_bytes: usize) -> bool {
         true
     }
 }

@@ -30,7 +30,7 @@ unsafe impl GlobalAlloc for Patient {
         // SAFETY: by contract.
         let block = unsafe { System.alloc(layout) };
         if block.is_null() {
-            insist(layout, |layout| unsafe { System.alloc(layout) })
+            retry(layout, |layout| unsafe { System.alloc(layout) })
         } else {
             block
         }
@@ -42,7 +42,7 @@ unsafe impl GlobalAlloc for Patient {
         if !block.is_null() {
             return block;
         }
-        let block = insist(layout, |layout| unsafe { System.alloc_zeroed(layout) });
+        let block = retry(layout, |layout| unsafe { System.alloc_zeroed(layout) });
         if RESERVE.holds(block) {
             // SAFETY: as large as asked for.
             unsafe { block.write_bytes(0, layout.size()) };
@@ -81,7 +81,7 @@ unsafe impl GlobalAlloc for Patient {
 
 /// Retries for a while, then takes from the reserve; null if both fail.
 #[cold]
-fn insist(layout: Layout, ask: impl Fn(Layout) -> *mut u8) -> *mut u8 {
+fn retry(layout: Layout, ask: impl Fn(Layout) -> *mut u8) -> *mut u8 {
     if layout.size() > LARGEST_AWAITED {
         return ptr::null_mut();
     }

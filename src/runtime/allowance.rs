@@ -79,7 +79,7 @@ fn proposal(fits: Option<f64>) -> String {
 }
 
 /// Fraction of the longest step that is proposed, because its work is only an estimate.
-const SURELY: f64 = 0.5;
+const SAFETY_FACTOR: f64 = 0.5;
 
 impl Halt {
     /// Fraction of a too long step that takes about so many updates; `None` if the step ended for another reason.
@@ -125,7 +125,7 @@ impl Allowance {
     ) -> Result<(), Halt> {
         self.foresee(rounds, what, size).map_err(|halt| match halt {
             Halt::TooLong { rounds, what, size, .. } => {
-                let fits = SURELY * dt * MOST_UPDATES / cost(rounds, size);
+                let fits = SAFETY_FACTOR * dt * MOST_UPDATES / cost(rounds, size);
                 let fits = Some(fits).filter(|fits| fits.is_finite() && *fits > 0.0);
                 Halt::TooLong { rounds, what, size, fits }
             }

@@ -11,7 +11,8 @@ use std::path::Path;
 pub fn available_memory() -> f64 {
     let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
     let free = kilobytes(&read("/proc/meminfo"), "MemAvailable:");
-    let groups = groups(&read("/proc/self/cgroup")).into_iter().filter_map(|path| left_in(&path));
+    let groups =
+        groups(&read("/proc/self/cgroup")).into_iter().filter_map(|path| remaining_in(&path));
     free.into_iter().chain(groups).fold(f64::INFINITY, f64::min)
 }
 
@@ -40,7 +41,7 @@ fn groups(text: &str) -> Vec<String> {
 }
 
 /// Remaining memory of a control group [B]; `None` without a limit.
-fn left_in(folder: &str) -> Option<f64> {
+fn remaining_in(folder: &str) -> Option<f64> {
     let read = |name: &str| fs::read_to_string(format!("{}/{name}", folder.trim_end_matches('/')));
     let number = |name: &str| read(name).ok()?.trim().parse::<f64>().ok();
     let most = number("memory.max").or_else(|| number("memory.limit_in_bytes"))?;
@@ -75,7 +76,7 @@ mod tests {
             "/sys/fs/cgroup/",
         ];
         assert_eq!(groups(both), expected);
-        assert_eq!(left_in("/nowhere"), None);
+        assert_eq!(remaining_in("/nowhere"), None);
     }
 
     #[test]

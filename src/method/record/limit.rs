@@ -7,7 +7,7 @@
 
 use super::footprint::{Footprint, Ring};
 use super::lateral::Lateral;
-use super::replay::Given;
+use super::replay::Contribution;
 use super::surface::SurfaceAt;
 use crate::port::Surface;
 
@@ -78,7 +78,7 @@ impl<'a> Limit<'a> {
     }
 
     /// Adds the contribution of a film.
-    pub fn add(&mut self, footprint: &Footprint, temperature: f64, rings: &[Given]) {
+    pub fn add(&mut self, footprint: &Footprint, temperature: f64, rings: &[Contribution]) {
         for (ring, given) in footprint.rings.iter().zip(rings) {
             let Some(side) = given.side.map(Side::place) else { continue };
             let rise = (self.held * given.heat + self.falling * given.fall).abs();
@@ -155,7 +155,7 @@ impl<'a> Limit<'a> {
     }
 
     /// Fraction of a ring's contribution that all its cells can absorb.
-    pub fn part_of(parts: &Parts, ring: &Ring, given: &Given) -> f64 {
+    pub fn part_of(parts: &Parts, ring: &Ring, given: &Contribution) -> f64 {
         let Some(side) = given.side.map(Side::place) else { return 1.0 };
         ring.parts.iter().map(|part| parts[part.cell][side]).fold(1.0, f64::min)
     }

@@ -136,25 +136,31 @@ impl Replay {
         let start = ledger.time;
         ledger.duration = duration;
         ledger.time += duration;
-        self.touch_down(&mut ledger, &mut drops, surface, start);
+        self.record_landings(&mut ledger, &mut drops, surface, start);
         drops.iter_mut().for_each(|drop| drop.lag_before.clone_from(&drop.lag));
         let (exchange, falls) = self.give(&ledger, &mut drops, surface);
         ledger.heat += exchange.heat.iter().sum::<f64>() + exchange.heat_outside;
         for axis in 0..3 {
             let given: f64 = exchange.impulse.iter().map(|impulse| impulse[axis]).sum();
-            ledger.impulse[axis] += self.as_vector(given, axis) + exchange.impulse_outside[axis];
+            ledger.impulse[axis] += self.cartesian(given, axis) + exchange.impulse_outside[axis];
         }
         *state = flatten(&mut ledger, &mut drops);
         (exchange, falls)
     }
 
     /// The impulses of rings are radial and have no direction.
-    fn as_vector(&self, given: f64, axis: usize) -> f64 {
+    fn cartesian(&self, given: f64, axis: usize) -> f64 {
         if axis < 2 && self.plan.cells.are_radial() { 0.0 } else { given }
     }
 
     /// Records the wall temperature where drops land, and which of them meet others.
-    fn touch_down(&self, ledger: &mut Ledger, drops: &mut [Drop], surface: &Surface, start: f64) {
+    fn record_landings(
+        &self,
+        ledger: &mut Ledger,
+        drops: &mut [Drop],
+        surface: &Surface,
+        start: f64,
+    ) {
         for n in 0..drops.len() {
             if drops[n].is_down() || drops[n].contact >= ledger.time {
                 continue;
@@ -219,7 +225,7 @@ impl Replay {
     /// Exchange of the cells during the last step.
     pub fn exchange(&self, state: &[f64]) -> WallExchange {
         let (ledger, drops) = self.of(state);
-        self.exchanged(&ledger, &drops, &self.before(&ledger, &drops), |_, _, _| ()).0
+        self.collect_exchange(&ledger, &drops, &self.before(&ledger, &drops), |_, _, _| ()).0
     }
 
     /// Applies the drops' contributions of the last step, above a surface as it would be without
@@ -235,39 +241,40 @@ impl Replay {
         if ledger.duration > 0.0 {
             share(&self.plan.course, ledger, drops, &before);
         }
-        let (exchange, falls) = self.exchanged(ledger, drops, &before, |n, footprint, rings| {
-            limit.add(footprint, drops[n].temperature, rings);
-        });
+        let (exchange, falls) =
+            self.collect_exchange(ledger, drops, &before, |n, footprint, rings| {
+                limit.add(footprint, drops[n].temperature, rings);
+            });
         let Some(parts) = limit.parts(&self.lateral) else { return (exchange, falls) };
-        let mut held_back = drops.to_vec();
+        let mut delay = drops.to_vec();
         let mut falls_of_rings = vec![Vec::new(); drops.len()];
         let mut last = None;
-        self.exchanged(ledger, drops, &before, |n, footprint, rings| {
+        self.collect_exchange(ledger, drops, &before, |n, footprint, rings| {
             // Drops released at once are alike.
             let alike = last.filter(|&last: &usize| drops[last] == drops[n]);
             let (lag, falls) = match alike {
-                Some(last) => (held_back[last].lag.clone(), falls_of_rings[last].clone()),
-                None => self.held_back(ledger, &drops[n], (footprint, &parts), rings),
+                Some(last) => (delay[last].lag.clone(), falls_of_rings[last].clone()),
+                None => self.delay(ledger, &drops[n], (footprint, &parts), rings),
             };
-            (held_back[n].lag, falls_of_rings[n]) = (lag, falls);
+            (delay[n].lag, falls_of_rings[n]) = (lag, falls);
             last = Some(n);
         });
-        drops.clone_from_slice(&held_back);
-        self.exchanged(ledger, drops, &before, |n, _, rings| {
+        drops.clone_from_slice(&delay);
+        self.collect_exchange(ledger, drops, &before, |n, _, rings| {
             let falls = rings.iter_mut().zip(&falls_of_rings[n]);
             falls.for_each(|(given, &fall)| given.fall = fall);
         })
     }
 
     /// Lag of the rings' heat where the wall cannot absorb all of it [s], and its fall then [W].
-    fn held_back(
+    fn delay(
         &self,
         ledger: &Ledger,
         drop: &Drop,
         (footprint, parts): (&Footprint, &Parts),
-        rings: &[Given],
+        rings: &[Contribution],
     ) -> (Vec<f64>, Vec<f64>) {
-        let of_ring = |(n, (ring, given)): (usize, (&Ring, &Given))| {
+        let of_ring = |(n, (ring, given)): (usize, (&Ring, &Contribution))| {
             let part = Limit::part_of(parts, ring, given);
             let lag = if part < 1.0 { self.lag_for(ledger, drop, n, part) } else { drop.lag[n] };
             (lag, part * given.fall)
@@ -293,12 +300,12 @@ impl Replay {
 
     /// Exchange of the cells during the last step, and its fall. `look` is called for each active
     /// drop.
-    fn exchanged(
+    fn collect_exchange(
         &self,
         ledger: &Ledger,
         drops: &[Drop],
         before: &[Vec<Amounts>],
-        mut look: impl FnMut(usize, &Footprint, &mut [Given]),
+        mut look: impl FnMut(usize, &Footprint, &mut [Contribution]),
     ) -> (WallExchange, Falls) {
         let mut exchange = WallExchange::none(self.plan.cells.len());
         exchange.duration = ledger.duration;
@@ -334,7 +341,7 @@ impl Replay {
     }
 
     /// Contributions of a drop's rings during the last step, if it was active.
-    fn given(&self, ledger: &Ledger, drop: &Drop, before: &[Amounts]) -> Option<Vec<Given>> {
+    fn given(&self, ledger: &Ledger, drop: &Drop, before: &[Amounts]) -> Option<Vec<Contribution>> {
         let Drop { contact, speed, lag_before, lag, .. } = drop;
         let start = ledger.time - ledger.duration;
         let amounts = |time: f64, lags| self.plan.course.amounts(*speed, time - contact, lags);
@@ -350,7 +357,7 @@ impl Replay {
                 [before[n], between[n], after[n]].map(|amounts| difference * amounts.heat);
             let fall = 2.0 * (2.0 * b - a - c) / ledger.duration;
             let side = Side::of(difference, c - a);
-            Given { heat: c - a, fall, side, push: minus(&after[n], &before[n]) }
+            Contribution { heat: c - a, fall, side, push: minus(&after[n], &before[n]) }
         };
         Some((0..before.len()).map(of_ring).collect())
     }
@@ -462,14 +469,14 @@ const HALVINGS: usize = 60;
 
 /// Contribution of a ring during a step: heat [J], its fall [W], its effect on the wall,
 /// and impulse into the wall and outward [N s].
-pub struct Given {
+pub struct Contribution {
     pub heat: f64,
     pub fall: f64,
     pub side: Option<Side>,
     push: [f64; 2],
 }
 
-impl Given {
+impl Contribution {
     fn to_cell(&self, part: &Part, to: &mut WallExchange, falls: &mut [f64]) {
         to.heat[part.cell] += part.weight * self.heat;
         falls[part.cell] += part.weight * self.fall;

@@ -6,7 +6,7 @@ use super::order::{BLOCK, Bounds};
 
 /// Positions of a block's particles relative to one of them, in single precision.
 #[derive(Debug, Clone)]
-pub struct Spots {
+pub struct RelativePoints {
     pub origin: [f64; 3],
     pub along: [[f32; BLOCK]; 3],
     /// Number of points; padding follows them to fill whole vectors.
@@ -85,7 +85,7 @@ impl Near {
     }
 }
 
-impl Spots {
+impl RelativePoints {
     /// Positions of the particles of a block.
     pub fn of(points: &[[f64; 3]]) -> Self {
         let origin = points[0];
@@ -120,7 +120,13 @@ impl Candidates {
     }
 
     /// Appends the nearby images of some particles, for a box with this centre.
-    pub fn take_images(&mut self, spots: &Spots, image: &Image, centre: [f64; 3], near: Near) {
+    pub fn take_images(
+        &mut self,
+        spots: &RelativePoints,
+        image: &Image,
+        centre: [f64; 3],
+        near: Near,
+    ) {
         let origin = image.place(spots.origin);
         let shift = [0, 1, 2].map(|a| (origin[a] - centre[a]) as f32);
         self.take(spots.points(), image.signs.map(|sign| sign as f32), shift, near);
@@ -314,7 +320,7 @@ mod tests {
             let (centre, reach) = (bounds.centre(), 1.2);
             for signs in [[1.0, 1.0, 1.0], [-1.0, 1.0, -1.0]] {
                 let image = |p: &[f64; 3]| [0, 1, 2].map(|a| signs[a] * p[a]);
-                let spots = Spots::of(&points);
+                let spots = RelativePoints::of(&points);
                 let shift = [0, 1, 2].map(|a| (signs[a] * spots.origin[a] - centre[a]) as f32);
                 let (signs, near) = (signs.map(|s| s as f32), Near::to(&bounds, reach));
                 let mut taken = Candidates::default();
@@ -351,7 +357,7 @@ mod tests {
         let number = |i: usize| (i as f64 * 0.754877666).fract();
         let points: Vec<_> =
             (0..BLOCK).map(|i| [number(i), number(7 * i + 3), number(13 * i + 5)]).collect();
-        let (spots, mut all) = (Spots::of(&points), Candidates::default());
+        let (spots, mut all) = (RelativePoints::of(&points), Candidates::default());
         let whole = Near { half: [5.0; 3], reach_squared: 1.0 };
         all.take(spots.points(), [1.0; 3], [0.0; 3], whole);
         let near = Near { half: [0.1, 0.2, 0.0], reach_squared: 0.09 };
@@ -377,7 +383,7 @@ mod tests {
     #[test]
     fn padding_is_never_near() {
         for count in [1, 15, 17, BLOCK - 1] {
-            let spots = Spots::of(&vec![[0.0; 3]; count]);
+            let spots = RelativePoints::of(&vec![[0.0; 3]; count]);
             let near = Near { half: [1.0; 3], reach_squared: f32::INFINITY };
             let mut all = Candidates::default();
             all.take(spots.points(), [1.0; 3], [-f32::MAX; 3], near);

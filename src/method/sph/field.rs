@@ -1,6 +1,6 @@
 //! Points sorted for searches near a box.
 
-use super::candidates::{Candidates, Near, Numbers, Spots};
+use super::candidates::{Candidates, Near, Numbers, RelativePoints};
 use super::images::Image;
 use super::order::{BLOCK, BlockTree, Bounds};
 use crate::runtime::parallel::Team;
@@ -8,13 +8,13 @@ use crate::runtime::parallel::Team;
 /// Points sorted into blocks.
 pub struct Field {
     tree: BlockTree,
-    spots: Vec<Spots>,
+    spots: Vec<RelativePoints>,
 }
 
 impl Field {
     pub fn of(points: &[[f64; 3]], team: &Team) -> Self {
         let blocks: Vec<_> = points.chunks(BLOCK).collect();
-        let spots = team.map(blocks.len(), |b| Spots::of(blocks[b]));
+        let spots = team.map(blocks.len(), |b| RelativePoints::of(blocks[b]));
         Self { tree: BlockTree::over(points, team), spots }
     }
 

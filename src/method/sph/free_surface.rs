@@ -6,7 +6,7 @@ use super::fractions::{Energies, Fractions, Sheet, Slopes, from};
 use super::grid::Grid;
 use super::images::{Ends, Images};
 use super::lanes::WIDTH;
-use super::neighbours::Ways;
+use super::neighbours::Displacements;
 use super::order::{BLOCK, Bounds, space_order};
 use super::plan::DropletPlan;
 use super::pulls::{Pull, Pulls};
@@ -94,10 +94,16 @@ impl FreeSurface {
 
     /// Finds all points near surfaces of the particles of `cloud`, at their positions and along
     /// their paths.
-    pub fn prepare(&mut self, setting: &Setting, cloud: &Cloud, ways: &Ways, team: &Team) {
-        let drift = middle_way(ways, cloud, &setting.grid);
+    pub fn prepare(
+        &mut self,
+        setting: &Setting,
+        cloud: &Cloud,
+        displacements: &Displacements,
+        team: &Team,
+    ) {
+        let drift = centre_displacement(displacements, cloud, &setting.grid);
         let apart = |way: &Bounds| way.joined(&drift).diagonal();
-        let motion = ways.of_blocks.iter().map(apart).fold(0.0, f64::max);
+        let motion = displacements.of_blocks.iter().map(apart).fold(0.0, f64::max);
         self.slack = self.slack.map(|slack| slack - motion).filter(|&slack| slack > 0.0);
         if self.slack.is_none() {
             let skin = (SKIN_STEPS * motion).clamp(SKINS[0], SKINS[1]).max(1.5 * motion);
@@ -184,10 +190,10 @@ fn mean(vectors: &[[f64; 3]], masses: &[f64], grid: &Grid) -> [f64; 3] {
 }
 
 /// Bounds of the path of the fluid's centre of mass along the axes in which the grid is free.
-fn middle_way(ways: &Ways, cloud: &Cloud, grid: &Grid) -> Bounds {
+fn centre_displacement(displacements: &Displacements, cloud: &Cloud, grid: &Grid) -> Bounds {
     let masses: Vec<f64> = cloud.mass.chunks(BLOCK).map(|masses| masses.iter().sum()).collect();
     let corners = |corner: fn(&Bounds) -> [f64; 3]| -> [f64; 3] {
-        let corners: Vec<_> = ways.of_blocks.iter().map(corner).collect();
+        let corners: Vec<_> = displacements.of_blocks.iter().map(corner).collect();
         mean(&corners, &masses, grid)
     };
     Bounds { low: corners(|way| way.low), high: corners(|way| way.high) }
@@ -269,7 +275,7 @@ mod tests {
 
     fn pulls(setting: &Setting, cloud: &Cloud) -> (Vec<Pull>, f64) {
         let (team, mut surface) = (Team::new(1), FreeSurface::default());
-        surface.prepare(setting, cloud, &Ways::none(cloud.len()), &team);
+        surface.prepare(setting, cloud, &Displacements::none(cloud.len()), &team);
         let (pulls, energy) = surface.pulls(setting, cloud, &team);
         (pulls.to_vec(), energy)
     }
@@ -323,8 +329,8 @@ mod tests {
         let (team, mut surface) = (Team::new(1), FreeSurface::default());
         for step in 0..30 {
             let way = [0.0, 0.3, if step < 15 { 0.01 } else { -0.01 }];
-            let ways = Ways::along(&vec![way; cloud.len()], 30.0, &team);
-            surface.prepare(&setting, &cloud, &ways, &team);
+            let displacements = Displacements::along(&vec![way; cloud.len()], 30.0, &team);
+            surface.prepare(&setting, &cloud, &displacements, &team);
             cloud.position.iter_mut().for_each(|x| (0..3).for_each(|a| x[a] += way[a]));
             let kept = surface.pulls(&setting, &cloud, &team).1;
             let anew = pulls(&setting, &cloud).1;

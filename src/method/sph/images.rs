@@ -224,7 +224,7 @@ impl Images {
 
     /// Moves a particle that crossed a plane to the position of its image, which crossed it at the
     /// same time. Returns the signs for its velocity.
-    pub fn put_back(&self, x: &mut [f64; 3]) -> [f64; 3] {
+    pub fn reflect_back(&self, x: &mut [f64; 3]) -> [f64; 3] {
         let mut signs = [1.0; 3];
         for a in 0..3 {
             let Ends::Planes { near, far } = self.ends[a] else { continue };
@@ -307,11 +307,11 @@ mod tests {
         let ends = [Ends::Period(4.0), OPEN, Ends::Planes { near: true, far: Some(5.0) }];
         let images = Images::new(ends, false, [0.0; 3]);
         let mut low = [-0.5, -7.0, -0.25];
-        assert_eq!(images.put_back(&mut low), [1.0, 1.0, -1.0]);
+        assert_eq!(images.reflect_back(&mut low), [1.0, 1.0, -1.0]);
         images.wrap(&mut low);
         assert_eq!(low, [3.5, -7.0, 0.25]);
         let mut high = [9.0, 7.0, 5.25];
-        assert_eq!(images.put_back(&mut high), [1.0, 1.0, -1.0]);
+        assert_eq!(images.reflect_back(&mut high), [1.0, 1.0, -1.0]);
         assert!(images.are_beyond_period(&[high]) && !images.are_beyond_period(&[low]));
         images.wrap(&mut high);
         assert_eq!(high, [1.0, 7.0, 4.75]);

@@ -91,7 +91,7 @@ impl Default for StepShares {
 /// Largest number of steps between impulses of surface tension, which changes slowly relative to
 /// sound. Impulses between steps conserve its energy (reversible reference system propagator,
 /// Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97, 1990–2001, doi 10.1063/1.463137).
-const TURN: f64 = 10.0;
+const MOST_STEPS_PER_IMPULSE: f64 = 10.0;
 
 impl Method {
     pub fn of(plan: &DropletPlan) -> Self {
@@ -179,7 +179,7 @@ impl Method {
         let momentum = self.units.mass() * self.units.speed;
         for k in 0..part.mass.len() {
             let below = part.position[k][2] < 0.0;
-            let signs = self.images.put_back(&mut part.position[k]);
+            let signs = self.images.reflect_back(&mut part.position[k]);
             if signs == [1.0; 3] {
                 continue;
             }
@@ -225,7 +225,7 @@ impl Method {
         if self.surface.is_none() {
             return 1.0;
         }
-        (self.capillary_step() / dt).floor().clamp(1.0, TURN)
+        (self.capillary_step() / dt).floor().clamp(1.0, MOST_STEPS_PER_IMPULSE)
     }
 }
 

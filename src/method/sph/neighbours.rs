@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::candidates::{Candidates, Near, Points, Spots, inside};
+use super::candidates::{Candidates, Near, Points, RelativePoints, inside};
 use super::images::{Images, Source};
 use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, GROUP};
@@ -62,20 +62,20 @@ pub struct Neighbours {
 }
 
 /// Predicted displacements of each block's particles: the bounding box of all.
-pub struct Ways {
+pub struct Displacements {
     pub of_blocks: Vec<Bounds>,
     /// Number of further steps for which new lists are to serve.
     pub steps: f64,
 }
 
-impl Ways {
+impl Displacements {
     /// Boxes of these displacements.
-    pub fn along(ways: &[[f64; 3]], steps: f64, team: &Team) -> Self {
+    pub fn along(displacements: &[[f64; 3]], steps: f64, team: &Team) -> Self {
         let of_block = |b: usize| {
-            let range = b * BLOCK..((b + 1) * BLOCK).min(ways.len());
-            Bounds::of(ways[range].iter().copied())
+            let range = b * BLOCK..((b + 1) * BLOCK).min(displacements.len());
+            Bounds::of(displacements[range].iter().copied())
         };
-        Self { of_blocks: team.map(ways.len().div_ceil(BLOCK), of_block), steps }
+        Self { of_blocks: team.map(displacements.len().div_ceil(BLOCK), of_block), steps }
     }
 
     /// Displacements over a time, from velocities.
@@ -166,7 +166,7 @@ impl Block {
     }
 
     /// Empties the lists of a block with too many neighbours.
-    fn give_up(&mut self) {
+    fn discard_lists(&mut self) {
         self.sources.clear();
         self.places.clear();
         self.ends.clear();
@@ -200,8 +200,14 @@ impl Neighbours {
 
     /// Updates the lists so that they hold all neighbours of particles at their positions and along
     /// their paths.
-    pub fn prepare(&mut self, points: &[[f64; 3]], ways: &Ways, images: &Images, team: &Team) {
-        let drifts = &ways.of_blocks;
+    pub fn prepare(
+        &mut self,
+        points: &[[f64; 3]],
+        displacements: &Displacements,
+        images: &Images,
+        team: &Team,
+    ) {
+        let drifts = &displacements.of_blocks;
         let motion = widest(drifts, images);
         team.for_each(&mut self.blocks, |b, block| {
             block.slack -= span(&drifts[b], drifts, &block.surroundings, images);
@@ -215,8 +221,8 @@ impl Neighbours {
         let blocks: Vec<&[[f64; 3]]> = points.chunks(BLOCK).collect();
         let search = Search {
             points,
-            ways,
-            spots: team.map(blocks.len(), |b| Spots::of(blocks[b])),
+            displacements,
+            spots: team.map(blocks.len(), |b| RelativePoints::of(blocks[b])),
             tree: &self.tree,
             images,
             motion,
@@ -226,7 +232,7 @@ impl Neighbours {
         team.for_pieces(&mut worn, |_, blocks| {
             let mut buffers = SearchBuffers::default();
             for block in blocks {
-                if block.slack >= MARGIN && search.nothing_came_to(block) {
+                if block.slack >= MARGIN && search.is_undisturbed(block) {
                     block.clearance = SKINS[1] - motion;
                 } else {
                     search.list(block, &mut buffers);
@@ -253,8 +259,8 @@ fn span(own: &Bounds, drifts: &[Bounds], surroundings: &[(usize, u8)], images: &
 /// Inputs from which lists are made.
 struct Search<'a> {
     points: &'a [[f64; 3]],
-    ways: &'a Ways,
-    spots: Vec<Spots>,
+    displacements: &'a Displacements,
+    spots: Vec<RelativePoints>,
     tree: &'a BlockTree,
     images: &'a Images,
     /// Upper bound on the motion of any two particles.
@@ -267,7 +273,7 @@ impl Search<'_> {
     }
 
     /// Returns true if no particle from outside its surroundings has come near a block.
-    fn nothing_came_to(&self, block: &Block) -> bool {
+    fn is_undisturbed(&self, block: &Block) -> bool {
         let bounds = Bounds::of(self.own(block).iter().copied());
         let near = surroundings(&bounds, self.tree, self.images, 1.0 + SKINS[1]);
         self.motion < SKINS[1] - MARGIN && near.iter().all(|part| block.surroundings.contains(part))
@@ -275,18 +281,18 @@ impl Search<'_> {
 
     /// Lists the surroundings of a block.
     fn list(&self, block: &mut Block, buffers: &mut SearchBuffers) {
-        let Search { ways, spots, tree, images, .. } = self;
+        let Search { displacements, spots, tree, images, .. } = self;
         let own = self.own(block);
         let bounds = Bounds::of(own.iter().copied());
         block.centre = bounds.centre();
         block.surroundings = surroundings(&bounds, tree, images, 1.0 + SKINS[1]);
         let motion = span(
-            &ways.of_blocks[block.first / BLOCK],
-            &ways.of_blocks,
+            &displacements.of_blocks[block.first / BLOCK],
+            &displacements.of_blocks,
             &block.surroundings,
             images,
         );
-        let skin = skin(motion, ways.steps);
+        let skin = skin(motion, displacements.steps);
         let reach = 1.0 + skin;
         if skin > SKINS[1] {
             block.surroundings = surroundings(&bounds, tree, images, reach);
@@ -308,7 +314,7 @@ impl Search<'_> {
         block.is_crowded = false;
         match block.sources.len() < usize::from(u16::MAX) {
             true => block.find_places(own, wall, reach, buffers),
-            false => block.give_up(),
+            false => block.discard_lists(),
         }
     }
 }
@@ -478,7 +484,7 @@ mod tests {
     fn lists_match_brute_force() {
         for (images, threads) in models().into_iter().zip([1, 3]) {
             let (points, mut neighbours) = ordered(700);
-            neighbours.prepare(&points, &Ways::none(700), &images, &Team::new(threads));
+            neighbours.prepare(&points, &Displacements::none(700), &images, &Team::new(threads));
             let listed = assert_complete(&points, &neighbours, &images);
             let near = |i: usize, code: u8| {
                 let reach = (1.0 + skin(0.0, 1.0)).powi(2);
@@ -503,7 +509,12 @@ mod tests {
             for step in 0..40 {
                 let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
                 let team = Team::new(1);
-                neighbours.prepare(&points, &Ways::along(&drifts, steps, &team), &images, &team);
+                neighbours.prepare(
+                    &points,
+                    &Displacements::along(&drifts, steps, &team),
+                    &images,
+                    &team,
+                );
                 assert_complete(&points, &neighbours, &images);
                 for (x, d) in points.iter_mut().zip(&drifts) {
                     *x = [0, 1, 2].map(|a| x[a] + d[a]);
@@ -518,10 +529,10 @@ mod tests {
         let (mut points, mut neighbours) = ordered(500);
         let images = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
         let team = Team::new(1);
-        neighbours.prepare(&points, &Ways::none(500), &images, &team);
+        neighbours.prepare(&points, &Displacements::none(500), &images, &team);
         let slack = neighbours.blocks[0].slack;
         let drifts = vec![[0.5, -0.2, 0.1]; 500];
-        neighbours.prepare(&points, &Ways::along(&drifts, 9.0, &team), &images, &team);
+        neighbours.prepare(&points, &Displacements::along(&drifts, 9.0, &team), &images, &team);
         points.iter_mut().for_each(|x| x[0] += 0.5);
         assert!((neighbours.blocks[0].slack - slack).abs() < 1e-15);
     }
@@ -536,11 +547,16 @@ mod tests {
         let order = space_order(&points, &team);
         points = order.iter().map(|&i| points[i as usize]).collect();
         let mut neighbours = Neighbours::of(&points, &team);
-        let ways: Vec<_> =
+        let displacements: Vec<_> =
             points.iter().map(|x| [if x[0] > 5.0 { -0.07 } else { 0.0 }, 0.0, 0.0]).collect();
         for _ in 0..100 {
-            neighbours.prepare(&points, &Ways::along(&ways, 100.0, &team), &open, &team);
-            points.iter_mut().zip(&ways).for_each(|(x, way)| x[0] += way[0]);
+            neighbours.prepare(
+                &points,
+                &Displacements::along(&displacements, 100.0, &team),
+                &open,
+                &team,
+            );
+            points.iter_mut().zip(&displacements).for_each(|(x, way)| x[0] += way[0]);
             assert_complete(&points, &neighbours, &open);
         }
     }

@@ -16,7 +16,7 @@ use super::loops::{PART, PairSum, for_all, for_parts};
 use super::method::{Method, Push};
 use super::moment::least_eigenvalue;
 use super::momentum::Momentum;
-use super::neighbours::{Neighbours, Ways};
+use super::neighbours::{Displacements, Neighbours};
 use super::order::space_order;
 use super::pulls::{Bounded, balanced};
 use super::shifting::{Crowding, displacement};
@@ -46,7 +46,7 @@ pub struct Stepper<'a, 'p> {
     /// Free surfaces, where they have tension.
     free_surface: FreeSurface,
     /// Kicks whose reaction the wall has not received yet.
-    unanswered: Vec<Times>,
+    pending_kicks: Vec<Times>,
 }
 
 /// Name of the loop over time steps in messages.
@@ -82,12 +82,12 @@ impl<'a, 'p> Stepper<'a, 'p> {
             densities: Vec::new(),
             accelerations: Vec::new(),
             free_surface: FreeSurface::default(),
-            unanswered: Vec::new(),
+            pending_kicks: Vec::new(),
         }
     }
 
     /// Returns true if particles must be sorted: they have mixed, or must be wrapped into a period.
-    fn is_untidy(&self) -> bool {
+    fn needs_sorting(&self) -> bool {
         self.neighbours.surrounded() > GROWTH * self.ledger.surrounded
             || self.method.images.are_beyond_period(&self.cloud.position)
     }
@@ -102,14 +102,19 @@ impl<'a, 'p> Stepper<'a, 'p> {
     }
 
     /// Lists neighbours for predicted displacements of the particles.
-    fn list(&mut self, ways: &Ways) -> Result<(), Failure> {
-        self.neighbours.prepare(&self.cloud.position, ways, &self.method.images, self.team);
+    fn list(&mut self, displacements: &Displacements) -> Result<(), Failure> {
+        self.neighbours.prepare(
+            &self.cloud.position,
+            displacements,
+            &self.method.images,
+            self.team,
+        );
         if let Some(at) = self.neighbours.crowded() {
             let at = at.map(|x| x * self.method.units.length);
             return Err(Failure::Crowded { at, time: self.ledger.time });
         }
         if let Some(setting) = &self.method.surface {
-            self.free_surface.prepare(setting, self.cloud, ways, self.team);
+            self.free_surface.prepare(setting, self.cloud, displacements, self.team);
         }
         Ok(())
     }
@@ -119,7 +124,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
     pub fn advance(&mut self, duration: f64, allowance: &Allowance) -> Result<(), Failure> {
         let method = self.method;
         self.neighbours = Neighbours::of(&self.cloud.position, self.team);
-        if self.is_untidy() {
+        if self.needs_sorting() {
             self.sort();
         }
         let mut rest = duration / method.units.time();
@@ -144,7 +149,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
     /// Computes order and accelerations of particles at their positions, for a start.
     pub fn prime(&mut self) -> Result<(), Failure> {
         self.sort();
-        self.list(&Ways::none(self.cloud.len()))?;
+        self.list(&Displacements::none(self.cloud.len()))?;
         self.accelerate(Times::NONE);
         self.apply_tension();
         Ok(())
@@ -186,13 +191,13 @@ impl<'a, 'p> Stepper<'a, 'p> {
         if self.ledger.way > SHIFT_WAY {
             self.shift()?;
         }
-        let mut ways = Ways { of_blocks: motion.velocities, steps };
-        if self.is_untidy() {
+        let mut displacements = Displacements { of_blocks: motion.velocities, steps };
+        if self.needs_sorting() {
             self.sort();
-            ways = Ways::along(&self.cloud.velocity, steps, self.team);
+            displacements = Displacements::along(&self.cloud.velocity, steps, self.team);
         }
-        self.list(&ways.times(dt))?;
-        self.depart(dt);
+        self.list(&displacements.times(dt))?;
+        self.drift_to_middle(dt);
         self.change_density_and_heat(dt);
         let times = Times { dt: 0.5 * dt, tension: ends };
         self.accelerate(times);
@@ -209,7 +214,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
     }
 
     /// Moves particles to the middle of a step, and records the inputs of the rates there.
-    fn depart(&mut self, dt: f64) {
+    fn drift_to_middle(&mut self, dt: f64) {
         let method = self.method;
         let count = self.cloud.len();
         let annexed = self.heats || method.needs_moments();
@@ -250,7 +255,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         for (impulse, gravity) in self.ledger.impulse_of_gravity.iter_mut().zip(gravity) {
             *impulse += images * momentum * motion.mass * times.dt * gravity;
         }
-        self.unanswered.push(times);
+        self.pending_kicks.push(times);
         motion
     }
 
@@ -258,7 +263,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
     /// nothing moved between these kicks.
     fn push_wall(&mut self, pushed: &[usize]) {
         let (method, cloud) = (self.method, &*self.cloud);
-        let kicks = std::mem::take(&mut self.unanswered);
+        let kicks = std::mem::take(&mut self.pending_kicks);
         let dt: f64 = kicks.iter().map(|times| times.dt).sum();
         let turn: f64 = kicks.iter().filter_map(|times| times.tension).sum();
         let momentum = method.units.mass() * method.units.speed;
@@ -372,7 +377,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         }
         let (method, team) = (self.method, self.team);
         // At the beginning and after sorting there are no lists yet.
-        self.list(&Ways::none(self.cloud.len()))?;
+        self.list(&Displacements::none(self.cloud.len()))?;
         let cloud = &*self.cloud;
         let fullness = team.map(cloud.len(), |i| least_eigenvalue(&cloud.moment[i]));
         let mut records = std::mem::take(&mut self.records);
@@ -387,10 +392,10 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let sums = self.over_pairs(&pass, Vec::new());
         let shifts = team.map(sums.len(), |i| displacement(&sums[i], fullness[i], way));
         self.records = records;
-        self.list(&Ways::along(&shifts, f64::INFINITY, team))?;
+        self.list(&Displacements::along(&shifts, f64::INFINITY, team))?;
         team.for_each(&mut self.cloud.position, |i, x| {
             (0..3).for_each(|a| x[a] += shifts[i][a]);
-            method.images.put_back(x);
+            method.images.reflect_back(x);
         });
         Ok(())
     }

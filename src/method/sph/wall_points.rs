@@ -333,7 +333,7 @@ impl<'a> WallPoints<'a> {
         for point in self.points.iter().filter(|point| point.impulse != [0.0; 3]) {
             for signs in self.images() {
                 let impulse = point.impulse.map(|p| images * p);
-                let given = Given { place: point.place, impulse }.turned(signs);
+                let given = Contribution { place: point.place, impulse }.turned(signs);
                 self.deposit(&given, &mut exchange);
             }
         }
@@ -377,7 +377,7 @@ impl<'a> WallPoints<'a> {
         rises
     }
 
-    fn deposit(&self, given: &Given, exchange: &mut WallExchange) {
+    fn deposit(&self, given: &Contribution, exchange: &mut WallExchange) {
         let square = self.lattice.square(given.place);
         let cover = self.lattice.cover(self.cells, given.place);
         let radial = self.cells.are_radial();
@@ -409,12 +409,12 @@ fn spread_radius(radius: f64, area: f64) -> f64 {
 }
 
 /// Contribution of a point or of an image of it.
-struct Given {
+struct Contribution {
     place: [i32; 2],
     impulse: [f64; 3],
 }
 
-impl Given {
+impl Contribution {
     /// The contribution reflected by mirrors.
     fn turned(self, signs: [f64; 2]) -> Self {
         let along = |n: usize| if signs[n] < 0.0 { -1 - self.place[n] } else { self.place[n] };
