@@ -23,7 +23,7 @@ pub enum Between {
 }
 
 /// Fractions of the path between the ends of a position's values at which it is sampled.
-const PASSED: usize = 64;
+const SAMPLES: usize = 64;
 
 /// Columns of inputs over time. Before the first row and after the last the inputs are constant; two rows at one time
 /// are a jump.
@@ -146,7 +146,8 @@ impl InputTable {
             );
             return Some(("note", message));
         }
-        let ends_early = self.between == Between::Linear && 0.0 < last && last < NEARLY * stop;
+        let ends_early =
+            self.between == Between::Linear && 0.0 < last && last < COVERED_SHARE * stop;
         ends_early.then(|| {
             (
                 "note",
@@ -193,8 +194,8 @@ impl InputTable {
                 .filter(|ends| is_length(ends[0].0))
                 .flat_map(|ends| {
                     let (place, [low, high]) = (ends[0].0, [ends[0].1, ends[1].1]);
-                    let at = move |n: usize| low + (high - low) * n as f64 / PASSED as f64;
-                    (1..PASSED).map(move |n| (place, at(n)))
+                    let at = move |n: usize| low + (high - low) * n as f64 / SAMPLES as f64;
+                    (1..SAMPLES).map(move |n| (place, at(n)))
                 })
                 .collect();
             samples.extend(passed);
@@ -236,7 +237,7 @@ impl InputTable {
 }
 
 /// Share of a run that a table must cover to avoid a note.
-const NEARLY: f64 = 0.999;
+const COVERED_SHARE: f64 = 0.999;
 
 /// Refuses bytes that are not text, and names the line of the first.
 fn check_text(path: &Path, text: &[u8]) -> Result<(), TableError> {

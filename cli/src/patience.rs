@@ -12,7 +12,7 @@ use super::units::lasting;
 const MINUTE: f64 = 60.0;
 const DAY: f64 = 24.0 * 60.0 * MINUTE;
 /// Duration from which a run reports its forecast, and from which it is refused [s].
-const TOLD: f64 = 10.0 * MINUTE;
+const REPORTED: f64 = 10.0 * MINUTE;
 const REFUSED: f64 = 30.0 * DAY;
 /// Duration of the proposed run [s].
 const PROPOSED: f64 = DAY;
@@ -44,5 +44,5 @@ pub fn expected(scene: &Scene) -> Result<Option<String>, CliError> {
         format!(", {:.2e} time steps of `{}` of {:.1e} s", body.steps, body.name, body.time_step)
     });
     let told = || format!("this takes about {}{}", lasting(time), steps.collect::<String>());
-    Ok((time > TOLD).then(told))
+    Ok((time > REPORTED).then(told))
 }

@@ -76,7 +76,7 @@ impl Run {
     /// Runs the scene and reports the heat balance.
     pub fn execute(&self) -> Result<String, CliError> {
         let started = Instant::now();
-        let (scene, inputs) = self.asked_scene()?;
+        let (scene, inputs) = self.modified_scene()?;
         // Errors of files are reported before meshes are assessed, which takes time.
         let table = self.input_table(&scene, &inputs)?;
         self.check_folder(&self.folder(&scene), &scene)?;
@@ -114,9 +114,9 @@ impl Run {
             cache: Cache::default(),
             timeline,
             table,
-            told_of_length: false,
+            warned_of_length: false,
             balance_outputs: BalanceOutputs::of(&scene),
-            told_of_phases: BTreeSet::new(),
+            warned_of_phases: BTreeSet::new(),
             balances: Vec::new(),
             model: &model,
         };
@@ -135,7 +135,7 @@ impl Run {
     }
 
     /// The scene with all modifications of the command line, and the inputs that it sets.
-    fn asked_scene(&self) -> Result<(Scene, Vec<InputValue>), CliError> {
+    fn modified_scene(&self) -> Result<(Scene, Vec<InputValue>), CliError> {
         let (mut scene, warnings) = patience::read(&self.scene)?;
         let read = scene.clone();
         scene.stop_time = self.until.unwrap_or(scene.stop_time);
@@ -171,7 +171,7 @@ impl Run {
     }
 
     /// Refuses output paths that would overwrite files the run reads.
-    fn keep_what_is_read(&self, folder: &Path) -> Result<(), CliError> {
+    fn refuse_overwriting_inputs(&self, folder: &Path) -> Result<(), CliError> {
         let could_be_written = |file: &&PathBuf| {
             let Ok(place) = file.canonicalize() else { return false };
             let is_there = folder.canonicalize().is_ok_and(|own| place.parent() == Some(&own));
@@ -201,7 +201,7 @@ impl Run {
         if folder.exists() && !folder.is_dir() {
             return Err(CliError::NoFolder { path: folder.to_owned() });
         }
-        self.keep_what_is_read(folder)
+        self.refuse_overwriting_inputs(folder)
     }
 
     /// Opens the files of the run.
@@ -272,7 +272,7 @@ impl Record {
         let is_due = is_last || (self.every > 0 && done.is_multiple_of(self.every));
         if is_last || done.is_multiple_of(self.rows_every) {
             self.table.write(run.model, &run.state, &mut run.cache)?;
-            run.look_at_balances()?;
+            run.update_balances()?;
         }
         match &mut self.fields {
             Some(fields) if is_due => fields.write(run.model, &run.state, &mut run.cache),
@@ -289,10 +289,10 @@ struct Running<'a> {
     timeline: Timeline,
     table: Option<InputTable>,
     /// True if a step too short for the mesh has been reported.
-    told_of_length: bool,
+    warned_of_length: bool,
     balance_outputs: Vec<BalanceOutputs>,
     /// Fluids and phase changes already warned of.
-    told_of_phases: BTreeSet<String>,
+    warned_of_phases: BTreeSet<String>,
     /// Balances of the last row.
     balances: Vec<Balance>,
 }
@@ -330,7 +330,7 @@ impl Running<'_> {
             self.warn_of_phases();
             if to < end && part.is_multiple_of(looks_every) {
                 // Heat that is added and removed within a step counts, too.
-                self.look_at_balances().map_err(CliError::Model)?;
+                self.update_balances().map_err(CliError::Model)?;
             }
             from = to;
         }
@@ -339,19 +339,20 @@ impl Running<'_> {
 
     /// Warns once of a step that is too short for a mesh [s].
     fn warn_of_length(&mut self, length: f64) {
-        if let Some(warning) = self.model.warning_on_step(length).filter(|_| !self.told_of_length) {
+        if let Some(warning) = self.model.warning_on_step(length).filter(|_| !self.warned_of_length)
+        {
             super::print_message("warning", &warning);
-            self.told_of_length = true;
+            self.warned_of_length = true;
         }
     }
 
     /// Warns once of each fluid that is beyond a point at which it freezes or boils.
     fn warn_of_phases(&mut self) {
-        let told = &self.told_of_phases;
+        let told = &self.warned_of_phases;
         let warnings = self.model.phase_warnings(&self.state, |subject| told.contains(subject));
         for warning in warnings {
             super::print_message("warning", &warning.message);
-            self.told_of_phases.insert(warning.subject);
+            self.warned_of_phases.insert(warning.subject);
         }
     }
 
@@ -367,7 +368,7 @@ impl Running<'_> {
     }
 
     /// Updates the heat balances.
-    fn look_at_balances(&mut self) -> Result<(), ModelError> {
+    fn update_balances(&mut self) -> Result<(), ModelError> {
         let read = |one: &BalanceOutputs| one.read(self.model, &self.state, &mut self.cache);
         let mut balances =
             self.balance_outputs.iter().map(read).collect::<Result<Vec<Balance>, _>>()?;
@@ -379,7 +380,7 @@ impl Running<'_> {
     /// Returns the heat balances, what probes read, and the extremes; warns on standard error if heat is missing.
     fn report(&mut self) -> Result<String, CliError> {
         let named = |error| CliError::from_model(error, self.model.scene());
-        self.look_at_balances().map_err(named)?;
+        self.update_balances().map_err(named)?;
         let probes =
             summary::probes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let extremes =
