@@ -49,7 +49,7 @@ pub struct Droplet {
     /// Distance of particles Δx [m].
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(transform = within(1e-10, 1e1, "m", "the distance of particles")
-        .condition("needed but by `method = \"film\"`, which has none; up to a sixth of the diameter, at most 2e7 particles")
+        .condition("required except with `method = \"film\"`; up to a sixth of the diameter, at most 2e7 particles")
         .otherwise("none"))]
     pub spacing: f64,
     /// Fluid of the drops.
@@ -61,7 +61,7 @@ pub struct Droplet {
     /// Part of the drop that is modelled.
     #[serde(default)]
     #[schemars(extend(
-        "otherwise" = "`auto`: axisymmetric above rings or a disc, a quarter elsewhere, where that is exact",
+        "otherwise" = "`auto`: axisymmetric above rings or a disc, else a quarter, where that is exact",
         "condition" = "`quarter` and `axisymmetric` with all drops at x = 0, y = 0, straight down; `axisymmetric` in three dimensions, not above tiles"
     ))]
     pub symmetry: DropletSymmetry,
@@ -105,7 +105,7 @@ pub struct Droplet {
     pub release: ReleaseBy,
     /// Largest number of drops that inputs may release in a run.
     #[schemars(transform = whole(1, 10_000, "the number of drops is out of bounds", "1 to 10000")
-        .condition("with `release = \"input\"`, which needs it")
+        .condition("required with `release = \"input\"`, else not allowed")
         .otherwise("none"))]
     pub most: Option<usize>,
     /// Releases of drops: one drop per entry of the list.
@@ -201,13 +201,13 @@ pub struct Fluid {
     /// Freezing temperature, which the model ignores: a step below it warns [K].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = temperature().plausible(&plausible::FREEZING)
-        .otherwise("none: nothing is watched")
+        .otherwise("none: no warning")
         .condition("below `boils_at`"))]
     pub freezes_at: Option<f64>,
     /// Boiling temperature, which the model ignores: a step above it warns [K].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = temperature().plausible(&plausible::BOILING)
-        .otherwise("none: nothing is watched"))]
+        .otherwise("none: no warning"))]
     pub boils_at: Option<f64>,
 }
 
@@ -294,7 +294,7 @@ pub struct Wall {
     #[serde(default)]
     #[schemars(transform = above_zero("W √s/(m² K)")
         .low("the effusivity √(kρc) of what lies below is positive", "> 0 (W √s/(m² K))")
-        .otherwise("none: the wall is held at its temperature"))]
+        .otherwise("none: prescribed wall temperature"))]
     pub effusivity: Option<f64>,
     /// Start values.
     #[serde(default)]
@@ -320,7 +320,7 @@ pub struct Coupling {
     pub from: String,
     /// The face.
     #[schemars(extend(
-        "condition" = "`SOLID.top`, not held, below a droplet; `SOLID.bottom` of the solid above"
+        "condition" = "`SOLID.top` without prescribed temperature, below a droplet; `SOLID.bottom` of the upper solid"
     ))]
     pub to: String,
     /// Heat flux over the difference of temperatures [W/(m² K)], only between solids.
@@ -332,11 +332,11 @@ pub struct Coupling {
     pub traction: bool,
     /// Longest time between two exchanges [s].
     #[schemars(transform = within(1e-30, 1e12, "s", "the time between exchanges")
-        .otherwise("from the flow and the contact; of solids the communication step"))]
+        .otherwise("from the flow and the contact; for solids the communication step"))]
     pub interval: Option<f64>,
     /// Distance from each arrival within which the solid's mesh is fine [m].
     #[schemars(transform = length("the radius of the fine mesh")
-        .otherwise("as far as the drop is expected to spread"))]
+        .otherwise("the expected spread of the drop"))]
     pub radius: Option<f64>,
 }
 

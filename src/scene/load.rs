@@ -69,7 +69,7 @@ pub enum Footprint {
         radius: f64,
     },
     /// `{ count = [NX, NY], size = [LX, LY] }`: rectangles, one value each.
-    #[schemars(extend("unit" = "m", "condition" = "counts 1 to 1000; not on a disc; of a plane drop NY = 1"))]
+    #[schemars(extend("unit" = "m", "condition" = "counts 1 to 1000; not on a disc; NY = 1 for a plane drop"))]
     Tiles {
         #[schemars(transform = count())]
         count: [usize; 2],
@@ -129,7 +129,7 @@ pub struct LoadStart {
 }
 
 /// Applicability of start values, for the reference.
-const CARRIED: &str = "what `carries` names";
+const CARRIED: &str = "amounts in `carries`";
 /// Applicability of positions, for the reference.
 const ON_THE_FACE: &str = "on the face; not on a disc";
 /// Default of ranges, for the reference.

@@ -157,7 +157,7 @@ impl Scene {
     }
 
     /// Stores in each droplet the properties of the surface below it.
-    pub(super) fn tell_what_is_below(&mut self) {
+    pub(super) fn store_surfaces_below(&mut self) {
         let names: Vec<String> = self.droplets().map(|(name, _)| name.to_owned()).collect();
         for name in names {
             let is_round = self.is_round_below(&name);

@@ -102,7 +102,7 @@ pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
 /// Parses and checks a scene whose positions are known.
 pub(crate) fn parse_located(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
     let mut scene = decode::decode(source, schema)?;
-    scene.tell_what_is_below();
+    scene.store_surfaces_below();
     check::check(&scene, source, schema)?;
     Ok(scene)
 }

@@ -82,7 +82,7 @@ pub struct Scene {
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     #[schemars(extend(
         "condition" = "of solids, where the level is `auto`",
-        "otherwise" = "`reduced` where that can be"
+        "otherwise" = "`reduced` where possible"
     ))]
     pub resolved: BTreeMap<String, ResolvedLevel>,
 }
@@ -154,7 +154,7 @@ pub struct Solid {
     /// Layers from the top, instead of `material`.
     #[schemars(
         length(min = 1, max = 100),
-        extend("condition" = "as thick together as the shape (relative 1e-9)", "otherwise" = "one material")
+        extend("condition" = "total thickness equal to that of the shape (relative 1e-9)", "otherwise" = "one material")
     )]
     pub layers: Option<Vec<Layer>>,
     /// Uniform temperature at time zero [K].
@@ -175,7 +175,7 @@ pub struct Solid {
     pub symmetry: Symmetry,
     /// The mesh.
     #[serde(default)]
-    #[schemars(extend("otherwise" = "chosen"))]
+    #[schemars(extend("otherwise" = "automatic"))]
     pub mesh: Mesh,
     /// Conditions on faces.
     #[serde(default)]
@@ -325,12 +325,12 @@ pub struct Mesh {
     /// Distance of nodes along z at loaded or heated faces [m]; everywhere if there are none.
     #[schemars(transform = above_zero("m")
         .condition("up to the thickness")
-        .otherwise("from how deep heat goes in a step; `spacing` if given alone"))]
+        .otherwise("from the penetration depth of heat in a step; `spacing` if set alone"))]
     pub depth_spacing: Option<f64>,
     /// Ratio of the sizes of neighbouring elements elsewhere [1].
     #[schemars(transform = within(1.0, 2.0, "1", "")
         .says("neighbouring elements grow by a modest ratio", "1 <= growth <= 2")
-        .otherwise("chosen, about 1.4"))]
+        .otherwise("automatic, about 1.4"))]
     pub growth: Option<f64>,
     /// Order of the shape functions: linear or quadratic.
     #[schemars(transform = whole(1, 2, "no shape functions of this order", "1 (linear), 2 (quadratic)")
@@ -486,7 +486,7 @@ pub struct Field {
     #[schemars(transform = any("m").otherwise("the centre of the face").condition("with `footprint`; not on a disc"))]
     pub at: Option<[f64; 2]>,
     /// Extent of the grid along its axes [m], centred.
-    #[schemars(transform = length("the extent of a grid").otherwise("the whole").condition("up to the whole; with `grid`"))]
+    #[schemars(transform = length("the extent of a grid").otherwise("the whole").condition("up to the full extent; with `grid`"))]
     pub size: Option<[f64; 2]>,
     /// List of outputs.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]
@@ -572,7 +572,7 @@ pub struct Solver {
     pub method: SolverMethod,
     /// Memory that the scene may use [B]; a scene with a larger forecast is refused.
     #[serde(default, deserialize_with = "super::whole::optional")]
-    #[schemars(transform = within(1e6, 1e15, "B", "the memory of a scene").otherwise("all that there is"))]
+    #[schemars(transform = within(1e6, 1e15, "B", "the memory of a scene").otherwise("all available memory"))]
     pub memory: Option<usize>,
 }
 

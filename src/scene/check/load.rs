@@ -128,7 +128,7 @@ struct Reach {
 /// counts, not its tails.
 fn reach(checker: &mut Checker, path: &Path, load: &Load, shape: &Shape) {
     let tried = reaches(load, shape).into_iter().find_map(|reach| {
-        let key = reach.culprit(load)?;
+        let key = reach.key_at_fault(load)?;
         Some((key, reach))
     });
     let Some((key, reach)) = tried else { return };
@@ -168,7 +168,7 @@ fn half_extents(load: &Load, axis: usize) -> (f64, f64) {
 
 impl Reach {
     /// The key that lets the footprint leave its face.
-    fn culprit(&self, load: &Load) -> Option<String> {
+    fn key_at_fault(&self, load: &Load) -> Option<String> {
         let farthest =
             self.range.map_or(self.start.abs(), |range| range[0].abs().max(range[1].abs()));
         let leaves = |centre: f64, extent: f64| !fits(centre + extent, self.half);

@@ -116,7 +116,7 @@ impl<'a> Checker<'a> {
             let known = self.scene.solids().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
             let hint = hint(name, self.scene.solids().map(|(name, _)| name));
             let message = self.not_a_solid(name, format!("there is no body `{name}`{hint}"));
-            self.refuse(path, message, or_none(known, "a body of kind `solid`"));
+            self.refuse(path, message, list_or(known, "a body of kind `solid`"));
         }
         solid.filter(|solid| is_sound(&solid.shape))
     }
@@ -145,7 +145,7 @@ impl<'a> Checker<'a> {
                 None => hint(body, self.scene.solids().map(|(name, _)| name)),
             };
             let message = self.not_a_solid(body, format!("`{place}` is no face for this{hint}"));
-            self.refuse(path, message, or_none(known, "a face of a body of kind `solid`"));
+            self.refuse(path, message, list_or(known, "a face of a body of kind `solid`"));
         }
         named.filter(|(_, solid)| is_sound(&solid.shape))
     }
@@ -171,14 +171,14 @@ impl<'a> Checker<'a> {
             let known = self.scene.droplets().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
             let hint = hint(name, self.scene.droplets().map(|(name, _)| name));
             let message = format!("there is no droplet `{name}`{hint}");
-            self.refuse(path, message, or_none(known, "a body of kind `droplet`"));
+            self.refuse(path, message, list_or(known, "a body of kind `droplet`"));
         }
         droplet
     }
 }
 
 /// Returns a list, or another text if it is empty.
-fn or_none(list: String, otherwise: &str) -> String {
+fn list_or(list: String, otherwise: &str) -> String {
     if list.is_empty() { otherwise.to_owned() } else { list }
 }
 

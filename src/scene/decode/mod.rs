@@ -138,7 +138,7 @@ impl Decoder<'_> {
                 Err(failure) => failure,
             };
             let place = failure.path.clone().unwrap_or_else(|| path.clone());
-            if !self.is_echo(&place, &failure.misfit) {
+            if !self.is_consequence(&place, &failure.misfit) {
                 let allowed = self.allowed::<T>(value, path, tag, &failure, &place);
                 self.note(&failure.misfit, &place, allowed);
             }
@@ -150,7 +150,7 @@ impl Decoder<'_> {
     }
 
     /// Returns true if the misfit only reports an omitted value as missing.
-    fn is_echo(&self, place: &Path, misfit: &Misfit) -> bool {
+    fn is_consequence(&self, place: &Path, misfit: &Misfit) -> bool {
         match misfit {
             Misfit::MissingKey(key) => self.left_out.contains(&place.key(key)),
             _ => self.left_out.iter().any(|path| path.is_within(place)),
