@@ -30,7 +30,7 @@ struct Arguments {
     /// The scene, a TOML file; with --lint the unit
     #[arg(value_name = "SCENE", required_unless_present_any = ["rules", "instantiate"])]
     file: Option<PathBuf>,
-    /// Where to write the unit [default: NAME.fmu]
+    /// Path of the unit [default: NAME.fmu]
     #[arg(short, long, value_name = "FILE.fmu")]
     output: Option<PathBuf>,
     /// The version of FMI; with 3 rings, tiles and fields are array variables

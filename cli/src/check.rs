@@ -387,9 +387,9 @@ fn place(field: &Field) -> String {
     }
 }
 
-/// Lists the variables by causality: their number, unit and start value, with arrays folded. If `told`, describes each
-/// output.
-fn variables(scene: &Scene, told: bool) -> String {
+/// Lists the variables by causality: their number, unit and start value, with arrays folded. If `described`, also lists
+/// the meaning of each output.
+fn variables(scene: &Scene, described: bool) -> String {
     let (registry, arrays) = (Registry::of(scene), ArrayRegistry::of(scene));
     let kinds = [
         ("Parameters", Causality::Parameter),
@@ -413,14 +413,14 @@ fn variables(scene: &Scene, told: bool) -> String {
                 // The name with the highest indices determines the number of elements.
                 let last = &elements[elements.len() - 1];
                 let more = match causality {
-                    Causality::Output if told => last.description.clone(),
+                    Causality::Output if described => last.description.clone(),
                     _ => start(elements),
                 };
                 [last.name.clone(), unit.to_owned(), more]
             })
             .collect();
         let heading = match causality {
-            Causality::Output if told => "what it is",
+            Causality::Output if described => "meaning",
             Causality::Output => "",
             _ => "start",
         };

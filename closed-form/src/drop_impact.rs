@@ -136,10 +136,10 @@ impl DropImpact {
         inertial.min(self.spread_by_viscosity()).max(self.spread_at_rest()).max(1.0)
     }
 
-    /// Radius [m] of the footprint, which grows at first as `1.4 D√τ` and comes to rest at `R_max`: `R_max (1 −
-    /// e^{−xᵖ})^{1/p}`, x = 1.4 D√τ/R_max, `p = 2 + 2 Re/(Re + 50)`: viscous drops come to rest gradually. The exponent
-    /// is fitted to drops of particles (40 over D, Re 4 to 13 000, We 8 to 650): within 10 % where neither their films
-    /// tear nor `R_max` falls short.
+    /// Radius [m] of the footprint, which grows at first as `1.4 D√τ` and comes to rest at `R_max`:
+    /// `R_max (1 − e^{−xᵖ})^{1/p}`, x = 1.4 D√τ/R_max, `p = 2 + 2 Re/(Re + 50)`: viscous drops come to rest gradually.
+    /// The exponent is fitted to drops of particles (40 over D, Re 4 to 13 000, We 8 to 650): within 10 % where neither
+    /// their films tear nor `R_max` falls short.
     pub fn wetted_radius(&self, largest: f64, time: f64) -> f64 {
         let sharpness = self.sharpness();
         let root = (time.max(0.0) / self.time()).sqrt();

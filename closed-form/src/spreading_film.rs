@@ -1,7 +1,8 @@
 //! Heat flux of a film that spreads over a wall, such as a drop after impact.
 //!
-//! Above its viscous layer the fluid flows outward with `u = r/t`, so downward with `w = −2z/t`. With `η = z/√(νt)`, `u
-//! = F′(η) r/t`, `w = −2F √(ν/t)` and Prandtl's number `Pr = ν/a`, the Navier–Stokes equations and that of heat become
+//! Above its viscous layer the fluid flows outward with `u = r/t`, so downward with `w = −2z/t`. With `η = z/√(νt)`,
+//! `u = F′(η) r/t`, `w = −2F √(ν/t)` and Prandtl's number `Pr = ν/a`, the Navier–Stokes equations and that of heat
+//! become
 //!
 //! `F‴ + (2F + η/2) F″ + F′ − F′² = 0`, `F(0) = F′(0) = 0`, `F′(∞) = 1`,
 //! `Θ″ + Pr (2F + η/2) Θ′ = 0`, `Θ(0) = 0`, `Θ(∞) = 1`.

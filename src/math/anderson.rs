@@ -19,8 +19,8 @@ pub struct Anderson {
 }
 
 impl Anderson {
-    /// Returns the next iterate after `x`; the plain iteration would continue with `x +
-    /// correction`.
+    /// Returns the next iterate after `x`; the plain iteration would continue with
+    /// `x + correction`.
     pub fn next(&mut self, x: &[f64], correction: &[f64]) -> Vec<f64> {
         let (x, f) = (DVector::from_column_slice(x), DVector::from_column_slice(correction));
         if let Some((last_x, last_f)) = &self.last {

@@ -185,7 +185,7 @@ pub struct Fluid {
     #[serde(default)]
     #[schemars(transform = within(0.0, 1e5, "N/m", "the surface tension")
         .plausible(&plausible::SURFACE_TENSION)
-        .otherwise("0: left out"))]
+        .otherwise("0: no surface tension"))]
     pub surface_tension: f64,
     /// Contact angle at the wall [rad]; relevant only with surface tension.
     #[serde(default = "right_angle")]

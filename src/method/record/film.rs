@@ -211,8 +211,8 @@ mod tests {
         assert!(profile.at(1e-7)[0].heat < found * PI * (film.radius / 24.0).powi(2));
     }
 
-    /// A wall of prescribed temperature under a flow without end: `D = (T/m)(1 − (T₀/T)^m)`, T = t
-    /// + τ, m = f².
+    /// A wall of prescribed temperature under a flow without end: `D = (T/m)(1 − (T₀/T)^m)`, T
+    /// = t + τ, m = f².
     #[test]
     fn persistent_flow_matches_closed_form() {
         let film = Film { effusivity: None, samples: 2000, ..film() };

@@ -4,9 +4,9 @@
 //! rest differ by no more than `Σ_j U_j ∫₀^∞ |h_kj − ĥ_kj| dt`. The difference of impulse responses
 //! is a sum of exponentials `f(t) = Σ w_i e^{−α_i t}`. Over cells of `s = ln t` much shorter than
 //! 1, its Taylor polynomial in s at the middle bounds it, term by term, together with the
-//! remainder. The derivatives are sums again (`d/ds = t d/dt`), with `D⁶ e^{−x} = (x⁶ − 15x⁵ + 65x⁴
-//! − 90x³ + 31x² − x) e^{−x}`, `x = αt`. Closed forms bound the times before the first cell and
-//! behind the last one, so the bound covers all times.
+//! remainder. The derivatives are sums again (`d/ds = t d/dt`), with
+//! `D⁶ e^{−x} = (x⁶ − 15x⁵ + 65x⁴ − 90x³ + 31x² − x) e^{−x}`, `x = αt`. Closed forms bound the
+//! times before the first cell and behind the last one, so the bound covers all times.
 
 use faer::Mat;
 

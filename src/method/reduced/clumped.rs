@@ -1,10 +1,11 @@
 //! Many modes clumped into few rates.
 //!
-//! The impulse response of a diagonal system is `h(t) = Σ_i c_i b_i e^{−λ_i t}`. Over a panel `λ ∈
-//! [a, 4a]` the function `e^{−λt}` of `ln λ` is interpolated at Chebyshev points μ_q. This turns
-//! the sum into `Σ_q R_q e^{−μ_q t}` with `R_q = Σ_i ℓ_q(λ_i) c_i b_i`: some hundred rates for any
-//! number of modes. The integral over time of the error of one exponential is at most [`ERROR`]` /
-//! λ`, for every λ. The slowest mode, which may conserve heat for ever, is kept exactly.
+//! The impulse response of a diagonal system is `h(t) = Σ_i c_i b_i e^{−λ_i t}`. Over a panel
+//! `λ ∈ [a, 4a]` the function `e^{−λt}` of `ln λ` is interpolated at Chebyshev points μ_q. This
+//! turns the sum into `Σ_q R_q e^{−μ_q t}` with `R_q = Σ_i ℓ_q(λ_i) c_i b_i`: some hundred rates
+//! for any number of modes. The integral over time of the error of one exponential is at most
+//! [`ERROR`]` / λ`, for every λ. The slowest mode, which may conserve heat for ever, is kept
+//! exactly.
 
 use std::f64::consts::PI;
 

@@ -1,6 +1,6 @@
-//! A reduced system: a few scalar equations `ẋ_r = −ν_r x_r + Σ_j b_rj u_j`, outputs `y_k = Σ_r
-//! c_kr x_r + Σ_j d_kj u_j`. Where ν is one of a pair of complex poles, x is complex, stored as its
-//! real and then its imaginary part.
+//! A reduced system: a few scalar equations `ẋ_r = −ν_r x_r + Σ_j b_rj u_j`, outputs
+//! `y_k = Σ_r c_kr x_r + Σ_j d_kj u_j`. Where ν is one of a pair of complex poles, x is complex,
+//! stored as its real and then its imaginary part.
 
 use super::balanced::{Balanced, ReductionError, Truncated};
 use super::certificate::{Wanted, integrals};
@@ -330,8 +330,8 @@ fn smallest(
     })
 }
 
-/// Factors of outputs and inputs that normalise the allowed errors to about one: `s_k t_j a_kj ≤
-/// 1`, close to it where possible.
+/// Factors of outputs and inputs that normalise the allowed errors to about one:
+/// `s_k t_j a_kj ≤ 1`, close to it where possible.
 fn scales(allowed: &[Vec<f64>], inputs: usize) -> (Vec<f64>, Vec<f64>) {
     // For each input the smallest allowed error; then for each output.
     let is_some = |value: &f64| *value > 0.0 && value.is_finite();

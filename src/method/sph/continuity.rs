@@ -14,15 +14,15 @@ use crate::kernel::Shape;
 /// `dr_i/dt = (1 + r_i) Σ V_j F u_ij·x_ij + δ/2 · Σ 2 V_j (−F) [r_j − r_i + ½ (g_i + g_j)·x_ij]`,
 /// `(1 + r_i) dT_i/dt = 2 κ Σ V_j F (T_i − T_j)`,
 ///
-/// with δ for a smoothing length H/2 and `g_i = B_i Σ V_j F (r_j − r_i) x_ij`, `B_i = [−Σ V_j F
-/// x_ij ⊗ x_ij]⁻¹`, of the step before. In the first equation images at planes slip. Under a body
-/// force the density continues in them as at rest, so that a fluid at rest is not diffused. A fluid
-/// at rest under surface tension is not diffused either, because the diffusion acts on r + φ with
-/// the tension's potential φ (0 without). At a surface with tension the diffusion fades with the
-/// mean eigenvalue of `−Σ V_j F x_ij ⊗ x_ij` (½ on a flat surface, 1 inside). Among the outermost
-/// particles r + φ is uneven, and a diffusion that evens it would drive them out of the fluid one
-/// by one. In the second equation images have the temperature of their originals;
-/// [`WallHeat`](super::wall_heat::WallHeat) supplies the heat of the wall.
+/// with δ for a smoothing length H/2 and `g_i = B_i Σ V_j F (r_j − r_i) x_ij`,
+/// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. In the first equation images at planes
+/// slip. Under a body force the density continues in them as at rest, so that a fluid at rest is
+/// not diffused. A fluid at rest under surface tension is not diffused either, because the
+/// diffusion acts on r + φ with the tension's potential φ (0 without). At a surface with tension
+/// the diffusion fades with the mean eigenvalue of `−Σ V_j F x_ij ⊗ x_ij` (½ on a flat surface, 1
+/// inside). Among the outermost particles r + φ is uneven, and a diffusion that evens it would
+/// drive them out of the fluid one by one. In the second equation images have the temperature of
+/// their originals; [`WallHeat`](super::wall_heat::WallHeat) supplies the heat of the wall.
 ///
 /// Heat is conducted only with `HEAT`; without `MOMENTS` all g are 0, and neither g nor the sums
 /// for B are computed.

@@ -14,7 +14,7 @@ pub enum Failure {
     #[error("a particle's {quantity} is not finite at t = {time:.6e} s")]
     NotFinite { quantity: &'static str, time: f64 },
     #[error(
-        "65 535 or more particles have more than 128 neighbours around x = {:.3e}, y = {:.3e}, z = {:.3e} m, t = {time:.6e} s: the flow is no longer resolved", .at[0], .at[1], .at[2]
+        "65 535 or more particles surround a block of 128 at x = {:.3e}, y = {:.3e}, z = {:.3e} m, t = {time:.6e} s: the flow is no longer resolved", .at[0], .at[1], .at[2]
     )]
     Crowded { at: [f64; 3], time: f64 },
     #[error(

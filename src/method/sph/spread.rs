@@ -36,12 +36,12 @@ impl Film {
 ///
 /// Every particle covers a disc of radius Δx, and c(r) is the covered fraction of a circle of
 /// radius r. A fraction above 3/4 counts as 1, one below 1/4 as 0, which excludes drops that flew
-/// off. Each circle counts at least as much as any circle outside it, which fills holes: `s(r) =
-/// max over r' ≥ r of min(1, max(0, 2c(r') − 1/2))`. The film is as large as the disc of the same
-/// area, `(D/2 + Δx/2)² = ∫ s d(r²)`. In a plane model it is the line of the same length, `D/2 +
-/// Δx/2 = ∫ s dr`. A disc of radius Δx/2 of the outermost particles belongs to the film, hence the
-/// Δx/2. Additional particles never reduce D, and one among many changes it by a small fraction of
-/// Δx.
+/// off. Each circle counts at least as much as any circle outside it, which fills holes:
+/// `s(r) = max over r' ≥ r of min(1, max(0, 2c(r') − 1/2))`. The film is as large as the disc of
+/// the same area, `(D/2 + Δx/2)² = ∫ s d(r²)`. In a plane model it is the line of the same length,
+/// `D/2 + Δx/2 = ∫ s dr`. A disc of radius Δx/2 of the outermost particles belongs to the film,
+/// hence the Δx/2. Additional particles never reduce D, and one among many changes it by a small
+/// fraction of Δx.
 pub fn spread_diameter(places: &[[f64; 2]], film: Film) -> f64 {
     let mut arcs: Vec<Arc> = places.iter().flat_map(|&place| arcs_of(place, film)).collect();
     arcs.sort_by(|a, b| b.ring.cmp(&a.ring).then(a.start.total_cmp(&b.start)));
