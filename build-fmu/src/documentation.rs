@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn the_page_of_fmi_3_names_whole_arrays() {
+    fn fmi_3_page_names_whole_arrays() {
         let scene = impinge::scene::parse(SCENE, "scene.toml").unwrap();
         let html = page(&scene, Version::Three, &[]);
         assert!(html.contains("<code>surface.temperature (4 × 4)</code>"), "{html}");

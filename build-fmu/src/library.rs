@@ -98,7 +98,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn a_missing_library_is_refused_with_the_way_to_build_it() {
+    fn missing_library_is_refused_with_build_instructions() {
         let message = read(Path::new("/nowhere/libimpinge.so"), Version::Two).unwrap_err();
         assert!(message.contains("/nowhere/libimpinge.so") && message.contains("cargo build"));
     }

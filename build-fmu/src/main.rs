@@ -274,7 +274,7 @@ mod tests {
     const SCENE: &str = include_str!("../../tests/fmi/scene.toml");
 
     #[test]
-    fn the_same_scene_makes_the_same_bytes() {
+    fn equal_scenes_produce_equal_bytes() {
         let scene = scene::parse(SCENE, "scene.toml").unwrap();
         for version in [Version::Two, Version::Three] {
             let make =

@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn every_row_has_a_value_for_each_name() {
+    fn rows_have_one_value_per_name() {
         let registry = Registry::of(&impinge::scene::parse(SCENE, "scene.toml").unwrap());
         let count = |causality| 1 + registry.of_causality(causality).count();
         let [inputs, outputs] = rows(Version::Two);

@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn two_layers_bend_as_timoshenko_says() {
+    fn two_layers_obey_timoshenkos_formula() {
         for (upper, thickness) in [(70e9, 1e-3), (200e9, 0.3e-3), (1e9, 5e-3)] {
             let pair = [layer(110e9, 1e-3, 1e-3), layer(upper, 2.3e-3, thickness)];
             let plate = BondedPlate { layers: pair.to_vec() };
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn a_thin_film_bends_as_stoney_says_to_first_order_in_its_thickness() {
+    fn thin_film_obeys_stoneys_formula_to_first_order() {
         let off = |film: f64| {
             let pair = [layer(110e9, 0.0, 1e-3), layer(300e9, -1e-3, film)];
             let plate = BondedPlate { layers: pair.to_vec() };

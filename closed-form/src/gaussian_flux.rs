@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_narrow_source_is_rosenthals_moving_point() {
+    fn narrow_source_matches_rosenthals_moving_point() {
         let source = GaussianFlux { radius: 1e-7, peak: 1e12, velocity: 0.5, ..AT_REST };
         let (a, k) = (ALUMINA.diffusivity(), ALUMINA.conductivity);
         for at in [[-90e-6_f64, 10e-6, 20e-6], [20e-6, 0.0, 10e-6], [-2e-3, 0.0, 0.0]] {
@@ -164,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_narrow_source_at_rest_is_a_continuous_point() {
+    fn narrow_source_at_rest_matches_a_continuous_point_source() {
         let source = GaussianFlux { radius: 1e-7, peak: 1e12, ..AT_REST };
         for t in [3e-5, 3e-4, 3.0, 3e4] {
             let d = 50e-6_f64.hypot(40e-6);

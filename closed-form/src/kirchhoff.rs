@@ -66,7 +66,7 @@ mod tests {
     const BODY: LinearConductivity = LinearConductivity { body: ALUMINA, slope: 2e-3 };
 
     #[test]
-    fn the_nonlinear_heat_equation_holds() {
+    fn nonlinear_heat_equation_holds() {
         // ρc ∂T/∂t = ∂/∂z (k ∂T/∂z)
         let factor = |rise: f64| 1.0 + BODY.slope * rise;
         let (z, t) = (4e-5, 3e-4);

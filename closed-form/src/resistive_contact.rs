@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn the_flux_is_the_law_between_the_surfaces() {
+    fn flux_obeys_the_contact_law() {
         for conductance in [1.0, 1e3, 1e6] {
             let contact = contact(conductance);
             for t in [1e-6, 1e-3, 1.0, 100.0] {

@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn the_flow_satisfies_its_equation_and_end_conditions() {
+    fn flow_satisfies_its_equation_and_end_conditions() {
         let flow = flow();
         assert_close(flow[flow.len() - 1][1], 1.0, 1e-9);
         let n = 700;

@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn the_root_satisfies_the_equation() {
+    fn root_satisfies_the_characteristic_equation() {
         for ohnesorge in [1e-4, 0.01, 0.1, 0.5] {
             let alpha_square = 8f64.sqrt() / ohnesorge;
             let q = root(alpha_square).root();

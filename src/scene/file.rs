@@ -44,7 +44,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn a_file_is_read_up_to_the_bound() {
+    fn file_is_read_up_to_the_bound() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file");
         fs::write(&path, b"12345").unwrap();

@@ -219,7 +219,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_value_is_cut() {
+    fn long_value_is_truncated() {
         expect(Path::default().at("load").index(1).at("n"), 10, "load[1].n", "'''p…");
     }
 
