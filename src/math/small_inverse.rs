@@ -7,7 +7,7 @@ pub struct SmallInverse<const N: usize> {
     pub condition: f64,
 }
 
-/// Inverse of the leading `n × n` block, by Gauss–Jordan elimination with row pivots; zeros stand
+/// Inverse of the leading `n × n` block, by Gauss–Jordan elimination with row pivots; zeros are
 /// beyond it. `None` where a pivot is zero.
 pub fn inverse<const N: usize>(block: &[[f64; N]; N], n: usize) -> Option<SmallInverse<N>> {
     let mut left = *block;

@@ -327,7 +327,7 @@ pub struct Mesh {
         .condition("up to the thickness")
         .otherwise("from the penetration depth of heat in a step; `spacing` if set alone"))]
     pub depth_spacing: Option<f64>,
-    /// Ratio of the sizes of neighbouring elements elsewhere [1].
+    /// Ratio of the sizes of neighbouring elements outside the fine region [1].
     #[schemars(transform = within(1.0, 2.0, "1", "")
         .says("neighbouring elements grow by a modest ratio", "1 <= growth <= 2")
         .otherwise("automatic, about 1.4"))]

@@ -53,9 +53,9 @@ pub struct Request<'a> {
 /// Largest step responses up to the horizon.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ranges {
-    /// Of each output to a unit step of each input.
+    /// Responses of each output to a unit step of each input.
     pub single: Vec<Vec<f64>>,
-    /// Of each output to the inputs of the default experiment.
+    /// Responses of each output to the inputs of the default experiment.
     pub together: Vec<f64>,
 }
 

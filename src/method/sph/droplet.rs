@@ -43,7 +43,7 @@ pub struct DropletSph {
     released: MadeOnce<Vec<Released>>,
 }
 
-/// The particles of a state, images at mirrors left out.
+/// The particles of a state, images at mirrors excluded.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParticleFields {
     /// [m]
@@ -88,7 +88,7 @@ impl DropletSph {
         flat(&mut ledger, &mut cloud)
     }
 
-    /// A state at time zero of given particles, in place of the plan's droplets.
+    /// A state at time zero with these particles in place of the plan's droplets.
     pub fn state_of(&self, particles: &ParticleFields) -> Vec<f64> {
         let units = &self.method.units;
         let reference = self.reference_temperature();

@@ -22,7 +22,7 @@ pub struct RunSettings {
     pub stop: f64,
     /// Time between two readings of the droplet [s].
     pub reading: f64,
-    /// Time between two exchanges with what is below: one advance [s].
+    /// Time between two exchanges with the body below: one advance [s].
     pub exchange: f64,
     /// Expected spread diameter of drops on the surface below, over their own diameter; `None` in
     /// free space.

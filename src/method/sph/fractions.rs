@@ -20,7 +20,7 @@ use crate::scene::Precision;
 /// Sixteen points of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sheet {
-    /// About the grid's origin.
+    /// Middle of the points, relative to the grid's origin.
     pub middle: [f64; 3],
     /// Number of points, from the first on, that represent the wall; 0 where all represent the
     /// space above it.
@@ -198,7 +198,7 @@ impl Slopes {
     }
 }
 
-/// Converts a grid position relative to its origin.
+/// Position of a place that is given relative to the grid's origin.
 pub fn from(origin: [f64; 3], place: [f64; 3]) -> [f64; 3] {
     [origin[0] + place[0], origin[1] + place[1], origin[2] + place[2]]
 }
