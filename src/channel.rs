@@ -1,9 +1,9 @@
-//! What loads bring through a face: a row for each amount that has a value in every cell of a footprint.
+//! Amounts that loads carry through a face: a row for each amount that has a value in every cell of a footprint.
 
 use crate::limits::{self, Limits};
 use crate::quantity::Quantity;
 
-/// An amount for each area and time.
+/// An amount per area and time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Channel {
     HeatFlux,
@@ -13,21 +13,21 @@ pub enum Channel {
     ShearR,
 }
 
-/// How an amount acts on a body.
+/// Action of an amount on a body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
-    /// It is heat that enters.
+    /// Heat that enters.
     Heat,
-    /// It pushes into the body.
+    /// Force into the body.
     Inward,
-    /// It pushes along x (0) or y (1).
+    /// Force along x (0) or y (1).
     Along(usize),
-    /// It pushes away from the middle of the footprint.
+    /// Force away from the middle of the footprint.
     Outward,
 }
 
 impl Channel {
-    /// All of them, in the order of a load's inputs.
+    /// All channels, in the order of a load's inputs.
     pub const ALL: [Self; 5] =
         [Self::HeatFlux, Self::Pressure, Self::ShearX, Self::ShearY, Self::ShearR];
 
@@ -42,7 +42,7 @@ impl Channel {
         }
     }
 
-    /// What it is, in the descriptions of inputs.
+    /// Noun for the descriptions of inputs.
     pub const fn words(self) -> &'static str {
         match self {
             Self::HeatFlux => "heat flux into the body",

@@ -1,11 +1,11 @@
 use std::f64::consts::PI;
 
-/// A physical quantity: what its values are measured in, and how people like to read them.
+/// A physical quantity: the unit of its values, and their usual display.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Quantity {
     Time,
     Temperature,
-    /// Between two temperatures.
+    /// Difference of two temperatures.
     TemperatureDifference,
     HeatFlux,
     Stress,
@@ -17,12 +17,12 @@ pub enum Quantity {
     Conductivity,
     Modulus,
     Ratio,
-    /// A whole number of things.
+    /// A whole number of objects.
     Count,
     Angle,
     Expansion,
     HeatTransferCoefficient,
-    /// Of a contact, for a unit of area.
+    /// Thermal resistance of a contact per area.
     ThermalResistance,
     Area,
     Volume,
@@ -33,7 +33,7 @@ pub enum Quantity {
     Momentum,
     Force,
     HeatFlow,
-    /// Of plane models: what there is in each metre of depth.
+    /// Energy per metre of depth, of plane models.
     EnergyPerLength,
     MassPerLength,
     MomentumPerLength,
@@ -89,7 +89,7 @@ impl Quantity {
         Quantity::HeatFlowPerLength,
     ];
 
-    /// The same in each metre of a plane model's depth; itself where depth does not matter.
+    /// The quantity per metre of a plane model's depth; unchanged if independent of depth.
     pub fn per_depth(self) -> Self {
         match self {
             Quantity::Energy => Quantity::EnergyPerLength,
@@ -101,7 +101,7 @@ impl Quantity {
         }
     }
 
-    /// Whether it is what a plane model has in each metre of depth.
+    /// Returns true if it is a quantity per metre of depth of a plane model.
     pub fn is_per_depth(self) -> bool {
         Self::ALL.into_iter().any(|other| other != self && other.per_depth() == self)
     }
@@ -144,7 +144,7 @@ impl Quantity {
         }
     }
 
-    /// The SI unit that values travel in.
+    /// SI unit of the values.
     pub fn unit(self) -> &'static str {
         match self {
             Quantity::Time => "s",
@@ -178,7 +178,7 @@ impl Quantity {
         }
     }
 
-    /// Exponents of kg, m, s and K; angles beside them count as numbers.
+    /// Exponents of kg, m, s and K; angles count as numbers.
     pub fn base_exponents(self) -> [i32; 4] {
         match self {
             Quantity::Time => [0, 0, 1, 0],
@@ -211,7 +211,7 @@ impl Quantity {
         }
     }
 
-    /// The unit that a tool shows, where it differs from the SI unit.
+    /// Display unit, if it differs from the SI unit.
     pub fn display_unit(self) -> Option<DisplayUnit> {
         match self {
             Quantity::Time => scaled("µs", 1e6),
@@ -234,7 +234,7 @@ impl Quantity {
         }
     }
 
-    /// Magnitude of ordinary values, for tools that scale tolerances.
+    /// Typical magnitude, for tools that scale tolerances.
     pub fn nominal(self) -> f64 {
         match self {
             Quantity::Time => 1e-6,
@@ -271,15 +271,15 @@ impl Quantity {
     }
 }
 
-/// Below, six decimals tell a temperature [K].
+/// Magnitude below which six decimals display a temperature [K].
 const FIXED: f64 = 1e6;
 
-/// A temperature in kelvin, however far it is from anything real.
+/// Formats a temperature in kelvin, of any magnitude.
 pub fn kelvin(value: f64) -> String {
     if value.abs() < FIXED { format!("{value:.6} K") } else { format!("{value:.6e} K") }
 }
 
-/// A part of something as a percentage.
+/// Formats a fraction as a percentage.
 pub fn percent(part: f64) -> String {
     let value = 100.0 * part;
     match value {

@@ -6,14 +6,14 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Field {
     pub name: &'static str,
-    /// What it is, with its unit.
+    /// Description of the field, with its unit.
     pub words: &'static str,
     pub per: Per,
-    /// Numbers of an entry.
+    /// Number of values of an entry.
     pub width: usize,
 }
 
-/// What a field has entries for.
+/// Objects for which a field has entries.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Per {
     /// The whole body, once.
@@ -27,14 +27,14 @@ pub enum Per {
     Point,
 }
 
-/// The fields of a state in the order in which they lie there.
+/// The fields of a state in their order of storage.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Layout {
     /// Each field with its number of entries.
     fields: Vec<(Field, usize)>,
 }
 
-/// Where a number of a state belongs.
+/// Field and entry of a number of a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
     pub field: Field,
@@ -42,33 +42,33 @@ pub struct Place {
     pub component: usize,
 }
 
-/// What can be laid out as fields.
+/// A structure that can be stored as fields.
 pub trait Fields {
-    /// All of them with their numbers, always in the same order.
+    /// Returns all fields with their numbers, always in the same order.
     fn fields(&mut self) -> Vec<(Field, &mut [f64])>;
 }
 
 impl Layout {
-    /// Adds a field with so many entries.
+    /// Adds a field with a number of entries.
     pub fn with(mut self, field: Field, entries: usize) -> Self {
         self.fields.push((field, entries));
         self
     }
 
-    /// The layout of what has fields.
+    /// The layout of a structure with fields.
     pub fn of(fields: &mut dyn Fields) -> Self {
         let entries =
             |(field, numbers): (Field, &mut [f64])| (field, numbers.len() / field.width.max(1));
         Self { fields: fields.fields().into_iter().map(entries).collect() }
     }
 
-    /// Both, one after the other.
+    /// Concatenates two layouts.
     pub fn then(mut self, other: Self) -> Self {
         self.fields.extend(other.fields);
         self
     }
 
-    /// Number of numbers.
+    /// Number of values.
     pub fn len(&self) -> usize {
         self.fields.iter().map(|(field, entries)| field.width * entries).sum()
     }
@@ -81,7 +81,7 @@ impl Layout {
         self.fields.iter()
     }
 
-    /// Where a number belongs; nothing beyond the last.
+    /// Field and entry of a number; `None` beyond the last.
     pub fn place(&self, index: usize) -> Option<Place> {
         let mut rest = index;
         for &(field, entries) in &self.fields {
@@ -113,7 +113,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Writes all fields over the beginning of a list; how many numbers there are.
+/// Writes all fields to the beginning of a list; returns the number of values.
 pub fn store(fields: &mut dyn Fields, to: &mut [f64]) -> usize {
     let mut at = 0;
     for (_, numbers) in fields.fields() {
@@ -153,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_stored_is_loaded_again() {
+    fn store_load_round_trip() {
         let mut some = Some { time: 2.0, position: vec![[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]] };
         let layout = Layout::of(&mut some);
         assert_eq!(layout.len(), 7);

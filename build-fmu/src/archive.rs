@@ -1,4 +1,4 @@
-//! The zip file of a unit, the same bytes for the same content.
+//! The zip file of a unit: identical bytes for identical content.
 
 use std::collections::BTreeMap;
 use std::io::{Cursor, Write};
@@ -9,7 +9,7 @@ use zip::{CompressionMethod, DateTime, ZipWriter};
 /// Content by path; the order of paths is the order in the file.
 pub type Entries = BTreeMap<String, Vec<u8>>;
 
-/// Packs the entries. All carry the earliest time that a zip file can tell.
+/// Packs the entries. All carry the earliest time that a zip file can represent.
 pub fn zip(entries: &Entries) -> Result<Vec<u8>, String> {
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)

@@ -1,4 +1,4 @@
-//! `resources/cells.json`: where the cells and points lie that arrays of variables belong to.
+//! `resources/cells.json`: positions of the cells and points of arrays of variables.
 
 use impinge::scene::Scene;
 use impinge::variables::CellFamily;

@@ -64,7 +64,7 @@ pub fn page(scene: &Scene, fmi: Version, reductions: &[String]) -> String {
     html
 }
 
-/// Where points and cells are, which units of FMI 3.0 tell as constants.
+/// Lists the positions of points and cells, which units of FMI 3.0 provide as constants.
 fn constants(html: &mut String, arrays: &ArrayRegistry) {
     let item = |v: &ArrayVariable| {
         let Content::Constants(quantity, _) = &v.content else { return None };
@@ -105,7 +105,7 @@ fn modelled(scene: &Scene, reductions: &[String]) -> String {
     )
 }
 
-/// What outputs err by, body by body, as far as it is known.
+/// Known errors of outputs, body by body.
 fn errors(scene: &Scene) -> impl Iterator<Item = String> {
     let tolerance = scene.fidelity.tolerance;
     scene.refinement.iter().filter_map(move |(name, mesh)| {
@@ -118,7 +118,7 @@ fn errors(scene: &Scene) -> impl Iterator<Item = String> {
     })
 }
 
-/// A program that sets the first input and plots the first outputs.
+/// Example program that sets the first input and plots the first outputs.
 fn how_to_run(scene: &Scene, registry: &Registry, arrays: &ArrayRegistry, fmi: Version) -> String {
     let of = |causality| {
         let has_causality = move |v: &&ArrayVariable| v.causality(registry) == Some(causality);
@@ -170,7 +170,7 @@ struct Row<'a> {
     meaning: String,
 }
 
-/// A row a variable of the version; in FMI 2.0 for all neighbours that differ only in their indices.
+/// One row per variable of the version; in FMI 2.0 one row for neighbours that differ only in their indices.
 fn rows<'a>(
     registry: &'a Registry,
     arrays: &ArrayRegistry,
@@ -190,7 +190,7 @@ fn rows<'a>(
     of_causality.map(row).collect()
 }
 
-/// First and last element of an array; of the last one only its indices if they stand in brackets.
+/// First and last element of an array; of the last one only its indices if they are in brackets.
 fn span(array: &ArrayVariable, elements: &[Variable]) -> String {
     let [first, .., last] = elements else { return elements[0].name.clone() };
     let indices = last.name.strip_prefix(&array.name).filter(|rest| rest.starts_with('['));
@@ -260,7 +260,7 @@ mod tests {
     }
 
     #[test]
-    fn the_page_of_fmi_3_names_whole_arrays() {
+    fn fmi_3_page_names_whole_arrays() {
         let scene = impinge::scene::parse(SCENE, "scene.toml").unwrap();
         let html = page(&scene, Version::Three, &[]);
         assert!(html.contains("<code>surface.temperature (4 × 4)</code>"), "{html}");

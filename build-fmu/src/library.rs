@@ -12,10 +12,10 @@ pub fn entry(model: &str, fmi: Version) -> String {
     format!("binaries/{}/{model}{}", fmi.platform(), consts::DLL_SUFFIX)
 }
 
-/// Bytes of a library, at most.
+/// Largest size of a library in bytes.
 const LARGEST: u64 = 1 << 30;
 
-/// The library at `path`, or the one beside this program.
+/// The library at `path`, or by default the one next to this program.
 pub fn path(path: Option<&Path>) -> Result<PathBuf, String> {
     path.map_or_else(beside_this_program, |path| Ok(path.to_owned()))
 }
@@ -44,7 +44,7 @@ pub fn read(path: &Path, fmi: Version) -> Result<Vec<u8>, String> {
     }
     if !has(impinge::scene::SCHEMA.as_bytes()) {
         return Err(format!(
-            "{} is of another build: it knows other keys of scenes than this program (allowed: what `cargo build \
+            "{} is of another build: its scene keys differ from those of this program (allowed: what `cargo build \
              --release --workspace` makes)",
             path.display()
         ));
@@ -52,8 +52,7 @@ pub fn read(path: &Path, fmi: Version) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
-/// Whether bytes begin as a shared library of this platform does: ELF (type and machine by its header),
-/// Mach-O or PE.
+/// Returns true if the bytes begin like a shared library of this platform: ELF (with type and machine), Mach-O or PE.
 fn is_shared_library(bytes: &[u8]) -> bool {
     const SHARED: [u8; 2] = [3, 0];
     const INTERPRETER: u32 = 3;
@@ -66,7 +65,7 @@ fn is_shared_library(bytes: &[u8]) -> bool {
                 "aarch64" => Some([183, 0]),
                 _ => None,
             };
-            // Programs ask for an interpreter.
+            // Programs request an interpreter.
             bytes.starts_with(b"\x7fELF")
                 && bytes.get(16..18) == Some(&SHARED[..])
                 && !segments(bytes).any(|kind| kind == INTERPRETER)
@@ -75,7 +74,7 @@ fn is_shared_library(bytes: &[u8]) -> bool {
     }
 }
 
-/// The types of the segments of an ELF file of 64 bits, least bytes first.
+/// The types of the segments of a 64-bit little-endian ELF file.
 fn segments(bytes: &[u8]) -> impl Iterator<Item = u32> + '_ {
     let number = |at: usize, size: usize| {
         let bytes = bytes.get(at..at.checked_add(size)?)?.iter().rev();
@@ -99,7 +98,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn a_missing_library_is_refused_with_the_way_to_build_it() {
+    fn missing_library_is_refused_with_build_instructions() {
         let message = read(Path::new("/nowhere/libimpinge.so"), Version::Two).unwrap_err();
         assert!(message.contains("/nowhere/libimpinge.so") && message.contains("cargo build"));
     }

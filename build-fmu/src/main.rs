@@ -30,13 +30,13 @@ struct Arguments {
     /// The scene, a TOML file; with --lint the unit
     #[arg(value_name = "SCENE", required_unless_present_any = ["rules", "instantiate"])]
     file: Option<PathBuf>,
-    /// Where to write the unit [default: NAME.fmu]
+    /// Path of the unit [default: NAME.fmu]
     #[arg(short, long, value_name = "FILE.fmu")]
     output: Option<PathBuf>,
     /// The version of FMI; with 3 rings, tiles and fields are array variables
     #[arg(long, value_name = "VERSION", default_value = "2")]
     fmi: Version,
-    /// The library of impinge [default: the one beside this program]
+    /// The library of impinge [default: the one next to this program]
     #[arg(long, value_name = "PATH")]
     library: Option<PathBuf>,
     /// Run the default experiment and pack its inputs and outputs too
@@ -48,10 +48,10 @@ struct Arguments {
     /// Check a unit of FMI 2.0, of any tool; its library is loaded to compare the GUID
     #[arg(long, conflicts_with_all = ["output", "library", "reference", "xml"])]
     lint: bool,
-    /// Say what is checked
+    /// List the rules
     #[arg(long, requires = "lint")]
     rules: bool,
-    /// Leave the unit's library alone, as befits units that nobody vouches for
+    /// Do not load the unit's library; use this for units of unknown origin
     #[arg(long, requires = "lint")]
     no_run: bool,
     #[arg(long, hide = true, num_args = 4, exclusive = true)]
@@ -71,7 +71,7 @@ fn main() -> ExitCode {
     })
 }
 
-/// Prints for people; a reader that has seen enough and closed the pipe is no error.
+/// Prints a text; a reader that closes the pipe early is not an error.
 fn print(said: &str) -> Result<(), String> {
     let mut out = io::stdout().lock();
     match writeln!(out, "{said}").and_then(|()| out.flush()) {
@@ -82,12 +82,12 @@ fn print(said: &str) -> Result<(), String> {
     }
 }
 
-/// Says what is wrong on standard error; where that cannot be written there is nobody to tell.
+/// Prints an error to standard error; ignores a failure to do so.
 fn complain(message: &str) {
     let _ = writeln!(io::stderr(), "build-fmu: {message}");
 }
 
-/// Does what is asked; answers with text for people and an exit code.
+/// Executes the command; returns its text and an exit code.
 fn run(arguments: &Arguments) -> Result<(String, ExitCode), String> {
     let file = arguments.file.as_deref().unwrap_or(Path::new(""));
     if arguments.rules {
@@ -100,7 +100,7 @@ fn run(arguments: &Arguments) -> Result<(String, ExitCode), String> {
     Ok((pack(arguments, file)?, ExitCode::SUCCESS))
 }
 
-/// Packs the scene in `path`; answers with one line for people.
+/// Packs the scene in `path`; returns a one-line summary.
 fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     let file = path.display().to_string();
     let text = scene::text_of(path, &file).map_err(|error| error.to_string())?;
@@ -138,7 +138,7 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     }
     let text = tolerance::packed_text(&scene, &text, &known);
     let scene = known;
-    // Held, so that nothing of it is made twice.
+    // Kept alive, so that its shared parts are made only once.
     let reduced = tolerance::reduced_model(&scene, available_memory());
     let reduced = reduced.map_err(|error| error.to_string())?;
     for warning in reduced.iter().flat_map(Model::reduction_warnings) {
@@ -154,7 +154,7 @@ fn pack(arguments: &Arguments, path: &Path) -> Result<String, String> {
     write(&target, &unit)
 }
 
-/// Refuses to write where something is read.
+/// Refuses to overwrite an input.
 fn refuse_inputs(target: &Path, inputs: &[&Path]) -> Result<(), String> {
     let Ok(place) = target.canonicalize() else { return Ok(()) };
     let is_it = |input: &&&Path| {
@@ -163,14 +163,14 @@ fn refuse_inputs(target: &Path, inputs: &[&Path]) -> Result<(), String> {
     match inputs.iter().find(is_it) {
         None => Ok(()),
         Some(input) => Err(format!(
-            "{} is {}, which is read (allowed: another file to write)",
+            "{} is {}, which is an input (allowed: another output file)",
             target.display(),
             input.display()
         )),
     }
 }
 
-/// Refuses to replace a file that does not begin as what is written.
+/// Refuses to replace a file that does not begin like the new one.
 fn refuse_other_files(target: &Path, begins: &[u8]) -> Result<(), String> {
     let is_other = |path: &Path| {
         let mut head = vec![0; begins.len()];
@@ -184,7 +184,7 @@ fn refuse_other_files(target: &Path, begins: &[u8]) -> Result<(), String> {
         return Ok(());
     }
     Err(format!(
-        "{} is there and was not made by this program (allowed: another file, or to remove this one first)",
+        "{} exists and was not made by this program (allowed: another file, or remove this one first)",
         target.display()
     ))
 }
@@ -201,7 +201,7 @@ fn is_same_file(_a: &Path, _b: &Path) -> bool {
     false
 }
 
-/// The bytes of the unit; `notes` are on its reductions, `entries` come from the options.
+/// The bytes of the unit; `notes` describe its reductions, `entries` follow from the options.
 fn unit(
     (scene, text): (&Scene, &str),
     notes: &[String],
@@ -230,10 +230,10 @@ fn unit(
     archive::zip(&entries)
 }
 
-/// Writes a file, into folders that are made where they are missing: beside its place first, so that an
-/// earlier file stays whole until the new one is. What is no file, such as a pipe, is written as it is.
+/// Writes a file and creates missing folders. The file is written under a temporary name first, so that an earlier file
+/// stays whole until then. A target that is not a regular file, such as a pipe, is written directly.
 fn write(path: &Path, bytes: &[u8]) -> Result<String, String> {
-    // A link leads to the file that is meant.
+    // A link is followed to its target.
     let place = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let folders = place.parent().map_or(Ok(()), fs::create_dir_all);
     let written = folders.and_then(|()| match fs::metadata(&place) {
@@ -274,7 +274,7 @@ mod tests {
     const SCENE: &str = include_str!("../../tests/fmi/scene.toml");
 
     #[test]
-    fn the_same_scene_makes_the_same_bytes() {
+    fn equal_scenes_produce_equal_bytes() {
         let scene = scene::parse(SCENE, "scene.toml").unwrap();
         for version in [Version::Two, Version::Three] {
             let make =

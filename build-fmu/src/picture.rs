@@ -1,11 +1,11 @@
-//! The unit's icon: a section through the first loaded body, to scale around its loads.
+//! The unit's icon: a section through the first loaded body, scaled to its loads.
 
 use impinge::scene::{Droplet, FaceName, Load, Scene, Shape};
 use tiny_skia::{Color, FillRule, Paint, Path, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
 const WIDTH: f32 = 400.0;
 const HEIGHT: f32 = 300.0;
-/// Room for arrows at a loaded face, and left free elsewhere [pixels].
+/// Space for arrows at a loaded face, and margin elsewhere [pixels].
 const AIR: f32 = 76.0;
 const MARGIN: f32 = 26.0;
 
@@ -44,7 +44,7 @@ struct Spot {
     x: f64,
     reach: f64,
     on_top: bool,
-    /// Whether arrows show it.
+    /// True if arrows show it.
     is_load: bool,
 }
 
@@ -60,7 +60,7 @@ impl Drop {
     fn of(droplet: &Droplet) -> Vec<Self> {
         let radius = 0.5 * droplet.diameter;
         let mut drops: Vec<Self> = Vec::new();
-        // Where inputs release drops without being told otherwise.
+        // Default start position of drops released by inputs.
         let at_origin = droplet.is_on_demand().then_some(0.0);
         for x in droplet.arrivals().iter().map(|arrival| arrival.x).chain(at_origin) {
             if drops.iter().all(|drop| drop.x != x) {
@@ -70,7 +70,7 @@ impl Drop {
         drops
     }
 
-    /// What it warms.
+    /// The heated spot below the drop.
     fn spot(&self) -> Spot {
         Spot { x: self.x, reach: self.radius, on_top: true, is_load: false }
     }
@@ -97,24 +97,24 @@ impl Spot {
     }
 }
 
-/// Probes that are shown, at most: more of them cover each other.
+/// Largest number of displayed probes: more of them would overlap.
 const MOST_PROBES: usize = 1000;
 
-/// The part of a body that is seen, and where: rightward x and downward depth below the top face.
+/// The visible part of a body, and its coordinates: rightward x and downward depth below the top face.
 struct Section<'a> {
     /// Name of the solid, if it is one.
     body: Option<&'a str>,
     drops: Vec<Drop>,
-    /// The widest first.
+    /// Spots, the widest first.
     spots: Vec<Spot>,
     thickness: f64,
     /// x in the middle of the picture [m].
     middle: f64,
-    /// Pixels a metre.
+    /// Pixels per metre.
     scale: f64,
-    /// Place of the top face [pixels].
+    /// Vertical position of the top face [pixels].
     top: f32,
-    /// Place of the body, which may go beyond the picture [pixels].
+    /// Rectangle of the body, which may extend beyond the picture [pixels].
     outline: Rect,
 }
 
@@ -178,7 +178,7 @@ impl<'a> Section<'a> {
     fn warmth(&self, x: f64, depth: f64) -> f64 {
         let of =
             |spot: &Spot| spot.warmth(x, if spot.on_top { depth } else { self.thickness - depth });
-        // The power makes the far field, which falls slowly, fade within the picture.
+        // The power makes the slowly decaying far field fade within the picture.
         self.spots.iter().map(of).fold(0.0, f64::max).powf(1.8)
     }
 
@@ -220,7 +220,7 @@ impl<'a> Section<'a> {
     }
 }
 
-/// Middle and half of the width that is seen [m]: some widths of the footprints, or all the body.
+/// Middle and half of the visible width [m]: some widths of the footprints, or the whole body.
 fn seen(spots: &[Spot], half_width: f64) -> (f64, f64) {
     let low = spots.iter().map(|spot| spot.x - spot.reach).fold(f64::INFINITY, f64::min);
     let high = spots.iter().map(|spot| spot.x + spot.reach).fold(f64::NEG_INFINITY, f64::max);
@@ -228,7 +228,7 @@ fn seen(spots: &[Spot], half_width: f64) -> (f64, f64) {
     if half_seen < half_width { ((low + high) / 2.0, half_seen) } else { (0.0, half_width) }
 }
 
-/// Half the width and the thickness of what the picture is of: a solid, or the wall below drops.
+/// Half the width and the thickness of the displayed object: a solid, or the wall below drops.
 fn extents(scene: &Scene, body: Option<&str>, drops: &[Drop]) -> Option<(f64, f64)> {
     if let Some(solid) = body.and_then(|name| scene.solid(name)) {
         let half_width = match solid.shape {
@@ -244,8 +244,7 @@ fn extents(scene: &Scene, body: Option<&str>, drops: &[Drop]) -> Option<(f64, f6
     }
 }
 
-/// Where the top face goes: bodies that are too thick run off the side that has no load, and drops
-/// above find their place.
+/// Vertical position of the top face: thick bodies extend beyond the side without load, and drops above fit in.
 fn top_of(spots: &[Spot], height: f32, drops: f32) -> f32 {
     let on_top = spots.iter().any(|spot| spot.on_top);
     let room_above = match (on_top, drops > 0.0) {
@@ -340,7 +339,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drop_is_seen_above_its_plate_and_above_its_wall() {
+    fn drop_appears_above_plate_and_wall() {
         for text in [UNIT, IMPACT] {
             let (water, has_ground) = seen(text);
             assert!(water > 3000 && has_ground, "{water} {has_ground}");
@@ -348,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drop_without_a_wall_is_seen_alone() {
+    fn drop_without_wall_appears_alone() {
         let free = UNIT.split("[[wall]]").next().unwrap();
         let (water, has_ground) = seen(free);
         assert!(water > 3000 && !has_ground, "{water} {has_ground}");

@@ -1,8 +1,8 @@
-//! Reference results inside a unit: the default experiment as this program computes it, for whoever
-//! wants to know whether the unit does the same in another tool.
+//! Reference results inside a unit: the default experiment as computed by this program, for comparison with other
+//! tools.
 //!
-//! Layered standard FMI-LS-REF 1.0.0-alpha.1 of the Modelica Association, and the format of
-//! experiments that it refers to (ma-hs-experiments). Both are drafts.
+//! Layered standard FMI-LS-REF 1.0.0-alpha.1 of the Modelica Association, and the format of experiments that it refers
+//! to (ma-hs-experiments). Both are drafts.
 
 use std::ops::Range;
 
@@ -22,7 +22,7 @@ const EXPERIMENTS: &str = "experiments.exp";
 const STIMULI: &str = "default_in.csv";
 const RESULTS: &str = "default_ref.csv";
 
-/// A column of a CSV file: a variable of the unit and the places of its elements in the registry.
+/// A column of a CSV file: a variable of the unit and the registry indices of its elements.
 struct Column {
     name: String,
     elements: Range<usize>,
@@ -67,7 +67,7 @@ fn columns(scene: &Scene, registry: &Registry, causality: Causality, fmi: Versio
     }
 }
 
-/// What the files are.
+/// Manifest of the files.
 fn manifest() -> String {
     let related = [
         (
@@ -116,7 +116,7 @@ fn experiments(scene: &Scene) -> String {
     )
 }
 
-/// The inputs, held at their start values.
+/// The inputs, constant at their start values.
 fn stimuli(scene: &Scene, registry: &Registry, columns: &[Column]) -> String {
     let starts: Vec<f64> = elements(registry, columns).filter_map(Variable::real_start).collect();
     let rows = [0.0, scene.stop_time].map(|time| row(time, columns, &starts));
@@ -157,7 +157,7 @@ fn output(variable: &Variable) -> Option<&Output> {
     }
 }
 
-/// Names in quotes: those of elements have commas.
+/// Header of names in quotes: names of elements contain commas.
 fn header(columns: &[Column]) -> String {
     let quoted = columns.iter().map(|column| format!(",\"{}\"", column.name));
     format!("\"time\"{}\n", quoted.collect::<String>())
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn every_row_has_a_value_for_each_name() {
+    fn rows_have_one_value_per_name() {
         let registry = Registry::of(&impinge::scene::parse(SCENE, "scene.toml").unwrap());
         let count = |causality| 1 + registry.of_causality(causality).count();
         let [inputs, outputs] = rows(Version::Two);

@@ -52,7 +52,7 @@ fn png(direction: Direction) -> Result<Vec<u8>, String> {
     let arrow = arrow.finish().ok_or("no arrow")?;
     pixmap.stroke_path(&arrow, &paint(RIM), &stroke, Transform::identity(), None);
     if direction == Direction::Out {
-        // The bar that the arrow leaves.
+        // The bar where the arrow starts.
         let mut bar = PathBuilder::new();
         bar.move_to(left, middle - head);
         bar.line_to(left, middle + head);

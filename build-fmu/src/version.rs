@@ -37,7 +37,7 @@ impl Version {
         }
     }
 
-    /// Where the picture of the unit stands.
+    /// Path of the unit's icon.
     pub fn icon(self) -> &'static str {
         match self {
             Version::Two => "model.png",

@@ -1,4 +1,4 @@
-//! A scene in sentences.
+//! Describes a scene in sentences.
 
 use impinge::scene::{
     Carries, Coupling, Disc, Droplet, Face, FaceName, Field, Load, Plane, Probe, Scene, Shape,
@@ -19,12 +19,12 @@ pub fn of(scene: &Scene) -> Vec<String> {
     bodies.chain(loads).chain(probes).chain(fields).chain(walls).chain(couplings).collect()
 }
 
-/// A number as short as it can be read: `5e7`.
+/// A number in its shortest notation: `5e7`.
 pub fn number(value: f64) -> String {
     if value.abs() < 1e5 { format!("{value:?}") } else { format!("{value:e}") }
 }
 
-/// A number with the prefix that keeps it short: `2.5 µm`.
+/// A number with a suitable prefix: `2.5 µm`.
 pub fn quantity(value: f64, unit: &str) -> String {
     const PREFIXES: [(f64, &str); 5] =
         [(1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p")];
@@ -33,7 +33,7 @@ pub fn quantity(value: f64, unit: &str) -> String {
         Some(fitting) if value.abs() < 1e4 => *fitting,
         _ => (1.0, ""),
     };
-    // Six digits hide what the division by the scale adds in rounding.
+    // Six digits hide the rounding of the division by the scale.
     let digits: f64 = format!("{:.5e}", value / scale).parse().unwrap_or(value);
     format!("{digits} {prefix}{unit}")
 }
@@ -54,7 +54,7 @@ fn solid(name: &str, solid: &Solid) -> String {
     let faces: Vec<String> = solid.faces.iter().map(|(name, how)| face(*name, how)).collect();
     let faces = if faces.is_empty() { String::new() } else { format!(" {}.", faces.join("; ")) };
     format!(
-        "{name}: a {shape}, at {} K in the beginning, with Fourier conduction and linear \
+        "{name}: a {shape}, initially at {} K, with Fourier conduction and linear \
          thermo-elasticity.{faces} Elsewhere it is insulated and free.",
         solid.initial_temperature
     )
@@ -109,7 +109,7 @@ fn droplet(name: &str, droplet: &Droplet) -> String {
     };
     let model = if droplet.dimension == 2 { "plane, one metre deep, " } else { "" };
     format!(
-        "{name}: {drops} of diameter {}, at {} K in the beginning, that arrives at {} m/s{angle}; {model}by \
+        "{name}: {drops} of diameter {}, initially at {} K, that arrives at {} m/s{angle}; {model}by \
          weakly compressible smoothed particle hydrodynamics with particles {} apart.",
         metres(droplet.diameter),
         droplet.initial_temperature,
@@ -136,7 +136,10 @@ fn coupling(coupling: &Coupling) -> String {
         );
     }
     let carried = if coupling.traction { "heat, pressure and shear" } else { "heat" };
-    format!("{} gives {carried} to {} and feels its temperature.", coupling.from, coupling.to)
+    format!(
+        "{} transfers {carried} to {} and receives its temperature.",
+        coupling.from, coupling.to
+    )
 }
 
 fn probe(probe: &Probe) -> String {

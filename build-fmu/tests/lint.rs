@@ -1,6 +1,6 @@
-//! `build-fmu --lint`: planted defects are found, and nothing else; our own units are clean.
+//! `build-fmu --lint` finds all planted defects and nothing else; our own units are clean.
 //!
-//! The units carry a library of this platform, whose name stands in paths below.
+//! The units carry a library of this platform, whose name occurs in paths below.
 
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
@@ -60,7 +60,7 @@ fn good() -> Entries {
     GOOD.get_or_init(make).clone()
 }
 
-/// Writes a zip file that is packed quickly.
+/// Writes a zip file with fast compression.
 fn write_zip(entries: &Entries, file: &Path) {
     let mut zip = ZipWriter::new(fs::File::create(file).unwrap());
     let stored = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
@@ -71,7 +71,7 @@ fn write_zip(entries: &Entries, file: &Path) {
     zip.finish().unwrap();
 }
 
-/// What the linter says about the entries: its exit code and text.
+/// Exit code and text of the linter for these entries.
 fn lint(entries: &Entries) -> (i32, String) {
     let folder = TempDir::new().unwrap();
     let unit = folder.path().join("unit.fmu");
@@ -116,7 +116,7 @@ fn set(entries: &mut Entries, at: &str, attribute: &str, value: &str) {
     });
 }
 
-/// Replaces the first place of a text behind another one.
+/// Replaces the first occurrence of a text behind another one.
 fn replace(entries: &mut Entries, at: &str, old: &str, new: &str) {
     change_xml(entries, |xml| {
         let (before, rest) = xml.split_at(xml.find(at).unwrap_or_else(|| panic!("no {at}")));
@@ -125,7 +125,7 @@ fn replace(entries: &mut Entries, at: &str, old: &str, new: &str) {
     });
 }
 
-/// Removes what stands from one text to the end of another, and hands it out.
+/// Removes the range from one text to the end of another, and returns it.
 fn cut(entries: &mut Entries, from: &str, to: &str) -> String {
     let mut removed = String::new();
     change_xml(entries, |xml| {
@@ -150,7 +150,7 @@ fn reference_of(entries: &Entries, name: &str) -> String {
 
 type Change = fn(&mut Entries);
 
-/// A defect with its change, the rules that must find it and a part of what they say.
+/// A defect: its change, the rules that must find it and part of their message.
 const DEFECTS: [(&str, Change, &[&str], &str); 15] = [
     (
         "duplicate value reference",
@@ -256,7 +256,7 @@ const DEFECTS: [(&str, Change, &[&str], &str); 15] = [
     ),
 ];
 
-/// With `KEEP_DEFECTS=FOLDER` the units stay there, for other programs to look at.
+/// With `KEEP_DEFECTS=FOLDER` the units are kept there, for other programs.
 #[test]
 fn every_planted_defect_is_found_and_nothing_else() {
     let keep = std::env::var_os("KEEP_DEFECTS").map(PathBuf::from);
@@ -297,7 +297,7 @@ fn our_own_units_are_clean() {
     }
 }
 
-/// Changes whose findings tell more than one of the table above.
+/// Asserts the findings of a change with more specific messages than the table above.
 #[track_caller]
 fn finds(change: impl FnOnce(&mut Entries), expected: (&str, &str), fragments: &[&str]) {
     let mut unit = good();
@@ -311,7 +311,7 @@ fn finds(change: impl FnOnce(&mut Entries), expected: (&str, &str), fragments: &
     }
 }
 
-/// Without the mark of this program the GUID can only be known from the library.
+/// Without the mark of this program the GUID can only be checked with the library.
 #[test]
 fn the_library_itself_says_that_a_guid_is_wrong() {
     let change = |unit: &mut Entries| {
@@ -388,7 +388,7 @@ fn aliases_of_different_units_are_an_error() {
 }
 
 #[test]
-fn units_of_other_versions_are_told_apart() {
+fn units_of_other_versions_are_recognised() {
     let version = |version: &'static str| {
         move |unit: &mut Entries| set(unit, "<fmiModelDescription", "fmiVersion", version)
     };
@@ -423,9 +423,9 @@ fn paths_that_differ_only_by_case_are_a_warning() {
     finds(change, ("warning", "zip-duplicates"), &["index.HTML: the path differs from", "by case"]);
 }
 
-/// Libraries for zip files refuse to write a path twice, so it is put in afterwards.
+/// Zip libraries refuse to write a path twice, so it is inserted afterwards.
 #[test]
-fn a_path_that_stands_twice_is_found() {
+fn duplicate_path_is_found() {
     let mut unit = good();
     unit.push((PAGE.replace("html", "htmX"), Vec::new()));
     let folder = TempDir::new().unwrap();
@@ -443,7 +443,7 @@ fn a_path_that_stands_twice_is_found() {
 }
 
 #[test]
-fn what_is_no_zip_file_is_said_so() {
+fn non_zip_file_is_reported() {
     let folder = TempDir::new().unwrap();
     let file = folder.path().join("unit.fmu");
     fs::write(&file, "no unit").unwrap();
@@ -486,7 +486,7 @@ fn a_dependency_that_is_no_input_is_found() {
 }
 
 #[test]
-fn cells_that_cannot_be_are_found() {
+fn impossible_cells_are_found() {
     let change = |unit: &mut Entries| {
         let (_, cells) = unit.iter_mut().find(|(path, _)| path == "resources/cells.json").unwrap();
         *cells = br#"{"families": {"spot": {"footprint": "disc", "count": [-3]}}}"#.to_vec();

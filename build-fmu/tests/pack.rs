@@ -1,4 +1,4 @@
-//! `build-fmu` packs into a file that is whole or as it was, and reads what it is given with care.
+//! `build-fmu` replaces files atomically, and checks its inputs.
 
 #![cfg(all(target_os = "linux", target_arch = "x86_64"))]
 
@@ -58,7 +58,7 @@ impl Place {
 }
 
 #[test]
-fn a_file_that_cannot_be_written_whole_is_as_it_was() {
+fn failed_write_leaves_the_file_unchanged() {
     let place = Place::new();
     fs::write(place.path("unit.fmu"), "PK earlier").unwrap();
     let shell = Command::new("sh")
@@ -86,9 +86,9 @@ fn nothing_is_written_where_something_is_read() {
     std::os::unix::fs::symlink("scene.toml", place.path("link.fmu")).unwrap();
     fs::hard_link(place.path("lib.so"), place.path("hard.fmu")).unwrap();
     for output in ["scene.toml", "./scene.toml", "link.fmu", "lib.so", "hard.fmu"] {
-        place.refused(&format!("scene.toml -o {output} --library lib.so"), "which is read");
+        place.refused(&format!("scene.toml -o {output} --library lib.so"), "which is an input");
     }
-    place.refused("scene.toml --xml scene.toml", "which is read");
+    place.refused("scene.toml --xml scene.toml", "which is an input");
     assert_eq!(fs::read_to_string(place.path("scene.toml")).unwrap(), SCENE);
     assert_eq!(fs::read(place.path("lib.so")).unwrap(), fs::read(library()).unwrap());
 }
@@ -118,7 +118,7 @@ fn a_library_of_another_build_is_not_packed() {
     assert!(!places.is_empty());
     places.into_iter().for_each(|place| bytes[place] = b'k');
     fs::write(place.path("old.so"), bytes).unwrap();
-    place.refused("scene.toml --library old.so", "knows other keys of scenes");
+    place.refused("scene.toml --library old.so", "its scene keys differ");
 }
 
 #[test]
@@ -179,7 +179,7 @@ fn texts(path: &Path) -> BTreeMap<String, String> {
 }
 
 #[test]
-fn a_level_that_is_left_open_is_packed_with_its_answer() {
+fn open_level_is_packed_with_its_choice() {
     let place = Place::new();
     let copper = "density = 8960.0, specific_heat = 385.0, conductivity = 400.0";
     let aerogel = "density = 100.0, specific_heat = 1000.0, conductivity = 0.015";
@@ -199,7 +199,7 @@ fn a_level_that_is_left_open_is_packed_with_its_answer() {
         let description = &files["modelDescription.xml"];
         assert_eq!(description.contains("plate.error_bound_temperature"), is_reduced);
         assert_eq!(files["documentation/index.html"].contains("unknowns"), is_reduced);
-        // The description alone is that of the unit.
+        // The description alone equals that of the unit.
         assert!(place.shell("open.toml --xml open.xml").status.success());
         assert_eq!(&fs::read_to_string(place.path("open.xml")).unwrap(), description);
     }

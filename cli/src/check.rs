@@ -17,12 +17,12 @@ use super::patience;
 use super::table::table;
 use super::units::{decimal, engineering, kelvin, lasting};
 
-/// Say what a scene will model, and what is left out and why
+/// Report what a scene will model, and what is omitted and why
 #[derive(Args)]
 pub struct Check {
     /// The scene, a TOML file
     scene: PathBuf,
-    /// Say of every output what it is
+    /// Describe every output
     #[arg(long)]
     outputs: bool,
 }
@@ -71,24 +71,24 @@ impl Check {
     }
 }
 
-/// Usage of this process while it chose and judged meshes; a run does the same before it builds its model.
+/// Resource usage of choosing and assessing meshes; a run does the same before it builds its model.
 struct Preparation {
     begun: Usage,
     done: Usage,
 }
 
 impl Preparation {
-    /// Processor time [s], which is the time on an idle machine: trials take one thread.
+    /// Processor time [s], equal to the wall time on an idle machine: trials use one thread.
     fn time(&self) -> f64 {
         self.done.processor_time - self.begun.processor_time
     }
 
-    /// Memory of a process that prepares and then holds so much data [B]: trials are given up before models are built.
+    /// Memory of a process that prepares and then holds so much data [B]: trials are freed before models are built.
     fn process_memory(&self, data: f64) -> f64 {
         self.done.peak_memory.max(self.begun.peak_memory + data)
     }
 
-    /// The cost of a run in words: that of its preparation and that of its model.
+    /// Describes the cost of a run: that of its preparation and that of its model.
     fn cost(&self, forecast: &Forecast) -> String {
         let total = forecast.run_time() + self.time();
         let memory = self.process_memory(forecast.memory()) / 1e6;
@@ -105,10 +105,10 @@ impl Preparation {
     }
 }
 
-/// Part of a run from which on `check` reports the time of its preparation.
+/// Smallest share of a run's time for which `check` reports the preparation.
 const NOTABLE: f64 = 0.1;
 
-/// What the model will cost and what was chosen, without building it.
+/// Describes the cost of the model and the choices made, without building it.
 fn notes(scene: &Scene, preparation: &Preparation) -> String {
     let mut text = String::new();
     let forecast = forecast(scene);
@@ -181,10 +181,10 @@ fn notes(scene: &Scene, preparation: &Preparation) -> String {
     text
 }
 
-/// Most outputs of a body whose errors are listed.
+/// Largest number of listed outputs with errors, per body.
 const MOST_ERRORS: usize = 12;
 
-/// What outputs err by, the largest errors first, and what estimates leave out.
+/// Lists the errors of outputs, the largest first, and what the estimates omit.
 fn errors(estimates: &[BodyEstimate]) -> String {
     let mut text = String::new();
     for estimate in estimates {
@@ -208,7 +208,7 @@ fn errors(estimates: &[BodyEstimate]) -> String {
     text
 }
 
-/// Orders and bounds of solids that are reduced, and what levels that were left open came to.
+/// Lists orders and bounds of reduced solids, and the levels chosen for open ones.
 fn reductions(model: Option<&Model>, levels: &[String]) -> String {
     let mut notes = levels.to_vec();
     notes.extend(model.into_iter().flat_map(Model::notes));
@@ -216,7 +216,7 @@ fn reductions(model: Option<&Model>, levels: &[String]) -> String {
     if lines.is_empty() { lines } else { format!("\nReduction\n{lines}") }
 }
 
-/// What particles do in a communication step.
+/// Describes the work of particles in a communication step.
 fn conduction(forecast: &ParticleForecast, count: usize) -> String {
     let ParticleForecast { neighbours, sub_steps, products, euler_steps } = forecast;
     let parts = if *sub_steps == 1 { "sub-step" } else { "sub-steps" };
@@ -371,7 +371,7 @@ fn fields(scene: &Scene) -> String {
     table(["field", "on", "values", "gives"], &rows)
 }
 
-/// The face or section of a field.
+/// Names the face or section of a field.
 fn place(field: &Field) -> String {
     match (&field.on, &field.body, field.plane) {
         (Some(face), ..) => face.clone(),
@@ -387,9 +387,9 @@ fn place(field: &Field) -> String {
     }
 }
 
-/// The variables by causality: how many, and each with its unit and start value, arrays folded; of outputs what
-/// they are, where that is `told`.
-fn variables(scene: &Scene, told: bool) -> String {
+/// Lists the variables by causality: their number, unit and start value, with arrays folded. If `described`, also lists
+/// the meaning of each output.
+fn variables(scene: &Scene, described: bool) -> String {
     let (registry, arrays) = (Registry::of(scene), ArrayRegistry::of(scene));
     let kinds = [
         ("Parameters", Causality::Parameter),
@@ -410,17 +410,17 @@ fn variables(scene: &Scene, told: bool) -> String {
             .into_iter()
             .map(|elements| {
                 let unit = elements[0].quantity.map_or("", |quantity| quantity.unit());
-                // The name with the highest indices tells how many there are.
+                // The name with the highest indices determines the number of elements.
                 let last = &elements[elements.len() - 1];
                 let more = match causality {
-                    Causality::Output if told => last.description.clone(),
+                    Causality::Output if described => last.description.clone(),
                     _ => start(elements),
                 };
                 [last.name.clone(), unit.to_owned(), more]
             })
             .collect();
         let heading = match causality {
-            Causality::Output if told => "what it is",
+            Causality::Output if described => "meaning",
             Causality::Output => "",
             _ => "start",
         };
@@ -429,7 +429,7 @@ fn variables(scene: &Scene, told: bool) -> String {
     text
 }
 
-/// The start value that all elements share.
+/// The start value, if all elements share it.
 fn start(elements: &[Variable]) -> String {
     let first = &elements[0].start;
     if elements.iter().any(|element| element.start != *first) {
@@ -476,7 +476,7 @@ fn metres(value: f64) -> String {
     engineering(value, "m")
 }
 
-/// What a body is made of: the name of its material or constitutive law, or its layers.
+/// Names the material of a body: its named material or constitutive law, or its layers.
 fn law(solid: &Solid) -> String {
     let layers = solid.layers.iter().flatten();
     let own = solid.material.iter().map(material);
@@ -491,7 +491,7 @@ fn material(choice: &MaterialChoice) -> String {
     choice.name.clone().unwrap_or_else(|| model.unwrap_or_default().to_owned())
 }
 
-/// The word that stands for a value in the scene.
+/// The word for a value in the scene.
 fn key(value: &impl Serialize) -> String {
     match toml::Value::try_from(value) {
         Ok(toml::Value::String(word)) => word,

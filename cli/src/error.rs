@@ -9,7 +9,7 @@ use impinge::variables::{Registry, Slot};
 use super::inputs::TableError;
 use super::set::SetErrors;
 
-/// Why a command did not do what was asked.
+/// Reasons why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub enum CliError {
     #[error(transparent)]
@@ -18,9 +18,9 @@ pub enum CliError {
     Set(#[from] SetErrors),
     #[error(transparent)]
     Table(#[from] TableError),
-    #[error("{name} is set (--set) and has a column in the table (--inputs); allowed: one of both")]
+    #[error("{name} is set (--set) and has a column in the table (--inputs); allowed: one of them")]
     GivenTwice { name: String },
-    /// Nobody waits for the end of the run.
+    /// The run would take too long for anyone to wait.
     #[error(
         "the run would take about {time}; allowed: {most}, as with `--until {until}` ({proposed}), a larger `spacing` or a \
          lower `sound_speed` of droplets, or a lower speed"
@@ -51,7 +51,7 @@ pub enum CliError {
 }
 
 impl CliError {
-    /// Says by name which input the model refuses.
+    /// Converts a model error; names the refused input.
     pub fn from_model(error: ModelError, scene: &Scene) -> Self {
         match error {
             ModelError::Body(BodyError::Input { index, message }) => {

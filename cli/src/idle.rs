@@ -3,7 +3,7 @@
 use impinge::scene::{Body, Face, Scene, Solid};
 use impinge::variables::{InputLayout, Quantity, Registry, Slot};
 
-/// What to say where neither an input nor a face nor a droplet acts on anything.
+/// Returns a note if neither an input nor a face nor a droplet acts on any body.
 pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
     if scene.droplets().next().is_some() || acts_by_itself(scene) {
         return None;
@@ -16,7 +16,7 @@ pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
         match rest(scene, &layout, (at, quantity)) {
             Some(rest) if rest == inputs[at] => idle.push(variable.family().to_owned()),
             Some(_) => return None,
-            // What moves a footprint or transfers heat does nothing alone.
+            // Inputs that move a footprint or transfer heat have no effect alone.
             None => {}
         }
     }
@@ -30,7 +30,7 @@ pub fn note(scene: &Scene, inputs: &[f64]) -> Option<String> {
     ))
 }
 
-/// Whether solids warm each other, radiate or are under stress from the beginning.
+/// Returns true if solids heat each other, radiate or are initially under stress.
 fn acts_by_itself(scene: &Scene) -> bool {
     let start = |name: &str| scene.body.get(name).map(Body::initial_temperature);
     let touches =
@@ -46,7 +46,7 @@ fn acts_by_itself(scene: &Scene) -> bool {
     touches || scene.solids().any(|(_, solid)| changes(solid))
 }
 
-/// The value with which the input at a place does nothing; `None` for inputs that do nothing alone.
+/// The value at which an input has no effect; `None` for inputs without effect on their own.
 fn rest(scene: &Scene, layout: &InputLayout, (at, quantity): (usize, Quantity)) -> Option<f64> {
     match quantity {
         Quantity::HeatFlux | Quantity::HeatFlow | Quantity::Stress => Some(0.0),

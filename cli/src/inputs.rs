@@ -12,35 +12,35 @@ use impinge::variables::{Quantity, Registry, Slot, Variable};
 
 use super::set::{self, InputValue, SetError};
 
-/// What inputs do between the rows of a table
+/// Interpolation of inputs between the rows of a table
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum Between {
-    /// They change linearly, but for what is counted
+    /// Linear, except for counts
     #[default]
     Linear,
-    /// They keep the value of the row before
+    /// Constant at the value of the previous row
     Held,
 }
 
-/// Parts of the way between the ends of a place's values at which it is looked at.
-const PASSED: usize = 64;
+/// Fractions of the path between the ends of a position's values at which it is sampled.
+const SAMPLES: usize = 64;
 
-/// Columns of inputs over time. Before the first row and after the last the inputs are held; two rows of one time
+/// Columns of inputs over time. Before the first row and after the last the inputs are constant; two rows at one time
 /// are a jump.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InputTable {
     between: Between,
-    /// Places in a state's inputs of each column: several where a name stands for an array.
+    /// Indices in a state's inputs of each column: several where a name represents an array.
     columns: Vec<Vec<usize>>,
-    /// Columns that are held whatever the others do: what is counted.
+    /// Columns that are always piecewise constant: counts.
     counted: Vec<bool>,
-    /// [s], ascending.
+    /// Times [s], ascending.
     times: Vec<f64>,
-    /// Values of the columns, a row for each time.
+    /// Values of the columns, one row per time.
     rows: Vec<Vec<f64>>,
 }
 
-/// What is wrong with a table.
+/// Errors of a table.
 #[derive(Debug, thiserror::Error)]
 pub enum TableError {
     #[error("cannot read {}: {reason}", path.display())]
@@ -64,7 +64,7 @@ pub enum TableError {
 }
 
 impl InputTable {
-    /// Reads the table in a file for the inputs of a scene's unit; `set` are names that are set otherwise.
+    /// Reads a table of the inputs of a scene's unit; `set` are names already set elsewhere.
     pub fn read(path: &Path, between: Between, scene: &Scene) -> Result<Self, TableError> {
         let unreadable = |reason| TableError::Unreadable { path: path.to_owned(), reason };
         let text = text_of(path)?;
@@ -111,24 +111,24 @@ impl InputTable {
         }
     }
 
-    /// The time of a further row.
+    /// Parses and checks the time of a further row.
     fn next_time(&self, text: &str) -> Result<f64, String> {
         let time = text.parse().ok().filter(|time: &f64| time.is_finite());
         let time = time.ok_or_else(|| format!("{text} is no time; allowed: a number [s]"))?;
         let mut before = self.times.iter().rev();
         let [last, second] = [before.next(), before.next()];
         if last.is_some_and(|last| time < *last) {
-            return Err(format!("{text} s lies before the row above; allowed: times that ascend"));
+            return Err(format!("{text} s lies before the row above; allowed: ascending times"));
         }
         if second.is_some_and(|second| time == *second) {
             return Err(format!(
-                "{text} s stands in a third row; allowed: two rows of a time, a jump"
+                "{text} s occurs in a third row; allowed: two rows at one time, for a jump"
             ));
         }
         Ok(time)
     }
 
-    /// A warning of rows that a run to `stop` [s] never comes to, or a note of values that it keeps after the last.
+    /// A warning about rows that a run to `stop` [s] never reaches, or a note about values kept after the last row.
     pub fn remark(&self, path: &Path, stop: f64) -> Option<(&'static str, String)> {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let file = path.display();
@@ -146,7 +146,8 @@ impl InputTable {
             );
             return Some(("note", message));
         }
-        let ends_early = self.between == Between::Linear && 0.0 < last && last < NEARLY * stop;
+        let ends_early =
+            self.between == Between::Linear && 0.0 < last && last < COVERED_SHARE * stop;
         ends_early.then(|| {
             (
                 "note",
@@ -155,17 +156,17 @@ impl InputTable {
         })
     }
 
-    /// Places of the inputs that the table gives.
+    /// Indices of the inputs in the table.
     pub fn given(&self) -> impl Iterator<Item = usize> + '_ {
         self.columns.iter().flatten().copied()
     }
 
-    /// Rows at times in a run that ends at `stop` [s], each of which may cut a step.
+    /// Number of rows within a run that ends at `stop` [s], each of which may cut a step.
     pub fn rows_until(&self, stop: f64) -> usize {
         self.times.iter().filter(|time| (0.0..stop).contains(*time)).count()
     }
 
-    /// The least and the largest value of each input.
+    /// The smallest and the largest value of each input.
     pub fn extremes(&self) -> Vec<InputValue> {
         let of_column = |(column, places): (usize, &Vec<usize>)| {
             let values = || self.rows.iter().map(|row| row[column]);
@@ -178,8 +179,8 @@ impl InputTable {
         self.columns.iter().enumerate().flat_map(of_column).collect()
     }
 
-    /// The least and the largest value of each input, and of places what they pass between: those in the middle of a way
-    /// may be farther from where a mesh is fine than both of its ends.
+    /// The smallest and the largest value of each input, and intermediate values of positions. A point in the middle of
+    /// a path may be farther from the fine part of a mesh than both of its ends.
     pub fn samples(&self, scene: &Scene) -> Vec<InputValue> {
         let registry = Registry::of(scene);
         let is_length = |place: usize| {
@@ -193,8 +194,8 @@ impl InputTable {
                 .filter(|ends| is_length(ends[0].0))
                 .flat_map(|ends| {
                     let (place, [low, high]) = (ends[0].0, [ends[0].1, ends[1].1]);
-                    let at = move |n: usize| low + (high - low) * n as f64 / PASSED as f64;
-                    (1..PASSED).map(move |n| (place, at(n)))
+                    let at = move |n: usize| low + (high - low) * n as f64 / SAMPLES as f64;
+                    (1..SAMPLES).map(move |n| (place, at(n)))
                 })
                 .collect();
             samples.extend(passed);
@@ -202,7 +203,7 @@ impl InputTable {
         samples
     }
 
-    /// The times at which rows stand between two others, all in seconds.
+    /// Times of rows between two others, all in seconds.
     pub fn times_within(&self, from: f64, to: f64) -> Vec<f64> {
         let slack = ROUNDING * (to - from);
         let inside = |time: &&f64| **time > from + slack && **time < to - slack;
@@ -211,7 +212,7 @@ impl InputTable {
         times
     }
 
-    /// Puts values and derivatives that hold between two times [s], between which no row stands, into a state.
+    /// Stores in a state the values and derivatives between two times [s] without a row between them.
     pub fn apply(&self, state: &mut State, from: f64, to: f64) {
         let slack = ROUNDING * (to - from);
         let next = self.times.partition_point(|time| *time <= from + slack);
@@ -235,22 +236,22 @@ impl InputTable {
     }
 }
 
-/// Part of a run that the rows of a table reach over before nothing is said.
-const NEARLY: f64 = 0.999;
+/// Share of a run that a table must cover to avoid a note.
+const COVERED_SHARE: f64 = 0.999;
 
-/// Refuses bytes that are no text, by the line of the first.
+/// Refuses bytes that are not text, and names the line of the first.
 fn check_text(path: &Path, text: &[u8]) -> Result<(), TableError> {
     let Err(error) = std::str::from_utf8(text) else { return Ok(()) };
     let breaks = text[..error.valid_up_to()].iter().filter(|byte| **byte == b'\n').count();
     Err(TableError::NotText { path: path.to_owned(), line: breaks + 1 })
 }
 
-/// Bytes of a table, at most: some million rows.
+/// Largest size of a table in bytes: some million rows.
 const LARGEST: u64 = 100_000_000;
-/// Memory that a table takes over its bytes, at most.
+/// Upper bound on the memory of a table over its size.
 const SPREAD: u64 = 8;
 
-/// The bytes of a file, which are not more than the machine has room for.
+/// Reads a file, if the machine has enough memory for it.
 fn text_of(path: &Path) -> Result<Vec<u8>, TableError> {
     let unopened = |reason| TableError::Unopened { path: path.to_owned(), reason };
     let most = LARGEST.min(available_memory() as u64 / SPREAD);
@@ -261,10 +262,10 @@ fn text_of(path: &Path) -> Result<Vec<u8>, TableError> {
     })
 }
 
-/// Part of a step by which times may differ that were computed.
+/// Tolerance of computed times, as a fraction of a step.
 const ROUNDING: f64 = 1e-9;
 
-/// The variables that each column behind the first stands for.
+/// The variables of each column after the first.
 fn columns<'a>(
     path: &Path,
     header: &csv::StringRecord,
@@ -288,7 +289,7 @@ fn columns<'a>(
     titles.map(column).collect()
 }
 
-/// The inputs that a title, `NAME` or `NAME [UNIT]`, stands for.
+/// The inputs that a title, `NAME` or `NAME [UNIT]`, denotes.
 fn named<'a>(registry: &'a Registry, title: &str) -> Result<Vec<&'a Variable>, String> {
     let (name, unit) = match title.rsplit_once(" [") {
         Some((name, unit)) => (name, unit.strip_suffix(']')),
@@ -297,7 +298,7 @@ fn named<'a>(registry: &'a Registry, title: &str) -> Result<Vec<&'a Variable>, S
     let variables = set::targets(registry, name).map_err(|error: SetError| error.to_string())?;
     let Slot::Input(_) = variables[0].slot else {
         return Err(format!(
-            "{name} is a parameter that is fixed; allowed: inputs (or --set {name}=VALUE)"
+            "{name} is a fixed parameter; allowed: inputs (or --set {name}=VALUE)"
         ));
     };
     let own = variables[0].quantity.map_or("1", |quantity| quantity.unit());

@@ -22,7 +22,7 @@ use impinge::advice::Warning;
 
 use error::CliError;
 
-/// What a hot droplet does to the surface it hits: heat and stress
+/// Heat and stress in a surface hit by a hot droplet
 #[derive(Parser)]
 #[command(name = "impinge", version)]
 struct Arguments {
@@ -53,19 +53,19 @@ fn main() -> ExitCode {
     }
 }
 
-/// Says on standard error what is implausible in a scene.
+/// Prints warnings about implausible values of a scene to standard error.
 fn warn(warnings: &[Warning]) {
     for warning in warnings {
         print_message("warning", warning);
     }
 }
 
-/// Says something on standard error; where that cannot be written there is nobody to tell.
+/// Prints a message to standard error; ignores a failure to do so.
 fn print_message(kind: &str, what: &dyn Display) {
     let _ = writeln!(io::stderr(), "{kind}: {what}");
 }
 
-/// Prints a report; a reader that has seen enough and closed the pipe is no error.
+/// Prints a report; a reader that closes the pipe early is not an error.
 fn print(report: &str) -> Result<(), CliError> {
     let mut out = io::stdout().lock();
     match out.write_all(report.as_bytes()).and_then(|()| out.flush()) {

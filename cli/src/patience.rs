@@ -1,4 +1,4 @@
-//! Forecasts of how long a command takes: reported where that is long, refused where nobody waits for it.
+//! Forecasts of a command's duration: long ones are reported, extreme ones refused.
 
 use std::path::Path;
 
@@ -11,13 +11,13 @@ use super::units::lasting;
 
 const MINUTE: f64 = 60.0;
 const DAY: f64 = 24.0 * 60.0 * MINUTE;
-/// From where on a run says how long it will take, and is refused [s].
-const TOLD: f64 = 10.0 * MINUTE;
+/// Duration from which a run reports its forecast, and from which it is refused [s].
+const REPORTED: f64 = 10.0 * MINUTE;
 const REFUSED: f64 = 30.0 * DAY;
-/// What is proposed instead [s].
+/// Duration of the proposed run [s].
 const PROPOSED: f64 = DAY;
 
-/// Reads and checks the scene in a file; says so before it reads a large one.
+/// Reads and checks the scene in a file; prints a notice before it reads a large one.
 pub fn read(path: &Path) -> Result<(Scene, Vec<Warning>), CliError> {
     let file = path.display().to_string();
     let text = scene::text_of(path, &file)?;
@@ -27,7 +27,7 @@ pub fn read(path: &Path) -> Result<(Scene, Vec<Warning>), CliError> {
     Ok(advice::parse_with_warnings(&text, &file)?)
 }
 
-/// What to say of the time that a run of a scene will take; refuses one that takes months, with what would do.
+/// Notice on the duration of a scene's run; refuses one that takes months, with a proposal.
 pub fn expected(scene: &Scene) -> Result<Option<String>, CliError> {
     let forecast = forecast(scene);
     let time = forecast.run_time();
@@ -44,5 +44,5 @@ pub fn expected(scene: &Scene) -> Result<Option<String>, CliError> {
         format!(", {:.2e} time steps of `{}` of {:.1e} s", body.steps, body.name, body.time_step)
     });
     let told = || format!("this takes about {}{}", lasting(time), steps.collect::<String>());
-    Ok((time > TOLD).then(told))
+    Ok((time > REPORTED).then(told))
 }

@@ -21,10 +21,10 @@ use super::set::{self, Assignment, InputValue};
 use super::summary::{self, Balance, BalanceOutputs};
 use super::units::engineering;
 
-/// Number of times at which fields are written, about, if the user does not say.
+/// Default number of times at which fields are written.
 const SNAPSHOTS: usize = 50;
 
-/// Rows of inputs per step from which on a run says that they make it longer.
+/// Number of input rows per step from which a run reports that they slow it down.
 const ROWS_PER_STEP: usize = 10;
 
 /// Name of the file of variables over time.
@@ -41,10 +41,10 @@ pub struct Run {
     /// Set a parameter or an input by name; `impinge check` lists them
     #[arg(long, value_name = "NAME=VALUE")]
     set: Vec<Assignment>,
-    /// Stop at this time, as if the scene's stop_time said so
+    /// Stop at this time instead of the scene's stop_time
     #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
     until: Option<f64>,
-    /// Use this communication step, as if the scene's step said so
+    /// Use this communication step instead of the scene's step
     #[arg(long, value_name = "SECONDS", value_parser = positive, allow_negative_numbers = true)]
     step: Option<f64>,
     /// Folder for the files [default: out/NAME]
@@ -56,7 +56,7 @@ pub struct Run {
     /// Inputs over time: comma-separated values, first column `time` [s], then one each for inputs by their names
     #[arg(long, value_name = "TABLE")]
     inputs: Option<PathBuf>,
-    /// What inputs do between the rows of that table
+    /// Interpolation of inputs between the rows of that table
     #[arg(long, value_enum, default_value_t, requires = "inputs")]
     between: Between,
     /// Write variables every N steps, and at the end
@@ -73,11 +73,11 @@ fn positive(text: &str) -> Result<f64, &'static str> {
 }
 
 impl Run {
-    /// Runs, and reports where the heat went.
+    /// Runs the scene and reports the heat balance.
     pub fn execute(&self) -> Result<String, CliError> {
         let started = Instant::now();
-        let (scene, inputs) = self.asked_scene()?;
-        // What is wrong with files is told before meshes are judged, which takes its time.
+        let (scene, inputs) = self.modified_scene()?;
+        // Errors of files are reported before meshes are assessed, which takes time.
         let table = self.input_table(&scene, &inputs)?;
         self.check_folder(&self.folder(&scene), &scene)?;
         check_memory(&scene, available_memory()).map_err(CliError::Model)?;
@@ -105,7 +105,7 @@ impl Run {
         if rows > ROWS_PER_STEP * timeline.count {
             let steps = timeline.count;
             let note = format!(
-                "{rows} rows of inputs cut {steps} steps: this takes as long as that many steps do"
+                "{rows} rows of inputs cut {steps} steps: the run takes as long as that many steps"
             );
             super::print_message("note", &note);
         }
@@ -114,9 +114,9 @@ impl Run {
             cache: Cache::default(),
             timeline,
             table,
-            told_of_length: false,
+            warned_of_length: false,
             balance_outputs: BalanceOutputs::of(&scene),
-            told_of_phases: BTreeSet::new(),
+            warned_of_phases: BTreeSet::new(),
             balances: Vec::new(),
             model: &model,
         };
@@ -134,8 +134,8 @@ impl Run {
         ))
     }
 
-    /// The scene with everything that the command line changes in it, and the inputs it sets.
-    fn asked_scene(&self) -> Result<(Scene, Vec<InputValue>), CliError> {
+    /// The scene with all modifications of the command line, and the inputs that it sets.
+    fn modified_scene(&self) -> Result<(Scene, Vec<InputValue>), CliError> {
         let (mut scene, warnings) = patience::read(&self.scene)?;
         let read = scene.clone();
         scene.stop_time = self.until.unwrap_or(scene.stop_time);
@@ -149,7 +149,7 @@ impl Run {
         Ok((scene, inputs))
     }
 
-    /// The inputs over time, none of which is among those that are set.
+    /// The table of inputs; refuses inputs that are also set.
     fn input_table(
         &self,
         scene: &Scene,
@@ -170,8 +170,8 @@ impl Run {
         }
     }
 
-    /// Refuses to write where what is read may be one of the files of the run.
-    fn keep_what_is_read(&self, folder: &Path) -> Result<(), CliError> {
+    /// Refuses output paths that would overwrite files the run reads.
+    fn refuse_overwriting_inputs(&self, folder: &Path) -> Result<(), CliError> {
         let could_be_written = |file: &&PathBuf| {
             let Ok(place) = file.canonicalize() else { return false };
             let is_there = folder.canonicalize().is_ok_and(|own| place.parent() == Some(&own));
@@ -185,12 +185,12 @@ impl Run {
         }
     }
 
-    /// Where files of the run go.
+    /// Folder of the run's files.
     fn folder(&self, scene: &Scene) -> PathBuf {
         self.out.clone().unwrap_or_else(|| PathBuf::from("out").join(&scene.name))
     }
 
-    /// Refuses a folder of another run, of what is read, and what is no folder.
+    /// Refuses a folder that holds another run or files being read, and anything that is not a folder.
     fn check_folder(&self, folder: &Path, scene: &Scene) -> Result<(), CliError> {
         let table = folder.join(TABLE);
         let own = table.symlink_metadata().is_ok().then_some(table);
@@ -201,7 +201,7 @@ impl Run {
         if folder.exists() && !folder.is_dir() {
             return Err(CliError::NoFolder { path: folder.to_owned() });
         }
-        self.keep_what_is_read(folder)
+        self.refuse_overwriting_inputs(folder)
     }
 
     /// Opens the files of the run.
@@ -214,7 +214,7 @@ impl Run {
         let table = CsvTable::create(&table, run.model)?;
         let fields = match every {
             0 => {
-                // Fields of another run beside this one's table would be taken for its own.
+                // Fields of another run in this table's folder would be mistaken for its own.
                 FieldSeries::remove(&folder, run.model)?;
                 None
             }
@@ -226,7 +226,7 @@ impl Run {
     }
 }
 
-/// The state at time zero with the inputs that were asked for, and those of a table before a first step [s].
+/// The state at time zero with the requested inputs, and those of a table before a first step [s].
 fn start(
     model: &Model,
     inputs: &[InputValue],
@@ -249,30 +249,30 @@ fn start(
 struct Record {
     table: CsvTable,
     fields: Option<FieldSeries>,
-    /// Steps between two times at which fields are written.
+    /// Number of steps between two writes of fields.
     every: usize,
-    /// Steps between two times at which variables are written.
+    /// Number of steps between two writes of variables.
     rows_every: usize,
-    /// Words for where the files are.
+    /// Description of the location of the files.
     place: String,
-    /// Keeps others from writing there meanwhile.
+    /// Prevents others from writing there meanwhile.
     _lock: FolderLock,
 }
 
 impl Record {
-    /// Whether all files that were written are still there.
+    /// Checks that all written files still exist.
     fn check_present(&self) -> Result<(), OutputError> {
         self.table.check_present()?;
         self.fields.as_ref().map_or(Ok(()), FieldSeries::check_present)
     }
 
-    /// Adds what `run` has reached after `done` steps.
+    /// Appends the state of `run` after `done` steps.
     fn write(&mut self, run: &mut Running, done: usize) -> Result<(), OutputError> {
         let is_last = done == run.timeline.count;
         let is_due = is_last || (self.every > 0 && done.is_multiple_of(self.every));
         if is_last || done.is_multiple_of(self.rows_every) {
             self.table.write(run.model, &run.state, &mut run.cache)?;
-            run.look_at_balances()?;
+            run.update_balances()?;
         }
         match &mut self.fields {
             Some(fields) if is_due => fields.write(run.model, &run.state, &mut run.cache),
@@ -281,19 +281,19 @@ impl Record {
     }
 }
 
-/// A model on its way through time.
+/// A running simulation.
 struct Running<'a> {
     model: &'a Model,
     state: State,
     cache: Cache,
     timeline: Timeline,
     table: Option<InputTable>,
-    /// Whether a part of a step that is too short for a mesh was told of.
-    told_of_length: bool,
+    /// True if a step too short for the mesh has been reported.
+    warned_of_length: bool,
     balance_outputs: Vec<BalanceOutputs>,
-    /// Fluids and changes of phase that were warned of.
-    told_of_phases: BTreeSet<String>,
-    /// Of the last row that was written.
+    /// Fluids and phase changes already warned of.
+    warned_of_phases: BTreeSet<String>,
+    /// Balances of the last row.
     balances: Vec<Balance>,
 }
 
@@ -310,7 +310,7 @@ impl Running<'_> {
         Ok(record.check_present()?)
     }
 
-    /// Takes the step that begins after `i` steps.
+    /// Advances by the step after the first `i` steps.
     fn step(&mut self, i: usize) -> Result<(), CliError> {
         let (start, end) = (self.timeline.time(i), self.timeline.time(i + 1));
         let length = self.timeline.length(i);
@@ -320,7 +320,7 @@ impl Running<'_> {
         for (part, &to) in rows.iter().chain([&end]).enumerate() {
             let is_whole = from == start && to == end;
             let length = if is_whole { length } else { to - from };
-            // What is left of a run that is no whole number of steps is short, but follows no jump.
+            // The remainder of a run that is not a whole number of steps is short, but no jump precedes it.
             let is_rest = is_whole && i > 0 && i + 1 == self.timeline.count;
             if !is_rest {
                 self.warn_of_length(length);
@@ -329,33 +329,34 @@ impl Running<'_> {
             self.state.set_time(to);
             self.warn_of_phases();
             if to < end && part.is_multiple_of(looks_every) {
-                // Heat that comes and goes within a step counts, too.
-                self.look_at_balances().map_err(CliError::Model)?;
+                // Heat that is added and removed within a step counts, too.
+                self.update_balances().map_err(CliError::Model)?;
             }
             from = to;
         }
         Ok(())
     }
 
-    /// Tells once of a step that is too short for a mesh [s].
+    /// Warns once of a step that is too short for a mesh [s].
     fn warn_of_length(&mut self, length: f64) {
-        if let Some(warning) = self.model.warning_on_step(length).filter(|_| !self.told_of_length) {
+        if let Some(warning) = self.model.warning_on_step(length).filter(|_| !self.warned_of_length)
+        {
             super::print_message("warning", &warning);
-            self.told_of_length = true;
+            self.warned_of_length = true;
         }
     }
 
     /// Warns once of each fluid that is beyond a point at which it freezes or boils.
     fn warn_of_phases(&mut self) {
-        let told = &self.told_of_phases;
+        let told = &self.warned_of_phases;
         let warnings = self.model.phase_warnings(&self.state, |subject| told.contains(subject));
         for warning in warnings {
             super::print_message("warning", &warning.message);
-            self.told_of_phases.insert(warning.subject);
+            self.warned_of_phases.insert(warning.subject);
         }
     }
 
-    /// Advances over a time between rows of the table [s].
+    /// Advances between rows of the table [s].
     fn advance(&mut self, (from, to): (f64, f64), length: f64) -> Result<(), CliError> {
         if let Some(table) = &self.table {
             table.apply(&mut self.state, from, to);
@@ -366,8 +367,8 @@ impl Running<'_> {
         })
     }
 
-    /// Brings the heat balances up to date.
-    fn look_at_balances(&mut self) -> Result<(), ModelError> {
+    /// Updates the heat balances.
+    fn update_balances(&mut self) -> Result<(), ModelError> {
         let read = |one: &BalanceOutputs| one.read(self.model, &self.state, &mut self.cache);
         let mut balances =
             self.balance_outputs.iter().map(read).collect::<Result<Vec<Balance>, _>>()?;
@@ -379,7 +380,7 @@ impl Running<'_> {
     /// Returns the heat balances, what probes read, and the extremes; warns on standard error if heat is missing.
     fn report(&mut self) -> Result<String, CliError> {
         let named = |error| CliError::from_model(error, self.model.scene());
-        self.look_at_balances().map_err(named)?;
+        self.update_balances().map_err(named)?;
         let probes =
             summary::probes_table(self.model, &self.state, &mut self.cache).map_err(named)?;
         let extremes =
@@ -401,7 +402,7 @@ impl Running<'_> {
     }
 }
 
-/// A bar on standard error; hidden where that is not a terminal.
+/// A progress bar on standard error; hidden if that is not a terminal.
 fn progress_bar(steps: usize) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:40} {pos}/{len} steps, {eta} left")
         .expect("a valid template");

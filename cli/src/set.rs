@@ -25,7 +25,7 @@ impl FromStr for Assignment {
 /// Index into a state's inputs, and its value.
 pub type InputValue = (usize, f64);
 
-/// Everything that is wrong with a list of assignments.
+/// All errors of a list of assignments.
 #[derive(Debug, PartialEq, Eq)]
 pub struct SetErrors(Vec<SetError>);
 
@@ -44,7 +44,7 @@ pub enum SetError {
     Unknown { name: String, close: Vec<String> },
     #[error("cannot set {name}: it is an output")]
     Output { name: String },
-    #[error("cannot set {name}: --out says where a run's files go")]
+    #[error("cannot set {name}: --out sets the folder of a run's files")]
     Directory { name: String },
     #[error("cannot set {name}: it is set twice; allowed: one --set {name}=VALUE")]
     Twice { name: String },
@@ -52,10 +52,10 @@ pub enum SetError {
     Value { name: String, value: String, expected: String },
 }
 
-/// Puts parameters into the scene, and returns the inputs for the state. A name without indices
-/// stands for all elements of an array.
+/// Sets parameters in the scene, and returns the inputs for the state. A name without indices denotes all elements of
+/// an array.
 ///
-/// Bounds are those of the registry; the scene's own check has the last word on parameters.
+/// Bounds are those of the registry; the scene's own check then decides on parameters.
 pub fn apply(scene: &mut Scene, assignments: &[Assignment]) -> Result<Vec<InputValue>, SetErrors> {
     let registry = Registry::of(scene);
     let mut inputs = Vec::new();
@@ -69,7 +69,7 @@ pub fn apply(scene: &mut Scene, assignments: &[Assignment]) -> Result<Vec<InputV
             Ok(variables) => {
                 let results =
                     variables.into_iter().map(|v| put(v, &assignment.value, scene, &mut inputs));
-                // Elements of an array share their bounds, so one error stands for all.
+                // Elements of an array share their bounds, so one error suffices for all.
                 errors.extend(results.filter_map(Result::err).next());
             }
             Err(error) => errors.push(error),
@@ -92,7 +92,7 @@ pub fn implausible(scene: &Scene, inputs: &[InputValue]) -> Vec<String> {
     warnings
 }
 
-/// The variables that a name stands for: at least one, none of them an output.
+/// The variables that a name denotes: at least one, none of them an output.
 pub fn targets<'a>(registry: &'a Registry, name: &str) -> Result<Vec<&'a Variable>, SetError> {
     let found: Vec<&Variable> = match registry.find(name) {
         Some(reference) => vec![&registry.variables[reference]],
@@ -128,7 +128,7 @@ fn put(
     Ok(())
 }
 
-/// Reads a finite number, whole where the variable is, within the variable's bounds.
+/// Parses a finite number within the variable's bounds, whole if the variable is.
 pub fn number(variable: &Variable, text: &str) -> Result<f64, SetError> {
     let is_whole = matches!(variable.start, Some(Value::Integer(_)));
     let fits = |value: &f64| {
@@ -141,7 +141,7 @@ pub fn number(variable: &Variable, text: &str) -> Result<f64, SetError> {
     })
 }
 
-/// Words for what a variable accepts.
+/// Describes the values that a variable accepts.
 fn expectation(variable: &Variable, is_whole: bool) -> String {
     let kind = if is_whole { "a whole number" } else { "a number" };
     let unit = variable.unit().map_or(String::new(), |unit| format!(" in {unit}"));
@@ -152,7 +152,7 @@ fn expectation(variable: &Variable, is_whole: bool) -> String {
     format!("{kind}{unit}{bounds}")
 }
 
-/// At most three names that can be set and look like `name`, the likest first.
+/// At most three settable names similar to `name`, the most similar first.
 fn close_names(registry: &Registry, name: &str) -> Vec<String> {
     const ALIKE: f64 = 0.8;
     let likeness = |candidate: &str| {

@@ -10,7 +10,7 @@ use super::units::{decimal, engineering, kelvin};
 
 /// Relative residual of the heat balance above which a run warns.
 const BALANCED: f64 = 1e-9;
-/// The same where particles conduct: on graded meshes they keep heat only approximately.
+/// The same with particle conduction, which conserves heat only approximately on graded meshes.
 const BALANCED_BY_PARTICLES: f64 = 5e-2;
 
 /// Most values of probes that a run's report lists.
@@ -19,34 +19,34 @@ const MOST_PROBED: usize = 40;
 /// Outputs of a body that are zero until it yields or creeps.
 const IS_FLOW: [&str; 2] = ["max_plastic_strain", "plastic_work"];
 
-/// Where the heat of a body went [J].
+/// Heat balance of a body [J].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Balance {
     body: String,
     heat_in: f64,
     stored: f64,
     lost: f64,
-    /// Largest of these at any time so far: what has come and gone is no measure of what rounding leaves.
+    /// Largest of these at any time so far, because rounding scales with it.
     largest: f64,
-    /// Relative residual above which something is wrong.
+    /// Largest acceptable relative residual.
     expected: f64,
 }
 
 impl Balance {
-    /// `|in − stored − lost|` over the largest of these so far; zero where nothing moved.
+    /// `|in − stored − lost|` over the largest of these so far; zero without heat.
     fn residual(&self) -> f64 {
         let off = (self.heat_in - self.stored - self.lost).abs();
         if self.largest == 0.0 { 0.0 } else { off / self.largest }
     }
 
-    /// Counts what was largest in earlier balances of the same bodies.
+    /// Updates the largest values from earlier balances of the same bodies.
     pub fn join(balances: &mut [Self], earlier: &[Self]) {
         for (now, before) in balances.iter_mut().zip(earlier) {
             now.largest = now.largest.max(before.largest);
         }
     }
 
-    /// What to say if the heat does not add up.
+    /// Returns a warning if the heat does not balance.
     pub fn warning(&self) -> Option<String> {
         let residual = self.residual();
         let is_balanced = residual <= self.expected;
@@ -74,13 +74,13 @@ impl Balance {
 /// The outputs of a body whose sum is its heat balance.
 pub struct BalanceOutputs {
     body: String,
-    /// Heat that came in, that is stored and that was lost.
+    /// Heat supplied, stored and lost.
     outputs: [Output; 3],
     expected: f64,
 }
 
 impl BalanceOutputs {
-    /// Those of each body of a scene that has all of them.
+    /// Balance outputs of each body of a scene that has all three.
     pub fn of(scene: &Scene) -> Vec<Self> {
         let registry = Registry::structured(scene);
         let of_body = |body: &String| {
@@ -113,13 +113,13 @@ impl BalanceOutputs {
     }
 }
 
-/// The balances as a table.
+/// Formats the balances as a table.
 pub fn balance_table(balances: &[Balance]) -> String {
     let rows: Vec<_> = balances.iter().map(Balance::row).collect();
     table(["body", "heat in", "stored", "lost", "residual"], &rows)
 }
 
-/// Returns what probes read at `state` as a table, in the order of the scene; nothing where there are no probes.
+/// Formats the probes' values at `state` as a table, in the order of the scene; empty without probes.
 pub fn probes_table(model: &Model, state: &State, cache: &mut Cache) -> Result<String, ModelError> {
     let mut rows = Vec::new();
     let mut further = 0;
@@ -145,7 +145,7 @@ pub fn probes_table(model: &Model, state: &State, cache: &mut Cache) -> Result<S
     Ok(text)
 }
 
-/// The extremes of each solid and the totals of each droplet at `state` as a table.
+/// Formats the extremes of each solid and the totals of each droplet at `state` as a table.
 pub fn extremes_table(
     model: &Model,
     state: &State,
@@ -168,7 +168,7 @@ pub fn extremes_table(
     Ok(table(["at the end", "value"], &rows))
 }
 
-/// The running maxima at `state` as a table, each with its time and place; nothing where none are kept.
+/// Formats the running maxima at `state` as a table, each with its time and position; empty if none are kept.
 pub fn peaks_table(model: &Model, state: &State, cache: &mut Cache) -> Result<String, ModelError> {
     let mut rows = Vec::new();
     for Variable { name, slot, quantity, .. } in Registry::of(model.scene()).variables {

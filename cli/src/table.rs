@@ -1,6 +1,6 @@
 use std::fmt::Write;
 
-/// Lays out rows under a heading, columns aligned and two spaces apart; nothing if there are no rows.
+/// Formats rows under a heading, columns aligned and two spaces apart; empty if there are no rows.
 pub fn table<const N: usize>(heading: [&str; N], rows: &[[String; N]]) -> String {
     if rows.is_empty() {
         return String::new();

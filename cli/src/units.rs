@@ -1,4 +1,4 @@
-/// A value with at most five significant digits and the SI prefix that keeps it short.
+/// A value with at most five significant digits and a suitable SI prefix.
 pub fn engineering(value: f64, unit: &str) -> String {
     with_prefix(value, unit, 5)
 }
@@ -19,20 +19,20 @@ fn with_prefix(value: f64, unit: &str, digits: usize) -> String {
     let (digits, exponent) = scientific(value, digits);
     let fitting = PREFIXES.iter().find(|(_, power)| (0..3).contains(&(exponent - power)));
     match fitting {
-        // The kilogram has its prefix already.
+        // The kilogram already has a prefix.
         Some((prefix, power)) if value != 0.0 && !unit.starts_with("kg") => {
-            // The decimal point moves in the decimal text, so no digit is lost to a product.
+            // The decimal point is moved in the text, so that no digit is lost to a multiplication.
             let shifted = format!("{digits}e{}", exponent - power);
             let shifted = shifted.parse().unwrap_or(value);
             format!("{shifted} {prefix}{unit}")
         }
-        // Without the sign of a negative zero.
+        // Removes the sign of a negative zero.
         _ if value == 0.0 || !value.is_finite() => format!("{} {unit}", value + 0.0),
         _ => format!("{value:.4e} {unit}"),
     }
 }
 
-/// A time that was estimated, in the unit that people would say it in [s].
+/// An estimated duration [s] in a readable unit.
 pub fn lasting(seconds: f64) -> String {
     const UNITS: [(f64, &str); 4] =
         [(3.156e7, "years"), (86_400.0, "days"), (3600.0, "hours"), (60.0, "minutes")];
@@ -42,7 +42,7 @@ pub fn lasting(seconds: f64) -> String {
     }
 }
 
-/// Digits and power of ten of a value rounded to so many significant digits.
+/// Digits and power of ten of a value rounded to a number of significant digits.
 fn scientific(value: f64, digits: usize) -> (String, i32) {
     let text = format!("{value:.*e}", digits - 1);
     match text.split_once('e') {
@@ -51,7 +51,7 @@ fn scientific(value: f64, digits: usize) -> (String, i32) {
     }
 }
 
-/// A value in full precision, with an exponent where it would be long without.
+/// A value in full precision, with an exponent if it would be long without.
 pub fn decimal(value: f64) -> String {
     let is_short = value == 0.0 || (1e-3..1e6).contains(&value.abs());
     if is_short { format!("{value}") } else { format!("{value:e}") }
@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn times_are_said_as_people_say_them() {
+    fn durations_are_readable() {
         let cases = [
             (0.5, "500 ms"),
             (0.064013, "64 ms"),
@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn full_precision_is_written_as_people_write_it() {
+    fn full_precision_is_readable() {
         let cases = [(3e11, "3e11"), (8.1e-6, "8.1e-6"), (0.0, "0"), (293.15, "293.15")];
         for (value, text) in cases {
             assert_eq!(decimal(value), text);

@@ -1,22 +1,22 @@
-//! A bar, or a film in both its directions, that is strained to and fro beyond yield, with linear hardening: stress
-//! goes along straight lines, of the elastic modulus within the yield surface and of `E H/(E + H)` beyond it.
+//! A bar, or a film equally in both directions, under cyclic strain beyond yield, with linear hardening. The stress
+//! follows straight lines, with the elastic modulus within the yield surface and with `E H/(E + H)` beyond it.
 //!
-//! Clamped parts that are heated and cooled go such ways, with the strain `−α ΔT`: a bar between two walls, a film on
-//! a substrate, each depth of a plate that is held flat.
+//! Clamped parts that are heated and cooled undergo such cycles, with the strain `−α ΔT`: a bar between two walls, a
+//! film on a substrate, each depth of a plate that is held flat.
 //!
-//! Source: R. Hill, *The Mathematical Theory of Plasticity*, Oxford 1950, §II; for plates B. A. Boley and
-//! J. H. Weiner, *Theory of Thermal Stresses*, Wiley 1960, §15.
+//! Source: R. Hill, *The Mathematical Theory of Plasticity*, Oxford 1950, §II; for plates B. A. Boley and J. H. Weiner,
+//! *Theory of Thermal Stresses*, Wiley 1960, §15.
 
-/// How stress and strain of the body go together.
+/// Bilinear relation between stress and strain.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bilinear {
     /// Elastic modulus [Pa].
     pub modulus: f64,
     /// First yield at this stress, σ_y [Pa].
     pub yield_stress: f64,
-    /// What plastic strain adds to the radius of the yield surface [Pa].
+    /// Growth of the yield surface's radius with plastic strain [Pa].
     pub isotropic: f64,
-    /// What it moves the yield surface by [Pa].
+    /// Shift of the yield surface with plastic strain [Pa].
     pub kinematic: f64,
 }
 
@@ -38,11 +38,11 @@ impl Bilinear {
         Self { modulus, yield_stress, isotropic: 2.0 * isotropic, kinematic: 2.0 * kinematic }
     }
 
-    /// Stress [Pa] at each of some strains [1] that are gone to one after another, from rest.
+    /// Stress [Pa] at each strain [1] of a path from rest.
     pub fn stresses(&self, strains: &[f64]) -> Vec<f64> {
         let hardening = self.isotropic + self.kinematic;
         let slope = self.modulus * hardening / (self.modulus + hardening);
-        // Middle and radius of the yield surface, and the place on the way.
+        // Centre and radius of the yield surface, and the position on the path.
         let (mut middle, mut radius) = (0.0, self.yield_stress);
         let (mut strain, mut stress) = (0.0, 0.0);
         let mut out = Vec::with_capacity(strains.len());
@@ -81,7 +81,7 @@ mod tests {
         let rise = 200e9 * 20e9 / 220e9 * 4e-3;
         assert_close(yields(20e9, 0.0).0, 200e6 + rise, 1e-14);
         assert_close(yields(0.0, 20e9).0, 200e6 + rise, 1e-14);
-        // Back beyond a surface of radius σ_y + rise, or of radius σ_y.
+        // Reverse yield, for a surface of radius σ_y + rise or of radius σ_y.
         let slope = 200e9 * 20e9 / 220e9;
         let expanded = -(200e6 + rise) - slope * (10e-3 - 2.0 * (200e6 + rise) / 200e9);
         assert_close(yields(20e9, 0.0).1, expanded, 1e-13);
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn without_hardening_residual_stress_is_what_yield_left_over() {
+    fn residual_stress_without_hardening() {
         let film = Bilinear::film(70e9, 0.33, 100e6, 0.0, 0.0);
         let strain = 1.5 * 100e6 / film.modulus;
         assert_close(film.stresses(&[-strain, 0.0])[1], 50e6, 1e-13);

@@ -1,4 +1,4 @@
-//! Bonded layers that expand by themselves, away from the edges: bimetals, and films on substrates.
+//! Bonded layers with different free expansions, away from the edges: bimetals, and films on substrates.
 //!
 //! Sources: S. Timoshenko, J. Opt. Soc. Am. 11 (1925) 233, doi 10.1364/JOSA.11.000233; G. G. Stoney, Proc. R. Soc.
 //! Lond. A 82 (1909) 172, doi 10.1098/rspa.1909.0021.
@@ -6,16 +6,16 @@
 /// A layer of the plate.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BondedLayer {
-    /// Stress per strain in the plane [Pa]: E of a strip, `E/(1−ν)` of a plate that strains alike along both
-    /// directions, `E/(1−ν²)` of one that does not strain along one.
+    /// In-plane stress per strain [Pa]: E of a strip, `E/(1−ν)` of a plate with equal strains along both directions,
+    /// `E/(1−ν²)` of one without strain along one direction.
     pub modulus: f64,
-    /// Strain that it takes by itself [1]; `(1+ν)αΔT` where it does not strain along one direction, else αΔT.
+    /// Free strain [1]: αΔT, or `(1+ν)αΔT` without strain along one direction.
     pub free_strain: f64,
-    /// [m]
+    /// Thickness [m].
     pub thickness: f64,
 }
 
-/// The plate, from the bottom on; z is counted from there.
+/// The plate, from its bottom at z = 0 upward.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BondedPlate {
     pub layers: Vec<BondedLayer>,
@@ -39,7 +39,7 @@ impl BondedPlate {
         forces[0] / a
     }
 
-    /// Stress in a layer [Pa] where the strain is this.
+    /// Stress in a layer [Pa] at a strain.
     pub fn stress(&self, layer: usize, strain: f64) -> f64 {
         self.layers[layer].modulus * (strain - self.layers[layer].free_strain)
     }
@@ -61,9 +61,9 @@ impl BondedPlate {
         [stiffness, forces]
     }
 
-    /// Timoshenko's curvature of two layers [1/m]:
-    /// `6 Δε (1+m)² / {h [3(1+m)² + (1+mn)(m² + 1/mn)]}`, m and n the lower layer's thickness and modulus over the
-    /// upper one's, h their thickness together, Δε how much more the upper one expands.
+    /// Timoshenko's curvature of two layers [1/m]: `6 Δε (1+m)² / {h [3(1+m)² + (1+mn)(m² + 1/mn)]}`. m and n are the
+    /// lower layer's thickness and modulus over the upper one's, h their total thickness, Δε the excess of the upper
+    /// one's expansion.
     pub fn timoshenko([lower, upper]: [BondedLayer; 2]) -> f64 {
         let (m, n) = (lower.thickness / upper.thickness, lower.modulus / upper.modulus);
         let h = lower.thickness + upper.thickness;
@@ -72,7 +72,7 @@ impl BondedPlate {
         6.0 * more * square / (h * (3.0 * square + (1.0 + m * n) * (m * m + (m * n).recip())))
     }
 
-    /// Stoney's curvature under a thin film that is `stress`ed [1/m]: `−6 σ t / (M h²)`.
+    /// Stoney's curvature [1/m] under a thin film with the stress σ: `−6 σ t / (M h²)`.
     pub fn stoney(substrate: BondedLayer, film: f64, stress: f64) -> f64 {
         -6.0 * stress * film / (substrate.modulus * substrate.thickness.powi(2))
     }
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn two_layers_bend_as_timoshenko_says() {
+    fn two_layers_obey_timoshenkos_formula() {
         for (upper, thickness) in [(70e9, 1e-3), (200e9, 0.3e-3), (1e9, 5e-3)] {
             let pair = [layer(110e9, 1e-3, 1e-3), layer(upper, 2.3e-3, thickness)];
             let plate = BondedPlate { layers: pair.to_vec() };
@@ -97,7 +97,7 @@ mod tests {
     }
 
     #[test]
-    fn a_thin_film_bends_as_stoney_says_to_first_order_in_its_thickness() {
+    fn thin_film_obeys_stoneys_formula_to_first_order() {
         let off = |film: f64| {
             let pair = [layer(110e9, 0.0, 1e-3), layer(300e9, -1e-3, film)];
             let plate = BondedPlate { layers: pair.to_vec() };

@@ -49,7 +49,7 @@ mod tests {
     };
 
     #[test]
-    fn slender_beam_bends_as_bernoulli_says() {
+    fn slender_beam_obeys_bernoullis_theory() {
         // PL³/3EI = 100 · 0.125 / (3 · 200e9 · 0.01 · 0.02³ / 12), shear adds κ⁻¹ (1+ν)/2 h²/L².
         let bending = 3.125e-3;
         let shear = 0.5 * 1.3 / SHEAR_CORRECTION * (0.02_f64 / 0.5).powi(2);

@@ -1,4 +1,4 @@
-//! What the tests of the closed forms share: alumina, comparison, finite differences.
+//! Shared parts of the tests of closed forms: alumina, comparison, finite differences.
 
 use super::{Conductor, Elastic};
 

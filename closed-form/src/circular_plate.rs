@@ -71,7 +71,7 @@ mod tests {
     }
 
     #[test]
-    fn moment_is_that_of_the_deflection() {
+    fn moment_follows_from_the_deflection() {
         let (r, nu) = (0.6e-3, PLATE.body.poisson);
         let slope = derivative(|r| PLATE.deflection(r), r, 2e-5);
         let bend = second_derivative(|r| PLATE.deflection(r), r, 2e-5);

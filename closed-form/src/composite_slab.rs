@@ -1,43 +1,43 @@
-//! Slab of layers that conduct and store heat differently, with contacts that resist, from rest at zero.
+//! Slab of layers with different conductivities and heat capacities, with contact resistances, from rest at zero.
 //!
-//! With ω² the eigenvalues, modes are `C cos φ` in every layer, φ growing by ω √(c/k) along it, and pass a flux
-//! `√(kc) ω C sin φ`. Temperature less resistance times flux, and flux, are continuous where layers meet, which
-//! turns φ within its multiple of π; the condition on the back is a transcendental equation that φ satisfies once in
+//! With ω² the eigenvalues, modes are `C cos φ` in every layer, where φ grows by ω √(c/k) along it, and their flux is
+//! `√(kc) ω C sin φ`. The flux, and the temperature less resistance times flux, are continuous at interfaces, which
+//! changes φ within its multiple of π. The condition on the back is a transcendental equation that φ satisfies once in
 //! every π (C. W. Tittle 1965, doi 10.1063/1.1714335; M. N. Özışık, *Heat Conduction*, 2nd ed., Wiley 1993, ch. 8).
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::medium::Conductor;
 
-/// Terms of series.
+/// Number of terms of series.
 const TERMS: usize = 400;
 
 /// A layer of the slab.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SlabLayer {
     pub body: Conductor,
-    /// [m]
+    /// Thickness [m].
     pub thickness: f64,
     /// Thermal resistance of the contact with the layer in front of it [m² K/W].
     pub contact_resistance: f64,
 }
 
-/// What holds on the back.
+/// Boundary condition on the back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Back {
     Insulated,
-    /// At zero.
+    /// Zero temperature.
     Held,
 }
 
-/// The slab, from the front on, where depths are counted from.
+/// The slab, from its front, where depth is zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CompositeSlab {
     pub layers: Vec<SlabLayer>,
     pub back: Back,
 }
 
-/// The condition on the front that modes satisfy.
+/// Boundary condition of the modes on the front.
 #[derive(Clone, Copy, PartialEq)]
 enum Front {
     Flux,
@@ -52,7 +52,7 @@ struct Mode {
     norm: f64,
 }
 
-/// What happens in the slab.
+/// A transient solution in the slab.
 pub struct Transient<'a> {
     slab: &'a CompositeSlab,
     front: Front,
@@ -75,7 +75,7 @@ impl Transient<'_> {
         value * (settled - decaying.sum::<f64>())
     }
 
-    /// Heat [J/m²] that has come in by then where the temperature of the front is given.
+    /// Heat [J/m²] that has entered so far, for a prescribed temperature of the front.
     pub fn heat(&self, t: f64) -> f64 {
         let decaying = self.modes.iter().map(|mode| {
             let square = mode.omega.powi(2);
@@ -85,11 +85,11 @@ impl Transient<'_> {
             Back::Insulated => 0.0,
             Back::Held => t / self.slab.resistance_before(usize::MAX, 0.0),
         };
-        // By Parseval's theorem all modes together have ∫c θ² dx of what settles.
+        // By Parseval's theorem all modes together have ∫c θ² dx of the settled solution.
         self.value * (passed + self.slab.square_of_settled() - decaying.sum::<f64>())
     }
 
-    /// What a unit on the front does to a mode: its value there, or its slope times conductivity.
+    /// Response of a mode to a unit value on the front: its value there, or its slope times conductivity.
     fn drive(&self, mode: &Mode) -> f64 {
         let (phase, amplitude) = mode.parts[0];
         match self.front {
@@ -112,19 +112,19 @@ impl SlabLayer {
         self.body.heat_capacity * self.thickness
     }
 
-    /// Of the layer alone [m² K/W].
+    /// Thermal resistance of the layer alone [m² K/W].
     fn resistance(&self) -> f64 {
         self.thickness / self.body.conductivity
     }
 }
 
 impl CompositeSlab {
-    /// Under a constant `flux` [W/m²] into the front from time 0 on.
+    /// Transient under a constant `flux` [W/m²] into the front from time 0 on.
     pub fn under_flux(&self, flux: f64) -> Transient<'_> {
         Transient { slab: self, front: Front::Flux, value: flux, modes: self.modes(Front::Flux) }
     }
 
-    /// With the front at `rise` [K] from time 0 on.
+    /// Transient with the front at `rise` [K] from time 0 on.
     pub fn under_temperature(&self, rise: f64) -> Transient<'_> {
         let front = Front::Temperature;
         Transient { slab: self, front, value: rise, modes: self.modes(front) }
@@ -146,7 +146,7 @@ impl CompositeSlab {
         before.map(|layer| layer.thickness).sum()
     }
 
-    /// What a front at one settles at.
+    /// Settled solution for a front at one.
     fn settled_under_temperature(&self, layer: usize, x: f64) -> f64 {
         match self.back {
             Back::Insulated => 1.0,
@@ -156,7 +156,7 @@ impl CompositeSlab {
         }
     }
 
-    /// `∫c θ² dx` of that [J/(m² K)], by Simpson's rule, which is exact.
+    /// `∫c θ² dx` of the settled solution [J/(m² K)], by Simpson's rule, which is exact.
     fn square_of_settled(&self) -> f64 {
         let of_layer = |(i, layer): (usize, &SlabLayer)| {
             let start = self.start_of(layer);
@@ -168,13 +168,13 @@ impl CompositeSlab {
         self.layers.iter().enumerate().map(of_layer).sum()
     }
 
-    /// What is left of a unit flux at late times: a steady rise, or one that grows evenly without heat in sum.
+    /// Late-time solution under a unit flux: a steady rise, or one that grows linearly, with zero mean heat.
     fn settled_under_flux(&self, layer: usize, x: f64, t: f64) -> f64 {
         if self.back == Back::Held {
             return self.resistance_before(usize::MAX, 0.0) - self.resistance_before(layer, x);
         }
         let total: f64 = self.layers.iter().map(SlabLayer::capacity).sum();
-        // The flux falls by what the layers before take up; from the temperature of the front on.
+        // The flux decreases by the heat that the previous layers absorb, starting from the temperature of the front.
         let mut content = 0.0;
         let (mut flux, mut value) = (1.0, 0.0);
         let mut wanted = 0.0;
@@ -200,7 +200,7 @@ impl CompositeSlab {
         t / total + wanted - content / total
     }
 
-    /// Modes in the order of their eigenvalues, but for the constant one.
+    /// Modes in the order of their eigenvalues, without the constant one.
     fn modes(&self, front: Front) -> Vec<Mode> {
         let delay: f64 = self.layers.iter().map(SlabLayer::delay).sum();
         let first = match (front, self.back) {
@@ -260,7 +260,7 @@ impl CompositeSlab {
                     let value = parts[i - 1].1 * phase.cos();
                     let flux = parts[i - 1].1 * before.body.effusivity() * omega * phase.sin();
                     let value = value - layer.contact_resistance * flux;
-                    // Both together, so that neither has to be other than zero.
+                    // Uses both terms, because either may be zero.
                     let flux = flux / (layer.body.effusivity() * omega);
                     value * from.cos() + flux * from.sin()
                 }
@@ -347,7 +347,7 @@ mod tests {
     }
 
     #[test]
-    fn the_front_has_what_is_put_on_it() {
+    fn front_satisfies_its_boundary_condition() {
         for back in [Back::Insulated, Back::Held] {
             let slab = slab(back);
             let (heated, warm) = (slab.under_flux(1e6), slab.under_temperature(40.0));
@@ -362,14 +362,14 @@ mod tests {
     }
 
     #[test]
-    fn heat_that_came_in_is_what_layers_hold_in_the_end() {
+    fn heat_supplied_equals_heat_stored_at_late_times() {
         let slab = slab(Back::Insulated);
         let capacity: f64 = slab.layers.iter().map(SlabLayer::capacity).sum();
         assert_close(slab.under_temperature(40.0).heat(10.0), 40.0 * capacity, 1e-6);
     }
 
     #[test]
-    fn heat_comes_in_as_the_slope_at_the_front_says_and_starts_as_into_a_half_space() {
+    fn heat_follows_the_slope_at_the_front_and_starts_as_in_a_half_space() {
         for back in [Back::Insulated, Back::Held] {
             let slab = slab(back);
             let warm = slab.under_temperature(40.0);

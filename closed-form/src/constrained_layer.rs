@@ -1,4 +1,4 @@
-//! Heated layer of a body that cannot move sideways and is free to move in depth.
+//! Heated layer of a body, laterally constrained and free in depth.
 //!
 //! Near a widely heated surface of a half space this holds exactly: `ε_xx = ε_yy = 0`, `σ_zz = 0`.
 //!

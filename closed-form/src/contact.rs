@@ -30,7 +30,7 @@ impl Contact {
         self.strength() / (PI * t).sqrt()
     }
 
-    /// Heat that has gone from the first into the second body [J/m²]: the integral of the flux.
+    /// Heat transferred from the first into the second body [J/m²]: the integral of the flux.
     pub fn heat(&self, t: f64) -> f64 {
         2.0 * self.strength() * (t / PI).sqrt()
     }

@@ -8,9 +8,9 @@ use std::f64::consts::PI;
 use super::half_space_surface::ConvectiveSurface;
 use super::medium::Conductor;
 
-/// Fourier number `at/L²` below which the back is not felt.
+/// Fourier number `at/L²` below which the back has no influence.
 const SHORT: f64 = 0.01;
-/// Terms of the series; the last one is below rounding from the short time on.
+/// Number of terms of the series; the last one is below rounding from the short time on.
 const TERMS: usize = 30;
 
 /// The slab and its fluid.
@@ -65,7 +65,7 @@ mod tests {
         ConvectiveSlab { body: ALUMINA, thickness: 1e-3, coefficient: 5e4, ambient: 80.0 };
 
     #[test]
-    fn it_obeys_the_heat_equation_and_ends_at_the_fluid_s_temperature() {
+    fn obeys_the_heat_equation_and_tends_to_the_fluid_temperature() {
         let unit = 1e-6 / ALUMINA.diffusivity();
         let at = [0.0, 0.0, 4e-4];
         assert_heat_equation(
@@ -79,7 +79,7 @@ mod tests {
     }
 
     #[test]
-    fn the_series_goes_on_from_the_half_space() {
+    fn series_continues_the_half_space_solution() {
         let unit = 1e-6 / ALUMINA.diffusivity();
         let (before, after) = (SHORT * unit * (1.0 - 1e-9), SHORT * unit * (1.0 + 1e-9));
         for z in [0.0, 1e-4, 3e-4] {

@@ -1,5 +1,5 @@
-//! Film of thickness δ, insulated above, whose lower face is brought to another temperature and held there: the part
-//! `F(Fo)` of all its heat that it has given after a time, `Fo = at/δ²`.
+//! Film of thickness δ, insulated above, whose lower face suddenly has another temperature. `F(Fo)` is the fraction of
+//! its heat released after a time, `Fo = at/δ²`.
 //!
 //! Source: J. Crank, *The Mathematics of Diffusion*, 2nd ed., Oxford 1975, eqs. 4.18 and 4.20 (a sheet of twice the
 //! thickness between two such faces).
@@ -8,13 +8,13 @@ use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
 use super::special::ierfc;
 
-/// Fourier number below which images replace the series. Both are at rounding there.
+/// Fourier number below which images replace the series. Both are accurate to rounding there.
 const EARLY: f64 = 0.2;
-/// Distance of an image over the length of diffusion beyond which it is below rounding: erfc(6) = 2e-17.
+/// Distance of an image over the diffusion length beyond which it is below rounding: erfc(6) = 2e-17.
 const FARTHEST: f64 = 6.0;
 /// Terms of the series, in m² and 8/m²; at [`EARLY`] the next one is e⁻⁴⁰.
 const ODD_SQUARES: [i32; 4] = [1, 9, 25, 49];
-/// Halvings of the interval in which a Fourier number is searched for.
+/// Number of bisections in the search for a Fourier number.
 const HALVINGS: usize = 100;
 
 /// F: `2√Fo [1/√π + 2 Σ (−1)ⁿ ierfc(n/√Fo)]`, n from 1, or `1 − Σ 8/(m²π²) e^{−m²π²Fo/4}`, m = 1, 3, 5 …
@@ -34,7 +34,7 @@ pub fn given_part(fourier: f64) -> f64 {
     1.0 - ODD_SQUARES.into_iter().rev().map(term).sum::<f64>()
 }
 
-/// The Fourier number at which a part of all heat, from 0 to below 1, has been given.
+/// The Fourier number at which a fraction of all heat, from 0 to below 1, has been released.
 pub fn fourier_number(part: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     while given_part(high) < part && high < 1e3 {
@@ -59,7 +59,7 @@ mod tests {
 
     /// Explicit differences on 400 intervals, of second order.
     #[test]
-    fn it_solves_the_heat_equation() {
+    fn matches_finite_differences_of_the_heat_equation() {
         let n = 400_usize;
         let (h, mut rise) = (1.0 / n as f64, vec![1.0; n + 1]);
         (rise[0], rise[n]) = (0.0, 1.0);

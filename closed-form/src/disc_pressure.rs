@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn strain_on_the_axis_is_hookes() {
+    fn strain_on_the_axis_obeys_hookes_law() {
         for z in [5e-6, 20e-6, 100e-6] {
             let strain = derivative(|z| -LOAD.displacement_on_axis(z), z, 1e-7);
             let side = 2.0 * LOAD.body.poisson * LOAD.radial_stress_on_axis(z);

@@ -1,4 +1,4 @@
-//! Impact of a drop of diameter D and speed U on a dry wall: how wide it spreads and how hard it pushes.
+//! Impact of a drop of diameter D and speed U on a dry wall: its spread and its force.
 //!
 //! With `Re = ρUD/µ`, `We = ρU²D/σ` and the contact angle θ:
 //! - largest diameter over D, from the energies of motion, surface and viscous losses:
@@ -7,17 +7,17 @@
 //! - where viscosity stops the drop, `β = 0.61 (Re² Oh)^{1/6}`, `Oh = √We/Re` (B. L. Scheller and D. W. Bousfield 1995,
 //!   AIChE J. 41, 1357, doi 10.1002/aic.690410602), and `β = 0.87 Re^{1/5} − 0.40 Re^{2/5} We^{−1/2}`
 //!   (I. V. Roisman 2009, Phys. Fluids 21, 052104, doi 10.1063/1.3129283);
-//! - base of the cap that the drop is at rest, over D: `2 (tan(θ/2) (3 + tan²(θ/2)))^{−1/3}`, from its volume;
+//! - base of the cap of the drop at rest, over D: `2 (tan(θ/2) (3 + tan²(θ/2)))^{−1/3}`, from its volume;
 //! - width of the footprint just after the impact, `2.8 √τ`, τ = Ut/D, over D (R. Rioboo, M. Marengo and C. Tropea 2002,
 //!   Exp. Fluids 33, 112, doi 10.1007/s00348-002-0431-x);
-//! - a drop slower than tension pulls, `√(2σ/(ρD))`, comes down as fast as that: it is what stands for U in all times;
-//! - force, which is highest at 0.167 D/U (L. Gordillo, T.-P. Sun and X. Cheng 2018, J. Fluid Mech. 840, 190,
+//! - tension accelerates a drop slower than `√(2σ/(ρD))` to that speed, which replaces U in all times;
+//! - force, with its maximum at 0.167 D/U (L. Gordillo, T.-P. Sun and X. Cheng 2018, J. Fluid Mech. 840, 190,
 //!   doi 10.1017/jfm.2017.901): `F = A √t e^{−t/(0.334 D/U)}` with A such that `∫F dt = mU`.
 //!
 //! The energies were compared with water and tin (Re 200 to 35 000, We 26 to 640), Scheller and Bousfield's fit with
-//! liquids of up to 0.3 Pa s (Re 19 to 16 400, Oh 0.002 to 0.58); Roisman's law and the force are those of large Re and
+//! liquids of up to 0.3 Pa s (Re 19 to 16 400, Oh 0.002 to 0.58). Roisman's law and the force are those of large Re and
 //! We. Together they were compared with drops of particles over [`FITTED`]. Below Re 1 the drop comes to rest on a small
-//! flat, of which none of them knows: the footprint is then several times too large.
+//! flat, which none of them describes: the footprint is then several times too large.
 
 use std::f64::consts::PI;
 
@@ -44,17 +44,17 @@ pub struct DropImpact {
 pub const FITTED: [FittedRange; 2] =
     [FittedRange::of("Re", [4.0, 13_300.0]), FittedRange::of("We", [8.0, 800.0])];
 
-/// Time of the highest force over D/U.
+/// Time of the maximum force over D/U.
 const PEAK: f64 = 0.167;
-/// Width of the footprint over D√τ at first.
+/// Initial width of the footprint over D√τ.
 const EARLY_SPREAD: f64 = 2.8;
-/// Reynolds number from which on footprints grow until they are widest.
+/// Reynolds number above which footprints grow at their initial rate until they are widest.
 const SUDDEN: f64 = 50.0;
-/// Drops that wet better take longer than anyone looks on to come to rest [rad].
+/// Lower bound of contact angles: drops that wet better take impractically long to come to rest [rad].
 const LEAST_ANGLE: f64 = 0.26;
 /// F″(0) of the spreading film, see [`super::spreading_film`].
 const WALL_SHEAR: f64 = 1.0354;
-/// Time over D/U by which the flow u = r/(t + τ) of the film precedes the impact (Roisman 2009).
+/// Lead of the film's flow u = r/(t + τ) over the impact, over D/U (Roisman 2009).
 const LEAD: f64 = 0.25;
 
 impl DropImpact {
@@ -62,37 +62,37 @@ impl DropImpact {
         self.density * self.speed * self.diameter / self.viscosity
     }
 
-    /// Without end where there is no tension.
+    /// Weber number; infinite without tension.
     pub fn weber(&self) -> f64 {
         self.density * self.speed.powi(2) * self.diameter / self.surface_tension
     }
 
-    /// Describes which numbers of the drop lie outside of [`FITTED`]; nothing where none does. What has no tension has
-    /// the spread of a large We.
+    /// Describes which numbers of the drop lie outside of [`FITTED`]; `None` if all lie within. A drop without tension
+    /// has the spread of a large We.
     pub fn outside_of_fitted(&self) -> Option<String> {
         let [reynolds, weber] = FITTED;
         let own = if self.surface_tension > 0.0 { self.weber() } else { weber.bounds[1] };
         outside(&[(reynolds, self.reynolds()), (weber, own)])
     }
 
-    /// In which the drop comes down [s]: D/U, or that by which tension pulls it.
+    /// Time scale of the impact [s]: D/U, or that of the motion by tension.
     pub fn time(&self) -> f64 {
         let pulled = (2.0 * self.surface_tension / (self.density * self.diameter)).sqrt();
         self.diameter / self.speed.max(pulled)
     }
 
-    /// When the footprint has come to rest but for a hundredth [s].
+    /// Time at which the footprint has come to rest to a hundredth [s].
     pub fn time_to_rest(&self) -> f64 {
         let largest = 0.5 * self.diameter * self.largest_spread();
         self.time_of_wetting(largest, 0.99 * largest)
     }
 
-    /// [m³]
+    /// Volume [m³].
     pub fn volume(&self) -> f64 {
         PI / 6.0 * self.diameter.powi(3)
     }
 
-    /// mU [N s]
+    /// Momentum mU [N s].
     pub fn momentum(&self) -> f64 {
         self.density * self.volume() * self.speed
     }
@@ -118,7 +118,7 @@ impl DropImpact {
         0.87 * reynolds.powf(0.2) - 0.40 * reynolds.powf(0.4) / self.weber().sqrt()
     }
 
-    /// Of a drop at rest, which tension makes a cap; without tension as wide as it falls.
+    /// β of a drop at rest: a cap with tension; without tension the diameter of the drop.
     pub fn spread_at_rest(&self) -> f64 {
         if self.surface_tension == 0.0 {
             return 1.0;
@@ -127,18 +127,19 @@ impl DropImpact {
         2.0 / (slope * (3.0 + slope.powi(2))).cbrt()
     }
 
-    /// Largest β: Roisman's where inertia rules, that of the energies where it falls below (slow drops), Scheller and
-    /// Bousfield's where viscosity stops the drop first; no less than at rest, or than the drop is wide.
+    /// Largest β: Roisman's where inertia dominates, that of the energies where it falls below (slow drops), Scheller
+    /// and Bousfield's where viscosity stops the drop first. It is no less than β at rest, and no less than the drop's
+    /// own width.
     pub fn largest_spread(&self) -> f64 {
         let inertial = self.spread_by_inertia().max(self.spread_by_energy());
-        // Of a drop that does not fall all three are NaN or zero, of which `max` takes what follows.
+        // For a drop that does not fall all three are NaN or zero; `max` then returns the following values.
         inertial.min(self.spread_by_viscosity()).max(self.spread_at_rest()).max(1.0)
     }
 
-    /// Radius [m] of the footprint that grows at first as `1.4 D√τ` and comes to rest at `R_max`:
-    /// `R_max (1 − e^{−xᵖ})^{1/p}`, x = 1.4 D√τ/R_max, `p = 2 + 2 Re/(Re + 50)`: what is viscous comes to rest gradually.
-    /// The exponent is that by which particles come closest (40 over D, Re 4 to 13 000, We 8 to 650): within 10 % where
-    /// neither their films tear nor `R_max` falls short.
+    /// Radius [m] of the footprint, which grows at first as `1.4 D√τ` and comes to rest at `R_max`:
+    /// `R_max (1 − e^{−xᵖ})^{1/p}`, x = 1.4 D√τ/R_max, `p = 2 + 2 Re/(Re + 50)`: viscous drops come to rest gradually.
+    /// The exponent is fitted to drops of particles (40 over D, Re 4 to 13 000, We 8 to 650): within 10 % where neither
+    /// their films tear nor `R_max` falls short.
     pub fn wetted_radius(&self, largest: f64, time: f64) -> f64 {
         let sharpness = self.sharpness();
         let root = (time.max(0.0) / self.time()).sqrt();
@@ -146,7 +147,7 @@ impl DropImpact {
         largest * (-(-power).exp_m1()).powf(1.0 / sharpness)
     }
 
-    /// When the footprint comes to a radius [s]; never to `R_max` and beyond.
+    /// Time at which the footprint reaches a radius [s]; infinite for `R_max` and beyond.
     pub fn time_of_wetting(&self, largest: f64, radius: f64) -> f64 {
         let sharpness = self.sharpness();
         let part = (radius / largest).powf(sharpness);
@@ -163,12 +164,12 @@ impl DropImpact {
         2.0 + 2.0 * if reynolds.is_finite() { reynolds / (reynolds + SUDDEN) } else { 1.0 }
     }
 
-    /// Part of the flow that is left: none when the footprint has come to rest.
+    /// Remaining fraction of the flow: zero when the footprint has come to rest.
     pub fn flows(&self, largest: f64, time: f64) -> f64 {
         1.0 - (self.wetted_radius(largest, time) / largest).powi(2)
     }
 
-    /// Part of the momentum that the wall has got, ∫F dt/(mU) = erf √x − 2√(x/π) e^{−x}, x = t/(0.334 D/U).
+    /// Fraction of the momentum transferred to the wall, ∫F dt/(mU) = erf √x − 2√(x/π) e^{−x}, x = t/(0.334 D/U).
     pub fn momentum_given(&self, time: f64) -> f64 {
         let x = (time / (2.0 * PEAK * self.time())).max(0.0);
         libm::erf(x.sqrt()) - 2.0 * (x / PI).sqrt() * (-x).exp()
@@ -201,7 +202,7 @@ mod tests {
 
     /// Water at We 62, Re 3000: drops spread to 2.9 to 3.3 diameters (Clanet et al. 2004; Laan et al. 2014).
     #[test]
-    fn spreads_are_those_of_water() {
+    fn spread_of_water_drops() {
         for spread in [WATER.spread_by_energy(), WATER.spread_by_inertia()] {
             assert!((2.6..3.5).contains(&spread), "{spread}");
         }
@@ -211,7 +212,7 @@ mod tests {
 
     /// A hemisphere's base is 2^{1/3} D wide; mercury at We 5.6 spreads to 1.8 D, where Roisman's fit has 0.6 D.
     #[test]
-    fn slow_drops_spread_too() {
+    fn slow_drops_spread_by_tension() {
         let resting = DropImpact { speed: 0.0, contact_angle: 0.5 * PI, ..WATER };
         assert!((resting.largest_spread() / 2f64.cbrt() - 1.0).abs() < 1e-12);
         assert_eq!(DropImpact { surface_tension: 0.0, ..resting }.largest_spread(), 1.0);
@@ -230,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn the_footprint_grows_as_the_drop_sinks_in() {
+    fn footprint_growth_at_early_times() {
         let (largest, early) = (3e-3, 1e-6);
         let radius = WATER.wetted_radius(largest, early);
         let width = 2.8 * (early / WATER.time()).sqrt() * WATER.diameter;
@@ -240,10 +241,10 @@ mod tests {
         assert!((back / early - 1.0).abs() < 1e-9);
     }
 
-    /// A drop of 5 µm at 0.3 m/s (We 0.006) is pulled down by tension, at 5.4 m/s; one of 3 mm at 80 m/s spreads to eleven
-    /// diameters, which takes it longer than usual.
+    /// Tension pulls a drop of 5 µm at 0.3 m/s (We 0.006) down at 5.4 m/s. A drop of 3 mm at 80 m/s spreads to eleven
+    /// diameters, which takes longer than usual.
     #[test]
-    fn slow_drops_are_pulled_down_and_wide_ones_take_their_time() {
+    fn slow_drops_accelerate_by_tension_and_wide_ones_spread_longer() {
         let slow = DropImpact { diameter: 5e-6, speed: 0.3, ..WATER };
         assert!((slow.time() / (5e-6 / 5.37) - 1.0).abs() < 1e-3, "{}", slow.time());
         assert!((slow.momentum_given(5.0 * slow.time()) - 1.0).abs() < 1e-5);
@@ -257,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn the_force_gives_all_momentum_and_is_highest_when_it_should() {
+    fn force_integrates_to_the_momentum_and_peaks_at_the_stated_time() {
         assert!((WATER.momentum_given(1.0) - 1.0).abs() < 1e-12);
         let time = WATER.time();
         let force = |x: f64| {

@@ -30,8 +30,7 @@ impl Display for FittedRange {
     }
 }
 
-/// Describes the numbers that lie outside their ranges, "Re 0.71 (fitted on Re 2 to 44000)"; nothing where all lie
-/// within.
+/// Describes the numbers outside their ranges, "Re 0.71 (fitted on Re 2 to 44000)"; `None` if all lie within.
 pub fn outside(numbers: &[(FittedRange, f64)]) -> Option<String> {
     let describe = |&(range, value): &(FittedRange, f64)| {
         (!range.contains(value))

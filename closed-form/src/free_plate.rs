@@ -6,7 +6,7 @@
 use super::medium::Elastic;
 use super::quadrature::integrate;
 
-/// The plate. The temperature rise ΔT(z) [K] is given to each function.
+/// The plate. Each function receives the temperature rise ΔT(z) [K].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FreePlate {
     pub body: Elastic,

@@ -1,9 +1,8 @@
-//! Half space `z ≥ 0` at zero under a Gaussian flux that is switched on at time 0 at the origin
-//! and moves along x at a constant speed, or stays.
+//! Half space `z ≥ 0` at zero under a Gaussian flux that starts at time 0 at the origin and moves along x at a constant
+//! speed, or stays.
 //!
-//! Sources: H. E. Cline and T. R. Anthony, J. Appl. Phys. 48 (1977) 3895–3900,
-//! doi 10.1063/1.324261 (moving); M. Lax, J. Appl. Phys. 48 (1977) 3919–3924,
-//! doi 10.1063/1.324265 (at rest).
+//! Sources: H. E. Cline and T. R. Anthony, J. Appl. Phys. 48 (1977) 3895–3900, doi 10.1063/1.324261 (moving); M. Lax,
+//! J. Appl. Phys. 48 (1977) 3919–3924, doi 10.1063/1.324265 (at rest).
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -34,8 +33,8 @@ impl GaussianFlux {
         0.5 * PI * self.peak * self.radius * self.radius
     }
 
-    /// Temperature rise [K] at a point (x, y, z), to 1e-9 relative as long as the distances from
-    /// the point to the source and to its start are below some 10⁴ radii.
+    /// Temperature rise [K] at a point (x, y, z), to 1e-9 relative, if the distances from the point to the source and
+    /// to its start are below some 10⁴ radii.
     pub fn rise(&self, at: [f64; 3], t: f64) -> f64 {
         self.rise_near_source([at[0] - self.velocity * t, at[1], at[2]], t)
     }
@@ -78,9 +77,9 @@ impl GaussianFlux {
         self.radius / 2f64.sqrt()
     }
 
-    /// Range of φ, cut where the integrand may rise or peak: when heat comes the distance d,
-    /// when the source passed (`τ = −ξ/v`), at the saddle point of a point source (`τ = d/v`) and
-    /// where motion outruns conduction (`τ = 4a/v²`).
+    /// Range of φ, split where the integrand may rise or peak: when heat has spread over the distance d, when the
+    /// source passed (`τ = −ξ/v`), at the saddle point of a point source (`τ = d/v`) and where motion outruns
+    /// conduction (`τ = 4a/v²`).
     fn angles(&self, [xi, y, z]: [f64; 3], duration: f64) -> Vec<f64> {
         let (width, a, speed) = (self.width(), self.body.diffusivity(), self.velocity.abs());
         let square = xi * xi + y * y + z * z;
@@ -153,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_narrow_source_is_rosenthals_moving_point() {
+    fn narrow_source_matches_rosenthals_moving_point() {
         let source = GaussianFlux { radius: 1e-7, peak: 1e12, velocity: 0.5, ..AT_REST };
         let (a, k) = (ALUMINA.diffusivity(), ALUMINA.conductivity);
         for at in [[-90e-6_f64, 10e-6, 20e-6], [20e-6, 0.0, 10e-6], [-2e-3, 0.0, 0.0]] {
@@ -165,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_narrow_source_at_rest_is_a_continuous_point() {
+    fn narrow_source_at_rest_matches_a_continuous_point_source() {
         let source = GaussianFlux { radius: 1e-7, peak: 1e12, ..AT_REST };
         for t in [3e-5, 3e-4, 3.0, 3e4] {
             let d = 50e-6_f64.hypot(40e-6);

@@ -28,7 +28,7 @@ impl UniformFlux {
     }
 }
 
-/// Flux `q = C/√t` over the whole surface, which holds the surface at a constant temperature.
+/// Flux `q = C/√t` over the whole surface, for which the surface temperature is constant.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DecayingFlux {
     pub body: Conductor,
@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_has_risen_at_time_zero() {
+    fn rise_is_zero_at_time_zero() {
         assert_eq!(UNIFORM.rise(0.0, 0.0) + DISC.rise(0.0, 0.0, 0.0), 0.0);
         assert_eq!(DISC.rise_on_axis(0.0, 0.0) + DECAYING.rise(0.0, 0.0), 0.0);
     }

@@ -1,14 +1,14 @@
-//! Half space `z ≥ 0` at zero whose surface meets a new temperature at time 0.
+//! Half space `z ≥ 0` at zero whose surface or surroundings change temperature at time 0.
 //!
-//! Source: H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford 1959,
-//! §2.4 (surface temperature) and §2.7 (convection).
+//! Source: H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford 1959, §2.4 (surface
+//! temperature) and §2.7 (convection).
 
 use std::f64::consts::PI;
 
 use super::medium::Conductor;
 use super::special::erfcx;
 
-/// Surface held at a temperature. With `a = 1` this is the rod of Park §2.4.5.1.
+/// Surface with a prescribed temperature. With `a = 1` this is the rod of Park §2.4.5.1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SuddenSurface {
     pub body: Conductor,
@@ -31,7 +31,7 @@ impl SuddenSurface {
     }
 }
 
-/// Surface that takes the flux `h (ΔT∞ − ΔT)`.
+/// Surface with the flux `h (ΔT∞ − ΔT)` into the body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ConvectiveSurface {
     pub body: Conductor,

@@ -11,7 +11,7 @@ fn half_mean(rise: impl Fn(f64) -> f64, r: f64) -> f64 {
     integrate(|x| rise(r * x) * x, &[0.0, 1.0])
 }
 
-/// Thin disc, in plane stress. The temperature rise ΔT(r) [K] is given to each function.
+/// Thin disc, in plane stress. Each function receives the temperature rise ΔT(r) [K].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ThinDisc {
     pub body: Elastic,
@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn strains_of_the_displacement_are_hookes() {
+    fn displacement_strains_obey_hookes_law() {
         let (r, nu) = (0.4e-3, DISC.body.poisson);
         let (radial, hoop) = (DISC.radial_stress(gauss, r), DISC.hoop_stress(gauss, r));
         let free = DISC.expansion * gauss(r);

@@ -1,9 +1,9 @@
-//! Conduction with a conductivity that is linear in the temperature, `k = k₀ (1 + β T)`, and a heat capacity in
-//! proportion to it, so that the diffusivity is constant.
+//! Conduction with a conductivity linear in the temperature, `k = k₀ (1 + β T)`, and a heat capacity proportional to
+//! it, so that the diffusivity is constant.
 //!
 //! The heat conductivity integral `θ = T + β T²/2` (G. Kirchhoff 1894) then obeys the linear heat equation with the
-//! constants at T = 0, and so do the solutions of the linear problem for loads that are fluxes or temperatures.
-//! Source: H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford 1959, §1.6 and §2.16.
+//! constants at T = 0. So solutions of the linear problem carry over for prescribed fluxes and temperatures. Source: H.
+//! S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, 2nd ed., Oxford 1959, §1.6 and §2.16.
 
 use super::half_space_flux::UniformFlux;
 use super::half_space_surface::SuddenSurface;
@@ -12,7 +12,7 @@ use super::medium::Conductor;
 /// A body with `k = k₀ (1 + β T)` and `ρc = ρc₀ (1 + β T)`, T above its initial temperature.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LinearConductivity {
-    /// At the initial temperature.
+    /// Constants at the initial temperature.
     pub body: Conductor,
     /// β [1/K]
     pub slope: f64,
@@ -29,7 +29,7 @@ impl LinearConductivity {
         2.0 * integral / (1.0 + (1.0 + 2.0 * self.slope * integral).sqrt())
     }
 
-    /// Temperature rise [K] of a half space whose surface is taken to `step` [K] at time 0.
+    /// Temperature rise [K] of a half space whose surface changes by `step` [K] at time 0.
     pub fn sudden_surface(&self, step: f64, z: f64, t: f64) -> f64 {
         let linear = SuddenSurface { body: self.body, step: self.integral(step) };
         self.rise_of(linear.rise(z, t))
@@ -45,7 +45,7 @@ impl LinearConductivity {
         self.rise_of(UniformFlux { body: self.body, flux }.rise(z, t))
     }
 
-    /// Temperature rise [K] of a steady slab between faces held at two temperature rises, at a `part` of its thickness.
+    /// Temperature rise [K] of a steady slab between faces at two temperature rises, at a `part` of its thickness.
     pub fn steady_slab(&self, ends: [f64; 2], part: f64) -> f64 {
         let [low, high] = ends.map(|rise| self.integral(rise));
         self.rise_of((1.0 - part) * low + part * high)
@@ -66,7 +66,7 @@ mod tests {
     const BODY: LinearConductivity = LinearConductivity { body: ALUMINA, slope: 2e-3 };
 
     #[test]
-    fn the_nonlinear_heat_equation_holds() {
+    fn nonlinear_heat_equation_holds() {
         // ρc ∂T/∂t = ∂/∂z (k ∂T/∂z)
         let factor = |rise: f64| 1.0 + BODY.slope * rise;
         let (z, t) = (4e-5, 3e-4);
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn surfaces_bear_what_they_are_given() {
+    fn boundary_conditions_hold() {
         assert_close(BODY.sudden_surface(400.0, 0.0, 1e-3), 400.0, 1e-13);
         let at = |z: f64| BODY.integral(BODY.uniform_flux(8e7, z, 1e-3));
         let slope = (at(1e-9) - at(0.0)) / 1e-9;

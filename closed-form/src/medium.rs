@@ -1,4 +1,4 @@
-//! The constants of a homogeneous, isotropic body, as the closed forms take them.
+//! The constants of a homogeneous, isotropic body in the closed forms.
 
 /// A body that conducts heat.
 #[derive(Debug, Clone, Copy, PartialEq)]

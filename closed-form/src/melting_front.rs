@@ -6,20 +6,20 @@ use std::f64::consts::PI;
 
 use super::medium::Conductor;
 
-/// A half space in one phase at time 0, whose surface is then held beyond the temperature of the change of phase.
+/// A half space in one phase at time 0, whose surface then has a constant temperature beyond the phase change.
 ///
-/// All temperatures are counted from that of the change, in the direction of the surface's: so melting and freezing
+/// All temperatures are relative to the phase change, positive towards the surface temperature: so melting and freezing
 /// are the same. Both phases have one density.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeltingFront {
-    /// The phase that grows from the surface, and the one that was there.
+    /// The phase that grows from the surface, and the original one.
     pub new: Conductor,
     pub old: Conductor,
-    /// Latent heat of a volume, ρL [J/m³].
+    /// Latent heat per volume, ρL [J/m³].
     pub latent: f64,
-    /// Surface temperature beyond that of the change, above 0 [K].
+    /// Surface temperature relative to the phase change, above 0 [K].
     pub surface: f64,
-    /// How far the initial temperature is short of that of the change, 0 or above [K]: 0 is the one-phase problem.
+    /// Initial distance to the phase change, 0 or above [K]: 0 is the one-phase problem.
     pub initial: f64,
 }
 
@@ -50,7 +50,7 @@ impl MeltingFront {
         self.growth() * self.new.diffusion_length(t)
     }
 
-    /// Temperature beyond that of the change [K]: positive in the new phase.
+    /// Temperature relative to the phase change [K]: positive in the new phase.
     pub fn rise(&self, z: f64, t: f64) -> f64 {
         let growth = self.growth();
         let (own, other) = (self.new.diffusion_length(t), self.old.diffusion_length(t));
@@ -61,7 +61,7 @@ impl MeltingFront {
         -self.initial * (1.0 - ratio)
     }
 
-    /// Flux into the body [W/m²], in the direction in which temperatures are counted.
+    /// Flux into the body [W/m²], with the sign of the relative temperatures.
     pub fn flux(&self, t: f64) -> f64 {
         let slope = 2.0 / PI.sqrt() / (self.new.diffusion_length(t) * libm::erf(self.growth()));
         self.new.conductivity * self.surface * slope
@@ -83,7 +83,7 @@ mod tests {
     };
 
     #[test]
-    fn fluxes_at_the_front_differ_by_what_melting_takes() {
+    fn stefan_condition_at_the_front() {
         for front in [FREEZING, MeltingFront { initial: 0.0, ..FREEZING }] {
             let t = 1e3;
             let depth = front.depth(t);

@@ -1,15 +1,15 @@
-//! Adaptive quadrature, for the solutions that end in one integral.
+//! Adaptive quadrature, for solutions with one remaining integral.
 //!
-//! Source: R. Piessens et al., *QUADPACK*, Springer 1983, doi 10.1007/978-3-642-61786-7: the
-//! 7-point Gauss rule inside the 15-point Kronrod rule, the worst interval bisected first.
+//! Source: R. Piessens et al., *QUADPACK*, Springer 1983, doi 10.1007/978-3-642-61786-7: the 7-point Gauss rule inside
+//! the 15-point Kronrod rule, the worst interval bisected first.
 
 use std::f64::consts::PI;
 
-/// Relative error asked of every integral.
+/// Target relative error of every integral.
 const TOLERANCE: f64 = 1e-11;
 /// Error allowed relative to the integral of the absolute value, for integrands that cancel.
 const CANCELLATION: f64 = 1e-13;
-/// Intervals after which an integral is given up.
+/// Largest number of intervals of an integral.
 const MOST_INTERVALS: usize = 2000;
 
 /// Half of the symmetric rule on [−1, 1]: node, Kronrod weight, Gauss weight.

@@ -7,7 +7,7 @@ const STEFAN_BOLTZMANN: f64 = 5.670374419e-8;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RadiatingLump {
-    /// Heat capacity of an area of its surface, C/A [J/(m² K)].
+    /// Heat capacity per surface area, C/A [J/(m² K)].
     pub capacity: f64,
     /// Emissivity ε [1].
     pub emissivity: f64,
@@ -18,7 +18,7 @@ pub struct RadiatingLump {
 }
 
 impl RadiatingLump {
-    /// Temperature [K] at a time [s]: of surroundings at 0 K `(T₀⁻³ + 3εσAt/C)^{−1/3}`, of others by bisection.
+    /// Temperature [K] at a time [s]: `(T₀⁻³ + 3εσAt/C)^{−1/3}` for surroundings at 0 K, otherwise by bisection.
     pub fn temperature(&self, t: f64) -> f64 {
         if self.ambient == 0.0 {
             let rate = 3.0 * self.emissivity * STEFAN_BOLTZMANN / self.capacity;
@@ -32,7 +32,8 @@ impl RadiatingLump {
         0.5 * (near + far)
     }
 
-    /// Time [s] at which it has a temperature between the initial one and that of its surroundings [K], above 0.
+    /// Time [s] at which the body reaches a temperature between the initial one and that of its surroundings [K], above
+    /// 0.
     ///
     /// `t = C/(4εσA T∞³) [F(T/T∞) − F(T₀/T∞)]`, `F(x) = ln|(1 + x)/(1 − x)| + 2 atan x`.
     pub fn time(&self, temperature: f64) -> f64 {

@@ -1,5 +1,5 @@
-//! Two half spaces of different temperature brought into contact at time 0, between which heat passes in proportion to
-//! the difference of their surface temperatures.
+//! Two half spaces of different temperature brought into contact at time 0, with a flux proportional to the difference
+//! of their surface temperatures.
 //!
 //! Source: each half space obeys the solution for a convective surface (H. S. Carslaw and J. C. Jaeger, *Conduction of
 //! Heat in Solids*, 2nd ed., Oxford 1959, §2.7); with `b = h (1/e₁ + 1/e₂)` the flux is `h ΔT exp(b²t) erfc(b√t)`.
@@ -11,7 +11,7 @@ use super::special::erfcx;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ResistiveContact {
     pub bodies: Contact,
-    /// h [W/(m² K)]
+    /// Conductance h [W/(m² K)].
     pub conductance: f64,
 }
 
@@ -21,7 +21,8 @@ impl ResistiveContact {
         self.conductance * self.difference() * erfcx(self.rate() * t.sqrt())
     }
 
-    /// Temperatures of both surfaces [K]: each has moved by the part of the difference that its effusivity allows.
+    /// Temperatures of both surfaces [K]: each changes by a fraction of the difference that follows from its
+    /// effusivity.
     pub fn surfaces(&self, t: f64) -> [f64; 2] {
         let Contact { first, second, first_temperature, second_temperature } = self.bodies;
         let [e1, e2] = [first.effusivity(), second.effusivity()];
@@ -56,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn the_flux_is_the_law_between_the_surfaces() {
+    fn flux_obeys_the_contact_law() {
         for conductance in [1.0, 1e3, 1e6] {
             let contact = contact(conductance);
             for t in [1e-6, 1e-3, 1.0, 100.0] {
@@ -68,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn without_resistance_it_is_perfect_contact() {
+    fn zero_resistance_is_perfect_contact() {
         let contact = contact(1e12);
         assert!((contact.flux(1.0) / contact.bodies.flux(1.0) - 1.0).abs() < 1e-12);
         let middle = contact.bodies.temperature_of_contact();

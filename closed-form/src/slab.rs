@@ -8,9 +8,9 @@ use std::f64::consts::PI;
 use super::medium::Conductor;
 use super::special::ierfc;
 
-/// Fourier number `at/L²` below which images replace the series. Both are at rounding there.
+/// Fourier number `at/L²` below which images replace the series. Both are accurate to rounding there.
 const EARLY: f64 = 0.2;
-/// Images, or terms of a series, that are summed.
+/// Number of images, or of terms of a series.
 const TERMS: u32 = 8;
 
 /// The slab and its load.

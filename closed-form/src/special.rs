@@ -92,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn drop_is_the_difference_and_keeps_small_steps() {
+    fn ierfc_drop_is_accurate_for_small_steps() {
         assert_close(ierfc_drop(0.1, 0.3), ierfc(0.1) - ierfc(0.4), 1e-14);
         assert_close(ierfc_drop(0.3, 1.0), ierfc(0.3) - ierfc(1.3), 1e-14);
         assert_close(ierfc_drop(0.0, 1e-9), 1e-9 * (1.0 - 0.5 * FRAC_2_SQRT_PI * 1e-9), 1e-15);

@@ -1,26 +1,25 @@
-//! Heat that a film of fluid gives to the wall over which it spreads, as a drop does that has hit it.
+//! Heat flux of a film that spreads over a wall, such as a drop after impact.
 //!
-//! Above its viscous layer the fluid flows outward with `u = r/t`, so downward with `w = −2z/t`. With
-//! `η = z/√(νt)`, `u = F′(η) r/t`, `w = −2F √(ν/t)` and Prandtl's number `Pr = ν/a`, Navier and
-//! Stokes' equations and that of heat become
+//! Above its viscous layer the fluid flows outward with `u = r/t`, so downward with `w = −2z/t`. With `η = z/√(νt)`,
+//! `u = F′(η) r/t`, `w = −2F √(ν/t)` and Prandtl's number `Pr = ν/a`, the Navier–Stokes equations and that of heat
+//! become
 //!
 //! `F‴ + (2F + η/2) F″ + F′ − F′² = 0`, `F(0) = F′(0) = 0`, `F′(∞) = 1`,
 //! `Θ″ + Pr (2F + η/2) Θ′ = 0`, `Θ(0) = 0`, `Θ(∞) = 1`.
 //!
-//! So the flux is that of fluid at rest times a number that Pr alone decides, and the wall's
-//! temperature stays the same, as under fluid at rest.
+//! So the flux is that of fluid at rest times a number that depends on Pr alone, and the wall's temperature remains
+//! constant, as under fluid at rest.
 //!
-//! Sources: I. V. Roisman (2009), Phys. Fluids 21, 052104, doi 10.1063/1.3129283, and (2010), J. Fluid
-//! Mech. 656, 189–204, doi 10.1017/S0022112010001126.
+//! Sources: I. V. Roisman (2009), Phys. Fluids 21, 052104, doi 10.1063/1.3129283, and (2010), J. Fluid Mech. 656,
+//! 189–204, doi 10.1017/S0022112010001126.
 
 use std::f64::consts::PI;
 
-/// Step in η, and where the viscous layer has ended.
+/// Step in η, and η at the end of the viscous layer.
 const STEP: f64 = 2e-3;
 const OUTSIDE: f64 = 10.0;
 
-/// Flux of the spreading film over that of the same fluid at rest: from √5 for Pr → 0 on it falls with
-/// Pr.
+/// Flux of the spreading film relative to that of the same fluid at rest: √5 for Pr → 0, and decreasing with Pr.
 pub fn flux_over_rest(prandtl: f64) -> f64 {
     let flow = flow();
     // Beyond the viscous layer F = η − δ.
@@ -47,7 +46,7 @@ fn flow() -> Vec<[f64; 3]> {
     shoot(0.5 * (low + high))
 }
 
-/// The flow of some F″(0), by the method of Runge and Kutta; as far as it stays near that outside.
+/// Flow for a value of F″(0), by a Runge–Kutta method, until it departs from the outer flow.
 fn shoot(curvature: f64) -> Vec<[f64; 3]> {
     let rate = |eta: f64, [f, slope, bend]: [f64; 3]| {
         [slope, bend, -(2.0 * f + 0.5 * eta) * bend - slope + slope * slope]
@@ -77,12 +76,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn without_viscosity_the_film_is_thinned_by_the_root_of_five() {
+    fn inviscid_film_has_root_five_times_the_flux() {
         assert_close(flux_over_rest(1e-6), 5f64.sqrt(), 2e-3);
     }
 
     #[test]
-    fn the_flow_satisfies_its_equation_and_end_conditions() {
+    fn flow_satisfies_its_equation_and_end_conditions() {
         let flow = flow();
         assert_close(flow[flow.len() - 1][1], 1.0, 1e-9);
         let n = 700;

@@ -1,23 +1,23 @@
-//! Small swings of a viscous drop in empty space about a sphere, between prolate and oblate.
+//! Small oscillations of a viscous drop in empty space about a sphere, between prolate and oblate.
 //!
-//! The shape `r = R (1 + ε P_l(cos θ) e^(−st))` of the mode l swings, without viscosity, at Rayleigh's frequency
-//! `ω₀² = l(l − 1)(l + 2) σ/(ρR³)`. With viscosity the surface bears no shear, so that a layer of vorticity forms
-//! below it, and `s = q² ν/R²` with a root q of
+//! The shape `r = R (1 + ε P_l(cos θ) e^(−st))` of the mode l oscillates, without viscosity, at Rayleigh's frequency
+//! `ω₀² = l(l − 1)(l + 2) σ/(ρR³)`. With viscosity the surface carries no shear, so a layer of vorticity forms below
+//! it, and `s = q² ν/R²` with a root q of
 //!
 //! `q⁴ + α⁴ = 2(l − 1) q² [l + (l + 1)(q − 2l Q)/(q − 2Q)]`,  `Q = J_{l+3/2}(q)/J_{l+1/2}(q)`,
 //!
-//! where `α² = ω₀R²/ν`: that near `q² = (l − 1)(2l + 1) + i α²`, Lamb's solution for little viscosity.
+//! where `α² = ω₀R²/ν`: the root near `q² = (l − 1)(2l + 1) + i α²`, Lamb's solution for low viscosity.
 //!
-//! Sources: Lord Rayleigh (1879), Proc. R. Soc. 29, 71–97, doi 10.1098/rspl.1879.0015; H. Lamb (1932),
-//! Hydrodynamics, 6th edition, §355; W. H. Reid (1960), Q. Appl. Math. 18, 86–89, doi 10.1090/qam/114449.
+//! Sources: Lord Rayleigh (1879), Proc. R. Soc. 29, 71–97, doi 10.1098/rspl.1879.0015; H. Lamb (1932), Hydrodynamics,
+//! 6th edition, §355; W. H. Reid (1960), Q. Appl. Math. 18, 86–89, doi 10.1090/qam/114449.
 
 use std::f64::consts::PI;
 use std::ops::{Add, Div, Mul, Sub};
 
-/// Mode of swings between prolate and oblate.
+/// Mode number of prolate–oblate oscillations.
 const MODE: f64 = 2.0;
 
-/// A drop that swings in the mode l = 2.
+/// A drop that oscillates in the mode l = 2.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SwingingDrop {
     /// R [m].
@@ -41,21 +41,21 @@ impl SwingingDrop {
         2.0 * PI * (self.density * self.radius.powi(3) / (8.0 * self.surface_tension)).sqrt()
     }
 
-    /// Rate at which swings die away [1/s], and their angular frequency [rad/s], 0 for a drop so viscous that
-    /// it only creeps back.
+    /// Decay rate of the oscillations [1/s], and their angular frequency [rad/s]; the latter is 0 for a drop so viscous
+    /// that its motion is overdamped.
     pub fn decay_and_frequency(&self) -> [f64; 2] {
         let rate = self.viscosity / (self.density * self.radius * self.radius);
         let square = root(8f64.sqrt() / self.ohnesorge());
         [rate * square.0, (rate * square.1).abs()]
     }
 
-    /// Share of the amplitude that is left after one of Rayleigh's periods.
+    /// Fraction of the amplitude that remains after one of Rayleigh's periods.
     pub fn kept(&self) -> f64 {
         (-self.decay_and_frequency()[0] * self.rayleigh_period()).exp()
     }
 }
 
-/// q² for α² by Newton's method, from Lamb's solution on and by steps of α² where that is far away.
+/// q² for α² by Newton's method, from Lamb's solution, or by steps of α² where that is far away.
 fn root(alpha_square: f64) -> Complex {
     let mut of = alpha_square.max(100.0);
     let mut q = Complex((MODE - 1.0) * (2.0 * MODE + 1.0), of).root();
@@ -191,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn the_root_satisfies_the_equation() {
+    fn root_satisfies_the_characteristic_equation() {
         for ohnesorge in [1e-4, 0.01, 0.1, 0.5] {
             let alpha_square = 8f64.sqrt() / ohnesorge;
             let q = root(alpha_square).root();

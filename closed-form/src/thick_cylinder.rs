@@ -74,7 +74,7 @@ mod tests {
     }
 
     #[test]
-    fn strains_are_hookes_up_to_near_incompressibility() {
+    fn strains_obey_hookes_law_up_to_near_incompressibility() {
         for nu in [0.0, 0.3, 0.4999] {
             let (cylinder, r) = (cylinder(nu), 0.13);
             let (radial, hoop) = (cylinder.radial_stress(r), cylinder.hoop_stress(r));

@@ -15,7 +15,7 @@ pub struct YieldingCylinder {
     pub inner: f64,
     /// Outer radius b [m].
     pub outer: f64,
-    /// Radius c up to which it has yielded [m].
+    /// Radius c of the plastic front [m].
     pub front: f64,
 }
 
@@ -25,17 +25,17 @@ impl YieldingCylinder {
         self.yield_stress / 3f64.sqrt()
     }
 
-    /// Pressure inside [Pa] `p = k (1 − c²/b² + 2 ln(c/a))`.
+    /// Internal pressure [Pa] `p = k (1 − c²/b² + 2 ln(c/a))`.
     pub fn pressure(&self) -> f64 {
         -self.radial_stress(self.inner)
     }
 
-    /// Pressure that it cannot bear [Pa] `2k ln(b/a)`.
+    /// Limit pressure [Pa] `2k ln(b/a)`.
     pub fn limit_pressure(&self) -> f64 {
         2.0 * self.shear_yield() * (self.outer / self.inner).ln()
     }
 
-    /// Radial stress [Pa] `−k (1 − c²/b² + 2 ln(c/r))` where it has yielded, `−k c² (1/r² − 1/b²)` beyond.
+    /// Radial stress [Pa] `−k (1 − c²/b² + 2 ln(c/r))` in the plastic part, `−k c² (1/r² − 1/b²)` beyond.
     pub fn radial_stress(&self, r: f64) -> f64 {
         let (k, c, b) = (self.shear_yield(), self.front, self.outer);
         match r < c {
@@ -82,7 +82,7 @@ mod tests {
     }
 
     #[test]
-    fn elastic_stress_follows_from_the_displacement_and_the_rest_is_at_yield() {
+    fn elastic_part_follows_the_displacement_and_plastic_part_is_at_yield() {
         let r = 0.17;
         let stretch = derivative(|r| CYLINDER.radial_displacement(r), r, 1e-4);
         let hoop = CYLINDER.radial_displacement(r) / r;

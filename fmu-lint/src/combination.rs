@@ -1,9 +1,9 @@
-//! Which variability and which `initial` go with a causality: the tables of section 2.2.7.
+//! Allowed variability and `initial` of each causality: the tables of section 2.2.7.
 
 use super::vocabulary::{Causality, Initial, Variability};
 
-/// The `initial` that a pair of causality and variability allows, the default first; none for
-/// variables that have no such attribute. `None` if the pair itself is not allowed.
+/// The allowed `initial` of a pair of causality and variability, the default first; empty for variables without that
+/// attribute. `None` if the pair itself is not allowed.
 pub fn allowed(causality: Causality, variability: Variability) -> Option<&'static [Initial]> {
     use {Causality as C, Variability as V};
     const EXACT: &[Initial] = &[Initial::Exact];
@@ -20,7 +20,7 @@ pub fn allowed(causality: Causality, variability: Variability) -> Option<&'stati
     }
 }
 
-/// The variabilities that go with a causality, as words.
+/// The allowed variabilities of a causality, as words.
 pub fn variabilities(causality: Causality) -> Vec<&'static str> {
     let goes = |word: &&&str| {
         Variability::read(word).is_some_and(|variability| allowed(causality, variability).is_some())

@@ -1,4 +1,4 @@
-//! modelDescription.xml as plain data. What is malformed is left out here; the rule `schema` reports it.
+//! modelDescription.xml as plain data. Malformed parts are omitted here; the rule `schema` reports them.
 
 use std::collections::HashMap;
 
@@ -14,7 +14,7 @@ pub struct Description<'a> {
     pub interfaces: Vec<Interface<'a>>,
     pub units: Vec<Unit<'a>>,
     pub types: Vec<SimpleType<'a>>,
-    /// Places of the first types of their names.
+    /// Indices of the first types of each name.
     types_by_name: HashMap<&'a str, usize>,
     pub variables: Vec<Variable<'a>>,
     pub outputs: Vec<Unknown<'a>>,
@@ -50,17 +50,17 @@ pub struct Variable<'a> {
     pub kind: Option<Kind>,
     /// The element with the attributes of the kind.
     pub details: Option<Node<'a, 'a>>,
-    /// As written, or the default; none if the word is not known.
+    /// The causality as written, or the default; `None` if the word is unknown.
     pub causality: Option<Causality>,
     pub variability: Option<Variability>,
-    /// As written, or the default for causality and variability; none for inputs and the like.
+    /// `initial` as written, or the default for causality and variability; `None` for inputs and similar variables.
     pub initial: Option<Initial>,
 }
 
 /// An entry of ModelStructure.
 pub struct Unknown<'a> {
     pub node: Node<'a, 'a>,
-    /// Counted from one.
+    /// Index counted from one.
     pub index: Option<usize>,
     pub dependencies: Option<Vec<usize>>,
     pub kinds: Option<Vec<&'a str>>,
@@ -107,7 +107,7 @@ impl<'a> Description<'a> {
         variable.attribute(name).or_else(|| self.declared_type(variable)?.details?.attribute(name))
     }
 
-    /// Indices of the states: what some variable says it is the derivative of.
+    /// Indices of the states: the variables that have a derivative.
     pub fn states(&self) -> impl Iterator<Item = usize> {
         self.variables.iter().filter_map(Variable::derivative)
     }
@@ -124,7 +124,7 @@ impl<'a> Variable<'a> {
         self.attribute("derivative")?.trim().parse().ok()
     }
 
-    /// Whether a master may set it before or while the unit runs.
+    /// Returns true if a master may set it before or while the unit runs.
     pub fn is_settable(&self) -> bool {
         matches!(self.causality, Some(Causality::Parameter | Causality::Input))
             || self.variability != Some(Variability::Constant)
@@ -164,7 +164,7 @@ fn details<'a>(node: Node<'a, 'a>) -> (Option<Kind>, Option<Node<'a, 'a>>) {
 fn variable<'a>(node: Node<'a, 'a>) -> Variable<'a> {
     let (kind, details) = details(node);
     let causality = node.attribute("causality").map_or(Some(Causality::Local), Causality::read);
-    // The schema's default is `continuous`, which only reals can be; masters take others as discrete.
+    // The schema's default is `continuous`, which only reals can be; masters treat others as discrete.
     let by_kind =
         if kind == Some(Kind::Real) { Variability::Continuous } else { Variability::Discrete };
     let variability = node.attribute("variability").map_or(Some(by_kind), Variability::read);

@@ -1,4 +1,4 @@
-//! The parsed XML, and places in it.
+//! The parsed XML, and positions in it.
 
 use roxmltree::{Attribute, Node};
 
@@ -7,11 +7,11 @@ use super::finding::{Fault, Place};
 
 pub struct Document<'a> {
     parsed: roxmltree::Document<'a>,
-    /// Where the lines end.
+    /// Offsets of the line ends.
     ends: Vec<usize>,
 }
 
-/// Elements and texts in a description at most, which take about a gigabyte.
+/// Largest number of elements and texts in a description; they take about a gigabyte.
 const MOST_NODES: u32 = 10_000_000;
 
 impl<'a> Document<'a> {
@@ -32,12 +32,12 @@ impl<'a> Document<'a> {
         self.parsed.root_element()
     }
 
-    /// The place of an element.
+    /// The position of an element.
     pub fn place(&self, node: Node) -> Place {
         self.at(node.range().start, node)
     }
 
-    /// The place of an attribute, or of the element if it has no such attribute.
+    /// The position of an attribute, or of the element if it has no such attribute.
     pub fn place_of(&self, node: Node, attribute: &str) -> Place {
         let at = node.attribute_node(attribute).map_or(node.range().start, |a| a.range().start);
         self.at(at, node)
@@ -52,13 +52,13 @@ impl<'a> Document<'a> {
     }
 }
 
-/// The line of a place, counted from one.
+/// The line of an offset, counted from one.
 fn line(ends: &[usize], at: usize) -> u32 {
     u32::try_from(1 + ends.partition_point(|&end| end < at)).unwrap_or(u32::MAX)
 }
 
-/// An element in words that find it: its name, and what tells it from its neighbours. The type of a
-/// variable goes by the name of the variable.
+/// Identifies an element: its name, and the attribute that distinguishes it from its neighbours. The type of a variable
+/// is identified by the name of the variable.
 pub fn title(node: Node) -> String {
     let named = |node: Node| {
         ["name", "index"].iter().find_map(|key| node.attribute(*key).map(str::to_owned))
@@ -91,7 +91,7 @@ pub fn list<'a, 'i: 'a>(
     children.filter(move |child| child.tag_name().name() == name)
 }
 
-/// The attributes that belong to FMI, not to another namespace such as that of XML schemas.
+/// The attributes of FMI, without those of other namespaces such as that of XML schemas.
 pub fn attributes<'a, 'i: 'a>(node: Node<'a, 'i>) -> impl Iterator<Item = Attribute<'a, 'i>> {
     node.attributes().filter(|attribute| attribute.namespace().is_none())
 }

@@ -1,11 +1,11 @@
-//! How wide and deep an XML text is, before it is parsed: the time of that grows with the square of an
-//! element's attributes, and its stack with the depth.
+//! Limits on width and depth of an XML text before parsing. Parsing time grows with the square of an element's
+//! attributes, and its stack with the depth.
 
-/// Attributes of an element, and elements in each other, at most.
+/// Largest number of attributes of an element, and largest nesting depth.
 const MOST_ATTRIBUTES: usize = 1000;
 const DEEPEST: usize = 1000;
 
-/// Where a text has too much of something, and what.
+/// Returns the offset at which a limit is exceeded, and its description.
 pub fn check(text: &str) -> Result<(), (usize, String)> {
     let bytes = text.as_bytes();
     let (mut at, mut depth) = (0, 0_usize);
@@ -29,22 +29,25 @@ pub fn check(text: &str) -> Result<(), (usize, String)> {
                 }
                 depth += usize::from(!tag.is_empty);
                 if depth > DEEPEST {
-                    return Err((start, format!("more than {DEEPEST} elements lie in each other")));
+                    return Err((
+                        start,
+                        format!("elements are nested more than {DEEPEST} levels deep"),
+                    ));
                 }
                 Some(tag.end)
             }
         }
-        // What is not closed is for the parser to name.
+        // The parser reports unclosed elements.
         .unwrap_or(bytes.len());
     }
     Ok(())
 }
 
 struct Tag {
-    /// Behind its last letter.
+    /// Offset behind its last letter.
     end: usize,
     attributes: usize,
-    /// Whether it is its own end.
+    /// True for a self-closing tag.
     is_empty: bool,
 }
 
@@ -64,7 +67,7 @@ fn tag(bytes: &[u8], start: usize) -> Tag {
     Tag { end: bytes.len(), attributes, is_empty: false }
 }
 
-/// Where some bytes stand, from a place on.
+/// Offset of some bytes, searched from an offset on.
 fn find(bytes: &[u8], from: usize, wanted: &[u8]) -> Option<usize> {
     let rest = bytes.get(from..)?;
     rest.windows(wanted.len()).position(|window| window == wanted).map(|at| from + at)
@@ -75,7 +78,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn wide_and_deep_texts_are_told_from_others() {
+    fn wide_and_deep_texts_are_detected() {
         let wide = |count: usize| format!("<a {}/>", "b='>' ".repeat(count));
         let deep = |count: usize| format!("{}{}", "<a>".repeat(count), "</a>".repeat(count));
         for text in [

@@ -1,4 +1,4 @@
-//! What a rule reports.
+//! Findings of rules.
 
 use std::fmt;
 
@@ -10,7 +10,7 @@ pub enum Severity {
     Warning,
 }
 
-/// Where a fault is.
+/// Position of a fault.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
     /// Path in the unit; empty for the unit as a whole.
@@ -45,9 +45,9 @@ impl fmt::Display for Place {
 pub struct Finding {
     pub severity: Severity,
     pub place: Place,
-    /// What is wrong.
+    /// Description of the fault.
     pub wrong: String,
-    /// What is allowed.
+    /// Allowed values.
     pub allowed: String,
     pub rule: &'static Rule,
 }
@@ -67,7 +67,7 @@ impl fmt::Display for Finding {
     }
 }
 
-/// A fault that ends the reading of a unit.
+/// A fault that prevents further reading of a unit.
 pub struct Fault {
     pub place: Place,
     pub wrong: String,
@@ -79,7 +79,7 @@ impl Fault {
     }
 }
 
-/// Where a rule reports to.
+/// Collects the findings of a rule.
 pub struct Report<'a> {
     rule: &'static Rule,
     found: &'a mut Vec<Finding>,
@@ -87,7 +87,7 @@ pub struct Report<'a> {
     counts: [usize; 2],
 }
 
-/// Errors, and warnings, of a rule that are listed.
+/// Largest number of listed errors, and warnings, of a rule.
 const MOST: usize = 1000;
 
 impl<'a> Report<'a> {
@@ -103,7 +103,7 @@ impl<'a> Report<'a> {
         self.add(Severity::Warning, place, wrong.into(), allowed.into());
     }
 
-    /// The value, or nothing once its fault has been reported.
+    /// Returns the value, or reports its fault and returns `None`.
     pub fn take<T>(&mut self, result: Result<T, Fault>) -> Option<T> {
         result.map_err(|fault| self.error(fault.place, fault.wrong, self.rule.says)).ok()
     }

@@ -1,8 +1,8 @@
-//! `build-fmu --lint FILE.fmu`: what is wrong with a unit, ours or another's, by the FMI 2.0 standard.
+//! `build-fmu --lint FILE.fmu`: checks a unit of any tool against the FMI 2.0 standard.
 //!
-//! A unit is unpacked in memory ([`package`]), its modelDescription.xml is parsed ([`document`]) and
-//! read as plain data ([`description`]); then each rule of the table in [`rules`] looks at that and
-//! reports what it finds ([`finding`]).
+//! A unit is unpacked in memory ([`package`]), its modelDescription.xml is parsed ([`document`]) and converted to plain
+//! data ([`description`]). Then each rule of the table in [`rules`] checks that data and reports its findings
+//! ([`finding`]).
 
 mod combination;
 mod description;
@@ -32,7 +32,7 @@ pub use probe::instantiate;
 /// The file that describes a unit.
 const DESCRIPTION: &str = "modelDescription.xml";
 
-/// Bytes of a file that is looked at, at most.
+/// Largest size of a checked file in bytes.
 const LARGEST_FILE: u64 = 1 << 32;
 
 /// A unit that could be read, for rules to look at.
@@ -40,17 +40,17 @@ pub struct Subject<'a> {
     pub package: &'a Package,
     pub document: &'a Document<'a>,
     pub description: &'a Description<'a>,
-    /// Whether the unit's library may be loaded, in a process of its own.
+    /// True if the unit's library may be loaded, in a separate process.
     pub may_run: bool,
 }
 
-/// What the linter has to say about a file.
+/// Result for a file.
 pub struct Verdict {
     pub text: String,
     pub has_errors: bool,
 }
 
-/// Looks at the unit in `path`; `may_run` allows to load its library.
+/// Checks the unit in `path`; `may_run` allows loading its library.
 pub fn lint(path: &Path, may_run: bool) -> Result<Verdict, String> {
     let file = path.display();
     let cannot = |error: std::io::Error| format!("cannot read {file}: {error}");
@@ -76,8 +76,8 @@ pub fn rules() -> String {
     format!("{:20} {:8} what is right, by FMI 2.0.4\n{}", "rule", "section", lines.join("\n"))
 }
 
-/// All findings in the order of the rules. Without a zip file there is no XML to look at, and without
-/// well-formed XML of this version of the standard no description.
+/// All findings in the order of the rules. Without a zip file there is no XML to check, and without well-formed XML of
+/// this version of the standard no description.
 fn findings(bytes: Vec<u8>, may_run: bool) -> Vec<Finding> {
     let mut found = Vec::new();
     let Some(package) = Report::of(&rules::READABLE, &mut found).take(Package::open(bytes)) else {

@@ -1,4 +1,4 @@
-//! What a shared library exports.
+//! Exported symbols of a shared library.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use object::{Architecture, BinaryFormat, File, FileKind, NameOrOrdinal, Object};
 pub struct Library {
     pub format: BinaryFormat,
     pub architecture: Architecture,
-    /// Names as C spells them.
+    /// Names in C spelling.
     pub symbols: BTreeSet<String>,
 }
 
@@ -33,7 +33,7 @@ fn slices(bytes: &[u8]) -> object::Result<Vec<&[u8]>> {
 fn one(bytes: &[u8]) -> object::Result<Library> {
     let file = File::parse(bytes)?;
     let format = file.format();
-    // Mach-O puts an underscore before the names of C.
+    // Mach-O prepends an underscore to C names.
     let prefix = if format == BinaryFormat::MachO { "_" } else { "" };
     let mut symbols = BTreeSet::new();
     for export in file.exports()? {

@@ -9,7 +9,7 @@ use zip::ZipArchive;
 
 use super::finding::{Fault, Place};
 
-/// Entries of a unit, bytes of one of them, and of all that are unpacked for its library, at most.
+/// Largest number of entries of a unit, size of one of them, and total size unpacked for its library.
 const MOST_ENTRIES: usize = 200_000;
 const LARGEST_ENTRY: u64 = 1 << 29;
 const MOST_UNPACKED: u64 = 1 << 31;
@@ -18,13 +18,13 @@ type Archive = ZipArchive<Cursor<Vec<u8>>>;
 
 /// An entry as the zip file's directory lists it.
 pub struct Entry {
-    /// The path, bytes as they are.
+    /// The path as raw bytes.
     pub path: Vec<u8>,
-    /// Mode of the file by POSIX; 0 where none is given.
+    /// POSIX file mode; 0 if absent.
     pub mode: u32,
 }
 
-/// Bytes of an entry: by the directory, as packed, and as unpacked.
+/// Sizes of an entry in bytes: in the directory, packed, and unpacked.
 pub struct Size {
     pub path: String,
     pub said: u64,
@@ -49,7 +49,7 @@ impl Package {
         let archive_bytes = archive.into_inner().into_inner();
         let entries = directory(&archive_bytes, start);
         if entries.len() > MOST_ENTRIES {
-            let wrong = format!("{} entries; at most {MOST_ENTRIES} are looked at", entries.len());
+            let wrong = format!("{} entries; at most {MOST_ENTRIES} are checked", entries.len());
             return Err(Fault::new(Place::unit(), wrong));
         }
         let paths = entries.iter().filter_map(|entry| String::from_utf8(entry.path.clone()).ok());
@@ -58,7 +58,7 @@ impl Package {
         Ok(Self { entries, known, archive: RefCell::new(archive) })
     }
 
-    /// The paths that are UTF-8.
+    /// The paths in valid UTF-8.
     pub fn paths(&self) -> impl Iterator<Item = &str> {
         self.entries.iter().filter_map(|entry| std::str::from_utf8(&entry.path).ok())
     }
@@ -67,7 +67,7 @@ impl Package {
         self.known.contains(path)
     }
 
-    /// The names that stand in a folder, `folder` ending in a slash: files, and folders with a slash.
+    /// The names in a folder, `folder` ending in a slash: files, and folders with a slash.
     pub fn names_in(&self, folder: &str) -> BTreeSet<String> {
         let rest = self.paths().filter_map(|path| path.strip_prefix(folder));
         let name = |rest: &str| match rest.split_once('/') {
@@ -85,7 +85,7 @@ impl Package {
         let mut archive = self.archive.borrow_mut();
         let file = archive.by_name(path).map_err(|error| fault(error.to_string()))?;
         let mut bytes = Vec::new();
-        // What the directory says of its size need not be true.
+        // The size in the directory may be false.
         let mut file = file.take(LARGEST_ENTRY + 1);
         file.read_to_end(&mut bytes).map_err(|error| fault(error.to_string()))?;
         if bytes.len() as u64 > LARGEST_ENTRY {
@@ -94,7 +94,7 @@ impl Package {
         Ok(bytes)
     }
 
-    /// Reads every entry to its end, which compares its checksum, within the bounds.
+    /// Reads every entry to its end, which verifies its checksum, within the bounds.
     pub fn read_all(&self) -> (Vec<Size>, Vec<Fault>) {
         let mut archive = self.archive.borrow_mut();
         let (mut read, mut sizes, mut faults) = (0, Vec::new(), Vec::new());
@@ -104,7 +104,7 @@ impl Package {
             let fault = |wrong: String| Fault::new(Place::file(&path), wrong);
             let whole = archive.by_index(at).map_err(std::io::Error::other).and_then(|file| {
                 let (said, packed) = (file.size(), file.compressed_size());
-                // What the directory says of its size need not be true.
+                // The size in the directory may be false.
                 let unpacked =
                     std::io::copy(&mut file.take(LARGEST_ENTRY + 1), &mut std::io::sink())?;
                 Ok(Size { path: path.clone(), said, packed, unpacked })
@@ -134,7 +134,7 @@ impl Package {
             .map_err(|error| Fault::new(Place::file(path), format!("not UTF-8: {error}")))
     }
 
-    /// Writes the entries below `prefix` into `folder`; those that would land elsewhere are left out.
+    /// Writes the entries below `prefix` into `folder`; skips those that would land elsewhere.
     pub fn unpack(&self, prefix: &str, folder: &Path) -> Result<(), String> {
         let below: BTreeSet<&str> =
             self.paths().filter(|path| path.starts_with(prefix) && !path.ends_with('/')).collect();
@@ -159,8 +159,8 @@ impl Package {
     }
 }
 
-/// Walks the central directory. A `ZipArchive` knows every path once, so it would hide duplicates.
-/// Layout: APPNOTE.TXT of PKWARE, section 4.3.12.
+/// Walks the central directory. A `ZipArchive` stores every path once, so it would hide duplicates. Layout: APPNOTE.TXT
+/// of PKWARE, section 4.3.12.
 fn directory(bytes: &[u8], start: usize) -> Vec<Entry> {
     const HEADER: usize = 46;
     let mut entries = Vec::new();

@@ -1,7 +1,7 @@
-//! Instantiates a library in a process of its own.
+//! Instantiates a library in a separate process.
 //!
-//! The parent calls this program with `--instantiate LIBRARY GUID RESOURCES KIND`; the answer is the
-//! exit status, and the log of the library comes by standard error.
+//! The parent calls this program with `--instantiate LIBRARY GUID RESOURCES KIND`. The exit status is the result, and
+//! standard error the log of the library.
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::io::Read;
@@ -17,31 +17,31 @@ use libloading::Library;
 
 use super::package::Package;
 
-/// What came of it.
+/// Outcome of the instantiation.
 pub enum Outcome {
     Made,
-    /// fmi2Instantiate answered null; the log.
+    /// fmi2Instantiate returned null; holds the log.
     Refused(String),
     Unloadable(String),
-    /// The process ended by itself or had to be ended.
+    /// The process crashed or was killed.
     Lost(String),
 }
 
-/// Exit status of the child. Others mean that the library took the process down.
+/// Exit status of the child. Others mean that the library ended the process.
 const MADE: u8 = 0;
 const REFUSED: u8 = 90;
 const UNLOADABLE: u8 = 91;
 
-/// Beginning of the names of folders that libraries are unpacked in; the number of a process follows.
+/// Prefix of the folders into which libraries are unpacked; the number of a process follows.
 const FOLDER: &str = "impinge-lint-";
 
-/// Bytes of a library's log that are kept.
+/// Largest number of stored bytes of a library's log.
 const LONGEST_LOG: usize = 1 << 16;
 
 /// Longest time that a library may take.
 const PATIENCE: Duration = Duration::from_secs(60);
 
-/// Unpacks a library with the resources of its unit and has it instantiated with a GUID.
+/// Unpacks a library with the resources of its unit and instantiates it with a GUID.
 pub fn ask(package: &Package, library: &str, guid: &str, co_simulation: bool) -> Outcome {
     try_asking(package, library, guid, co_simulation).unwrap_or_else(Outcome::Unloadable)
 }
@@ -87,7 +87,7 @@ fn try_asking(
     Ok(outcome(status, log.text()))
 }
 
-/// What a child says: its beginning is kept, the rest read and forgotten.
+/// Output of a child: the beginning is kept, the rest read and discarded.
 struct Log {
     kept: Arc<Mutex<Vec<u8>>>,
     is_over: Receiver<()>,
@@ -112,7 +112,7 @@ impl Log {
         Self { kept, is_over }
     }
 
-    /// All that came; what processes say that the child has started is not waited for.
+    /// The output so far; does not wait for output of the child's own child processes.
     fn text(&self) -> String {
         let _ = self.is_over.recv_timeout(Duration::from_secs(1));
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
@@ -124,7 +124,7 @@ impl Log {
     }
 }
 
-/// Removes folders of earlier calls of this program that were ended before they could.
+/// Removes folders of earlier calls of this program that were killed.
 fn remove_left_behind() {
     let Ok(entries) = std::fs::read_dir(std::env::temp_dir()) else { return };
     for entry in entries.flatten() {
@@ -132,7 +132,7 @@ fn remove_left_behind() {
         let number = name.strip_prefix(FOLDER).and_then(|rest| rest.split_once('-'));
         let Some((process, _)) = number else { continue };
         let is_number = !process.is_empty() && process.bytes().all(|byte| byte.is_ascii_digit());
-        // Only Linux says of others whether they still run.
+        // Only Linux reports whether another process still runs.
         let has_ended =
             Path::new("/proc/self").exists() && !Path::new("/proc").join(process).exists();
         if is_number && has_ended {
@@ -152,7 +152,7 @@ fn outcome(status: ExitStatus, log: String) -> Outcome {
     }
 }
 
-/// The URI of a folder; what stands for something else in URIs is escaped.
+/// The URI of a folder, with reserved characters escaped.
 fn uri(folder: &Path) -> String {
     let path = folder.display().to_string().replace('\\', "/");
     let escaped =
@@ -162,8 +162,8 @@ fn uri(folder: &Path) -> String {
 
 type Logger = unsafe extern "C" fn(*mut c_void, *const c_char, c_int, *const c_char, *const c_char);
 
-/// `fmi2CallbackFunctions`. The logger is declared without its variable arguments, which it does not
-/// look at; all C ABIs in use allow that.
+/// `fmi2CallbackFunctions`. The logger is declared without its variable arguments, which it does not read; all C ABIs
+/// in use allow that.
 #[repr(C)]
 struct Callbacks {
     logger: Logger,
@@ -194,10 +194,9 @@ unsafe extern "C" fn logger(
     }
 }
 
-/// What the child does: LIBRARY GUID RESOURCES KIND.
+/// Main function of the child; arguments: LIBRARY GUID RESOURCES KIND.
 pub fn instantiate(arguments: &[String]) -> ExitCode {
-    // Should nobody be left to end this process.
-    // SAFETY: sets a timer of this process.
+    // In case the parent is gone and cannot kill this process. SAFETY: sets a timer of this process.
     #[cfg(unix)]
     unsafe {
         alarm(2 * PATIENCE.as_secs() as u32)
@@ -235,8 +234,8 @@ fn try_instantiating(arguments: &[String]) -> Result<bool, String> {
         step_finished: None,
         environment: std::ptr::null_mut(),
     };
-    // SAFETY: nothing can vouch for a foreign library; that is why it has this process to itself. The
-    // types are those of the standard's header, the strings live through the calls.
+    // SAFETY: nothing can vouch for a foreign library, hence the separate process. The types are those of the
+    // standard's header, the strings live through the calls.
     unsafe {
         let library = Library::new(library).map_err(|error| error.to_string())?;
         let make = library.get::<Instantiate>("fmi2Instantiate").map_err(|e| e.to_string())?;
@@ -274,14 +273,14 @@ mod tests {
     }
 
     #[test]
-    fn of_a_log_without_end_the_beginning_is_kept() {
+    fn beginning_of_an_endless_log_is_kept() {
         assert_eq!(said("echo ' no such unit ' >&2"), "no such unit");
         let long = said("head -c 5000000 /dev/zero | tr '\\0' x >&2");
         assert!(long.ends_with("… (cut off)") && long.len() < LONGEST_LOG + 100);
     }
 
     #[test]
-    fn a_process_that_the_child_has_started_is_not_waited_for() {
+    fn grandchildren_are_not_waited_for() {
         let begin = Instant::now();
         assert_eq!(said("echo started >&2; sleep 30 &"), "started");
         assert!(begin.elapsed() < Duration::from_secs(20));

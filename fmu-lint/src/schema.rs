@@ -3,7 +3,7 @@
 
 use super::vocabulary::{Causality, DEPENDENCE, Initial, Variability};
 
-/// An element with what may stand in it.
+/// An element with its allowed contents.
 pub struct Element {
     pub name: &'static str,
     pub attributes: &'static [Attribute],
@@ -13,11 +13,11 @@ pub struct Element {
 pub enum Content {
     /// Groups of elements in this order.
     Sequence(&'static [Group]),
-    /// Whatever a tool likes.
+    /// Arbitrary content.
     Anything,
 }
 
-/// Elements that stand at one place of a sequence.
+/// Elements allowed at one position of a sequence.
 pub struct Group {
     pub any_of: &'static [&'static Element],
     pub least: usize,
@@ -30,7 +30,7 @@ pub struct Attribute {
     pub required: bool,
 }
 
-/// What an attribute may hold.
+/// Allowed values of an attribute.
 #[derive(Clone, Copy)]
 pub enum Values {
     Text,
@@ -46,7 +46,7 @@ pub enum Values {
 }
 
 impl Values {
-    /// Whether the text is one of these values.
+    /// Returns true if the text is one of these values.
     pub fn hold(self, text: &str) -> bool {
         match self {
             Values::Text => true,
@@ -63,7 +63,7 @@ impl Values {
         }
     }
 
-    /// What is allowed, in words.
+    /// Describes the allowed values.
     pub fn words(self) -> String {
         match self {
             Values::Text => "any text".into(),
@@ -79,14 +79,14 @@ impl Values {
     }
 }
 
-/// A finite number as XML writes it; FMI rules out infinities and NaN.
+/// Parses a finite number in XML notation; FMI excludes infinities and NaN.
 pub fn double(text: &str) -> Option<f64> {
     let text = text.trim();
     let known = text.bytes().all(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
     text.parse().ok().filter(|value: &f64| known && value.is_finite())
 }
 
-/// `YYYY-MM-DDThh:mm:ss`, perhaps with parts of a second and a time zone.
+/// `YYYY-MM-DDThh:mm:ss`, optionally with fractional seconds and a time zone.
 fn is_time(text: &str) -> bool {
     let pattern = "0000-00-00T00:00:00";
     let fits =
@@ -350,7 +350,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_are_told_from_what_is_none() {
+    fn values_are_recognised() {
         for (values, good, bad) in [
             (Double, "-1.5e-3", "inf"),
             (Double, " .5 ", "NaN"),

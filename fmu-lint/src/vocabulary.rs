@@ -1,4 +1,4 @@
-//! The words that the standard gives a meaning, section 2.2.7.
+//! Words with a meaning in the standard, section 2.2.7.
 
 /// Makes an enum of a set of words, with their spelling in the XML.
 macro_rules! words {
@@ -25,7 +25,7 @@ macro_rules! words {
 }
 
 words! {
-    /// Who decides on the value of a variable.
+    /// Origin of a variable's value.
     Causality {
         Parameter "parameter", CalculatedParameter "calculatedParameter", Input "input",
         Output "output", Local "local", Independent "independent"
@@ -33,7 +33,7 @@ words! {
 }
 
 words! {
-    /// When the value of a variable may change.
+    /// Times at which the value of a variable may change.
     Variability {
         Constant "constant", Fixed "fixed", Tunable "tunable", Discrete "discrete",
         Continuous "continuous"
@@ -41,7 +41,7 @@ words! {
 }
 
 words! {
-    /// How a variable is initialised.
+    /// Initialisation of a variable.
     Initial { Exact "exact", Approx "approx", Calculated "calculated" }
 }
 
@@ -53,12 +53,11 @@ words! {
     }
 }
 
-/// How an unknown may depend on a known.
+/// Kinds of dependence of an unknown on a known.
 pub const DEPENDENCE: &[&str] = &["dependent", "constant", "fixed", "tunable", "discrete"];
 
 impl Kind {
-    /// The base type, which has value references of its own: enumerations are integers to the C
-    /// functions.
+    /// The base type, which has value references of its own: the C functions treat enumerations as integers.
     pub fn base(self) -> Kind {
         if self == Kind::Enumeration { Kind::Integer } else { self }
     }

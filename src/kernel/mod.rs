@@ -21,7 +21,7 @@ pub use wendland_c4::WendlandC4;
 
 use crate::math::gauss::gauss_on;
 
-/// What the formulas of kernels are made of: a number, or many numbers in the lanes of a vector.
+/// Argument of the kernels' formulas: a number, or many numbers in the lanes of a vector.
 pub trait Number:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
@@ -31,7 +31,7 @@ pub trait Number:
 
     fn sqrt(self) -> Self;
 
-    /// `low` where this is below the limit, `high` elsewhere.
+    /// Returns `low` where this is below the limit, `high` elsewhere.
     fn choose_below(self, limit: f64, low: Self, high: Self) -> Self;
 }
 
@@ -64,8 +64,8 @@ macro_rules! number {
 number!(f32);
 number!(f64);
 
-/// The dimensionless shape of a kernel. All formulas are free of branches, so that loops over many
-/// pairs are made of vector instructions.
+/// The dimensionless shape of a kernel. No formula branches, so that loops over many pairs compile to vector
+/// instructions.
 pub trait Shape {
     /// w(q), zero for q ≥ 1.
     fn value<N: Number>(q: N) -> N;
@@ -181,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn the_integral_is_one() {
+    fn integral_is_one() {
         for_all(|kernel, d| {
             let sum = integral(d, SUPPORT, |r| kernel.value(r, SUPPORT, d));
             assert!((sum - 1.0).abs() < 1e-13, "{kernel:?} {d}-D: {sum}");
@@ -189,7 +189,7 @@ mod tests {
     }
 
     #[test]
-    fn the_gradient_is_the_slope_of_the_value() {
+    fn gradient_is_the_derivative_of_the_value() {
         for_all(|kernel, d| {
             for q in [0.05, 0.2, 0.4, 0.6, 0.75, 0.95] {
                 let (r, step) = (q * SUPPORT, 1e-5);
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn the_bend_is_the_slope_of_the_gradient_factor() {
+    fn bend_is_the_derivative_of_the_gradient_factor() {
         for kernel in Kernel::ALL {
             with_kernel_shape!(kernel, S => for q in [0.05, 0.2, 0.45, 0.6, 0.75, 0.95, 1.2] {
                 let step = 1e-6;
@@ -218,7 +218,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_moment_of_the_gradient_is_minus_one() {
+    fn first_moment_of_the_gradient_is_minus_one() {
         // ∫ r ⊗ ∇W dV = −1, one diagonal entry: ∫ F r² dV / d = −1.
         for_all(|kernel, d| {
             let factor = |r| kernel.gradient_factor(r, SUPPORT, d) * r * r;
@@ -228,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn the_second_moment_is_that_of_the_slope() {
+    fn second_moment_matches_quadrature() {
         // By parts, ∫ F r⁴ dV = −(d + 2) ∫ r² W dV.
         for_all(|kernel, d| {
             let fourth = |r: f64| kernel.gradient_factor(r, SUPPORT, d) * r.powi(4);
@@ -240,7 +240,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_reaches_beyond_the_support() {
+    fn support_is_compact() {
         for_all(|kernel, d| {
             for q in [1.0, 1.0 + 1e-12, 1.5, 30.0] {
                 assert_eq!(kernel.value(q * SUPPORT, SUPPORT, d), 0.0);
@@ -250,7 +250,7 @@ mod tests {
     }
 
     #[test]
-    fn the_value_falls_monotonically() {
+    fn value_decreases_monotonically() {
         for_all(|kernel, d| {
             let values: Vec<f64> = (0..=100)
                 .map(|i| kernel.value(0.01 * f64::from(i) * SUPPORT, SUPPORT, d))

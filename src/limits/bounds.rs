@@ -1,4 +1,4 @@
-//! Intervals in which numbers lie.
+//! Intervals of numbers.
 
 use std::fmt;
 
@@ -11,14 +11,14 @@ pub struct End {
     pub is_included: bool,
 }
 
-/// The interval of allowed numbers; an end that is missing does not bound them.
+/// The interval of allowed numbers; a missing end is unbounded.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Bounds {
     pub low: Option<End>,
     pub high: Option<End>,
 }
 
-/// On which side of an interval a number lies.
+/// Side of an interval on which a number lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     Below,
@@ -42,7 +42,7 @@ impl Bounds {
         Self { low: Some(End::included(low)), high: Some(End::included(high)) }
     }
 
-    /// The side on which `value` lies beyond the interval; numbers that are none lie above.
+    /// Returns the side on which `value` lies beyond the interval; NaN counts as above.
     pub fn side(&self, value: f64) -> Option<Side> {
         let Self { low, high } = self;
         if low.is_some_and(|low| value < low.value || (value == low.value && !low.is_included)) {
@@ -65,7 +65,7 @@ impl Bounds {
         }
     }
 
-    /// `must be at least 0` of a number that lies beyond that end.
+    /// Requirement for a number beyond that end, such as `must be at least 0`.
     pub fn requirement(&self, side: Side) -> String {
         let (end, words) = match side {
             Side::Below => (self.low, ["at least", "above"]),
@@ -81,7 +81,7 @@ impl Bounds {
 }
 
 impl fmt::Display for Bounds {
-    /// `0 to 1`, `above 0 and at most 1`, `at least 0`; nothing where there is no end.
+    /// Writes `0 to 1`, `above 0 and at most 1`, `at least 0`; nothing without any end.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let said = |end: End, words: [&str; 2]| {
             format!("{} {}", words[usize::from(!end.is_included)], number(end.value))
@@ -103,7 +103,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_open_end_is_beyond_and_a_closed_one_is_not() {
+    fn open_and_closed_ends() {
         let zero = End { value: 0.0, is_included: false };
         let open = Bounds { low: Some(zero), ..Bounds::between(0.0, 1.0) };
         assert_eq!([0.0, -0.0, -1.0].map(|v| open.side(v)), [Some(Side::Below); 3]);
@@ -114,7 +114,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_say_which_of_their_ends_are_allowed() {
+    fn bounds_describe_open_and_closed_ends() {
         let open = End { value: 0.0, is_included: false };
         assert_eq!(Bounds::between(-1e60, 1e60).to_string(), "-1e60 to 1e60");
         let temperature = Bounds { low: Some(open), ..Bounds::between(0.0, 1e9) };

@@ -1,6 +1,6 @@
-//! Numbers as people write them.
+//! Numbers in readable notation.
 
-/// A number with six digits, as people write it.
+/// Formats a number with six digits in readable notation.
 pub fn number(value: f64) -> String {
     let rounded = format!("{value:.5e}").parse().unwrap_or(value);
     let magnitude = f64::abs(rounded);
@@ -16,7 +16,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_short() {
+    fn numbers_are_printed_briefly() {
         assert_eq!(number(1e-3 - 3e-5), "9.7e-4");
         assert_eq!(number(0.1 + 0.2), "0.3");
         assert_eq!(number(-2e9), "-2e9");

@@ -1,8 +1,8 @@
-//! What the numbers of a scene may be: units, bounds, plausible ranges and the words that refuse what is beyond them.
+//! Allowed numbers of a scene: units, bounds, plausible ranges and the words of refusals.
 //!
-//! Fields of the scene's types name their [`Limits`] in `#[schemars(transform = …)]`. They go into the JSON schema of
-//! scenes as its own keywords (`minimum`, `exclusiveMinimum`, …) and as those of [`keyword`]; checks, messages and
-//! tables read them from there.
+//! Fields of the scene's types name their [`Limits`] in `#[schemars(transform = …)]`. These become keywords of the JSON
+//! schema of scenes (`minimum`, `exclusiveMinimum`, …) and of [`keyword`]; checks, messages and tables read them from
+//! there.
 
 mod bounds;
 mod digits;
@@ -15,32 +15,32 @@ pub use bounds::{Bounds, End, Side};
 pub use digits::number;
 use plausible::Range;
 
-/// Keywords beside those of JSON Schema.
+/// Keywords in addition to those of JSON Schema.
 pub mod keyword {
-    /// What a number is measured in; nothing for texts, counts and ratios.
+    /// Unit of a number; absent for texts, counts and ratios.
     pub const UNIT: &str = "unit";
-    /// What a number is, in words, as in "the density".
+    /// Noun for a number, as in "the density".
     pub const NOUN: &str = "noun";
-    /// Why a number is too small, and what is allowed, where the noun is not enough.
+    /// Reason why a number is too small, and what is allowed, where the noun does not suffice.
     pub const TOO_LOW: &str = "tooLow";
-    /// The same of a number that is too large.
+    /// The same for a number that is too large.
     pub const TOO_HIGH: &str = "tooHigh";
-    /// What holds for the value beside its bounds, in words.
+    /// Condition on the value besides its bounds, in words.
     pub const CONDITION: &str = "condition";
-    /// What holds where the key is left out, in words.
+    /// Default of an absent key, in words.
     pub const OTHERWISE: &str = "otherwise";
-    /// The range beyond which a value is hardly meant.
+    /// Range outside of which a value is probably a mistake.
     pub const PLAUSIBLE: &str = "plausible";
-    /// The lowest end of that range in scenes that are meant to be cold.
+    /// Lower end of that range in intentionally cold scenes.
     pub const CRYOGENIC: &str = "cryogenic";
-    /// The lowest end of that range in scenes that hold something warmer, too.
+    /// Lower end of that range in scenes that also contain something warmer.
     pub const BESIDE_WARM: &str = "besideWarm";
 }
 
 /// A message and what is allowed instead.
 type Words = (&'static str, &'static str);
 
-/// What a number, or each number of a list, may be.
+/// Constraints on a number, or on each number of a list.
 #[derive(Debug, Clone, Copy)]
 pub struct Limits {
     unit: Option<&'static str>,
@@ -51,13 +51,13 @@ pub struct Limits {
     condition: Option<&'static str>,
     otherwise: Option<&'static str>,
     plausible: Option<&'static Range<'static>>,
-    /// Lowest end of that range in scenes that are meant to be cold, and in those that hold something warmer, too.
+    /// Lower end of that range in intentionally cold scenes, and in those that also contain something warmer.
     cryogenic: Option<f64>,
     beside_warm: Option<f64>,
 }
 
-/// Smallest and largest magnitude of constants: products of a few of them and their squares stay well
-/// within the range of numbers.
+/// Smallest and largest magnitude of constants. Products of a few of them, and their squares, stay well within the
+/// range of numbers.
 const SMALLEST: f64 = 1e-60;
 pub const LARGEST: f64 = 1e60;
 
@@ -67,7 +67,7 @@ const LONGEST: f64 = 1e6;
 /// Largest number of points, rings or tiles along an axis.
 const MOST_CELLS: f64 = 1000.0;
 
-/// Any number of that unit.
+/// Any number of a unit.
 pub const fn any(unit: &'static str) -> Limits {
     Limits {
         unit: Some(unit),
@@ -83,24 +83,23 @@ pub const fn any(unit: &'static str) -> Limits {
     }
 }
 
-/// A number between two others, these included; a range from above zero on holds positive numbers, one from zero on
-/// numbers that are not negative.
+/// A number within a closed interval.
 pub const fn within(low: f64, high: f64, unit: &'static str, noun: &'static str) -> Limits {
     Limits { bounds: Bounds::between(low, high), noun: Some(noun), ..any(unit) }
 }
 
-/// A number above zero; other checks say what is wrong with one that is not.
+/// A number above zero; other checks report violations.
 pub const fn above_zero(unit: &'static str) -> Limits {
     let limits = Limits { bounds: Bounds::from(0.0), ..any(unit) };
     limits.low_open()
 }
 
-/// A length that a body has [m].
+/// An extent of a body [m].
 pub const fn length(noun: &'static str) -> Limits {
     within(1e-12, LONGEST, "m", noun)
 }
 
-/// A time that a run can take [s].
+/// A time within a run [s].
 pub const fn time(noun: &'static str) -> Limits {
     within(1e-30, 1e12, "s", noun).plausible(&plausible::TIME)
 }
@@ -111,17 +110,17 @@ pub const fn temperature() -> Limits {
     limits.low("a temperature is above absolute zero", "> 0 (kelvin)")
 }
 
-/// The temperature of something in the scene [K].
+/// The temperature of an object in the scene [K].
 pub const fn own_temperature() -> Limits {
     temperature().plausible(&plausible::TEMPERATURE).guarded()
 }
 
-/// The temperature of what flows by or surrounds a body [K].
+/// The temperature of a body's surroundings [K].
 pub const fn ambient() -> Limits {
     temperature().plausible(&plausible::AMBIENT).guarded()
 }
 
-/// A temperature of a table of constants [K].
+/// A temperature in a table of constants [K].
 pub const fn knot() -> Limits {
     temperature().plausible(&plausible::KNOT).cold()
 }
@@ -136,7 +135,7 @@ pub const fn traction() -> Limits {
     signed("Pa", "a pressure or shear").plausible(&plausible::TRACTION)
 }
 
-/// The place of a footprint's centre along an axis of its face [m].
+/// A coordinate of a footprint's centre along an axis of its face [m].
 pub const fn place() -> Limits {
     within(-LONGEST, LONGEST, "m", "the place of a footprint")
 }
@@ -146,9 +145,9 @@ pub const fn footprint_radius() -> Limits {
     length("the radius of a footprint")
 }
 
-/// A communication step that units take [s]: its products with rates of bodies, up to `k/(ρ c l²)` at the ends of the
-/// limits of these, and with the span of inputs stay numbers, and so do its cube and its inverse. Longer ones lose heat
-/// in modes whose exponents overflow.
+/// A communication step of a unit [s]. Its products with rates of bodies, up to `k/(ρ c l²)` at the ends of their
+/// limits, and with the span of inputs stay finite, and so do its cube and its inverse. Longer steps would lose heat in
+/// modes whose exponents overflow.
 pub const fn step() -> Limits {
     within(SMALLEST, LARGEST, "s", "a communication step")
 }
@@ -173,13 +172,13 @@ pub const fn count() -> Limits {
     whole(1, MOST_CELLS as u32, "the count is out of bounds", "1 to 1000")
 }
 
-/// A whole number between two others.
+/// A whole number within a closed interval.
 pub const fn whole(low: u32, high: u32, why: &'static str, allowed: &'static str) -> Limits {
     let limits = within(low as f64, high as f64, "", "").says(why, allowed);
     Limits { unit: None, noun: None, ..limits }
 }
 
-/// The same end of an interval, which no longer includes it.
+/// The same end of an interval, excluded.
 const fn excluded(end: Option<End>) -> Option<End> {
     match end {
         Some(End { value, .. }) => Some(End { value, is_included: false }),
@@ -193,58 +192,58 @@ impl Limits {
         self.bounds
     }
 
-    /// What to say of values beyond either end, with what is allowed.
+    /// Sets the message for values beyond either end, with what is allowed.
     pub const fn says(self, why: &'static str, allowed: &'static str) -> Self {
         self.low(why, allowed).high(why, allowed)
     }
 
-    /// What to say of values that are too small.
+    /// Sets the message for values that are too small.
     pub const fn low(self, why: &'static str, allowed: &'static str) -> Self {
         Self { too_low: Some((why, allowed)), ..self }
     }
 
-    /// What to say of values that are too large.
+    /// Sets the message for values that are too large.
     pub const fn high(self, why: &'static str, allowed: &'static str) -> Self {
         Self { too_high: Some((why, allowed)), ..self }
     }
 
-    /// The same without the least value.
+    /// Excludes the lower end.
     pub const fn low_open(self) -> Self {
         Self { bounds: Bounds { low: excluded(self.bounds.low), ..self.bounds }, ..self }
     }
 
-    /// The same without the least and the largest value.
+    /// Excludes both ends.
     pub const fn open(self) -> Self {
         let Bounds { low, high } = self.bounds;
         Self { bounds: Bounds { low: excluded(low), high: excluded(high) }, ..self }
     }
 
-    /// What else must hold, in words.
+    /// Sets a further condition, in words.
     pub const fn condition(self, condition: &'static str) -> Self {
         Self { condition: Some(condition), ..self }
     }
 
-    /// What holds where the key is left out, in words.
+    /// Sets the default of an absent key, in words.
     pub const fn otherwise(self, otherwise: &'static str) -> Self {
         Self { otherwise: Some(otherwise), ..self }
     }
 
-    /// The range beyond which a value is hardly meant.
+    /// Sets the range outside of which a value is probably a mistake.
     pub const fn plausible(self, range: &'static Range<'static>) -> Self {
         Self { plausible: Some(range), ..self }
     }
 
-    /// Plausible down to [`plausible::CRYOGENIC`] in scenes that are meant to be cold.
+    /// Extends the plausible range to [`plausible::CRYOGENIC`] in intentionally cold scenes.
     pub const fn cold(self) -> Self {
         Self { cryogenic: Some(plausible::CRYOGENIC), ..self }
     }
 
-    /// The same, and only down to [`plausible::BESIDE_WARM`] in scenes that hold something warmer, too.
+    /// As [`Self::cold`], and restricts it to [`plausible::BESIDE_WARM`] in scenes that also contain something warmer.
     pub const fn guarded(self) -> Self {
         Self { beside_warm: Some(plausible::BESIDE_WARM), ..self.cold() }
     }
 
-    /// Puts the limits of a number into its schema.
+    /// Writes the limits of a number into its schema.
     fn put(&self, number: &mut Map<String, Value>) {
         for (end, closed, open) in [
             (self.bounds.low, "minimum", "exclusiveMinimum"),
@@ -271,7 +270,7 @@ impl Limits {
         }
     }
 
-    /// Puts them into the schemas of all numbers that a value is made of.
+    /// Writes them into the schemas of all numbers of a value.
     fn put_into_numbers(&self, value: &mut Value) {
         let Value::Object(schema) = value else { return };
         if is_number(schema) {
@@ -293,7 +292,7 @@ impl Limits {
     }
 }
 
-/// The keys that a table may have, where they all take the same.
+/// The allowed keys of a table whose values all have the same type.
 #[derive(Debug, Clone, Copy)]
 pub struct Keys<const N: usize>(pub [&'static str; N]);
 
@@ -303,14 +302,14 @@ impl<const N: usize> Transform for Keys<N> {
     }
 }
 
-/// Says what the key means that chooses among the alternatives of a schema.
+/// Describes the key that chooses among the alternatives of a schema.
 #[derive(Debug, Clone, Copy)]
 pub struct Tag {
     key: &'static str,
     meaning: &'static str,
 }
 
-/// The key of a table that chooses its type, and what it means.
+/// The key of a table that chooses its type, and its description.
 pub const fn tag(key: &'static str, meaning: &'static str) -> Tag {
     Tag { key, meaning }
 }
@@ -324,12 +323,12 @@ impl Transform for Tag {
     }
 }
 
-/// A number as people write it: 1 instead of 1.0.
+/// A number in readable notation: 1 instead of 1.0.
 fn plain(value: f64) -> Value {
     if value.fract() == 0.0 && value.abs() < 1e6 { json!(value as i64) } else { json!(value) }
 }
 
-/// Whether a schema is that of a number.
+/// Returns true if a schema is that of a number.
 pub fn is_number(schema: &Map<String, Value>) -> bool {
     let names_one = |name: &Value| matches!(name.as_str(), Some("number" | "integer"));
     match schema.get("type") {

@@ -1,28 +1,27 @@
-//! What constants, sizes, times and loads plausibly are: wide enough for every real material between
-//! aerogel and diamond, between liquid hydrogen and mercury or molten tungsten, narrow enough that values
-//! in wrong units stand out.
+//! Plausible ranges of constants, sizes, times and loads. They admit every real material between aerogel and diamond,
+//! between liquid hydrogen and mercury or molten tungsten, but exclude values in wrong units.
 //!
-//! Bounds follow the extremes of D. R. Lide (ed.), *CRC Handbook of Chemistry and Physics*, 86th ed.,
-//! CRC Press 2005, with a margin.
+//! Bounds follow the extremes of D. R. Lide (ed.), *CRC Handbook of Chemistry and Physics*, 86th ed., CRC Press 2005,
+//! with a margin.
 
 use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
-/// A plausible range of magnitudes; zero is never implausible, but refused where it is impossible.
+/// A plausible range of magnitudes. Zero is always plausible; where it is impossible, other checks refuse it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Range<'a> {
-    /// In words, as in "the density of a solid".
+    /// Noun phrase, as in "the density of a solid".
     pub what: &'a str,
     pub unit: &'a str,
     pub lowest: f64,
     pub highest: f64,
-    /// Units that people write values in by mistake.
+    /// Units that are often used by mistake.
     #[serde(borrow, default, skip_serializing_if = "<[_]>::is_empty")]
     pub mistakes: Cow<'a, [Mistake<'a>]>,
 }
 
-/// A unit that is not the wanted one: `wanted = factor · mistaken + offset`.
+/// A unit used by mistake: `wanted = factor · mistaken + offset`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Mistake<'a> {
     pub unit: &'a str,
@@ -104,7 +103,7 @@ pub static EXPANSION: Range<'static> = Range {
     highest: 1e-3, // paraffin 5e-4
     mistakes: Cow::Borrowed(&[scaled("10⁻⁶/K", 1e-6)]),
 };
-/// Of solids and of fluids.
+/// Temperatures of solids and of fluids.
 pub static TEMPERATURE: Range<'static> = Range {
     what: "a temperature",
     unit: "K",
@@ -119,7 +118,7 @@ pub static AMBIENT: Range<'static> = Range {
     highest: 50_000.0, // plasma jets
     mistakes: CELSIUS,
 };
-/// Of tables of constants, whatever the temperatures of the scene.
+/// Temperatures in tables of constants, regardless of those of the scene.
 pub static KNOT: Range<'static> = Range {
     what: "a temperature of a table",
     unit: "K",
@@ -170,7 +169,7 @@ pub static EXTENT: Range<'static> = Range {
     highest: 1.0,
     mistakes: LENGTHS,
 };
-/// From films of a few atoms on.
+/// Thickness of layers, from films of a few atoms on.
 pub static LAYER: Range<'static> = Range {
     what: "the thickness of a layer",
     unit: "m",
@@ -246,19 +245,19 @@ pub static SURFACE_TENSION: Range<'static> = Range {
 pub static TIME: Range<'static> =
     Range { what: "a time", unit: "s", lowest: 1e-13, highest: 1e7, mistakes: TIMES };
 
-/// Lowest plausible temperature in scenes that say that they are cold, or hold liquids as light as hydrogen [K].
+/// Lowest plausible temperature in intentionally cold scenes, and in those with liquids as light as hydrogen [K].
 pub const CRYOGENIC: f64 = 1.0;
-/// Lowest plausible temperature in scenes that hold something warmer than this, too [K].
+/// Lowest plausible temperature in scenes that also contain something warmer than this [K].
 pub const BESIDE_WARM: f64 = 250.0;
 
-/// Coldness that a scene is meant to have.
+/// Coldness of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Cold {
-    /// It says so.
+    /// The scene is intentionally cold.
     Meant,
-    /// Nothing in it is as warm as [`BESIDE_WARM`].
+    /// Nothing in the scene is as warm as [`BESIDE_WARM`].
     Throughout,
-    /// Something is.
+    /// Something in the scene is that warm.
     BesideWarm,
 }
 
@@ -267,7 +266,7 @@ impl<'a> Range<'a> {
         value == 0.0 || (self.lowest..=self.highest).contains(&value.abs())
     }
 
-    /// What the value would be in SI units, were it in a unit that makes it plausible, and that unit.
+    /// Value in SI units and unit of the mistake that makes it plausible.
     pub fn meant(&self, value: f64) -> Option<(f64, &'a str)> {
         let read = |mistake: &Mistake<'a>| (mistake.factor * value + mistake.offset, mistake.unit);
         self.mistakes.iter().map(read).find(|&(meant, _)| self.holds(meant))

@@ -1,14 +1,15 @@
-//! Anderson's acceleration of fixed-point iterations (D. G. Anderson 1965, doi 10.1145/321296.321305; H. F. Walker and
-//! P. Ni 2011, doi 10.1137/10078356X). Of linear equations it finds what GMRES finds.
+//! Anderson acceleration of fixed-point iterations (D. G. Anderson 1965, doi 10.1145/321296.321305;
+//! H. F. Walker and P. Ni 2011, doi 10.1137/10078356X). For linear equations it is equivalent to
+//! GMRES.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Most earlier iterates that are looked back at.
+/// Largest number of earlier iterates used.
 const DEPTH: usize = 40;
-/// Singular values below this part of the largest count as zero.
+/// Threshold of singular values, relative to the largest.
 const SINGULAR: f64 = 1e-12;
 
-/// The iterates so far.
+/// History of the iteration.
 #[derive(Debug, Default)]
 pub struct Anderson {
     /// Differences of iterates and of their corrections, the oldest first.
@@ -18,7 +19,8 @@ pub struct Anderson {
 }
 
 impl Anderson {
-    /// The next iterate after `x`, for which the plain iteration would be `x + correction`.
+    /// Returns the next iterate after `x`; the plain iteration would continue with
+    /// `x + correction`.
     pub fn next(&mut self, x: &[f64], correction: &[f64]) -> Vec<f64> {
         let (x, f) = (DVector::from_column_slice(x), DVector::from_column_slice(correction));
         if let Some((last_x, last_f)) = &self.last {
@@ -50,8 +52,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn linear_equations_take_no_more_iterations_than_unknowns() {
-        // A iterates that would diverge by themselves: x + (b − A x) with eigenvalues of A up to 6.
+    fn linear_problem_converges_within_its_dimension() {
+        // An iteration that diverges by itself: x + (b − A x) with eigenvalues of A up to 6.
         let a = DMatrix::from_fn(5, 5, |i, j| {
             if i == j { 2.0 + i as f64 } else { 1.0 / (2.0 + i as f64 + j as f64) }
         });
@@ -67,7 +69,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cosine_has_its_fixed_point() {
+    fn fixed_point_of_cosine() {
         let mut anderson = Anderson::default();
         let mut x = vec![1.0];
         for _ in 0..7 {

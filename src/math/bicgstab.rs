@@ -1,13 +1,14 @@
-//! Stabilised biconjugate gradients, preconditioned, for systems that are not symmetric
-//! (H. A. van der Vorst 1992, doi 10.1137/0913035).
+//! Preconditioned, stabilised biconjugate gradients for nonsymmetric systems (H. A. van der Vorst
+//! 1992, doi 10.1137/0913035).
 
 use super::conjugate_gradients::{MOST_ITERATIONS, NotConverged, Operator};
 use super::separable::dot;
 
-/// Solves `P A x = P load` from zero, P the preconditioner, until the 2-norm of the residual is below a part of
-/// what it was at first; the solution and how many iterations it took, with two products each.
+/// Solves `P A x = P load` from zero, P the preconditioner, until the 2-norm of the residual is
+/// below a fraction of its initial value. Returns the solution and the number of iterations, with
+/// two products each.
 ///
-/// Neither A nor P need be symmetric. The load is zero where nothing is solved for.
+/// Neither A nor P need be symmetric. The load is zero at fixed unknowns.
 pub fn solve(
     operator: &impl Operator,
     load: &[f64],
@@ -43,7 +44,7 @@ pub fn solve(
         residual.iter_mut().zip(&along).for_each(|(r, v)| *r -= step * v);
         apply(&residual, &mut onward);
         let size = dot(&onward, &onward);
-        // Nothing is left to smooth where the first half of the iteration was enough.
+        // The first half of the iteration sufficed: nothing remains to be smoothed.
         let smoothing = if size > 0.0 { dot(&onward, &residual) / size } else { 0.0 };
         for ((x, d), r) in solution.iter_mut().zip(&direction).zip(&residual) {
             *x += step * d + smoothing * r;
@@ -74,7 +75,7 @@ fn failure(left: f64, first: f64, iterations: usize, tolerance: f64) -> NotConve
 mod tests {
     use super::*;
 
-    /// Diffusion and transport on points at equal distances between two that are held.
+    /// Diffusion and transport on equidistant points between two fixed ones.
     struct Stream(f64);
 
     impl Operator for Stream {
@@ -92,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn systems_that_are_not_symmetric_are_solved() {
+    fn solves_nonsymmetric_systems() {
         for transport in [0.0, 0.1, 0.5] {
             let stream = Stream(transport);
             let wanted: Vec<f64> = (0..30).map(|i| (0.7 * f64::from(i)).sin() + 0.2).collect();
@@ -107,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn no_load_is_no_work_and_no_number_is_no_solution() {
+    fn zero_and_nan_loads() {
         assert_eq!(solve(&Stream(0.3), &[0.0; 5], 1e-10).unwrap(), (vec![0.0; 5], 0));
         for odd in [f64::NAN, f64::INFINITY] {
             assert!(solve(&Stream(0.3), &[0.0, odd, 1.0], 1e-10).is_err());

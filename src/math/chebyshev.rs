@@ -14,24 +14,25 @@
 use super::separable::dot;
 use crate::runtime::allowance::{Allowance, Halt};
 
-/// Largest half width `τΛ/2` of one expansion. Longer steps are cut in equal parts: eigenvalues a
-/// little off the real axis would make terms of the sum grow as `exp(ρ δ²/2)`, δ being their
-/// distance in half widths, and cost digits.
+/// Largest half width `τΛ/2` of one expansion. Longer steps are cut into equal parts: eigenvalues
+/// slightly off the real axis would make terms grow as `exp(ρ δ²/2)`, δ being their distance in
+/// half widths, and lose digits.
 const WIDEST: f64 = 1e4;
-/// What the truncated terms of an expansion may sum up to.
+/// Bound on the sum of the truncated terms of an expansion.
 const TRUNCATION: f64 = 1e-14;
 
-/// Coefficients of `φ₁(ρ(x − 1))`, `φ₂(ρ(x − 1))` … in T_j(x), as many as rounding asks for.
+/// Coefficients of `φ₁(ρ(x − 1))`, `φ₂(ρ(x − 1))` … in T_j(x), truncated at rounding.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Expansion(pub Vec<Vec<f64>>);
 
 impl Expansion {
-    /// The expansion of the first `count` functions for the half width `ρ = τΛ/2 > 0`.
+    /// Expands the first `count` functions for the half width `ρ = τΛ/2 > 0`.
     ///
-    /// From `z φ_{k+1} = φ_k − 1/k!` with `z = ρ(x − 1)` and `x T_j = (T_{j+1} + T_{j−1})/2` the
-    /// coefficients of φ₁ follow as double sums `a_j = 2/ρ Σ_{i>j} (i − j) e_i` of those of e^z, which
-    /// are `e_j = 2 e^{−ρ} I_j(ρ)`; those of φ₂ likewise from `a_j`, and so on. All terms are positive,
-    /// so that nothing cancels. The coefficient of T₀ is half of what the formula gives.
+    /// From `z φ_{k+1} = φ_k − 1/k!` with `z = ρ(x − 1)` and `x T_j = (T_{j+1} + T_{j−1})/2`, the
+    /// coefficients of φ₁ follow as double sums `a_j = 2/ρ Σ_{i>j} (i − j) e_i` of those of e^z,
+    /// which are `e_j = 2 e^{−ρ} I_j(ρ)`. Those of φ₂ follow likewise from `a_j`, and so on. All
+    /// terms are positive, so there is no cancellation. The coefficient of T₀ is half of the
+    /// formula's value.
     pub fn new(half_width: f64, count: usize) -> Self {
         let exponential = exponential_coefficients(half_width);
         let next = |list: &Vec<f64>| Some(double_sums(list, half_width));
@@ -52,20 +53,20 @@ impl Expansion {
     }
 }
 
-/// How a step under constant loads is cut: `(equal parts, products with the matrix in each)`.
+/// Partition of a step under constant loads: `(equal parts, products with the matrix in each)`.
 pub fn products(bound: f64, dt: f64) -> (usize, usize) {
     let parts = parts(bound, dt);
     let width = half_width(bound, dt / parts).min(WIDEST);
     (parts as usize, Expansion::new(width, 1).0[0].len())
 }
 
-/// What rounds over the unknowns of an evolution are called.
+/// Name of the loop over products in messages.
 const PRODUCTS: &str = "products of particles' conduction";
 
 /// A system `u' = A u + Σ b_k t^k/k!` whose matrix has its eigenvalues in `[−bound, 0]` [1/s].
 ///
-/// `apply(row, u)` gives `(A u)_row`; `sources` are the `b_k`: what drives the system at the
-/// beginning, and its time derivatives. There is at least one.
+/// `apply(row, u)` returns `(A u)_row`; `sources` are the `b_k`: the load at the beginning, and its
+/// time derivatives. There is at least one.
 pub struct Evolution<'a, F: Fn(usize, &[f64]) -> f64 + Sync> {
     pub apply: F,
     pub bound: f64,
@@ -74,8 +75,8 @@ pub struct Evolution<'a, F: Fn(usize, &[f64]) -> f64 + Sync> {
 }
 
 impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
-    /// Replaces `u` by its value a time `dt` later and returns `∫ ℓ·u dt` over the step; an empty ℓ
-    /// is zero. What a halt leaves in `u` is of no use.
+    /// Replaces `u` by its value after a time `dt` and returns `∫ ℓ·u dt` over the step; an empty ℓ
+    /// is zero. After a halt the values of `u` are undefined.
     pub fn advance(
         &self,
         u: &mut [f64],
@@ -84,7 +85,7 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
         allowance: &Allowance,
     ) -> Result<f64, Halt> {
         let parts = parts(self.bound, dt);
-        // There is no expansion of widths without end.
+        // No expansion exists for infinite widths.
         allowance.foresee(parts, PRODUCTS, u.len())?;
         let dt = dt / parts;
         let Expansion(functions) =
@@ -94,7 +95,7 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
         let mut integral = 0.0;
         for part in 0..parts as usize {
             if part > 0 {
-                go_on(&mut sources, dt);
+                advance_polynomial(&mut sources, dt);
             }
             integral += dt * dot(functional, u);
             let now: &[f64] = u;
@@ -143,7 +144,7 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
         }
         for (a, b) in terms {
             allowance.spend(1.0, PRODUCTS, v.len())?;
-            // T_{j+1} = 2 X T_j − T_{j−1}, in the place of the latter.
+            // T_{j+1} = 2 X T_j − T_{j−1}, stored over the latter.
             crate::runtime::parallel::for_each(self.threads, &mut before, |row, out| {
                 *out = 2.0 * shifted(row, &now) - *out;
             });
@@ -155,8 +156,8 @@ impl<F: Fn(usize, &[f64]) -> f64 + Sync> Evolution<'_, F> {
     }
 }
 
-/// Brings a polynomial's value and derivatives to a time `dt` later.
-fn go_on(derivatives: &mut [Vec<f64>], dt: f64) {
+/// Advances a polynomial's value and derivatives by a time `dt`.
+fn advance_polynomial(derivatives: &mut [Vec<f64>], dt: f64) {
     for k in 0..derivatives.len() {
         let (own, higher) = derivatives[k..].split_at_mut(1);
         let mut weight = 1.0;
@@ -222,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn the_expansions_are_the_functions_for_any_width() {
+    fn expansions_match_functions_for_any_width() {
         for half_width in [1e-9, 1e-3, 0.5, 7.0, 300.0, WIDEST] {
             let Expansion(functions) = Expansion::new(half_width, 3);
             for x in [-1.0, -0.6, 0.0, 0.7, 0.99, 0.9999] {
@@ -241,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn products_grow_as_the_root_of_the_width() {
+    fn number_of_products_grows_as_root_of_width() {
         let [few, many] = [1e2, 1e4].map(|w| Expansion::new(w, 1).0[0].len() as f64);
         assert!((many / few - 10.0).abs() < 2.5, "{few} {many}");
         assert_eq!(products(2.0, 3.5 * WIDEST).0, 4);
@@ -249,7 +250,7 @@ mod tests {
 
     /// Two coupled bodies: `u' = −(u − v)`, `v' = 3(u − v) + 1`.
     #[test]
-    fn a_small_system_follows_its_closed_form_in_steps_of_any_length() {
+    fn two_body_system_matches_closed_form() {
         let apply = |row: usize, u: &[f64]| [-1.0, 3.0][row] * (u[0] - u[1]);
         for dt in [1e-9, 0.01, 1.0, 40.0, 2.0e4] {
             let sources = [vec![0.0, 1.0]];
@@ -268,9 +269,9 @@ mod tests {
         }
     }
 
-    /// `u' = −λ u + 1 + 2 t + 3 t²/2` beside its φ-functions.
+    /// `u' = −λ u + 1 + 2 t + 3 t²/2` compared with its φ-functions.
     #[test]
-    fn a_source_that_is_quadratic_in_time_makes_no_time_error() {
+    fn quadratic_source_is_integrated_exactly() {
         let rates: [f64; 3] = [0.0, 0.7, 5.0];
         let apply = |row: usize, u: &[f64]| -rates[row] * u[row];
         let sources = [1.0, 2.0, 3.0].map(|b| vec![b; 3]);
@@ -300,7 +301,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_that_would_not_end_is_refused() {
+    fn infinite_step_is_refused() {
         for bound in [1e40, f64::INFINITY] {
             let apply = |row: usize, u: &[f64]| -bound * u[row];
             let evolution = Evolution { apply, bound, sources: &[vec![1.0]], threads: 1 };

@@ -23,7 +23,7 @@ pub struct LowerTriangle {
     pub values: Vec<f64>,
 }
 
-/// `P A Pᵀ = L Lᵀ`, kept for any number of solutions.
+/// The factorisation `P A Pᵀ = L Lᵀ`, reusable for any number of right-hand sides.
 pub struct SparseCholesky {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<f64>,
@@ -80,7 +80,7 @@ impl SparseCholesky {
                 let columns = permuted(matrix, &symbolic);
                 supernodes::factor(panels, &columns, &mut values, &Team::new(threads)).is_ok()
             }
-            // So sparse a factor has no panels worth speaking of.
+            // So sparse a factor has no panels of useful size.
             SymbolicCholeskyRaw::Simplicial(_) => {
                 let matrix = SparseColMatRef::new(pattern, &matrix.values);
                 let need =
@@ -208,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn the_solution_is_the_same_to_the_bit_on_any_number_of_threads() {
+    fn solution_is_bit_identical_for_any_number_of_threads() {
         let n = 24;
         let matrix = cube(n);
         let order = crate::math::nested_dissection::nested_dissection([n - 1; 3], 1);

@@ -1,23 +1,24 @@
-//! Conjugate gradients, preconditioned (M. R. Hestenes and E. Stiefel 1952, doi 10.6028/jres.049.044).
+//! Preconditioned conjugate gradients (M. R. Hestenes and E. Stiefel 1952, doi
+//! 10.6028/jres.049.044).
 
 use super::separable::dot;
 use crate::runtime::parallel::Team;
 
-/// A symmetric positive definite system that is known by what it does to a vector.
+/// A symmetric positive definite system, defined by its product with a vector.
 pub trait Operator {
-    /// `out = A x`, zero where nothing is solved for.
+    /// Computes `out = A x`, zero at fixed unknowns.
     fn apply(&self, x: &[f64], out: &mut [f64]);
 
-    /// `out ≈ A⁻¹ r` by a symmetric positive definite operator, zero where nothing is solved for.
+    /// Computes `out ≈ A⁻¹ r` by a symmetric positive definite operator, zero at fixed unknowns.
     fn precondition(&self, residual: &[f64], out: &mut [f64]);
 }
 
-/// More iterations than a system that suits its preconditioner ever takes.
+/// Iteration limit, above what any system needs that suits its preconditioner.
 pub const MOST_ITERATIONS: usize = 1000;
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error(
-    "conjugate gradients left {residual:e} of the load after {iterations} iterations, where {tolerance:e} is wanted"
+    "conjugate gradients reached a relative residual of {residual:e} after {iterations} iterations; required: {tolerance:e}"
 )]
 pub struct NotConverged {
     pub residual: f64,
@@ -25,7 +26,7 @@ pub struct NotConverged {
     pub tolerance: f64,
 }
 
-/// The power of two next to the largest entry; nothing if one is no number, or all are zero.
+/// Largest power of two up to the largest entry; `None` if that is zero or not finite.
 fn scale_of(load: &[f64]) -> Option<f64> {
     let largest = load.iter().fold(0.0_f64, |largest, value| match value.is_nan() {
         true => f64::INFINITY,
@@ -34,7 +35,8 @@ fn scale_of(load: &[f64]) -> Option<f64> {
     (largest.is_finite() && largest > 0.0).then(|| largest.log2().floor().exp2())
 }
 
-/// Entries that a thread works on at once; sums are added in their order, so they depend on no number of threads.
+/// Entries that a thread processes as one piece. Sums are added in the order of the pieces, so they
+/// do not depend on the number of threads.
 const PIECE: usize = 1 << 12;
 
 /// `aᵀ b`.
@@ -60,10 +62,10 @@ fn turn(team: &Team, direction: &mut [f64], part: f64, improved: &[f64]) {
     });
 }
 
-/// Solves `A x = load` from zero until `√(rᵀ P r)`, P the preconditioner, is below a part of what it was at first;
-/// the solution and how many iterations it took.
+/// Solves `A x = load` from zero until `√(rᵀ P r)`, P the preconditioner, is below a fraction of
+/// its initial value. Returns the solution and the number of iterations.
 ///
-/// The load is zero where nothing is solved for.
+/// The load is zero at fixed unknowns.
 pub fn solve(
     operator: &impl Operator,
     load: &[f64],
@@ -72,13 +74,13 @@ pub fn solve(
 ) -> Result<(Vec<f64>, usize), NotConverged> {
     let mut solution = vec![0.0; load.len()];
     let Some(scale) = scale_of(load) else {
-        // Not `all(0)` alone: a load that is no number has no solution.
+        // Not `all(0)` alone: a load of NaN has no solution.
         return match load.iter().all(|value| *value == 0.0) {
             true => Ok((solution, 0)),
             false => Err(NotConverged { residual: f64::NAN, iterations: 0, tolerance }),
         };
     };
-    // Squares of very large and very small loads are beyond what numbers can be.
+    // Squares of very large and very small loads leave the range of numbers.
     let mut residual: Vec<f64> = load.iter().map(|value| value / scale).collect();
     let mut direction = vec![0.0; load.len()];
     operator.precondition(&residual, &mut direction);
@@ -86,7 +88,7 @@ pub fn solve(
     let wanted = tolerance * tolerance * energy;
     let (mut force, mut improved) = (vec![0.0; load.len()], vec![0.0; load.len()]);
     for iteration in 0..MOST_ITERATIONS {
-        // Not `energy > wanted`, by which what is no number would count as solved.
+        // Not `energy > wanted`, because NaN would then count as solved.
         if energy <= wanted {
             solution.iter_mut().for_each(|value| *value *= scale);
             return Ok((solution, iteration));
@@ -111,7 +113,7 @@ pub fn solve(
 mod tests {
     use super::*;
 
-    /// `−u″` on points at equal distances between two that are held, with its diagonal as preconditioner.
+    /// `−u″` on equidistant points between two fixed ones, with its diagonal as preconditioner.
     struct Rod;
 
     impl Operator for Rod {
@@ -129,7 +131,7 @@ mod tests {
     }
 
     #[test]
-    fn a_loaded_rod_is_a_parabola() {
+    fn uniformly_loaded_rod_is_a_parabola() {
         const N: usize = 40;
         let (solution, iterations) = solve(&Rod, &[1.0; N], 1e-13, &Team::new(1)).unwrap();
         assert!(iterations <= N);
@@ -140,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn solutions_are_in_proportion_to_loads_of_any_size() {
+    fn solution_scales_with_the_load() {
         let (one, _) = solve(&Rod, &[1.0; 9], 1e-13, &Team::new(1)).unwrap();
         for size in [1e-300, 1e-160, 1e160, 1e300] {
             let (solution, _) = solve(&Rod, &[size; 9], 1e-13, &Team::new(1)).unwrap();
@@ -151,7 +153,7 @@ mod tests {
     }
 
     #[test]
-    fn no_load_is_no_work_and_no_number_is_no_solution() {
+    fn zero_and_nan_loads() {
         assert_eq!(solve(&Rod, &[0.0; 5], 1e-10, &Team::new(1)).unwrap(), (vec![0.0; 5], 0));
         for odd in [f64::NAN, f64::INFINITY] {
             let refused = solve(&Rod, &[0.0, odd, 1.0], 1e-10, &Team::new(1)).unwrap_err();

@@ -1,4 +1,4 @@
-//! What of a rectangle lies within a circle about the origin.
+//! Intersection of a rectangle with a circle about the origin.
 
 /// Area of the rectangle `[x₀, x₁] × [y₀, y₁]` that lies within `radius` of the origin.
 pub fn area_within(radius: f64, [[x0, x1], [y0, y1]]: [[f64; 2]; 2]) -> f64 {
@@ -34,7 +34,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_area_is_that_of_many_points() {
+    fn area_matches_sampling() {
         const N: usize = 1000;
         for rectangle in
             [[[-1.0, 1.0], [-1.0, 1.0]], [[0.2, 0.9], [-0.3, 0.8]], [[0.5, 2.0], [0.1, 3.0]]]
@@ -58,7 +58,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_has_the_length_of_its_chord() {
+    fn length_matches_chord() {
         assert_eq!(length_within(5.0, [-9.0, 9.0], 3.0), 8.0);
         assert_eq!(length_within(5.0, [1.0, 9.0], 3.0), 3.0);
         assert_eq!(length_within(5.0, [1.0, 9.0], 6.0), 0.0);

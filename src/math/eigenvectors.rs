@@ -1,4 +1,4 @@
-//! Eigenvectors of dense symmetric matrices, on the thread that calls.
+//! Eigenvectors of dense symmetric matrices, on the calling thread.
 
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -10,7 +10,7 @@ use faer::{Auto, Mat, Par};
 /// Eigenvectors of a symmetric matrix by ascending eigenvalue.
 pub fn eigenvectors(symmetric: &Mat<f64>) -> Mat<f64> {
     let m = symmetric.nrows();
-    // The divide-and-conquer method that faer takes above 128 rows left residuals of 1e-3 of the
+    // The divide-and-conquer method that faer uses above 128 rows left residuals of 1e-3 of the
     // largest eigenvalue on uniform meshes; its QR method stays at rounding.
     let mut parameters: SelfAdjointEvdParams = Auto::<f64>::auto();
     parameters.recursion_threshold = usize::MAX;

@@ -11,7 +11,7 @@ pub trait Eight: Copy + Add<Output = Self> + Mul<Output = Self> {
     fn store(self, to: &mut [f64; 8]);
 }
 
-/// An array, which the compiler turns into the vectors that it may use.
+/// An array, which the compiler maps to the vectors available to it.
 #[derive(Debug, Clone, Copy)]
 pub struct Array([f64; 8]);
 
@@ -60,12 +60,12 @@ mod avx512 {
 
     use super::Eight;
 
-    /// One register of AVX-512. To be used only inside functions compiled for it.
+    /// One AVX-512 register. Use it only inside functions compiled for AVX-512.
     #[derive(Debug, Clone, Copy)]
     pub struct Avx512(__m512d);
 
-    // SAFETY, for all blocks below: values of this type are made only in functions that are called after the processor
-    // was found to have AVX-512F.
+    // SAFETY, for all blocks below: values of this type are created only in functions that are
+    // called after AVX-512F was detected.
     impl Add for Avx512 {
         type Output = Self;
         #[inline(always)]

@@ -1,6 +1,6 @@
 //! Weights of exponential integrators.
 
-/// How many weights [`weights`] gives.
+/// Number of weights that [`weights`] returns.
 pub const COUNT: usize = 5;
 
 /// `1/5, 1/6, …`: from one term of the Taylor series of φ₄ to the next.
@@ -67,7 +67,7 @@ mod tests {
     use crate::math::gauss::gauss_on;
 
     #[test]
-    fn complex_weights_are_their_integrals() {
+    fn complex_weights_match_their_integrals() {
         for z in [[0.0, 0.3], [0.6, 0.7999], [0.6, 0.8001], [1e-3, 5.0], [12.0, 3.0]] {
             let found = complex_weights(z);
             let mut factorial = 1.0;
@@ -88,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn weights_are_their_integrals() {
+    fn weights_match_their_integrals() {
         // φ_k = ∫₀¹ e^{−z (1 − τ)} τ^{k−1}/(k − 1)! dτ
         for z in [0.0, 1e-9, 0.019_999, 0.020_001, 0.3, 0.999_999, 1.0, 1.000_001, 4.0, 20.0] {
             let found = weights(z);

@@ -30,7 +30,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shapes_sum_to_one_and_slopes_to_zero_and_match_differences() {
+    fn shape_functions_partition_unity_and_match_differences() {
         for order in [1, 2] {
             for xi in [-1.0, -0.3, 0.0, 0.7, 1.0] {
                 let h = 1e-6;
@@ -46,7 +46,7 @@ mod tests {
     }
 
     #[test]
-    fn interpolation_repeats_a_cubic() {
+    fn interpolation_is_exact_for_cubics() {
         let points = [0.0, 0.3, 1.0, 1.7];
         let cubic = |x: f64| 1.0 + x * (2.0 - x * (0.5 + x));
         let value: f64 = points

@@ -1,7 +1,7 @@
 //! Fill-reducing order of the nodes of a structured grid by nested dissection.
 
-/// Orders the nodes of a grid (x fastest) for elimination: halves first, the plane of nodes that
-/// parts them last, each half again so.
+/// Orders the nodes of a grid (x fastest) for elimination: first both halves, last the separating
+/// plane of nodes; recursively for each half.
 ///
 /// `elements` is the number of elements along each axis and `order` the order of their shape
 /// functions; planes between elements part the grid whatever the order. Source: A. George 1973,
@@ -21,7 +21,7 @@ struct Part {
     end: [usize; 3],
 }
 
-/// Below this many nodes a part is eliminated as it stands.
+/// Number of nodes below which a part is not divided further.
 const LEAF: usize = 24;
 
 impl Part {
@@ -74,7 +74,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_node_stands_once_in_the_order() {
+    fn order_is_a_permutation() {
         for (elements, order) in [([5, 4, 3], 1), ([3, 3, 2], 2), ([9, 0, 7], 2), ([1, 1, 1], 1)] {
             let mut list = nested_dissection(elements, order);
             list.sort_unstable();

@@ -1,38 +1,41 @@
-//! Products of dense matrices, on the thread that calls and without memory that outlives the call.
+//! Products of dense matrices, on the calling thread and without memory that outlives the call.
 //!
-//! General libraries keep their scratch memory per thread. On a host's thread that would stay after the
-//! last instance of a unit is gone, and with it the library.
+//! General libraries keep scratch memory per thread. On a host's thread that memory would outlive
+//! the last instance of a unit, and keep the library loaded.
 
 use faer::{Mat, MatRef};
 use num_traits::Float;
 
-/// Lets the library that other methods multiply with look up the sizes of the caches, which it does once per process.
+/// Lets the library that other methods multiply with query the cache sizes, which it does once per
+/// process.
 ///
-/// Threads that multiply meanwhile wait for it, so it is called before a fork may find it half done.
+/// Threads that multiply meanwhile wait for the query, so it is made before a fork could interrupt
+/// it.
 pub fn look_up_caches() {
-    // The smallest that is cut into blocks.
+    // The smallest size that is cut into blocks.
     let square = Mat::<f64>::identity(32, 32);
     let product = &square * &square;
     debug_assert_eq!(product, square);
 }
 
-/// `out = left right`, by columns, in single or double precision. Every entry is the sum of its terms in ascending order, whatever
-/// vectors the processor has; rounding differs only where it cannot multiply and add at once.
+/// Computes `out = left right`, by columns, in single or double precision. Every entry is the sum
+/// of its terms in ascending order, for all vector instructions; rounding differs only on
+/// processors without fused multiply–add.
 pub fn product<T: Float>(out: &mut [T], left: MatRef<'_, T>, right: MatRef<'_, T>) {
     assert_eq!(left.ncols(), right.nrows(), "matrices disagree in shape");
     assert_eq!(out.len(), left.nrows() * right.ncols(), "the product has another size");
     #[cfg(target_arch = "x86_64")]
     {
         if is_x86_feature_detected!("avx512f") {
-            // SAFETY: the processor has what the function asks for.
+            // SAFETY: the processor has the features that the function requires.
             return unsafe { product_avx512(out, left, right) };
         }
         if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
-            // SAFETY: the processor has what the function asks for.
+            // SAFETY: the processor has the features that the function requires.
             return unsafe { product_avx2(out, left, right) };
         }
     }
-    // Every processor of this kind multiplies and adds at once.
+    // Every processor of this kind has fused multiply–add.
     #[cfg(target_arch = "aarch64")]
     by_tiles::<T, 8, 6, true>(out, left, right);
     #[cfg(not(target_arch = "aarch64"))]
@@ -57,8 +60,9 @@ fn product_avx2<T: Float>(out: &mut [T], left: MatRef<'_, T>, right: MatRef<'_, 
     }
 }
 
-/// Tiles of `M` rows and `N` columns, whose sums stay in registers. The smaller matrix is laid out by
-/// tiles once, of the other one strip at a time. No closures: these are compiled for every processor.
+/// Works on tiles of `M` rows and `N` columns, whose sums stay in registers. The smaller matrix is
+/// laid out by tiles once, the other one strip by strip. There are no closures: these are compiled
+/// for every processor.
 #[inline(always)]
 fn by_tiles<T: Float, const M: usize, const N: usize, const FUSED: bool>(
     out: &mut [T],
@@ -98,7 +102,7 @@ fn by_tiles<T: Float, const M: usize, const N: usize, const FUSED: bool>(
     }
 }
 
-/// `strip[k]` becomes the rows from `first` on of column k, with zeros beyond the last row.
+/// Sets `strip[k]` to the rows from `first` on of column k, with zeros beyond the last row.
 #[inline(always)]
 fn lay_out<T: Float, const N: usize>(strip: &mut [[T; N]], matrix: MatRef<'_, T>, first: usize) {
     assert!(first < matrix.nrows() && strip.len() <= matrix.ncols());
@@ -132,7 +136,7 @@ fn sums<T: Float, const M: usize, const N: usize, const FUSED: bool>(
     sums
 }
 
-/// Puts a tile at row i and column j of `out`, as far as it lies inside.
+/// Stores the part of a tile at row i and column j that lies inside `out`.
 #[inline(always)]
 fn store<T: Copy, const M: usize>(out: &mut [T], rows: usize, i: usize, j: usize, tile: &[[T; M]]) {
     let high = M.min(rows - i);
@@ -147,7 +151,7 @@ mod tests {
     use faer::Mat;
 
     #[test]
-    fn a_product_is_the_sum_it_says_at_any_size_and_layout() {
+    fn product_matches_its_definition_for_all_sizes_and_layouts() {
         for (rows, depth, columns) in [(1, 1, 1), (17, 5, 3), (3, 40, 17), (33, 12, 64), (5, 0, 4)]
         {
             let left = Mat::from_fn(rows, depth, |i, k| (1.3 * i as f64 - 0.7 * k as f64).sin());
@@ -171,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn tiles_of_all_processors_sum_in_the_same_order() {
+    fn tiles_sum_in_the_same_order_on_all_processors() {
         let left = Mat::from_fn(30, 41, |i, k| ((i * 41 + k) as f64).sin());
         let right = Mat::from_fn(41, 23, |k, j| ((k * 23 + j) as f64).cos());
         let run = |by_tiles: fn(&mut [f64], MatRef<f64>, MatRef<f64>)| {

@@ -6,7 +6,7 @@ use faer::{Mat, MatRef};
 
 use super::product::product;
 
-/// Whether a matrix acts as it is or transposed.
+/// Use of a matrix as is or transposed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {
     Direct,
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn transform_is_the_triple_sum_it_says() {
+    fn transform_matches_its_definition() {
         let (a, b, c) = (matrix(2, 3, 0.1), matrix(4, 2, 0.5), matrix(3, 5, 0.9));
         let values: Vec<f64> = (0..30).map(|i| (0.3 * i as f64).cos()).collect();
         let out = transform(&values, [&a, &b, &c], Side::Direct);

@@ -1,31 +1,31 @@
-//! Singular value decompositions by one-sided rotations, on the thread that calls.
+//! Singular value decomposition by one-sided rotations, on the calling thread.
 //!
-//! `A P = Q R` with the longest column first; columns of `Rᵀ`, of which there are no more than the rank, are turned against
-//! each other until all are orthogonal: then they are `σ u`, and the turns are `V` (M. R. Hestenes 1958, doi
-//! 10.1137/0106005; Z. Drmač and K. Veselić 2008, doi 10.1137/050639193). Small singular values of graded matrices keep
-//! their digits (J. Demmel and K. Veselić 1992, doi 10.1137/0613074), which methods that first make the matrix bidiagonal
-//! lose.
+//! `A P = Q R` with the longest column first. The columns of `Rᵀ`, at most as many as the rank, are
+//! rotated in pairs until all are orthogonal: then they are `σ u`, and the rotations are `V` (M. R.
+//! Hestenes 1958, doi 10.1137/0106005; Z. Drmač and K. Veselić 2008, doi 10.1137/050639193). Small
+//! singular values of graded matrices keep their digits (J. Demmel and K. Veselić 1992, doi
+//! 10.1137/0613074); methods that first make the matrix bidiagonal lose them.
 
 use faer::Mat;
 
 use super::product::product;
 
-/// `A = U diag(σ) Vᵀ` with as many columns as singular values that count, descending.
+/// `A = U diag(σ) Vᵀ` with one column per significant singular value, in descending order.
 pub struct SingularValues {
     pub left: Mat<f64>,
     pub values: Vec<f64>,
     pub right: Mat<f64>,
 }
 
-/// Cosine of the angle between columns that counts as none, and sweeps at most.
+/// Cosine below which two columns count as orthogonal, and the largest number of sweeps.
 const ORTHOGONAL: f64 = 1e-13;
 const SWEEPS: usize = 40;
-/// Columns shorter than this part of the longest are left out.
+/// Length, relative to the longest, below which columns are omitted.
 const SHORT: f64 = 1e-15;
 
-/// Of a matrix; nothing where it holds no numbers.
+/// Decomposes a matrix; `None` if an entry is not finite.
 pub fn singular_values(matrix: &Mat<f64>) -> Option<SingularValues> {
-    // Turns cost as many operations as columns are long, for each pair of them.
+    // Rotations of each pair cost as many operations as columns are long.
     if matrix.ncols() > matrix.nrows() {
         let turned = singular_values(&matrix.transpose().to_owned())?;
         return Some(SingularValues {
@@ -63,13 +63,14 @@ pub fn singular_values(matrix: &Mat<f64>) -> Option<SingularValues> {
     Some(SingularValues { left, values: order.iter().map(|&j| values[j]).collect(), right })
 }
 
-/// Orthonormal columns, and for each of these a row: their products sum up to a matrix.
+/// Orthonormal columns, and a row for each of these: the matrix is the sum of their products.
 struct Factors {
     basis: Vec<Vec<f64>>,
     rows: Vec<Vec<f64>>,
 }
 
-/// Of the columns of a matrix, the longest of what is left first, down to those that are `short`.
+/// Factors a matrix given by columns; always takes the longest remaining one, down to those that
+/// are `short`.
 fn factors(mut left: Vec<Vec<f64>>, short: f64) -> Factors {
     let count = left.len();
     let mut lengths: Vec<f64> = left.iter().map(|column| length(column)).collect();
@@ -78,12 +79,12 @@ fn factors(mut left: Vec<Vec<f64>>, short: f64) -> Factors {
         let longer = |best: usize, j: usize| if lengths[j] > lengths[best] { j } else { best };
         let pivot = (1..count).fold(0, longer);
         let size = lengths[pivot];
-        // Without this, numbers that are none would never end.
+        // Without this, NaN would never end the loop.
         if size.is_nan() || size <= short {
             break;
         }
         let mut unit: Vec<f64> = left[pivot].iter().map(|value| value / size).collect();
-        // What rounding has left along those before is taken away once more.
+        // Orthogonalises once more, against rounding.
         for (before, row) in found.basis.iter().zip(&mut found.rows) {
             let part = dot(before, &unit);
             subtract(&mut unit, part, before);
@@ -109,7 +110,7 @@ fn subtract(from: &mut [f64], part: f64, values: &[f64]) {
     from.iter_mut().zip(values).for_each(|(from, value)| *from -= part * value);
 }
 
-/// Turns all pairs once; whether any was not orthogonal.
+/// Rotates all pairs once; returns true if any was not orthogonal.
 fn sweep(columns: &mut [Vec<f64>], turns: &mut [Vec<f64>], short: f64) -> bool {
     let mut any = false;
     for p in 0..columns.len() {
@@ -117,7 +118,7 @@ fn sweep(columns: &mut [Vec<f64>], turns: &mut [Vec<f64>], short: f64) -> bool {
             let (first, second) = columns.split_at_mut(q);
             let (a, b) = (&mut first[p], &mut second[0]);
             let (aa, bb, ab) = (dot(a, a), dot(b, b), dot(a, b));
-            // What is as short as rounding has no direction.
+            // A column at rounding level has no direction.
             let is_noise = aa.min(bb) <= short * short;
             if is_noise || ab.abs() <= ORTHOGONAL * (aa * bb).sqrt() {
                 continue;
@@ -153,7 +154,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_wide_matrix_of_low_rank_comes_back() {
+    fn low_rank_matrix_is_reproduced() {
         let wave = |a: f64, n: usize| (a * (n as f64 + 1.0)).sin();
         let own = Mat::from_fn(30, 400, |i, j| {
             (1..=5)
@@ -163,7 +164,7 @@ mod tests {
                 .sum()
         });
         let found = singular_values(&own).unwrap();
-        // Beyond the rank there is rounding alone.
+        // Beyond the rank there is only rounding.
         let rounding = 1e-14 * found.values[0];
         assert!(found.values.iter().skip(5).all(|value| *value < rounding), "{:?}", found.values);
         assert!(found.values[4] > 10.0 * rounding && found.values.len() < 30);
@@ -178,7 +179,7 @@ mod tests {
                 let left: f64 = (0..30).map(|i| found.left[(i, a)] * found.left[(i, b)]).sum();
                 assert!((left - wanted).abs() < 1e-12);
                 let right: f64 = (0..400).map(|i| found.right[(i, a)] * found.right[(i, b)]).sum();
-                // What is as short as rounding has no direction.
+                // A column at rounding level has no direction.
                 let is_noise = found.values[a] < rounding;
                 assert!((right - wanted).abs() < 1e-12 || is_noise);
             }
@@ -187,7 +188,7 @@ mod tests {
 
     #[test]
     fn graded_matrices_keep_their_small_singular_values() {
-        // Columns and rows that fall by twelve orders.
+        // Columns and rows whose sizes span twelve orders of magnitude.
         let grade = |i: usize| 10f64.powf(-(i as f64));
         let matrix = |rows: usize, columns: usize| {
             Mat::from_fn(rows, columns, |i, j| {

@@ -1,4 +1,4 @@
-//! Inverses of matrices of a few rows, with their condition number.
+//! Inverses of small matrices, with their condition number.
 
 /// An inverse and `κ₁ = ‖A‖₁ ‖A⁻¹‖₁`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -7,7 +7,7 @@ pub struct SmallInverse<const N: usize> {
     pub condition: f64,
 }
 
-/// Inverse of the leading `n × n` block, by Gauss–Jordan elimination with row pivots; zeros stand
+/// Inverse of the leading `n × n` block, by Gauss–Jordan elimination with row pivots; zeros are
 /// beyond it. `None` where a pivot is zero.
 pub fn inverse<const N: usize>(block: &[[f64; N]; N], n: usize) -> Option<SmallInverse<N>> {
     let mut left = *block;
@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_matrix_times_its_inverse_is_the_identity() {
+    fn product_with_inverse_is_identity() {
         let a = [[0.0, 2.0, 1.0, 9.0], [3.0, -1.0, 0.5, 9.0], [1.0, 4.0, -2.0, 9.0], [9.0; 4]];
         let found = inverse(&a, 3).unwrap();
         for (i, row) in a.iter().enumerate().take(3) {
@@ -66,13 +66,13 @@ mod tests {
     }
 
     #[test]
-    fn the_condition_number_is_that_of_a_diagonal() {
+    fn condition_number_of_a_diagonal_matrix() {
         let a = [[1e3, 0.0], [0.0, 1e-4]];
         assert!((inverse(&a, 2).unwrap().condition / 1e7 - 1.0).abs() < 1e-14);
     }
 
     #[test]
-    fn a_singular_matrix_has_none() {
+    fn singular_matrix_has_no_inverse() {
         assert_eq!(inverse(&[[1.0, 2.0], [2.0, 4.0]], 2), None);
     }
 }

@@ -1,4 +1,4 @@
-//! Sparse matrices by compressed rows.
+//! Sparse matrices in compressed rows.
 
 /// A square matrix by rows; columns ascend in every row.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,7 +34,7 @@ impl SparseRows {
         self.start.push(self.columns.len());
     }
 
-    /// Adds to an entry that is stored already.
+    /// Adds to an entry that is already stored.
     pub fn add(&mut self, row: usize, column: usize, value: f64) {
         let range = self.start[row]..self.start[row + 1];
         let place = self.columns[range.clone()].binary_search(&(column as u32));

@@ -135,7 +135,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn reach_is_what_elements_share() {
+    fn reach_spans_shared_elements() {
         let linear = Reach::of_elements(3, 1);
         assert_eq!((linear.first, linear.last), (vec![0, 0, 1, 2], vec![1, 2, 3, 3]));
         let quadratic = Reach::of_elements(2, 2);
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn multiply_uses_the_blocks_that_were_set() {
+    fn product_uses_stored_blocks() {
         let reach = [1, 2, 1].map(|n| Reach::of_elements(n, 1));
         let mut matrix = StencilMatrix::zeros(reach, [2, 1]);
         matrix.block_mut([0, 0, 0], [1, 1, 1])[1] = 3.0;

@@ -1,11 +1,11 @@
 //! Numeric Cholesky factorisation by supernodes, on the threads of a team.
 //!
-//! A supernode is a run of columns of L below whose diagonal block all have the same rows; it is kept as a
-//! dense panel, which begins as the matrix's own entries, loses the products of the panels that were
-//! finished before, and is factored by itself. Panels that are far apart in the elimination tree do not
-//! know of each other: small subtrees go to one thread each, and the panels above them are worked on by
-//! all threads. Both go through the same tiles, whose sizes do not depend on the number of threads, so
-//! neither do the factor's bits.
+//! A supernode is a run of columns of L with the same rows below their diagonal block, stored as a
+//! dense panel. A panel starts with the matrix's own entries. Then the products of earlier panels
+//! are subtracted, and the panel is factored by itself. Panels far apart in the elimination tree
+//! are independent: small subtrees go to one thread each, and all threads work on the panels above
+//! them. Both use the same tiles, whose sizes do not depend on the number of threads, so the factor
+//! is the same to the bit.
 //!
 //! Source: E. G. Ng, B. W. Peyton 1993, *Block sparse Cholesky algorithms on advanced uniprocessor
 //! computers*, doi 10.1137/0914063.
@@ -23,13 +23,13 @@ use faer::{Accum, Auto, MatMut, MatRef, Par};
 
 use crate::runtime::parallel::Team;
 
-/// Rows and columns of a tile: a multiple of what the kernels for products take at a time.
+/// Rows and columns of a tile: a multiple of the block size of the product kernels.
 const TILE: usize = 192;
 
-/// A subtree goes to one thread if it is at most this part of all work, over the number of threads.
+/// Largest share of all work, over the number of threads, of a subtree that goes to one thread.
 const SHARE: f64 = 1.0 / 8.0;
 
-/// A pivot is not positive.
+/// Error: a pivot is not positive.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NotPositive;
 
@@ -40,7 +40,7 @@ pub struct Columns {
     pub values: Vec<f64>,
 }
 
-/// Computes the panels of L in `values`, one after another as `symbolic` says, which hold zeros before.
+/// Computes the panels of L in `values`, which holds zeros before, in the order of `symbolic`.
 pub fn factor(
     symbolic: &SymbolicSupernodalCholesky<usize>,
     matrix: &Columns,
@@ -73,19 +73,19 @@ pub fn factor(
     Ok(())
 }
 
-/// The supernodes and which of them act on which.
+/// The supernodes and their updates.
 struct Tree<'a> {
     symbolic: &'a SymbolicSupernodalCholesky<usize>,
     matrix: &'a Columns,
-    /// For each supernode the ones before it that act on it, ascending.
+    /// For each supernode the updates from earlier ones, ascending.
     updates: Vec<Vec<Update>>,
     parent: Vec<Option<usize>>,
 }
 
-/// What a finished supernode does to another.
+/// Update from a finished supernode to another.
 struct Update {
     from: usize,
-    /// Which of its rows are columns of the other; these and all later ones act.
+    /// Rows of the finished one that are columns of the other; these and all later ones contribute.
     shared: Range<usize>,
 }
 
@@ -101,7 +101,7 @@ impl Node<'_> {
         self.width + self.pattern.len()
     }
 
-    /// The row of the matrix that a row of the panel is; beyond all of them at the end.
+    /// Matrix row of a panel row; beyond the last one, a number larger than all rows.
     fn row(&self, k: usize) -> usize {
         match k.checked_sub(self.width) {
             None => self.start + k,
@@ -114,11 +114,11 @@ impl Node<'_> {
     }
 }
 
-/// Supernodes that one thread takes, and those above them.
+/// Partition of the supernodes: subtrees for one thread each, and the supernodes above them.
 struct Split {
     /// Ascending.
     top: Vec<usize>,
-    /// The subtree that each supernode is in, and its place there.
+    /// Subtree of each supernode, and its place there.
     subtree: Vec<Option<usize>>,
     place: Vec<usize>,
     count: usize,
@@ -177,7 +177,7 @@ impl<'a> Tree<'a> {
         sizes.map(|size| values.split_off_mut(..size).expect("room for all panels")).collect()
     }
 
-    /// Which supernodes one thread takes, by the operations that they take.
+    /// Partitions the supernodes by their operation counts.
     fn split(&self, threads: usize) -> Split {
         let count = self.parent.len();
         let mut work: Vec<f64> = (0..count)
@@ -218,8 +218,8 @@ impl<'a> Tree<'a> {
         split
     }
 
-    /// Computes one panel from the finished ones, which `done` gives. `places` is scratch: where the
-    /// rows of the matrix stand in this panel.
+    /// Computes one panel from the finished ones, which `done` returns. `places` is scratch: the
+    /// positions of the matrix rows in this panel.
     fn factor_panel<'v>(
         &self,
         s: usize,
@@ -264,8 +264,8 @@ impl<'a> Tree<'a> {
         Ok(())
     }
 
-    /// Subtracts what the finished panels give to one tile of the panel of `s`, with these rows and
-    /// columns of it.
+    /// Subtracts the contributions of the finished panels from one tile of the panel of `s`, with
+    /// these rows and columns of it.
     fn update<'v>(
         &self,
         s: usize,
@@ -321,7 +321,7 @@ impl<'a> Tree<'a> {
     }
 }
 
-/// Tiles of all columns and [`TILE`] rows each, the last one of what is left.
+/// Tiles of all columns and [`TILE`] rows each; the last one holds the rest.
 fn tiles(mut block: MatMut<'_, f64>) -> Vec<MatMut<'_, f64>> {
     let mut tiles = Vec::with_capacity(block.nrows().div_ceil(TILE));
     while block.nrows() > 0 {

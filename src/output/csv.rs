@@ -9,8 +9,8 @@ use crate::variables::{Registry, Slot, Variable};
 
 /// All inputs and outputs over time as comma-separated values (RFC 4180), one row per time.
 ///
-/// Each row goes to the operating system at once, so a run that is cut off loses at most its last
-/// row. Numbers are the shortest that read back to the same bits.
+/// Each row is passed to the operating system at once, so an interrupted run loses at most its last row. Numbers have
+/// the shortest form that reads back to the same bits.
 pub struct CsvTable {
     path: PathBuf,
     file: File,
@@ -18,7 +18,7 @@ pub struct CsvTable {
 }
 
 impl CsvTable {
-    /// Creates the file, and its folder where that is missing, and writes the header.
+    /// Creates the file (and its folder if missing), and writes the header.
     pub fn create(path: &Path, model: &Model) -> Result<Self, OutputError> {
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder).map_err(OutputError::at("create the folder", folder))?;
@@ -41,7 +41,7 @@ impl CsvTable {
         Ok(table)
     }
 
-    /// Whether the file still stands where it was created.
+    /// Checks that the file still exists where it was created.
     pub fn check_present(&self) -> Result<(), OutputError> {
         if is_at(&self.file, &self.path) {
             return Ok(());
@@ -91,7 +91,7 @@ fn is_at(_file: &File, path: &Path) -> bool {
     path.exists()
 }
 
-/// Name and unit of a variable, as a column is headed.
+/// Name and unit of a variable, as the title of its column.
 fn title(variable: &Variable) -> String {
     let unit = variable.quantity.map_or("1", |quantity| quantity.unit());
     format!("{} [{unit}]", variable.name)
@@ -102,7 +102,7 @@ fn number(value: f64) -> String {
     format!("{value:?}")
 }
 
-/// A field in quotation marks where its text would otherwise be taken apart.
+/// Quotes a field whose text would otherwise be split.
 fn quoted(field: &str) -> Cow<'_, str> {
     if field.contains([',', '"', '\n']) {
         format!("\"{}\"", field.replace('"', "\"\"")).into()
@@ -124,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn names_with_two_indices_stay_one_column() {
+    fn names_with_commas_stay_one_column() {
         assert_eq!(quoted("surface.temperature[1,2] [K]"), "\"surface.temperature[1,2] [K]\"");
         assert_eq!(quoted("spot.heat_flux [W/m2]"), "spot.heat_flux [W/m2]");
     }

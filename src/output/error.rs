@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 
 use crate::model::ModelError;
 
-/// Why a file could not be written.
+/// Reasons why a file could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
     /// The operating system refused.
@@ -14,10 +14,10 @@ pub enum OutputError {
         folder.display()
     )]
     Busy { folder: PathBuf },
-    /// A file that was written is there no more, or another one in its place.
-    #[error("{} is gone: it was removed or replaced while the run went on", path.display())]
+    /// A written file was removed, or replaced by another one.
+    #[error("{} was removed or replaced during the run", path.display())]
     Gone { path: PathBuf },
-    /// The value that was to be written could not be computed.
+    /// The value to be written could not be computed.
     #[error(transparent)]
     Model(#[from] ModelError),
     #[error("{name}: {reason}")]
@@ -25,7 +25,7 @@ pub enum OutputError {
 }
 
 impl OutputError {
-    /// Turns the operating system's reason into an error that says what was tried, and where.
+    /// Converts the operating system's reason into an error with the attempted action and its path.
     pub(super) fn at(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_owned();
         move |reason| Self::File { action, path, reason }

@@ -4,16 +4,17 @@ use std::process;
 
 use super::OutputError;
 
-/// Keeps a folder for one writer, of this process or another; let go when dropped, and by the system when
-/// the process ends.
+/// Exclusive lock of a folder for one writer, of this process or another. It is released when dropped, and by the
+/// system when the process ends.
 pub struct FolderLock {
     file: Option<File>,
-    /// Process that took it. One that was forked from it shares the lock, and must not let it go.
+    /// Process that took the lock. A forked child shares the lock and must not release it.
     process: u32,
 }
 
 impl FolderLock {
-    /// Creates the folder where it is missing. Where the system locks no folders, everybody may write.
+    /// Takes the lock; creates the folder if it is missing. Where the system cannot lock folders, there is no
+    /// exclusion.
     pub fn take(folder: &Path) -> Result<Self, OutputError> {
         fs::create_dir_all(folder).map_err(OutputError::at("create the folder", folder))?;
         let locked = |file| Self { file, process: process::id() };
@@ -28,7 +29,7 @@ impl FolderLock {
 
 impl Drop for FolderLock {
     fn drop(&mut self) {
-        // A forked process may have the file open, too.
+        // A forked process may also hold the file open.
         if let Some(file) = self.file.as_ref().filter(|_| self.process == process::id()) {
             let _ = file.unlock();
         }
@@ -40,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_folder_has_one_writer_at_a_time() {
+    fn folder_has_one_writer_at_a_time() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("fields");
         let first = FolderLock::take(&path).unwrap();
@@ -51,7 +52,7 @@ mod tests {
     }
 
     #[test]
-    fn a_forked_process_leaves_the_lock_to_its_parent() {
+    fn fork_leaves_the_lock_to_its_parent() {
         let folder = tempfile::tempdir().unwrap();
         let own = FolderLock::take(folder.path()).unwrap();
         let file = own.file.as_ref().map(|file| file.try_clone().unwrap());

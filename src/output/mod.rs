@@ -1,4 +1,4 @@
-//! Files for people and viewers, made from Model and State only.
+//! Output files for people and viewers, made from Model and State only.
 
 mod csv;
 mod error;

@@ -12,25 +12,24 @@ use crate::body::Fields;
 use crate::model::{Cache, Model, State};
 use crate::scene::{Scene, Shape};
 
-/// The fields of all bodies as ParaView time series: `BODY.pvd` lists one `BODY_NNNNNN.vtr` (the nodes
-/// of a box), `.vts` (those of a disc, turned round its axis) or `.vtp` (the particles of a droplet) a
-/// time.
+/// The fields of all bodies as ParaView time series. For each time `BODY.pvd` lists one `BODY_NNNNNN.vtr` (the nodes of
+/// a box), `.vts` (those of a disc, revolved about its axis) or `.vtp` (the particles of a droplet).
 ///
-/// Files appear whole or not at all, and the list is brought up to date after each time, so a run
-/// that is cut off leaves a readable series; a time of which a file cannot be written is not listed. A
-/// state whose time is not past the last one replaces what was written from that time on. Files of the
-/// series that are listed no more are removed, those of an earlier run too.
+/// Files appear whole or not at all, and the list is updated after each time, so an interrupted run leaves a readable
+/// series. A time with a file that cannot be written is not listed. A state whose time is not later than the last one
+/// replaces all times from its own on. Files of the series that are no longer listed are removed, also those of an
+/// earlier run.
 pub struct FieldSeries {
     directory: PathBuf,
-    /// Names and kinds of their files.
+    /// Names of the bodies, and kinds of their files.
     bodies: Vec<(String, Kind)>,
     /// Times written so far, ascending [s].
     times: Vec<f64>,
 }
 
 impl FieldSeries {
-    /// Creates the folder where it is missing, and empty lists in it; removes the files that a series of
-    /// these bodies left there.
+    /// Creates the folder if it is missing, and empty lists in it; removes the files of an earlier series of these
+    /// bodies.
     pub fn create(directory: &Path, model: &Model) -> Result<Self, OutputError> {
         fs::create_dir_all(directory).map_err(OutputError::at("create the folder", directory))?;
         let series = Self::of(directory, model.scene());
@@ -41,7 +40,7 @@ impl FieldSeries {
         Ok(series)
     }
 
-    /// A series without times, of which nothing is written yet.
+    /// A series without times, with nothing written yet.
     fn of(directory: &Path, scene: &Scene) -> Self {
         let solids = scene.solids().map(|(name, solid)| {
             let kind = match solid.shape {
@@ -55,8 +54,8 @@ impl FieldSeries {
         Self { directory: directory.to_owned(), bodies, times: Vec::new() }
     }
 
-    /// Removes the series of a model's bodies from a folder, files that were never finished included. What cannot
-    /// be removed is an error: it would pass for fields of a later run.
+    /// Removes the series of a model's bodies from a folder, including unfinished files. A file that cannot be removed
+    /// is an error: it would be mistaken for a field of a later run.
     pub fn remove(directory: &Path, model: &Model) -> Result<(), OutputError> {
         let series = Self::of(directory, model.scene());
         let Ok(entries) = fs::read_dir(directory) else { return Ok(()) };
@@ -68,7 +67,7 @@ impl FieldSeries {
         Ok(())
     }
 
-    /// Whether a name is that of a list of the series.
+    /// Returns true if a name is that of a list of the series.
     fn is_list(&self, name: &str) -> bool {
         self.bodies.iter().any(|(body, _)| name.strip_suffix(".pvd") == Some(body.as_str()))
     }
@@ -82,7 +81,7 @@ impl FieldSeries {
         Some(directory.join(own))
     }
 
-    /// Whether all files that the lists name are there, and the lists.
+    /// Checks that the lists and all their files exist.
     pub fn check_present(&self) -> Result<(), OutputError> {
         let files = self.bodies.iter().flat_map(|body| {
             let files = (0..self.times.len()).map(|place| file_name(body, place));
@@ -95,7 +94,7 @@ impl FieldSeries {
         }
     }
 
-    /// Forgets the times after `time` [s]: a state of that time was restored.
+    /// Discards the times after `time` [s], when a state of that time was restored.
     pub fn go_back(&mut self, time: f64) -> Result<(), OutputError> {
         self.times.retain(|&written| written <= time);
         self.bodies.iter().try_for_each(|body| self.write_list(body))?;
@@ -103,8 +102,7 @@ impl FieldSeries {
         Ok(())
     }
 
-    /// Removes files of the series that are not listed, whole or not. What cannot be removed is in nobody's
-    /// way.
+    /// Removes unlisted files of the series, complete or not. Files that cannot be removed do no harm.
     fn remove_unlisted(&self) {
         let Ok(entries) = fs::read_dir(&self.directory) else { return };
         let names = entries.flatten().filter_map(|entry| entry.file_name().into_string().ok());
@@ -113,7 +111,7 @@ impl FieldSeries {
         }
     }
 
-    /// Whether a name is that of an unfinished file of the series, or of one beyond its times.
+    /// Returns true if a name is that of an unfinished file of the series, or of one beyond its times.
     fn is_unlisted(&self, name: &str) -> bool {
         let (whole, is_unfinished) = match name.split_once(".part") {
             Some((whole, _)) => (whole, true),
@@ -141,7 +139,7 @@ impl FieldSeries {
     ) -> Result<(), OutputError> {
         if self.times.last().is_some_and(|&last| last >= state.time) {
             self.times.retain(|&time| time < state.time);
-            // What is replaced is not listed while that goes on.
+            // Files are unlisted while they are replaced.
             self.bodies.iter().try_for_each(|body| self.write_list(body))?;
             self.remove_unlisted();
         }
@@ -182,7 +180,7 @@ impl FieldSeries {
     }
 }
 
-/// What a body's files hold.
+/// Content of a body's files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Grid,
@@ -190,7 +188,7 @@ enum Kind {
     Particles,
 }
 
-/// Fewest digits of a file's number.
+/// Smallest number of digits of a file's number.
 const DIGITS: usize = 6;
 
 /// Name of the file of a body at its `place`-th time.
@@ -228,12 +226,12 @@ fn write_collection(out: impl Write, body: &(String, Kind), times: &[f64]) -> io
     Ok(())
 }
 
-/// Writes a file beside `path` and puts it in its place once it is complete; nothing is left beside it.
+/// Writes a temporary file next to `path` and renames it once it is complete; leaves no temporary file.
 fn replace(
     path: &Path,
     write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
 ) -> Result<(), OutputError> {
-    // Of its own, should another series be written to the same folder.
+    // A unique name, in case another series is written to the same folder.
     static COUNT: AtomicUsize = AtomicUsize::new(0);
     let count = COUNT.fetch_add(1, Ordering::Relaxed);
     let mut unfinished = path.as_os_str().to_owned();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-/// How the wall is cut.
+/// Division of the wall into cells.
 #[derive(Debug, Clone, PartialEq)]
 pub enum WallCells {
     /// Concentric rings of equal width out to `radius` [m] about the origin.
@@ -16,17 +16,17 @@ pub enum WallCells {
     RadialNodes { r: Vec<f64> },
 }
 
-/// What the fluid gave to the cells of the wall during one step.
+/// Heat and momentum that the cells of the wall received during one step.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct WallExchange {
     /// Length of the step [s].
     pub duration: f64,
-    /// [J] for each cell.
+    /// Heat of each cell [J].
     pub heat: Vec<f64>,
-    /// Momentum along x, y, z [N s] for each cell; along z it points into the wall when negative.
-    /// For rings and radial nodes, x holds the radial part and y nothing.
+    /// Impulse along x, y, z [N s] of each cell; negative z points into the wall. For rings and
+    /// radial nodes, x is the radial component and y is zero.
     pub impulse: Vec<[f64; 3]>,
-    /// Parts that were given beyond the outermost cells.
+    /// Heat and impulse beyond the outermost cells.
     pub heat_outside: f64,
     pub impulse_outside: [f64; 3],
 }
@@ -45,18 +45,18 @@ impl WallCells {
         self.len() == 0
     }
 
-    /// Whether which cells share depends on the distance from the origin alone.
+    /// Returns true if a position's cells depend on its distance from the origin alone.
     pub fn are_radial(&self) -> bool {
         matches!(self, WallCells::Rings { .. } | WallCells::RadialNodes { .. })
     }
 
-    /// Whether nothing lies beyond the outermost cells: those of a body end with it, while a wall of rings or
-    /// tiles goes on at the temperature of its outermost cells.
+    /// Returns true if nothing lies beyond the outermost cells. The cells of a body end with it; a
+    /// wall of rings or tiles continues at the temperature of its outermost cells.
     pub fn end_with_the_body(&self) -> bool {
         matches!(self, WallCells::Nodes { .. } | WallCells::RadialNodes { .. })
     }
 
-    /// Area of each cell in a part of the wall [m²], of functions their integral.
+    /// Area of each cell in a part of the wall [m²]; for nodal functions, their integral.
     pub fn areas(&self, domain: Domain) -> Vec<f64> {
         let length = |axis: usize, low: f64, high: f64| match domain.along[axis] {
             Some([first, last]) => (high.min(last) - low.max(first)).max(0.0),
@@ -90,7 +90,7 @@ impl WallCells {
         }
     }
 
-    /// The middle of each cell, or the node of its function [m]; of rings along x.
+    /// The middle of each cell, or the node of its function [m]; for rings along x.
     pub fn middles(&self) -> Vec<[f64; 2]> {
         match self {
             WallCells::Rings { count, radius } => {
@@ -118,7 +118,7 @@ impl WallCells {
         }
     }
 
-    /// The cells that an image of a cell comes to, and their parts of it, where mirrors turn x and y by signs.
+    /// Cells that receive the image of a cell, and their weights; `signs` reflect x and y.
     pub fn image(&self, cell: usize, signs: [f64; 2]) -> Vec<(usize, f64)> {
         if signs == [1.0; 2] {
             return vec![(cell, 1.0)];
@@ -130,34 +130,34 @@ impl WallCells {
         let at = [0, 1].map(|axis| [signs[axis] * middle[axis]; 2]);
         let cover = self.cover(at);
         match cover.cells.is_empty() {
-            // Of a body that does not reach as far on this side.
+            // The body extends less far on this side.
             true => vec![(cover.nearest, 1.0)],
             false => cover.cells,
         }
     }
 }
 
-/// A part of the wall.
+/// A region of the wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Domain {
-    /// From where to where along x and y [m]; nothing along an axis that a plane model has not, where it is a
-    /// metre deep.
+    /// Range along x and y [m]; `None` along the axis that a plane model lacks, where it is a metre
+    /// deep.
     pub along: [Option<[f64; 2]>; 2],
-    /// Number of such parts in a circle about the origin.
+    /// Number of such regions in a circle about the origin.
     pub images: f64,
 }
 
 impl Domain {
     const WHOLE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
-    /// All of the wall below a model of two or three dimensions.
+    /// The entire wall below a model of two or three dimensions.
     pub fn whole(dimension: usize) -> Self {
         Self { along: [Some(Self::WHOLE), (dimension == 3).then_some(Self::WHOLE)], images: 1.0 }
     }
 }
 
 impl WallExchange {
-    /// Adds what was given during another step.
+    /// Adds the exchange of another step.
     pub fn add(&mut self, other: &Self) {
         self.duration += other.duration;
         self.heat_outside += other.heat_outside;
@@ -174,7 +174,7 @@ impl WallExchange {
     }
 }
 
-/// Integrals between two ends of the functions that are linear between nodes, with a weight that is linear too.
+/// Integrals, between two ends, of the functions linear between nodes, times a linear weight.
 fn hat_integrals(nodes: &[f64], [first, last]: [f64; 2], weight: impl Fn(f64) -> f64) -> Vec<f64> {
     let mut integrals = vec![0.0; nodes.len()];
     for (n, ends) in nodes.windows(2).enumerate() {

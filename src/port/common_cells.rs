@@ -1,41 +1,43 @@
-//! Two faces that touch: the cells that both have in common.
+//! Common cells of two faces in contact.
 
 use std::f64::consts::PI;
 
 use super::cells::{Domain, WallCells};
 use super::lateral_modes::LateralModes;
 
-/// Places where two faces touch: wherever either has the end of an element, as far as both reach. Seen from either
-/// face, what is between its own places is linear, so that all that leaves the one enters the other.
+/// Places of the contact of two faces: the element ends of either face, within the extent of both.
+/// On either face, everything is linear between its own places, so that all heat that leaves one
+/// face enters the other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CommonCells {
     /// Coordinates along x and y, or radii and none [m].
     places: [Vec<f64>; 2],
-    /// Of the area that belongs to each place [m²].
+    /// Area that belongs to each place [m²].
     pub areas: Vec<f64>,
-    /// Places of fluxes, which are linear between them: along each axis those of the face that has fewer. Fluxes that
-    /// vary faster than one of the faces can follow would be found by rounding alone.
+    /// Places of fluxes, which are linear between them: along each axis those of the face with
+    /// fewer places. Fluxes that vary faster than one of the faces resolves would be determined by
+    /// rounding alone.
     flux_places: [Vec<f64>; 2],
     flux_areas: Vec<f64>,
-    /// For each face, and last for fluxes, and axis: where each place lies between those.
+    /// For each face, then for fluxes, and for each axis: the interpolation of each place.
     between: [[Vec<Between>; 2]; 3],
 }
 
-/// Fluxes among the faces.
+/// Index of the fluxes, after the faces.
 const FLUXES: usize = 2;
 
-/// Between the places `first` and the next, by this part of their distance.
+/// Interpolation between the place `first` and the next, at this fraction of their distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Between {
     first: usize,
     part: f64,
 }
 
-/// Relative distance below which two places are one.
+/// Relative distance below which two places coincide.
 const SAME: f64 = 1e-9;
 
 impl CommonCells {
-    /// Nothing where one face is round and the other is not.
+    /// Common cells of two faces; `None` if only one of them is round.
     pub fn of(faces: [&WallCells; 2]) -> Option<Self> {
         let axes = match faces {
             [WallCells::Nodes { x, y }, WallCells::Nodes { x: other_x, y: other_y }] => {
@@ -64,7 +66,7 @@ impl CommonCells {
         Some(cells)
     }
 
-    /// Modes of heat along the places of fluxes.
+    /// Modes of heat on the places of fluxes.
     pub fn modes(&self) -> LateralModes {
         let [x, y] = &self.flux_places;
         if y.len() == 1 && *y == [0.0] {
@@ -95,12 +97,12 @@ impl CommonCells {
         self.flux_areas.len()
     }
 
-    /// Fluxes at the common places from those at their own.
+    /// Interpolates fluxes from their own places to the common ones.
     pub fn spread(&self, fluxes: &[f64]) -> Vec<f64> {
         self.values(FLUXES, fluxes, self.flux_places[0].len())
     }
 
-    /// Means about the places of fluxes of values at the common ones.
+    /// Averages values at the common places about the places of fluxes.
     pub fn means(&self, values: &[f64]) -> Vec<f64> {
         let amounts: Vec<f64> = values.iter().zip(&self.areas).map(|(v, area)| v * area).collect();
         let gathered = self.gathered(&amounts);
@@ -112,13 +114,14 @@ impl CommonCells {
         self.deposit(FLUXES, amounts, [x, x * y])
     }
 
-    /// Values at the common places from those of a face's own, of which there are `width` along x.
+    /// Interpolates a face's values from its own places, `width` of them along x, to the common
+    /// ones.
     pub fn values(&self, face: usize, own: &[f64], width: usize) -> Vec<f64> {
         let value = |weights: [(usize, f64); 4]| weights.map(|(at, w)| w * own[at]).iter().sum();
         (0..self.len()).map(|place| value(self.weights(face, place, width))).collect()
     }
 
-    /// Amounts at a face's own places, of which there are `count`, from those at the common ones.
+    /// Distributes amounts at the common places to a face's own places, of which there are `count`.
     pub fn deposit(&self, face: usize, amounts: &[f64], [width, count]: [usize; 2]) -> Vec<f64> {
         let mut own = vec![0.0; count];
         for (place, amount) in amounts.iter().enumerate() {
@@ -129,7 +132,7 @@ impl CommonCells {
         own
     }
 
-    /// The four own places about a common one and their weights.
+    /// The four own places around a common one, and their weights.
     fn weights(&self, face: usize, place: usize, width: usize) -> [(usize, f64); 4] {
         let columns = self.places[0].len();
         let [x, y] = &self.between[face];
@@ -160,7 +163,7 @@ impl Between {
     }
 }
 
-/// The places of the list that has fewer within what both span, with the ends of that.
+/// The places of the shorter list within the common span, with the ends of that span.
 fn fewer(lists: [&[f64]; 2], common: &[f64]) -> Vec<f64> {
     let (low, high) = (common[0], common[common.len() - 1]);
     let slack = SAME * (high - low);
@@ -177,7 +180,7 @@ fn fewer(lists: [&[f64]; 2], common: &[f64]) -> Vec<f64> {
     }
 }
 
-/// The places of two lists within what both span, ascending, each once.
+/// The places of both lists within their common span, ascending, without duplicates.
 fn merged([a, b]: [&[f64]; 2]) -> Vec<f64> {
     let ends = |list: &[f64]| [list[0], list[list.len() - 1]];
     let ([a0, a1], [b0, b1]) = (ends(a), ends(b));
@@ -207,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn areas_are_those_of_the_overlap() {
+    fn areas_sum_to_the_overlap() {
         let wanted = [2.0 * 2.0, std::f64::consts::PI * 1.5 * 1.5];
         for ([a, b], wanted) in faces().iter().zip(wanted) {
             let common = CommonCells::of([a, b]).unwrap();
@@ -218,7 +221,7 @@ mod tests {
     }
 
     #[test]
-    fn all_amounts_arrive_where_they_are() {
+    fn deposits_preserve_amounts_and_values_linear_functions() {
         for pair in faces() {
             let common = CommonCells::of([&pair[0], &pair[1]]).unwrap();
             let amounts: Vec<f64> = (0..common.len()).map(|i| (i as f64).sin()).collect();

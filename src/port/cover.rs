@@ -1,22 +1,22 @@
-//! Which cells of a wall a small rectangle of it covers, and by how much.
+//! Weights of a wall's cells in a small rectangle of it.
 
 use super::cells::WallCells;
 use crate::math::disc_rectangle::{area_within, length_within};
 use crate::math::gauss::gauss_on;
 
-/// Parts of a rectangle, line or point on the wall that belong to its cells.
+/// Fractions of a rectangle, line or point on the wall that belong to its cells.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Cover {
     /// Index and weight of each cell; they sum, with `outside`, to 1.
     pub cells: Vec<(usize, f64)>,
-    /// Part beyond the outermost cells.
+    /// Fraction beyond the outermost cells.
     pub outside: f64,
     /// The cell nearest to the middle.
     pub nearest: usize,
 }
 
 impl Cover {
-    /// Mean of a value of each cell; beyond the outermost cells that of the nearest.
+    /// Mean of a value per cell; beyond the outermost cells the nearest one counts.
     pub fn mean(&self, value: impl Fn(usize) -> f64) -> f64 {
         let inside: f64 = self.cells.iter().map(|&(cell, weight)| weight * value(cell)).sum();
         inside + self.outside * value(self.nearest)
@@ -24,8 +24,8 @@ impl Cover {
 }
 
 impl WallCells {
-    /// Which cells a rectangle [m] covers. Functions of cells count by their means over it. So what happens in a
-    /// small part of the wall arrives where it is, however wide cells are beside it.
+    /// Weights of the cells in a rectangle [m]; nodal functions count by their means over it. So a
+    /// contribution arrives where it occurs, even next to wide cells.
     pub fn cover(&self, rectangle: [[f64; 2]; 2]) -> Cover {
         match self {
             WallCells::Rings { count, radius } => {
@@ -53,7 +53,7 @@ impl WallCells {
 }
 
 impl WallCells {
-    /// Which cells a ring between two radii [m] covers, of cells that are round themselves.
+    /// Weights of round cells in a ring between two radii [m].
     pub fn cover_ring(&self, [inner, outer]: [f64; 2]) -> Cover {
         let square = |r: f64| r.clamp(inner, outer).powi(2);
         let within = |r: f64| (square(r) - inner * inner) / (outer * outer - inner * inner);
@@ -69,7 +69,7 @@ impl WallCells {
     }
 }
 
-/// Parts of an interval in the cells between 0, 1, … count.
+/// Fractions of an interval in the cells between 0, 1, … count.
 fn intervals([low, high]: [f64; 2], count: usize) -> Cover {
     let cell = |at: f64| (at.floor().max(0.0) as usize).min(count - 1);
     let nearest = cell(0.5 * (low + high));
@@ -85,7 +85,7 @@ fn intervals([low, high]: [f64; 2], count: usize) -> Cover {
     complete((cell(low)..=cell(high)).map(part).collect(), nearest)
 }
 
-/// Means over an interval of the functions that are linear between nodes.
+/// Means over an interval of the functions linear between nodes.
 fn hats(nodes: &[f64], [low, high]: [f64; 2]) -> Cover {
     let last = nodes.len() - 1;
     let middle = 0.5 * (low + high);
@@ -122,7 +122,7 @@ fn hats(nodes: &[f64], [low, high]: [f64; 2]) -> Cover {
     complete(cells, nearest)
 }
 
-/// Cells of two axes together.
+/// Combines the cells of two axes.
 fn product([x, y]: [Cover; 2], index: impl Fn(usize, usize) -> usize) -> Cover {
     let of_row = |&(j, b): &(usize, f64)| {
         let column = |&(i, a): &(usize, f64)| (index(i, j), a * b);
@@ -132,7 +132,8 @@ fn product([x, y]: [Cover; 2], index: impl Fn(usize, usize) -> usize) -> Cover {
     complete(cells, index(x.nearest, y.nearest))
 }
 
-/// Of what has a middle, a nearest and a farthest point at some distances, and a part within a radius.
+/// Weights of rings in a region, from the distances of its middle, nearest and farthest point and
+/// its fraction within a radius.
 fn rings(
     count: usize,
     radius: f64,
@@ -147,8 +148,8 @@ fn rings(
     complete((first..=last).map(part).collect(), nearest)
 }
 
-/// Means of functions linear in the radius: between two nodes `∫ (r − r₁)/(r₂ − r₁) dA`, with the area A(r)
-/// within r, is `A(r₂) − ∫ A dr/(r₂ − r₁)`. A is smooth but for some bends.
+/// Means of functions linear in the radius: between two nodes `∫ (r − r₁)/(r₂ − r₁) dA`, with the
+/// area A(r) within r, is `A(r₂) − ∫ A dr/(r₂ − r₁)`. A is smooth except at a few kinks.
 fn radial_hats(
     nodes: &[f64],
     [middle, least, most]: [f64; 3],
@@ -176,7 +177,7 @@ fn radial_hats(
     complete(cells, hats(nodes, [middle; 2]).nearest)
 }
 
-/// Where a circle about the origin comes to an edge or a corner of a rectangle.
+/// Radii at which a circle about the origin meets an edge or a corner of a rectangle.
 fn bends([x, y]: [[f64; 2]; 2]) -> Vec<f64> {
     let corners = x.into_iter().flat_map(|x| y.map(|y| x.hypot(y)));
     x.into_iter().chain(y).map(f64::abs).chain(corners).collect()
@@ -190,7 +191,7 @@ fn distances([x, y]: [[f64; 2]; 2]) -> [f64; 3] {
     [middle(x).hypot(middle(y)), nearest(x).hypot(nearest(y)), farthest(x).hypot(farthest(y))]
 }
 
-/// Part of a rectangle, of a line along x where it is no higher, or of a point within a radius.
+/// Fraction within a radius of a rectangle, of a line along x if its height is zero, or of a point.
 fn part_within(radius: f64, [x, y]: [[f64; 2]; 2]) -> f64 {
     let [width, height] = [x, y].map(|[low, high]| high - low);
     if height > 0.0 && width > 0.0 {
@@ -209,11 +210,11 @@ fn add(cells: &mut Vec<(usize, f64)>, cell: usize, weight: f64) {
     }
 }
 
-/// What the cells leave is outside of them.
+/// Assigns the remainder to the outside.
 fn complete(mut cells: Vec<(usize, f64)>, nearest: usize) -> Cover {
     cells.retain(|&(_, weight)| weight > 0.0);
     let inside: f64 = cells.iter().map(|&(_, weight)| weight).sum();
-    // Rounding is not outside.
+    // Rounding does not count as outside.
     const ROUNDING: f64 = 1e-9;
     if inside > 1.0 - ROUNDING {
         cells.iter_mut().for_each(|(_, weight)| *weight /= inside);
@@ -255,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn squares_that_tile_the_wall_give_every_cell_its_area() {
+    fn squares_tiling_the_wall_reproduce_cell_areas() {
         for cells in grids() {
             let (width, mut found) = (0.125, vec![0.0; cells.len()]);
             for i in -20..20 {
@@ -273,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn rings_that_tile_the_wall_give_every_cell_its_area() {
+    fn rings_tiling_the_wall_reproduce_cell_areas() {
         let [cells, _, _, nodes] = grids();
         for cells in [cells, nodes] {
             let (width, mut found) = (0.3, vec![0.0; cells.len()]);
@@ -292,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn means_of_a_plane_are_those_in_the_middle() {
+    fn mean_of_a_linear_field_is_its_central_value() {
         let [_, _, cells, _] = grids();
         let y = [-1.0, 0.5, 1.0];
         let WallCells::Nodes { x, .. } = &cells else { unreachable!() };
@@ -307,7 +308,7 @@ mod tests {
     }
 
     #[test]
-    fn cells_are_counted_as_their_variables_are() {
+    fn cell_order_matches_variable_order() {
         let [rings, tiles, ..] = grids();
         let cell = |cells: &WallCells, at| cells.cover(square(at, [0.0; 2])).cells[0].0;
         assert_eq!(cell(&rings, [0.0, 0.5]), 1);

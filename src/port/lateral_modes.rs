@@ -1,21 +1,23 @@
-//! Modes of heat along the cells that two faces have in common.
+//! Lateral modes of heat on the common cells of two faces.
 
 use faer::Mat;
 
 use crate::math::eigenvectors::eigenvectors;
 use crate::math::separable::{Side, transform};
 
-/// Modes along x and y, or along the radius, of linear elements between places, whose ends are insulated.
+/// Modes along x and y, or along the radius, of linear elements between places, with insulated
+/// ends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LateralModes {
-    /// Squared wave numbers of their products, along x fastest [1/m²].
+    /// Squared wave numbers of the modes' products, x fastest [1/m²].
     pub decay: Vec<f64>,
     to_modes: [Mat<f64>; 2],
     to_places: [Mat<f64>; 2],
 }
 
 impl LateralModes {
-    /// Of places, the lengths or areas that belong to them, and a weight between two of them: 1, or that of a ring.
+    /// Modes of places with their lengths or areas, and a weight between two places: 1, or that of
+    /// a ring.
     pub fn of(axes: [(&[f64], Vec<f64>); 2], weight: impl Fn(f64) -> f64) -> Self {
         let [x, y] = axes.map(|(places, lengths)| Axis::of(places, &lengths, &weight));
         let decay = y.decay.iter().flat_map(|b| x.decay.iter().map(move |a| a + b)).collect();
@@ -78,7 +80,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn modes_give_back_values_and_decay_as_waves() {
+    fn modes_reproduce_values_and_decay_as_waves() {
         let places: Vec<f64> = (0..41).map(|n| f64::from(n) / 40.0).collect();
         let lengths = (0..41).map(|n| if n % 40 == 0 { 0.0125 } else { 0.025 }).collect();
         let modes = LateralModes::of([(&places, lengths), (&[0.0], vec![1.0])], |_| 1.0);

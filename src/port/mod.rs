@@ -1,5 +1,6 @@
-//! Where bodies meet: a face cut into cells, what passes through these, and how a face answers to it. Every kind of body
-//! exchanges by these alone, whatever its method.
+//! Exchange between bodies: the cells of a face, the heat and momentum through these, and the
+//! response of a face to heat. Bodies of every kind exchange through these alone, whatever their
+//! method.
 
 mod cells;
 mod common_cells;

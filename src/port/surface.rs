@@ -1,4 +1,4 @@
-//! The surface of what lies below a fluid: its temperature over a step, and how that answers to heat.
+//! The surface below a fluid: its temperature over a step, and its response to heat.
 
 use std::f64::consts::FRAC_2_PI;
 
@@ -15,11 +15,12 @@ pub struct SurfaceResponse {
 
 /// Distance of the logarithms of two neighbouring s in the sum for a half space.
 const INTERVAL: f64 = 0.5;
-/// Least s√t and largest s√t of that sum, for the longest and the shortest time.
+/// Smallest s√t for the longest time, and largest s√t for the shortest time, in that sum.
 const REACH: [f64; 2] = [0.05, 30.0];
 
 impl SurfaceResponse {
-    /// Of a half space of effusivity `e = √(kρc)` [W √s/(m² K)], for times [s] between two bounds.
+    /// Response of a half space of effusivity `e = √(kρc)` [W √s/(m² K)], for times [s] between two
+    /// bounds.
     ///
     /// `1/(e √(πt)) = 2/(πe) ∫ e^{−s²t} ds`, summed at equal distances of ln s; the ends of the sum, which are
     /// geometric series, go to the outermost terms.
@@ -33,7 +34,7 @@ impl SurfaceResponse {
             rates: (0..count).map(|n| place(n).powi(2)).collect(),
             gains: (0..count).map(weight).collect(),
         };
-        // Slow terms left out hardly decay; fast ones are over at once, with their sum of g/λ.
+        // Slow omitted terms hardly decay; fast ones end at once, with their sum of g/λ.
         let rest = 1.0 / (INTERVAL.exp() - 1.0);
         response.gains[0] *= 1.0 + rest;
         response.gains[count - 1] *= 1.0 + rest;
@@ -49,13 +50,14 @@ impl SurfaceResponse {
         self.rates.is_empty()
     }
 
-    /// Rise after a time [s] under a flux of 1 W/m² [K].
+    /// Rise under a constant flux of 1 W/m², after a time [s] [K].
     pub fn of_held_flux(&self, time: f64) -> f64 {
         let weights = |rate: f64| exponential::weights(rate * time);
         self.terms().map(|(rate, gain)| gain * time * weights(rate)[1]).sum()
     }
 
-    /// Rise after a time [s] under a flux that falls evenly from 1 to −1 W/m² [K], and so is negative.
+    /// Rise after a time [s] under a flux that falls linearly from 1 to −1 W/m² [K]; it is
+    /// negative.
     pub fn of_falling_flux(&self, time: f64) -> f64 {
         let weights = |rate: f64| exponential::weights(rate * time);
         let of = |w: [f64; exponential::COUNT]| w[1] - 2.0 * w[2];
@@ -73,37 +75,37 @@ impl SurfaceResponse {
     }
 }
 
-/// How the surface of a solid below is still warmed by the heat of steps that are over, if somebody else computes
-/// its temperature: amplitudes [K] of the exponentials of its response, those of each cell together.
+/// Residual heating of the surface of a solid below by past steps, if somebody else computes the
+/// solid: amplitudes [K] of the exponentials of its response, cell by cell.
 ///
-/// What the solid learns of a step is the mean flux. Warmed by a flux that is held instead of one that falls like
-/// 1/√t, its surface is up to 27 % too warm after first contact. The difference between both amplitudes is what the
-/// temperature that comes back is wrong by.
+/// The solid receives only the mean flux of each step. A constant flux in place of one that falls
+/// like 1/√t overestimates the surface's rise by up to 27 % after first contact. The difference
+/// between both sets of amplitudes is the error of the temperature that the solid returns.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SurfaceMemory {
-    /// By the heat as it was given over time.
+    /// Amplitudes due to the heat as it varied in time.
     pub given: Vec<f64>,
-    /// By mean fluxes, held over each step, as they were reported.
+    /// Amplitudes due to the reported mean fluxes, constant over each step.
     pub reported: Vec<f64>,
 }
 
-/// A cell of the wall that got heat during a step.
+/// A cell of the wall that received heat during a step.
 pub struct CellHeat<'a> {
     pub cell: usize,
-    /// In all, per area [J/m²].
+    /// Total heat per area [J/m²].
     pub heat: f64,
-    /// What it makes of the amplitudes of [`SurfaceMemory::given`] at the end [K].
+    /// Contribution to the amplitudes of [`SurfaceMemory::given`] at the end [K].
     pub amplitudes: &'a [f64],
 }
 
 impl SurfaceMemory {
-    /// Of a number of cells that got nothing yet.
+    /// Memory of cells that have received nothing yet.
     pub fn none(cells: usize, response: &SurfaceResponse) -> Self {
         let zeros = vec![0.0; cells * response.len()];
         Self { given: zeros.clone(), reported: zeros }
     }
 
-    /// Lets the heat spread for a time [s], with what cells got meanwhile.
+    /// Advances the memory by a time [s], with the heat that cells received meanwhile.
     pub fn advance<'a>(
         &mut self,
         response: &SurfaceResponse,
@@ -127,22 +129,22 @@ impl SurfaceMemory {
     }
 }
 
-/// Temperature of the surface in the course of a step, without what the fluid gives during it:
-/// `b + Σ_m a_m e^{−λ_m t} + c t/Δt` in every cell of the wall, Δt long.
+/// Temperature of the surface over a step of length Δt, without the fluid's heat during the step:
+/// `b + Σ_m a_m e^{−λ_m t} + c t/Δt` in every cell of the wall.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Surface {
-    /// What the heat of the fluid adds; nothing for a surface whose temperature is held.
+    /// Response to the heat of the fluid; empty for a surface of prescribed temperature.
     pub response: SurfaceResponse,
     /// b [K]
     pub base: Vec<f64>,
-    /// a [K], those of each cell together.
+    /// a [K], cell by cell.
     pub amplitudes: Vec<f64>,
     /// c [K]
     pub drift: Vec<f64>,
 }
 
 impl Surface {
-    /// Temperatures that nothing changes.
+    /// Prescribed temperatures.
     pub fn held(temperature: &[f64]) -> Self {
         Self {
             response: SurfaceResponse::default(),
@@ -152,8 +154,8 @@ impl Surface {
         }
     }
 
-    /// Temperatures that somebody else found for a solid to which the fluxes of all steps before were reported,
-    /// and that go on as heat spreads in it.
+    /// Temperatures that somebody else computed for a solid which received the mean fluxes of all
+    /// past steps; they continue as the heat spreads in it.
     pub fn remembered(
         temperature: &[f64],
         response: SurfaceResponse,
@@ -171,17 +173,18 @@ impl Surface {
         }
     }
 
-    /// The same with temperatures above another zero [K].
+    /// The same temperatures above another zero [K].
     pub fn above(&self, zero: f64) -> Self {
         Self { base: self.base.iter().map(|base| base - zero).collect(), ..self.clone() }
     }
 
-    /// Whether the temperatures change in the course of a step.
+    /// Returns true if the temperatures change during a step.
     pub fn changes(&self) -> bool {
         self.amplitudes.iter().chain(&self.drift).any(|&change| change != 0.0)
     }
 
-    /// Temperature of each cell after a part of a step of this length [s], if the fluid gives nothing.
+    /// Temperature of each cell after a fraction of a step of this length [s], without heat from
+    /// the fluid.
     pub fn free(&self, part: f64, length: f64) -> Vec<f64> {
         let count = self.response.len();
         let decay = |rate: &f64| (-rate * part * length).exp();
@@ -194,15 +197,17 @@ impl Surface {
         (0..self.base.len()).map(of_cell).collect()
     }
 
-    /// Fluxes through each cell [W]: a mean, and a change about it that falls evenly from its whole value to
-    /// its opposite, such that after a time [s] the surface has the rises [K m²] that the fluid found.
+    /// Fluxes through each cell [W]: a mean, and a change that falls linearly from its full value
+    /// to its opposite. Together they produce, after a time [s], the rises of the surface [K m²]
+    /// that the fluid found.
     ///
-    /// A flux that is only right in its mean leaves the surface up to 27 % too warm after first contact.
+    /// A flux correct only in its mean overestimates the surface's rise by up to 27 % after first
+    /// contact.
     pub fn falling_parts(&self, heat: &[f64], rises: &[f64], duration: f64) -> Vec<f64> {
         let held = self.response.of_held_flux(duration);
         let falling = self.response.of_falling_flux(duration);
         if falling == 0.0 {
-            // A surface whose temperature is prescribed.
+            // A surface of prescribed temperature.
             return vec![0.0; heat.len()];
         }
         let part = |(heat, rise): (&f64, &f64)| (rise - heat / duration * held) / falling;
@@ -216,14 +221,14 @@ mod tests {
 
     use super::*;
 
-    /// Rise of a half space of effusivity `e` under a flux of 1 W/m² that is held [K]: `2 √(t/π)/e` (H. S. Carslaw
-    /// and J. C. Jaeger, *Conduction of Heat in Solids*, Oxford 1959, §2.9 (7)).
+    /// Rise of a half space of effusivity `e` under a constant flux of 1 W/m² [K]: `2 √(t/π)/e` (H.
+    /// S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, Oxford 1959, §2.9 (7)).
     fn half_space_rise(effusivity: f64, time: f64) -> f64 {
         2.0 * (time / PI).sqrt() / effusivity
     }
 
     #[test]
-    fn exponentials_sum_to_a_half_space() {
+    fn exponentials_approximate_a_half_space() {
         for [shortest, longest] in [[1e-9, 1e-9], [1e-9, 1e-6], [1e-3, 10.0]] {
             let response = SurfaceResponse::of_half_space(6e3, [shortest, longest]);
             let mut time = shortest;
@@ -241,14 +246,15 @@ mod tests {
     }
 
     #[test]
-    fn what_held_fluxes_get_wrong_is_remembered() {
-        // A/√t from a time 0 on keeps the rise A √π/e; the mean of it, held, ends at 4/π times that.
+    fn memory_corrects_mean_fluxes() {
+        // A/√t from time 0 keeps the rise constant at A √π/e; its mean, as a constant flux, ends at
+        // 4/π times that.
         let response = SurfaceResponse::of_half_space(1e3, [1e-6, 1e-3]);
         let (step, rise) = (1e-3, 10.0);
         let flux = 2.0 * rise * 1e3 / (PI * step).sqrt();
         let mut memory = SurfaceMemory::none(2, &response);
         let mut given = vec![0.0; response.len()];
-        // Both are made of pieces so short that the flux is even in them.
+        // Both consist of pieces short enough for a uniform flux in each.
         let share = |n: f64| (n / 1e4).sqrt();
         for n in 0..10_000 {
             let part = flux * (share(f64::from(n + 1)) - share(f64::from(n)));
@@ -264,17 +270,17 @@ mod tests {
         let [dry, wet] = surface.free(0.0, step)[..] else { unreachable!() };
         assert!((dry - 300.0).abs() < 1e-9, "{dry}");
         assert!((wet - 300.0 - rise).abs() < 0.02 * rise, "{wet}");
-        // And it then cools like a surface that was held at its temperature.
+        // Then it cools like a surface of prescribed temperature.
         let later = surface.free(3.0, step)[1] - 300.0;
         let exact = rise * 2.0 / PI * (0.5f64).asin();
         assert!((later - exact).abs() < 0.02 * rise, "{later} {exact}");
     }
 
     #[test]
-    fn parts_that_fall_give_the_rise_asked_for() {
+    fn falling_fluxes_produce_the_prescribed_rise() {
         let response = SurfaceResponse::of_half_space(1e3, [1e-6, 1e-3]);
         let surface = Surface { response, base: vec![0.0], ..Surface::default() };
-        // A flux A/√t from a time 0 on keeps the rise A √π/e.
+        // A flux A/√t from time 0 keeps the rise constant at A √π/e.
         let (heat, rise) = (2.0 * 1e-3f64.sqrt(), PI.sqrt() / 1e3);
         let [part] = surface.falling_parts(&[heat], &[rise], 1e-3)[..] else { unreachable!() };
         let mean = heat / 1e-3;

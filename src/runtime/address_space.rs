@@ -1,34 +1,34 @@
-//! Address space, where the process may have only so much of it, of any kind (`RLIMIT_AS`) or to write to
-//! (`RLIMIT_DATA`): what is set aside counts there, used or not. Where there is no such limit, everything fits.
+//! Limits of address space, of any kind (`RLIMIT_AS`) or writable (`RLIMIT_DATA`). Reserved space counts, used or not.
+//! Without such a limit, everything fits.
 
-/// What the C library sets aside for a thread that allocates, where it can [B].
+/// Address space that the C library reserves for a thread that allocates, if possible [B].
 pub const ARENA: usize = 64 << 20;
 
-/// What the kernels for products of matrices keep for a thread that multiplies [B].
+/// Scratch memory of the matrix product kernels per thread [B].
 pub const PRODUCTS: usize = 4 << 20;
 
-/// What is left alone for all that is small and not counted [B].
+/// Reserve for small, uncounted requests [B].
 pub const SPARE: usize = 4 << 20;
 
-/// Less than this is had without asking: the allocator keeps more in reserve [B].
+/// Size below which requests are not checked: the allocator's reserve is larger [B].
 const SMALL: usize = 256 << 10;
 
-/// The process may not take as much as is needed.
+/// Error: the process may not take as much as is needed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "this takes up to {:.3} MB of address space; the limit of this process ({limit}) leaves {:.3} MB",
+    "this requires up to {:.3} MB of address space; the limit of this process ({limit}) leaves {:.3} MB",
     *needed as f64 / 1e6,
     *left as f64 / 1e6
 )]
 pub struct TooLittle {
-    /// [B]
+    /// Needed size [B].
     pub needed: usize,
     pub left: usize,
     /// Name of the limit.
     pub limit: &'static str,
 }
 
-/// Refuses what might take more than the process may have.
+/// Refuses sizes that might exceed what the process may have.
 pub fn expect(bytes: usize) -> Result<(), TooLittle> {
     if fits(bytes) {
         return Ok(());
@@ -37,12 +37,12 @@ pub fn expect(bytes: usize) -> Result<(), TooLittle> {
     Err(TooLittle { needed: bytes, left, limit })
 }
 
-/// Whether the process may take so many bytes more.
+/// Returns true if the process may take so many more bytes.
 pub fn fits(bytes: usize) -> bool {
-    bytes <= SMALL || !system::is_limited() || system::is_to_be_had(bytes)
+    bytes <= SMALL || !system::is_limited() || system::can_be_reserved(bytes)
 }
 
-/// Bytes that the process may take in one piece; nothing where there is no limit.
+/// Largest single request in bytes; `None` without a limit.
 pub fn left() -> Option<usize> {
     if !system::is_limited() {
         return None;
@@ -50,7 +50,7 @@ pub fn left() -> Option<usize> {
     let (mut had, mut missed) = (0, 1 << 46);
     while missed - had > 1 << 16 {
         let middle = had + (missed - had) / 2;
-        match system::is_to_be_had(middle) {
+        match system::can_be_reserved(middle) {
             true => had = middle,
             false => missed = middle,
         }
@@ -63,10 +63,10 @@ mod system {
     use std::mem::MaybeUninit;
     use std::ptr;
 
-    /// The number of a resource has another type in each C library.
+    /// Resource numbers have different types in different C libraries.
     fn has_limit(read: impl FnOnce(*mut libc::rlimit) -> i32) -> bool {
         let mut limit = MaybeUninit::uninit();
-        // SAFETY: the limit is looked at only where the system has written it.
+        // SAFETY: the limit is read only where the system has written it.
         read(limit.as_mut_ptr()) == 0
             && unsafe { limit.assume_init() }.rlim_cur != libc::RLIM_INFINITY
     }
@@ -85,7 +85,7 @@ mod system {
         has_limit_of_space() || has_limit_of_data()
     }
 
-    /// Names of the limits that there are.
+    /// Names of the limits on this system.
     pub fn limits() -> &'static str {
         match [has_limit_of_space(), has_limit_of_data()] {
             [true, true] => "RLIMIT_AS, RLIMIT_DATA",
@@ -94,9 +94,9 @@ mod system {
         }
     }
 
-    /// Takes it for a moment and gives it back: the system alone knows what counts. Only what may be written
-    /// to counts as data.
-    pub fn is_to_be_had(bytes: usize) -> bool {
+    /// Tests a reservation by making and releasing it, since only the system knows what counts. Only writable space
+    /// counts as data.
+    pub fn can_be_reserved(bytes: usize) -> bool {
         let flags = libc::MAP_PRIVATE | libc::MAP_ANONYMOUS | libc::MAP_NORESERVE;
         let access = match has_limit_of_data() {
             true => libc::PROT_READ | libc::PROT_WRITE,
@@ -120,7 +120,7 @@ mod system {
         "none"
     }
 
-    pub fn is_to_be_had(_bytes: usize) -> bool {
+    pub fn can_be_reserved(_bytes: usize) -> bool {
         true
     }
 }
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn without_a_limit_everything_fits() {
+    fn no_limit_admits_everything() {
         if left().is_none() {
             assert!(fits(usize::MAX));
         }

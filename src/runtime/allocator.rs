@@ -1,9 +1,9 @@
-//! The allocator: the system's, with patience and a small reserve.
+//! The global allocator: the system's, with retries and a small reserve.
 //!
-//! Rust ends the process where memory cannot be had, which a host must not come to. What needs much asks
-//! ahead. Two cases are left. The C library takes twice 64 MiB of address space for a moment when a thread
-//! allocates first, so that another thread finds none: that passes. And a refusal has to be told where
-//! nothing is left: it is written in the reserve.
+//! Rust ends the process if an allocation fails, which must not happen to a host. Large requests are checked ahead; two
+//! cases remain. First, when a thread first allocates, the C library briefly takes twice 64 MiB of address space, and
+//! another thread finds none: that passes. Second, a refusal must be reported when no memory is left: the reserve holds
+//! its text.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::UnsafeCell;
@@ -17,20 +17,20 @@ static ALLOCATOR: Patient = Patient;
 
 struct Patient;
 
-/// How often the system is asked again, and when.
+/// Number of retries, and their delay.
 const RETRIES: usize = 40;
 const PAUSE: Duration = Duration::from_micros(50);
-/// Larger requests are refused at once: nobody makes such without being ready for that.
+/// Size beyond which requests fail at once: callers of such sizes handle failure.
 const LARGEST_AWAITED: usize = 1 << 40;
 
-// SAFETY: blocks come from the system, or are parts of the reserve that nobody else has; by its address a
-// block goes back to where it is from.
+// SAFETY: blocks come from the system, or are parts of the reserve without another owner; its address determines where
+// a block is returned.
 unsafe impl GlobalAlloc for Patient {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         // SAFETY: by contract.
         let block = unsafe { System.alloc(layout) };
         if block.is_null() {
-            insist(layout, |layout| unsafe { System.alloc(layout) })
+            retry(layout, |layout| unsafe { System.alloc(layout) })
         } else {
             block
         }
@@ -42,7 +42,7 @@ unsafe impl GlobalAlloc for Patient {
         if !block.is_null() {
             return block;
         }
-        let block = insist(layout, |layout| unsafe { System.alloc_zeroed(layout) });
+        let block = retry(layout, |layout| unsafe { System.alloc_zeroed(layout) });
         if RESERVE.holds(block) {
             // SAFETY: as large as asked for.
             unsafe { block.write_bytes(0, layout.size()) };
@@ -79,9 +79,9 @@ unsafe impl GlobalAlloc for Patient {
     }
 }
 
-/// Asks again for a while, then takes from the reserve; null at the end of both.
+/// Retries for a while, then takes from the reserve; null if both fail.
 #[cold]
-fn insist(layout: Layout, ask: impl Fn(Layout) -> *mut u8) -> *mut u8 {
+fn retry(layout: Layout, ask: impl Fn(Layout) -> *mut u8) -> *mut u8 {
     if layout.size() > LARGEST_AWAITED {
         return ptr::null_mut();
     }
@@ -97,12 +97,11 @@ fn insist(layout: Layout, ask: impl Fn(Layout) -> *mut u8) -> *mut u8 {
 
 const SIZE: usize = 1 << 20;
 
-/// Memory that is there from the beginning. Blocks lie one behind another, and are taken anew once all
-/// have come back.
+/// Statically allocated memory. Blocks are taken consecutively, and all space is reusable once all have been returned.
 #[repr(align(4096))]
 struct Reserve {
     room: UnsafeCell<[u8; SIZE]>,
-    /// Bytes given out, and in the upper half how many blocks are out.
+    /// Number of bytes taken, and in the upper half the number of blocks in use.
     used: AtomicU64,
 }
 
@@ -122,7 +121,7 @@ impl Reserve {
         let mut used = self.used.load(Ordering::Acquire);
         loop {
             let from = ((used % BLOCK) as usize).next_multiple_of(layout.align());
-            // Even an empty block has an address of its own.
+            // Even an empty block needs an address of its own.
             let to = from.saturating_add(layout.size().max(1));
             if layout.align() > 4096 || to > SIZE {
                 return ptr::null_mut();
@@ -148,7 +147,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_reserve_gives_out_distinct_blocks_and_is_whole_again_once_all_are_back() {
+    fn reserve_blocks_are_distinct_and_coalesce_when_freed() {
         let reserve = Reserve { room: UnsafeCell::new([0; SIZE]), used: AtomicU64::new(0) };
         let layout = |size, align| Layout::from_size_align(size, align).unwrap();
         for _ in 0..3 {
@@ -169,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn what_can_never_be_had_is_refused() {
+    fn impossible_requests_are_refused() {
         assert!(Vec::<u8>::new().try_reserve_exact(1 << 62).is_err());
     }
 }

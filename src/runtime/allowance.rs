@@ -1,19 +1,18 @@
-//! How much a step may compute, and whether it is still wanted.
+//! Computing budget of a step, and its interruption.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 
-/// Updates of unknowns that one communication step may take: hours to a day on one thread.
+/// Largest number of updates of unknowns in one communication step: hours to a day on one thread.
 pub const MOST_UPDATES: f64 = 1e11;
-/// Updates after which a step that asks for more than that ends early, where its host lets it: minutes.
+/// Number of updates, minutes of work, after which an even longer step ends early if its host allows that.
 pub const EARLY_UPDATES: f64 = 1e9;
-/// Updates after which a host that wants to know of a step under way is told: seconds.
+/// Number of updates, seconds of work, after which a host with progress callbacks is notified.
 pub const PART_UPDATES: f64 = 1e7;
-/// What a round of updates costs besides these, in updates: rounds over few unknowns end, too.
+/// Overhead of a round, in updates: it also bounds rounds over few unknowns.
 const ROUND: f64 = 1e4;
 
-/// Lets another thread end a step that is under way. A single number that any thread may look at and
-/// change.
+/// Lets another thread interrupt a running step: a single number that any thread may read and change.
 #[derive(Debug, Clone, Default)]
 pub struct Interrupt(Arc<AtomicU8>);
 
@@ -22,21 +21,21 @@ const UNDER_WAY: u8 = 1;
 const INTERRUPTED: u8 = 2;
 
 impl Interrupt {
-    /// Asks the step under way to end; whether there is one.
+    /// Requests the running step to end; returns true if there is one.
     pub fn interrupt(&self) -> bool {
         let (success, failure) = (Ordering::Relaxed, Ordering::Relaxed);
         let before = self.0.compare_exchange(UNDER_WAY, INTERRUPTED, success, failure);
         matches!(before, Ok(_) | Err(INTERRUPTED))
     }
 
-    /// Says that a step is under way for as long as the value lives.
+    /// Marks a step as running for the lifetime of the returned value.
     pub fn begin(&self) -> UnderWay<'_> {
         self.0.store(UNDER_WAY, Ordering::Relaxed);
         UnderWay(self)
     }
 }
 
-/// A step under way; it is over when this is dropped.
+/// A running step; it ends when this is dropped.
 pub struct UnderWay<'a>(&'a Interrupt);
 
 impl Drop for UnderWay<'_> {
@@ -45,15 +44,15 @@ impl Drop for UnderWay<'_> {
     }
 }
 
-/// What one step may still compute.
+/// Remaining computing budget of a step.
 #[derive(Debug)]
 pub struct Allowance {
     interrupt: Interrupt,
-    /// Updates, as the bits of a number; one thread counts at a time.
+    /// Number of updates, as the bits of a float; only one thread at a time counts.
     left: AtomicU64,
 }
 
-/// Why a step does not go on; what it was to change is as it was before.
+/// Reason why a step stopped; its state is unchanged.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum Halt {
     #[error("the step was cancelled")]
@@ -69,22 +68,21 @@ pub enum Halt {
         rounds: f64,
         what: &'static str,
         size: usize,
-        /// A length that would have been taken [s], where it is known.
+        /// A feasible step length [s], if known.
         fits: Option<f64>,
     },
 }
 
-/// A length of steps [s], in words.
+/// Proposes a step length [s], in words.
 fn proposal(fits: Option<f64>) -> String {
     fits.map_or(String::new(), |fits| format!(" (of {fits:.0e} s, say)"))
 }
 
-/// Part of the longest step that is proposed: work is only known about.
-const SURELY: f64 = 0.5;
+/// Fraction of the longest step that is proposed, because its work is only an estimate.
+const SAFETY_FACTOR: f64 = 0.5;
 
 impl Halt {
-    /// Part of a step that was too long which takes some updates, about; nothing where the step ended for
-    /// another reason.
+    /// Fraction of a too long step that takes about so many updates; `None` if the step ended for another reason.
     pub fn part_within(&self, updates: f64) -> Option<f64> {
         match *self {
             Halt::TooLong { rounds, size, .. } => Some((updates / cost(rounds, size)).min(1.0)),
@@ -94,12 +92,12 @@ impl Halt {
 }
 
 impl Allowance {
-    /// Of one communication step.
+    /// Budget of one communication step.
     pub fn of_step(interrupt: &Interrupt) -> Self {
         Self::of_updates(interrupt, MOST_UPDATES)
     }
 
-    /// Of so many updates.
+    /// Budget of so many updates.
     pub fn of_updates(interrupt: &Interrupt, updates: f64) -> Self {
         Self { interrupt: interrupt.clone(), left: AtomicU64::new(updates.to_bits()) }
     }
@@ -108,16 +106,16 @@ impl Allowance {
         f64::from_bits(self.left.load(Ordering::Relaxed))
     }
 
-    /// Ends the step if it is known to need more rounds of updates of so many unknowns than are left.
+    /// Stops the step if it will need more rounds of updates than the budget allows.
     pub fn foresee(&self, rounds: f64, what: &'static str, size: usize) -> Result<(), Halt> {
-        // Numbers that are none are too many, too.
+        // NaN also counts as too many.
         match cost(rounds, size) <= self.left() {
             true => Ok(()),
             false => Err(Halt::TooLong { rounds, what, size, fits: None }),
         }
     }
 
-    /// The same of all that a step of `dt` [s] takes; a refusal proposes a shorter one.
+    /// Same for the whole of a step of `dt` [s]; the refusal proposes a shorter one.
     pub fn foresee_step(
         &self,
         dt: f64,
@@ -127,7 +125,7 @@ impl Allowance {
     ) -> Result<(), Halt> {
         self.foresee(rounds, what, size).map_err(|halt| match halt {
             Halt::TooLong { rounds, what, size, .. } => {
-                let fits = SURELY * dt * MOST_UPDATES / cost(rounds, size);
+                let fits = SAFETY_FACTOR * dt * MOST_UPDATES / cost(rounds, size);
                 let fits = Some(fits).filter(|fits| fits.is_finite() && *fits > 0.0);
                 Halt::TooLong { rounds, what, size, fits }
             }
@@ -135,8 +133,7 @@ impl Allowance {
         })
     }
 
-    /// Takes rounds of updates from what is left; to be called between rounds, as this is where a step
-    /// is interrupted.
+    /// Subtracts rounds of updates from the budget. Call it between rounds: here a step is interrupted.
     pub fn spend(&self, rounds: f64, what: &'static str, size: usize) -> Result<(), Halt> {
         if self.interrupt.0.load(Ordering::Relaxed) == INTERRUPTED {
             return Err(Halt::Interrupted);
@@ -148,13 +145,13 @@ impl Allowance {
 }
 
 impl Default for Allowance {
-    /// Of a step that nobody interrupts.
+    /// Budget of a step that cannot be interrupted.
     fn default() -> Self {
         Self::of_step(&Interrupt::default())
     }
 }
 
-/// Updates that rounds over so many unknowns count for.
+/// Cost in updates of rounds over so many unknowns.
 pub fn cost(rounds: f64, size: usize) -> f64 {
     rounds * (size as f64 + ROUND)
 }
@@ -164,7 +161,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_left_becomes_less_and_ends_a_step() {
+    fn allowance_decreases_and_ends_a_step() {
         let allowance = Allowance::default();
         for _ in 0..10 {
             allowance.spend(9e5, "rounds", 0).unwrap();
@@ -178,7 +175,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_that_is_too_long_tells_which_part_of_it_fits() {
+    fn too_long_a_step_reports_the_feasible_fraction() {
         let allowance = Allowance::of_updates(&Interrupt::default(), EARLY_UPDATES);
         let halt = allowance.foresee(1e6, "rounds", 0).unwrap_err();
         assert_eq!(halt.part_within(EARLY_UPDATES), Some(0.1));
@@ -189,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn a_step_that_is_proposed_is_taken() {
+    fn proposed_step_is_accepted() {
         let allowance = Allowance::default();
         let halt = allowance.foresee_step(2.0, 1e9, "rounds", 90_000).unwrap_err();
         let Halt::TooLong { fits: Some(fits), .. } = halt else { panic!("{halt}") };
@@ -198,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn only_a_step_under_way_is_interrupted() {
+    fn only_a_running_step_is_interrupted() {
         let interrupt = Interrupt::default();
         let allowance = Allowance::of_step(&interrupt);
         assert!(!interrupt.interrupt());

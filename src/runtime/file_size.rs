@@ -1,7 +1,7 @@
-//! Files that grow beyond what the process may write.
+//! Limits of file sizes.
 
-/// Lets writes beyond the limit of file sizes (`RLIMIT_FSIZE`) fail as those to a full disk do, where they would end the
-/// process otherwise. For programs: a library leaves the signals of its host alone.
+/// Makes writes beyond the limit of file sizes (`RLIMIT_FSIZE`) fail like those to a full disk; otherwise they would
+/// end the process. For programs only: a library must not change the signals of its host.
 pub fn report_limits() {
     #[cfg(unix)]
     // SAFETY: ignoring a signal runs no code of ours.

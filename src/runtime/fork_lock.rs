@@ -1,8 +1,8 @@
-//! A lock that a forked process takes over from threads that it does not have.
+//! A lock that a forked process takes over from threads that it lacks.
 //!
-//! A fork copies memory but only the calling thread: a lock of the standard library that another thread held
-//! stays locked in the child for ever. This one notes the process of its holder. A child that finds another
-//! process there replaces the value, which may be half changed, by the default one.
+//! A fork copies memory but only the calling thread: a lock of the standard library that another thread held stays
+//! locked in the child for ever. This lock records the process of its holder. A child that finds another process there
+//! replaces the value, which may be half changed, by the default one.
 
 use std::cell::UnsafeCell;
 use std::hint::spin_loop;
@@ -21,7 +21,7 @@ const SPINS: u32 = 100;
 /// Length of the first sleep and of the longest; each is twice as long as the one before.
 const PAUSES: [Duration; 2] = [Duration::from_micros(20), Duration::from_millis(1)];
 
-/// A value that one thread has at a time. The value left behind by a thread of another process is leaked, not dropped.
+/// A value that one thread holds at a time. A value held by a thread of another process is leaked, not dropped.
 pub struct ForkLock<T> {
     /// Process whose thread holds the lock.
     holder: AtomicU32,
@@ -57,7 +57,7 @@ impl<T: Default> ForkLock<T> {
         unreachable!("the loop has no end");
     }
 
-    /// Returns nothing while another thread of this process holds the lock.
+    /// Returns `None` while another thread of this process holds the lock.
     pub fn try_lock(&self) -> Option<ForkGuard<'_, T>> {
         let process = process::id();
         let take = |from| {
@@ -79,7 +79,7 @@ impl<T: Default> ForkLock<T> {
 
 impl<T> Drop for ForkLock<T> {
     fn drop(&mut self) {
-        // A holder that is left belongs to another process: nobody borrows the lock.
+        // Any other holder belongs to another process: nobody borrows the lock.
         if *self.holder.get_mut() == FREE {
             // SAFETY: dropped once.
             unsafe { ManuallyDrop::drop(self.value.get_mut()) };
@@ -118,7 +118,7 @@ impl<T> Drop for ForkGuard<'_, T> {
 
 #[cfg(test)]
 impl<T> ForkLock<T> {
-    /// Leaves the lock as a fork does while another thread holds it.
+    /// Leaves the lock as after a fork during which another thread held it.
     pub fn hold_by_another_process(&self) {
         self.holder.store(process::id().wrapping_add(1).max(1), Ordering::Relaxed);
     }
@@ -130,7 +130,7 @@ mod tests {
     use std::sync::Arc;
 
     #[test]
-    fn one_thread_at_a_time_has_the_value() {
+    fn mutual_exclusion() {
         let lock = ForkLock::new(0_u64);
         std::thread::scope(|scope| {
             for _ in 0..4 {
@@ -141,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn a_held_lock_is_not_had_by_trying() {
+    fn try_lock_fails_while_locked() {
         let lock = ForkLock::new(1);
         let guard = lock.lock();
         assert!(lock.try_lock().is_none());
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lock_held_by_another_process_is_taken_over_with_a_new_value() {
+    fn stale_lock_of_a_parent_is_taken_over_with_a_new_value() {
         let shared = Arc::new(());
         let lock = ForkLock::new(Some(Arc::clone(&shared)));
         lock.hold_by_another_process();

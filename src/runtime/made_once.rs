@@ -1,13 +1,13 @@
-//! Values that are made when first needed, in forked processes too.
+//! Lazily made values, fork-safe.
 
 use std::ptr;
 use std::sync::atomic::{AtomicPtr, Ordering};
 
 use super::fork_lock::ForkLock;
 
-/// A value made by the first thread that needs it; others of the process wait for it. A forked process makes
-/// a value anew that a thread of its parent was making. A value is published at once, so a fork finds none or
-/// all of it.
+/// A value made by the first thread that needs it; other threads of the process wait for it. A forked process makes a
+/// value again if a thread of its parent was making it. Values are published atomically, so a fork finds none or all of
+/// a value.
 pub struct MadeOnce<T> {
     value: AtomicPtr<T>,
     making: ForkLock<()>,
@@ -29,7 +29,7 @@ impl<T> MadeOnce<T> {
         unsafe { self.value.load(Ordering::Acquire).as_ref() }
     }
 
-    /// The value, made by `make` unless it is there. `make` must not ask for it.
+    /// Returns the value, made by `make` on first use. `make` must not request the value itself.
     pub fn get_or_make(&self, make: impl FnOnce() -> T) -> &T {
         if let Some(value) = self.get() {
             return value;
@@ -66,7 +66,7 @@ mod tests {
     use std::sync::atomic::AtomicUsize;
 
     #[test]
-    fn threads_that_ask_at_once_get_the_same_value() {
+    fn concurrent_requests_get_the_same_value() {
         let (once, made) = (MadeOnce::new(), AtomicUsize::new(0));
         let make = || {
             std::thread::sleep(std::time::Duration::from_millis(20));
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn a_value_that_a_thread_of_the_parent_was_making_is_made_anew() {
+    fn fork_recreates_unfinished_value() {
         let once = MadeOnce::new();
         once.making.hold_by_another_process();
         assert_eq!(once.get(), None);
@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_leaves_the_value_to_the_next_who_asks() {
+    fn panic_leaves_the_value_to_the_next_request() {
         let once = MadeOnce::new();
         let panic = catch_unwind(AssertUnwindSafe(|| *once.get_or_make(|| panic!("no value"))));
         assert!(panic.is_err());

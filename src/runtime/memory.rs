@@ -1,18 +1,18 @@
-//! Memory that the system still grants this process.
+//! Memory available to this process.
 
 use std::fs;
 use std::path::Path;
 
-/// Memory that this process may still take [B], as far as the system tells; without end where it does
-/// not.
+/// Memory that this process may still take [B]; infinite if the system does not report it.
 ///
-/// It is the least of what is free or can be freed (`/proc/meminfo`) and what the control groups of the
-/// process leave (version 2, or 1 of memory). Address space is another thing: see
+/// It is the smaller of the free or reclaimable memory (`/proc/meminfo`) and the remainder of the process's control
+/// groups (version 2, or the memory groups of version 1). Address space is separate: see
 /// [`crate::runtime::address_space`].
 pub fn available_memory() -> f64 {
     let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
     let free = kilobytes(&read("/proc/meminfo"), "MemAvailable:");
-    let groups = groups(&read("/proc/self/cgroup")).into_iter().filter_map(|path| left_in(&path));
+    let groups =
+        groups(&read("/proc/self/cgroup")).into_iter().filter_map(|path| remaining_in(&path));
     free.into_iter().chain(groups).fold(f64::INFINITY, f64::min)
 }
 
@@ -23,7 +23,7 @@ fn kilobytes(text: &str, key: &str) -> Option<f64> {
     Some(1024.0 * number)
 }
 
-/// Folders of the control groups that `/proc/self/cgroup` names, and of those around them.
+/// Folders of the control groups in `/proc/self/cgroup`, and of their parents.
 fn groups(text: &str) -> Vec<String> {
     let mut all = Vec::new();
     for line in text.lines() {
@@ -40,13 +40,13 @@ fn groups(text: &str) -> Vec<String> {
     all
 }
 
-/// What a control group leaves of its memory [B]; nothing if it has no limit.
-fn left_in(folder: &str) -> Option<f64> {
+/// Remaining memory of a control group [B]; `None` without a limit.
+fn remaining_in(folder: &str) -> Option<f64> {
     let read = |name: &str| fs::read_to_string(format!("{}/{name}", folder.trim_end_matches('/')));
     let number = |name: &str| read(name).ok()?.trim().parse::<f64>().ok();
     let most = number("memory.max").or_else(|| number("memory.limit_in_bytes"))?;
     let used = number("memory.current").or_else(|| number("memory.usage_in_bytes"))?;
-    // Files that were read are dropped when memory is wanted.
+    // The file cache is dropped under memory pressure.
     let cached = read("memory.stat").ok().and_then(|text| {
         let line = text.lines().find_map(|line| line.strip_prefix("inactive_file "))?;
         line.trim().parse::<f64>().ok()
@@ -59,14 +59,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_the_system_says_is_read() {
+    fn reads_system_values() {
         let text = "MemTotal:   16 kB\nMemAvailable:   12345 kB\n";
         assert_eq!(kilobytes(text, "MemAvailable:"), Some(12345.0 * 1024.0));
         assert_eq!(kilobytes("", "MemAvailable:"), None);
     }
 
     #[test]
-    fn control_groups_lie_in_each_other() {
+    fn control_groups_are_nested() {
         let both = "5:cpu,memory:/a\n3:cpuset:/x\n0::/b/c\n";
         let expected = [
             "/sys/fs/cgroup/memory/a",
@@ -76,11 +76,11 @@ mod tests {
             "/sys/fs/cgroup/",
         ];
         assert_eq!(groups(both), expected);
-        assert_eq!(left_in("/nowhere"), None);
+        assert_eq!(remaining_in("/nowhere"), None);
     }
 
     #[test]
-    fn there_is_memory_left() {
+    fn available_memory_is_positive() {
         assert!(available_memory() > 1e6);
     }
 }

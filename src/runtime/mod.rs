@@ -1,4 +1,4 @@
-//! What a run takes from its process: threads, memory, work, locks and bytes.
+//! Resources of the process: threads, memory, work, locks and bytes.
 
 pub mod address_space;
 mod allocator;

@@ -1,7 +1,6 @@
 //! Loops over threads.
 //!
-//! Every item is computed by itself and stored in its own place, so results do not depend on how
-//! many threads there are.
+//! Every item is computed independently and stored in its own place, so results do not depend on the number of threads.
 
 use std::any::Any;
 use std::mem::transmute;
@@ -11,30 +10,29 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, TryLockError};
 
 use super::thread::{self, Started};
 
-/// Pieces into which each thread's share of a loop is cut, for others to take when they are done.
+/// Number of pieces into which each thread's share of a loop is cut, for idle threads to take.
 const PIECES: usize = 16;
 
-/// How often a thread looks for what it waits for before it sleeps: for some tens of microseconds, as
-/// long as it takes to wake one.
+/// Number of checks before a waiting thread sleeps: some tens of microseconds, the time to wake a thread.
 const LOOKS: usize = 3000;
 
-/// Threads that run one loop after another, and end with the value. The thread that has it is one
-/// of them, so a team of one starts none.
+/// Threads that run one loop after another, and end with the value. The calling thread is one of them, so a team of one
+/// starts none.
 ///
-/// A loop inside a loop of the same team is run by the thread that meets it.
+/// A loop inside a loop of the same team runs on the thread that reaches it.
 pub struct Team {
     shared: Arc<Shared>,
     workers: Vec<Started>,
-    /// Held while the workers are in a loop.
+    /// Locked while the workers run a loop.
     in_use: Mutex<()>,
 }
 
-/// What the threads of a team tell each other. All but `post` is changed only by who holds that.
+/// State shared by the threads of a team. Everything but `post` changes only while `post` is locked.
 #[derive(Default)]
 struct Shared {
     /// Grows with every call, and at the end.
     call: AtomicUsize,
-    /// Workers that are at the work of the last call.
+    /// Number of workers that run the last call.
     inside: AtomicUsize,
     post: Mutex<Post>,
     called: Condvar,
@@ -43,7 +41,7 @@ struct Shared {
 
 #[derive(Default)]
 struct Post {
-    /// What each thread does with its number; there only while a worker may still begin with it.
+    /// Work of each thread, by its number; present only while a worker may still start it.
     work: Option<&'static (dyn Fn(usize) + Sync)>,
     /// The first panic of a worker in this call.
     panic: Option<Box<dyn Any + Send>>,
@@ -51,8 +49,8 @@ struct Post {
 }
 
 impl Team {
-    /// A team of so many threads; of fewer where the system does not start them all, which changes no
-    /// result. `threads` = 0 is taken for 1.
+    /// Creates a team of so many threads; of fewer if the system does not start them all, which changes no result.
+    /// `threads` = 0 means 1.
     pub fn new(threads: usize) -> Self {
         let shared = Arc::new(Shared::default());
         let mut team = Self { shared, workers: Vec::new(), in_use: Mutex::new(()) };
@@ -70,7 +68,7 @@ impl Team {
         self.workers.len() + 1
     }
 
-    /// `[f(0), …, f(count − 1)]`.
+    /// Returns `[f(0), …, f(count − 1)]`.
     pub fn map<T: Send>(&self, count: usize, f: impl Fn(usize) -> T + Sync) -> Vec<T> {
         let mut all = Vec::with_capacity(count);
         self.for_each(&mut all.spare_capacity_mut()[..count], |i, place| {
@@ -81,22 +79,21 @@ impl Team {
         all
     }
 
-    /// `f(i, &mut items[i])` for every item.
+    /// Calls `f(i, &mut items[i])` for every item.
     pub fn for_each<T: Send>(&self, items: &mut [T], f: impl Fn(usize, &mut T) + Sync) {
         self.for_pieces(items, |first, piece| {
             piece.iter_mut().enumerate().for_each(|(i, item)| f(first + i, item));
         });
     }
 
-    /// `f(i, &mut items[i..k])` for pieces of the items that are all of them, for loops whose items share
-    /// memory.
+    /// Calls `f(i, &mut items[i..k])` for pieces that cover all items, for loops whose items share memory.
     pub fn for_pieces<T: Send>(&self, items: &mut [T], f: impl Fn(usize, &mut [T]) + Sync) {
         let threads = self.threads();
         if threads == 1 || items.len() <= 1 {
             return f(0, items);
         }
         let size = items.len().div_ceil(threads * PIECES);
-        // Each lock is taken once, so nobody waits for one.
+        // Each lock is taken once, so no thread waits for one.
         let pieces: Vec<Mutex<&mut [T]>> = items.chunks_mut(size).map(Mutex::new).collect();
         let share = pieces.len().div_ceil(threads);
         let taken: Vec<AtomicUsize> = (0..threads).map(|_| AtomicUsize::new(0)).collect();
@@ -104,7 +101,7 @@ impl Team {
             let p = t * share + taken[t].fetch_add(1, Ordering::Relaxed);
             (p < ((t + 1) * share).min(pieces.len())).then_some(p)
         };
-        // A thread does its own share first, which keeps to its own part of memory, then others'.
+        // A thread starts with its own share, which is local in memory, and continues with others'.
         self.run(&|own: usize| {
             for t in (own..threads).chain(0..own) {
                 while let Some(p) = take(t) {
@@ -114,7 +111,7 @@ impl Team {
         });
     }
 
-    /// `[f(&mut items[0]), …]`.
+    /// Returns `[f(&mut items[0]), …]`.
     pub fn map_each<T: Send, R: Send>(
         &self,
         items: &mut [T],
@@ -126,13 +123,13 @@ impl Team {
         pairs.into_iter().map(|pair| pair.1.expect("every item had its turn")).collect()
     }
 
-    /// Calls `work` with 0, and with their numbers on workers that come while that goes on: any one
-    /// call does what is left to do, so nobody waits for a worker that the system has no time for.
-    /// Where the team is in a loop already, no worker comes.
+    /// Calls `work` with 0, and with their numbers on workers that join meanwhile. Any single call completes the
+    /// remaining work, so no thread waits for a worker that the system has not scheduled. If the team already runs a
+    /// loop, no worker joins.
     fn run(&self, work: &(dyn Fn(usize) + Sync)) {
         let _in_use = match self.in_use.try_lock() {
             Ok(guard) => guard,
-            // A panic went through an earlier loop, which was over then.
+            // A panic ended an earlier loop, which was complete by then.
             Err(TryLockError::Poisoned(poisoned)) => poisoned.into_inner(),
             Err(TryLockError::WouldBlock) => return work(0),
         };
@@ -175,7 +172,7 @@ impl Shared {
         self.called.notify_all();
     }
 
-    /// Lets no further worker begin, and waits for those that have; the panic of one of them.
+    /// Admits no further worker and waits for those that have started; returns the panic of one of them.
     fn close(&self) -> Option<Box<dyn Any + Send>> {
         self.post().work = None;
         let is_waiting = || self.inside.load(Ordering::Acquire) > 0;
@@ -187,7 +184,7 @@ impl Shared {
         post.panic.take()
     }
 
-    /// What a worker does until the end.
+    /// Loop of a worker until the end.
     fn serve(&self, number: usize) {
         let mut seen = 0;
         loop {
@@ -239,7 +236,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn order_is_kept_on_any_number_of_threads() {
+    fn order_is_independent_of_thread_count() {
         for threads in [0, 1, 2, 3, 8, 100] {
             let team = Team::new(threads);
             assert_eq!(team.threads(), threads.max(1));
@@ -261,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn a_team_serves_short_and_long_waits() {
+    fn team_handles_short_and_long_waits() {
         let team = Team::new(3);
         for n in 0..2000 {
             if n % 500 == 0 {
@@ -272,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn a_loop_inside_a_loop_is_run_by_one_thread() {
+    fn nested_loops_run_on_one_thread() {
         let team = Team::new(4);
         let table = team.map(50, |i| team.map(i, |j| i * j));
         for (i, row) in table.iter().enumerate() {
@@ -281,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn a_team_outlives_panics_of_its_loops() {
+    fn team_survives_panics() {
         let team = Team::new(3);
         for at in [0, 60, 99] {
             let give_up = |i: usize| assert!(i != at, "gave up at {i}");

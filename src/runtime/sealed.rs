@@ -1,9 +1,9 @@
-//! Numbers as bytes, for storage: a name of the format, what they follow from, the content, and a checksum.
+//! Serialised numbers: a name of the format, a key that describes their inputs, the content, and a checksum.
 
-/// Bytes of a number and of the checksum.
+/// Number of bytes of a number and of the checksum.
 const WORD: usize = 8;
 
-/// A format, and what its content is called.
+/// A format, and the noun for its content.
 pub struct Format {
     /// Its name and version.
     pub magic: &'static [u8; 8],
@@ -12,7 +12,7 @@ pub struct Format {
 }
 
 impl Format {
-    /// The bytes of a content that follows from what `key` says.
+    /// Serialises a content together with the `key` that describes its inputs.
     pub fn seal(&self, key: &str, content: &Content) -> Vec<u8> {
         let mut bytes = self.magic.to_vec();
         bytes.extend_from_slice(&(key.len() as u64).to_le_bytes());
@@ -23,8 +23,8 @@ impl Format {
         bytes
     }
 
-    /// The content as `read` takes it, and what it follows from; refuses bytes that are damaged or of another format, and
-    /// those of which something is left.
+    /// Returns the content as `read` decodes it, and its key. Refuses bytes that are damaged, of another format, or not
+    /// fully consumed.
     pub fn open<T>(
         &self,
         bytes: &[u8],
@@ -36,10 +36,10 @@ impl Format {
         let (body, sum) = bytes.split_at(end);
         let mut reader = Reader { rest: body };
         if reader.take(magic.len()).ok_or_else(cut)? != magic.as_slice() {
-            return Err(format!("this is no {noun} of {of}, or one of another version"));
+            return Err(format!("not a {noun} of {of}, or one of another version"));
         }
         if sum != checksum(body).to_le_bytes() {
-            return Err(format!("the {noun} is damaged: its checksum is not that of its content"));
+            return Err(format!("the {noun} is damaged: its checksum does not match its content"));
         }
         let length = reader.count().ok_or_else(cut)?;
         let key = String::from_utf8(reader.take(length).ok_or_else(cut)?.to_vec());
@@ -70,7 +70,7 @@ impl Content {
     }
 }
 
-/// What is left of stored numbers; nothing where there are fewer than are asked for.
+/// Remaining stored numbers; reads return `None` at their end.
 pub struct Reader<'a> {
     rest: &'a [u8],
 }
@@ -82,12 +82,12 @@ impl<'a> Reader<'a> {
         Some(taken)
     }
 
-    /// A whole number.
+    /// Reads a whole number.
     pub fn whole(&mut self) -> Option<usize> {
         usize::try_from(u64::from_le_bytes(self.take(WORD)?.try_into().ok()?)).ok()
     }
 
-    /// A number of things, of which there are no more than bytes.
+    /// Reads a length, which cannot exceed the number of bytes.
     pub fn count(&mut self) -> Option<usize> {
         self.whole().filter(|count| *count <= self.rest.len())
     }
@@ -124,14 +124,14 @@ mod tests {
     }
 
     #[test]
-    fn what_is_stored_is_read_again() {
+    fn round_trip() {
         let (key, numbers) = FORMAT.open(&sealed(), list).unwrap();
         assert_eq!((key.as_str(), numbers.as_slice()), ("a key", &[1.5, -0.0][..]));
         assert!(numbers[1].is_sign_negative());
     }
 
     #[test]
-    fn damaged_bytes_and_those_of_another_length_are_refused() {
+    fn damaged_or_truncated_bytes_are_refused() {
         let bytes = sealed();
         for place in 0..bytes.len() {
             let mut damaged = bytes.clone();

@@ -1,14 +1,13 @@
-//! Values of one process that are made once for equal keys and live as long as somebody holds them.
+//! Process-wide shared values: made once for equal keys, and dropped with their last user.
 
 use std::sync::{Arc, Weak};
 
 use super::fork_lock::ForkLock;
 
-/// A key and the value that lives for it, if anyone still holds it.
+/// A key and its value, while that is in use.
 type Entry<K, V> = (K, Arc<ForkLock<Weak<V>>>);
 
-/// Values by their keys, none of which is kept alive here. A forked process goes on with those of its parent,
-/// but for those that one of the parent's threads was making then: these it makes itself.
+/// Weakly held values by their keys. A forked process inherits those of its parent; it makes the unfinished ones again.
 pub struct SharedValues<K, V> {
     entries: ForkLock<Vec<Entry<K, V>>>,
 }
@@ -19,8 +18,8 @@ impl<K: Clone + PartialEq, V> SharedValues<K, V> {
         Self { entries: ForkLock::new(Vec::new()) }
     }
 
-    /// The value of a key, made unless another holder in this process already has it. Those who ask for the same one
-    /// meanwhile wait; those who ask for another do not.
+    /// Returns the value of a key; makes it unless it is in use in this process. Concurrent requests for the same key
+    /// wait; those for other keys do not.
     pub fn get_or_make<E>(
         &self,
         key: &K,
@@ -36,19 +35,19 @@ impl<K: Clone + PartialEq, V> SharedValues<K, V> {
         Ok(value)
     }
 
-    /// Whether somebody holds the value of a key.
+    /// Returns true if the value of a key is in use.
     pub fn has(&self, key: &K) -> bool {
         self.get(key).is_some()
     }
 
-    /// The value of a key, if somebody holds it.
+    /// Returns the value of a key, if it is in use.
     pub fn get(&self, key: &K) -> Option<Arc<V>> {
         let entries = self.entries.lock();
         let (_, slot) = entries.iter().find(|(other, _)| other == key)?;
         slot.try_lock()?.upgrade()
     }
 
-    /// Forgets keys whose values nobody holds any more.
+    /// Removes keys whose values are no longer in use.
     pub fn forget_unused(&self) {
         let mut entries = self.entries.lock();
         remove_stale(&mut entries);
@@ -67,7 +66,7 @@ impl<K: Clone + PartialEq, V> SharedValues<K, V> {
     }
 }
 
-/// A slot that only this list holds has no maker and no waiter; without a value it is stale.
+/// A slot referenced only by this list has no maker and no waiter; without a value it is stale.
 fn remove_stale<K, V>(entries: &mut Vec<Entry<K, V>>) {
     entries.retain(|(_, slot)| {
         let stale = || slot.try_lock().is_some_and(|weak| weak.strong_count() == 0);
@@ -81,7 +80,7 @@ mod tests {
     use std::convert::Infallible;
 
     #[test]
-    fn a_value_is_made_once_as_long_as_somebody_holds_it() {
+    fn value_is_shared_while_referenced() {
         let values: SharedValues<u32, u32> = SharedValues::new();
         let make = |value: u32| move || Ok::<_, Infallible>(value);
         let Ok(first) = values.get_or_make(&1, make(10));
@@ -99,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn a_forked_process_makes_what_its_parent_was_making_and_finds_the_rest() {
+    fn fork_recreates_unfinished_values_and_keeps_the_rest() {
         let values: SharedValues<u32, u32> = SharedValues::new();
         let make = |value: u32| move || Ok::<_, Infallible>(value);
         let Ok(held) = values.get_or_make(&1, make(10));
@@ -114,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn what_fails_is_tried_again() {
+    fn failed_values_are_retried() {
         let values: SharedValues<u32, u32> = SharedValues::new();
         assert_eq!(values.get_or_make(&1, || Err("no")), Err("no"));
         assert_eq!(values.get_or_make(&1, || Ok::<_, &str>(7)).map(|value| *value), Ok(7));

@@ -1,9 +1,8 @@
-//! Threads of our own, with a stack that is known and nothing left behind.
+//! Own threads, with a known stack and no residue in the process.
 //!
-//! On Unix they are started by the system's own function: the standard library's way registers a
-//! destructor on the thread that starts another, and keeps a key of the process. On a host's thread
-//! both would outlive the last instance of a unit: the first keeps the library in memory, of the second
-//! a process has few. Signals of the host stay with the host's threads.
+//! On Unix they are started by the system's own function. The standard library's way registers a destructor on the
+//! starting thread, and occupies a key of the process. On a host's thread both would outlive the last instance of a
+//! unit: the first keeps the library in memory, and keys are few. Signals of the host stay with the host's threads.
 
 use std::cell::Cell;
 use std::mem::transmute;
@@ -12,17 +11,17 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use super::address_space::{self, ARENA, PRODUCTS, SPARE};
 
-/// Address space for the stack of each of our threads [B].
+/// Address space of the stack of each own thread [B].
 pub const STACK: usize = 2 << 20;
 
-/// Address space that each of our threads may come to take [B].
+/// Largest address space of each own thread [B].
 pub const SPACE: usize = STACK + ARENA + PRODUCTS;
 
-/// How many threads of ours there are.
+/// Number of own threads.
 static LIVING: Count = Count(AtomicU64::new(0));
 
-/// How many threads of this process there are of a kind. A forked process begins anew: of its parent's it has
-/// none but the one that forked.
+/// Number of this process's threads of a kind. A forked process restarts at zero: the only thread it inherits is the
+/// one that forked.
 struct Count(AtomicU64);
 
 impl Count {
@@ -31,7 +30,7 @@ impl Count {
         self.change(std::process::id(), |count| count.saturating_add(1));
     }
 
-    /// Takes one away.
+    /// Subtracts one.
     fn take(&self) {
         self.change(std::process::id(), |count| count.saturating_sub(1));
     }
@@ -50,7 +49,7 @@ impl Count {
     }
 }
 
-/// The count of a process; none where the number is another's.
+/// The count of a process; zero if the number belongs to another.
 fn of_process(number: u64, process: u32) -> u32 {
     if (number >> 32) as u32 == process { number as u32 } else { 0 }
 }
@@ -59,15 +58,15 @@ thread_local! {
     static IS_OURS: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Whether the thread that calls is one of ours.
+/// Returns true if the calling thread is an own one.
 pub fn is_ours() -> bool {
     IS_OURS.get()
 }
 
-/// Runs `work` on a thread of ours and waits for it: on the one that calls if that is one already, or
-/// if the system has none to give. A panic goes on in the thread that calls.
+/// Runs `work` on an own thread and waits for it. It runs on the calling thread if that is an own one, or if the system
+/// cannot start another. A panic continues in the calling thread.
 ///
-/// For work that takes more stack than a host's thread may have, or that keeps something per thread.
+/// For work that needs more stack than a host's thread may have, or that keeps data per thread.
 pub fn aside<R: Send>(work: impl FnOnce() -> R + Send) -> R {
     if is_ours() {
         return work();
@@ -78,7 +77,7 @@ pub fn aside<R: Send>(work: impl FnOnce() -> R + Send) -> R {
         let work = work.take().expect("runs once");
         result = Some(catch_unwind(AssertUnwindSafe(work)));
     });
-    // SAFETY: what it borrows outlives the thread, which is waited for right here.
+    // SAFETY: the borrowed data outlives the thread, which is joined right here.
     let started = system::start(unsafe { transmute::<Box<_>, Box<dyn FnOnce() + Send>>(run) });
     match started {
         Some(thread) => thread.join(),
@@ -94,14 +93,14 @@ pub fn aside<R: Send>(work: impl FnOnce() -> R + Send) -> R {
 pub struct Started(system::Thread);
 
 impl Started {
-    /// Waits for the thread's end. Nothing of it is left then.
+    /// Waits for the thread's end, and releases all its resources.
     pub fn join(self) {
         self.0.join();
     }
 }
 
-/// Starts a thread of ours beside others, if the system has one to give, and address space for all of
-/// them: what one sets aside, others miss. Panics of `work` end with it.
+/// Starts an own thread, if the system allows it and address space suffices for all of them: each reservation reduces
+/// that of others. Panics of `work` end with the thread.
 pub fn start(work: impl FnOnce() + Send + 'static) -> Option<Started> {
     let all = LIVING.get() + 1;
     if !address_space::fits(all * SPACE + SPARE) {
@@ -110,10 +109,10 @@ pub fn start(work: impl FnOnce() + Send + 'static) -> Option<Started> {
     system::start(Box::new(work)).map(Started)
 }
 
-/// What a thread of ours does.
+/// Body of an own thread.
 fn serve(work: Box<dyn FnOnce() + Send>) {
     IS_OURS.set(true);
-    // Whoever wants to know of a panic catches it before.
+    // Callers that need a panic catch it before.
     let _ = catch_unwind(AssertUnwindSafe(work));
     LIVING.take();
 }
@@ -128,27 +127,27 @@ mod system {
 
     type Work = Box<dyn FnOnce() + Send>;
 
-    /// A thread and its stack, which stays where nobody waits for the thread.
+    /// A thread and its stack, which is leaked if nobody joins the thread.
     pub struct Thread(libc::pthread_t, ManuallyDrop<Stack>);
 
-    /// Memory of a stack above a page that nothing may touch. The C library would keep the stacks of threads
-    /// that have ended for later ones, with what they held per thread. A fork while another thread takes one
-    /// of these leaves the child a stack whose blocks are freed twice (glibc 2.36, `get_cached_stack`).
+    /// Memory of a stack above a guard page. The C library would keep the stacks of ended threads for later ones, with
+    /// their thread-local data. If another thread takes one of these during a fork, blocks of the child's stack are
+    /// freed twice (glibc 2.36, `get_cached_stack`).
     struct Stack {
         place: *mut c_void,
         guard: usize,
     }
 
-    // SAFETY: a shared stack offers nothing that writes; its owner alone gives it back.
+    // SAFETY: a shared stack has no method that writes; only its owner releases it.
     unsafe impl Sync for Stack {}
 
     impl Stack {
-        /// Nothing where there is no memory for it.
+        /// Returns `None` if there is no memory for it.
         fn new() -> Option<Self> {
             // SAFETY: asks for a number.
             let guard = usize::try_from(unsafe { libc::sysconf(libc::_SC_PAGESIZE) }).ok()?;
             let flags = libc::MAP_PRIVATE | libc::MAP_ANONYMOUS | libc::MAP_NORESERVE;
-            // SAFETY: a new mapping, which nobody else knows of; the page below stays closed.
+            // SAFETY: a new mapping without other users; the page below stays inaccessible.
             unsafe {
                 let size = guard + STACK;
                 let place = libc::mmap(ptr::null_mut(), size, libc::PROT_NONE, flags, -1, 0);
@@ -174,8 +173,8 @@ mod system {
         }
     }
 
-    /// A host that cancels a thread of its own while that waits for one of ours must not unwind it: the
-    /// work borrows from its stack.
+    /// Disables cancellation in `body`. A host that cancels its own thread while it waits for one of ours must not
+    /// unwind it: the work borrows from its stack.
     #[cfg(target_os = "linux")]
     fn uncancelled<R>(body: impl FnOnce() -> R) -> R {
         unsafe extern "C" {
@@ -235,7 +234,7 @@ mod system {
         })
     }
 
-    /// Threads that are started in `body` take no signals but those of faults of their own.
+    /// Runs `body` so that threads started in it receive no signals except those of their own faults.
     fn with_faults_alone<R>(body: impl FnOnce() -> R) -> R {
         let faults =
             [libc::SIGSEGV, libc::SIGBUS, libc::SIGFPE, libc::SIGILL, libc::SIGTRAP, libc::SIGSYS];
@@ -295,7 +294,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn work_aside_runs_on_one_thread_of_ours_and_may_borrow() {
+    fn background_work_runs_on_one_own_thread_and_may_borrow() {
         let mut sum = 0;
         let inner = aside(|| {
             sum += 1;
@@ -307,7 +306,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_forked_process_has_none_of_its_parents_threads() {
+    fn fork_inherits_no_threads() {
         let (end, ended) = std::sync::mpsc::channel::<()>();
         let thread = start(move || ended.recv().unwrap_or_default()).unwrap();
         assert!(LIVING.get() >= 1);
@@ -329,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn a_panic_aside_goes_on_in_the_thread_that_waits() {
+    fn panics_propagate_to_the_waiting_thread() {
         let panic = catch_unwind(|| aside(|| panic!("aside"))).unwrap_err();
         assert_eq!(panic.downcast_ref::<&str>(), Some(&"aside"));
     }

@@ -1,4 +1,4 @@
-//! Where the cells of footprints lie.
+//! Positions of the cells of footprints.
 
 use std::f64::consts::PI;
 
@@ -7,14 +7,14 @@ use super::types::Footprint;
 /// The cells of a footprint about its centre, in the order of their values.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cells {
-    /// Inner and outer radius of each [m].
+    /// Inner and outer radius of each ring [m].
     Rings(Vec<[f64; 2]>),
-    /// Middle of each along x and y, and the extents of all [m].
+    /// Middle of each tile along x and y, and the common size of all tiles [m].
     Tiles { middles: Vec<[f64; 2]>, size: [f64; 2] },
 }
 
 impl Footprint {
-    /// Where the cells lie of a footprint whose outer radius, if it is round, is `radius` [m].
+    /// Cells of a footprint about its centre; a round footprint has the outer radius `radius` [m].
     pub fn cells_about_centre(&self, radius: f64) -> Cells {
         match *self {
             Footprint::Disc { .. } | Footprint::Gaussian { .. } => {
@@ -39,7 +39,7 @@ impl Footprint {
         }
     }
 
-    /// What the value 1 on each cell brings in all [m²]: the area of the cell; of a Gaussian spot `π R²/2`.
+    /// Area of each cell [m²]: the integral of the value 1 on it; for a Gaussian spot `π R²/2`.
     pub fn areas(&self, radius: f64) -> Vec<f64> {
         let share = if let Footprint::Gaussian { .. } = self { 0.5 } else { 1.0 };
         match self.cells_about_centre(radius) {

@@ -1,4 +1,4 @@
-//! Droplets, the walls that make units of them and their couplings to solids.
+//! Droplets, the walls that turn them into units, and their couplings to solids.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -20,7 +20,7 @@ use crate::quantity::Quantity;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Droplet {
-    /// How drops are computed.
+    /// Method that computes the drops.
     #[serde(default)]
     pub method: DropletMethod,
     /// Diameter [m].
@@ -29,11 +29,11 @@ pub struct Droplet {
     /// Speed at the release, straight towards the wall unless there is an angle [m/s].
     #[schemars(transform = speed())]
     pub impact_velocity: f64,
-    /// Angle between the way of a drop at its release and the way straight down [rad].
+    /// Angle between the velocity of a drop at its release and the downward vertical [rad].
     #[serde(default)]
     #[schemars(transform = angle().otherwise("0: straight down"))]
     pub impact_angle: f64,
-    /// Direction along the wall of drops that come at an angle, from x towards y [rad].
+    /// Direction along the wall of drops with an angle, from x towards y [rad].
     #[serde(default)]
     #[schemars(transform = direction()
         .condition("0 in a plane model")
@@ -50,26 +50,26 @@ pub struct Droplet {
     /// Distance of particles Δx [m].
     #[serde(default, skip_serializing_if = "is_zero")]
     #[schemars(transform = within(1e-10, 1e1, "m", "the distance of particles")
-        .condition("needed but by `method = \"film\"`, which has none; up to a sixth of the diameter, at most 2e7 particles")
+        .condition("required except with `method = \"film\"`; up to a sixth of the diameter, at most 2e7 particles")
         .otherwise("none"))]
     pub spacing: f64,
-    /// What the drops are made of.
+    /// Fluid of the drops.
     pub fluid: Fluid,
-    /// 3, or 2 for a plane model in x and z, of which all is told per metre of depth.
+    /// 3, or 2 for a plane model in x and z, whose totals are per metre of depth.
     #[serde(default = "three")]
     #[schemars(transform = whole(2, 3, "no model of this dimension", "3, 2 (plane)"))]
     pub dimension: usize,
     /// Part of the drop that is modelled.
     #[serde(default)]
     #[schemars(extend(
-        "otherwise" = "`auto`: axisymmetric above rings or a disc, a quarter elsewhere, where that is exact",
+        "otherwise" = "`auto`: axisymmetric above rings or a disc, else a quarter, where that is exact",
         "condition" = "`quarter` and `axisymmetric` with all drops at x = 0, y = 0, straight down; `axisymmetric` in three dimensions, not above tiles"
     ))]
     pub symmetry: DropletSymmetry,
-    /// Whether what lies below is modelled as round, a disc or a wall of rings: follows from the scene.
+    /// True if the surface below is modelled as round (a disc or a wall of rings); derived from the scene.
     #[serde(skip)]
     pub is_on_round: bool,
-    /// Particles on a lattice or at random with a least distance.
+    /// Initial placement of particles: on a lattice, or at random with a minimum distance.
     #[serde(default)]
     pub placement: Placement,
     /// Body force per mass towards −z [m/s²].
@@ -87,30 +87,29 @@ pub struct Droplet {
         "2 <= support <= 6 (distances of particles)",
     ))]
     pub support: f64,
-    /// Precision of what is computed for pairs of particles.
+    /// Precision of pair interactions.
     #[serde(default)]
     pub precision: Precision,
     /// δ of the density diffusion [1].
     #[serde(default = "default_density_diffusion")]
     #[schemars(transform = within(0.0, 1.0, "1", "").says("the density diffusion is out of bounds", "0 to 1"))]
     pub density_diffusion: f64,
-    /// Whether renormalised gradients correct the density diffusion, so that it leaves a fluid at
-    /// rest under gravity alone.
+    /// Correction of the density diffusion by renormalised gradients, which preserves a fluid at rest under gravity.
     #[serde(default = "yes")]
     pub corrected_diffusion: bool,
-    /// Whether particles are moved from crowded places to empty ones.
+    /// Shifting of particles from crowded to sparse regions.
     #[serde(default)]
     #[schemars(extend("otherwise" = "true from a Weber number of 1000 on, or without tension"))]
     pub shifting: Option<bool>,
-    /// What lets drops go: times of the scene, or inputs of the unit.
+    /// Trigger of releases: times of the scene, or inputs of the unit.
     #[serde(default)]
     pub release: ReleaseBy,
-    /// Drops that inputs may release in a run.
+    /// Largest number of drops that inputs may release in a run.
     #[schemars(transform = whole(1, 10_000, "the number of drops is out of bounds", "1 to 10000")
-        .condition("with `release = \"input\"`, which needs it")
+        .condition("required with `release = \"input\"`, else not allowed")
         .otherwise("none"))]
     pub most: Option<usize>,
-    /// A copy of the drop for each entry of the list.
+    /// Releases of drops: one drop per entry of the list.
     #[schemars(
         length(min = 1),
         extend(
@@ -119,19 +118,19 @@ pub struct Droplet {
         )
     )]
     pub arrivals: Option<Vec<Arrival>>,
-    /// How the impact is recorded that `method = "record"` repeats.
+    /// Settings of the recorded impact that `method = "record"` repeats.
     #[schemars(extend("otherwise" = "at `impact_velocity`", "condition" = "with `method = \"record\"` or `\"film\"`"))]
     pub record: Option<Recording>,
 }
 
-/// What lets drops go.
+/// Trigger of the drops' releases.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum ReleaseBy {
     /// The times of `arrivals`.
     #[default]
     Arrivals,
-    /// An input that counts the drops asked for, with place, speed and temperature beside it.
+    /// An input that counts the requested drops; further inputs set position, speed and temperature.
     Input,
 }
 
@@ -141,42 +140,42 @@ pub enum DropletMethod {
     /// Weakly compressible smoothed particle hydrodynamics.
     #[default]
     Sph,
-    /// One impact of particles, computed ahead, is repeated for every drop.
+    /// A precomputed impact of particles, repeated for every drop.
     Record,
-    /// Closed forms of a film that spreads and cools are repeated for every drop.
+    /// Closed forms of a film that spreads and cools, repeated for every drop.
     Film,
 }
 
-/// How much of the drops is modelled.
+/// Modelled part of the drops.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DropletSymmetry {
-    /// Where all drops arrive at the origin on a lattice: above a disc or a wall of rings, straight down, the plane of
-    /// radius and height; elsewhere a quarter, or half of a plane model; half where they come at an angle along x or y.
+    /// The plane of radius and height if all drops arrive at the origin, on a lattice, straight down, above a disc or a
+    /// wall of rings. Other drops at the origin: a quarter, or half of a plane model; half if they come at an angle
+    /// along x or y.
     #[default]
     Auto,
-    /// The whole of all drops.
+    /// All drops entirely.
     None,
     /// A quarter; drops must arrive at the origin, straight down.
     Quarter,
     /// The plane of radius and height, in which particles are rings about the axis: two dimensions instead of three.
-    /// Drops must arrive at the origin, straight down. A box below takes and shows means over rings.
+    /// Drops must arrive at the origin, straight down. A box below exchanges means over rings.
     Axisymmetric,
 }
 
-/// How particles are laid out at first.
+/// Initial arrangement of particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Placement {
     /// On a cubic lattice.
     #[default]
     Lattice,
-    /// At random with a smallest distance (Poisson disk).
+    /// At random with a minimum distance (Poisson disk).
     BlueNoise,
 }
 
-/// Precision of what is computed for a pair of particles; positions and sums over time are always
-/// double.
+/// Precision of pair interactions; positions and sums over time are always double.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Precision {
@@ -187,7 +186,7 @@ pub enum Precision {
     Double,
 }
 
-/// When and where a drop is released.
+/// Time and position of a drop's release.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Arrival {
@@ -195,11 +194,11 @@ pub struct Arrival {
     #[serde(default)]
     #[schemars(transform = within(0.0, 1e12, "s", "the time of an arrival"))]
     pub time: f64,
-    /// Place of the centre [m].
+    /// x of the centre [m].
     #[serde(default)]
     #[schemars(transform = arrival())]
     pub x: f64,
-    /// Place of the centre [m].
+    /// y of the centre [m].
     #[serde(default)]
     #[schemars(transform = arrival().condition("0 in a plane model"))]
     pub y: f64,
@@ -210,7 +209,7 @@ const fn speed() -> Limits {
     within(0.0, 1e5, "m/s", "the speed towards the wall").plausible(&plausible::SPEED)
 }
 
-/// Angle between the way of a drop and the way straight down [rad].
+/// Angle between the velocity of a drop and the downward vertical [rad].
 const fn angle() -> Limits {
     let limits = within(-FRAC_PI_2, FRAC_PI_2, "rad", "").open();
     limits.says(
@@ -219,13 +218,13 @@ const fn angle() -> Limits {
     )
 }
 
-/// Direction along the wall of a drop that comes at an angle [rad].
+/// Direction along the wall of a drop with an angle [rad].
 const fn direction() -> Limits {
     let limits = within(-TAU, TAU, "rad", "");
     limits.says("the direction is more than a full turn", "-6.28319 to 6.28319 (rad)")
 }
 
-/// Place of a drop's centre at its release along an axis [m].
+/// Coordinate of a drop's centre at its release [m].
 const fn arrival() -> Limits {
     within(-1e3, 1e3, "m", "the place of an arrival")
 }
@@ -243,12 +242,12 @@ pub struct Wall {
     /// Cells of the wall, centred on the origin.
     #[schemars(extend("condition" = "`rings` (drops at the centre), `tiles`"))]
     pub footprint: Footprint,
-    /// √(kρc) of the solid that a master couples [W √s/(m² K)], which bounds the heat of first contact by what the
-    /// solid's surface can answer within a step.
+    /// √(kρc) of the solid that a master couples [W √s/(m² K)]. It limits the heat of first contact by the response of
+    /// the solid's surface within a step.
     #[serde(default)]
     #[schemars(transform = above_zero("W √s/(m² K)")
         .low("the effusivity √(kρc) of what lies below is positive", "> 0 (W √s/(m² K))")
-        .otherwise("none: the wall is held at its temperature"))]
+        .otherwise("none: prescribed wall temperature"))]
     pub effusivity: Option<f64>,
     /// Start values.
     #[serde(default)]
@@ -269,28 +268,28 @@ pub struct WallStart {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Coupling {
-    /// The droplet, or the face of the solid below.
+    /// The droplet, or the top face of the lower solid.
     #[schemars(extend("condition" = "a droplet without wall; `SOLID.top`"))]
     pub from: String,
     /// The face.
     #[schemars(extend(
-        "condition" = "`SOLID.top`, not held, below a droplet; `SOLID.bottom` of the solid above"
+        "condition" = "`SOLID.top` without prescribed temperature, below a droplet; `SOLID.bottom` of the upper solid"
     ))]
     pub to: String,
-    /// Heat flux over the difference of temperatures [W/(m² K)], of solids alone.
+    /// Heat flux over the difference of temperatures [W/(m² K)], only between solids.
     #[schemars(transform = within(1e-12, 1e15, "W/(m² K)", "the conductance of the contact")
         .otherwise("none below a droplet, needed between solids"))]
     pub conductance: Option<f64>,
-    /// Whether pressure and shear of a droplet load the solid.
+    /// Load of the droplet's pressure and shear on the solid.
     #[serde(default = "yes")]
     pub traction: bool,
     /// Longest time between two exchanges [s].
     #[schemars(transform = within(1e-30, 1e12, "s", "the time between exchanges")
-        .otherwise("from the flow and the contact; of solids the communication step"))]
+        .otherwise("from the flow and the contact; for solids the communication step"))]
     pub interval: Option<f64>,
-    /// Distance from each arrival out to which the solid's mesh is fine [m].
+    /// Distance from each arrival within which the solid's mesh is fine [m].
     #[schemars(transform = length("the radius of the fine mesh")
-        .otherwise("as far as the drop is expected to spread"))]
+        .otherwise("the expected spread of the drop"))]
     pub radius: Option<f64>,
 }
 
@@ -314,17 +313,17 @@ fn yes() -> bool {
     true
 }
 
-/// The arrival of a scene that names none.
+/// Arrival of a scene without `arrivals`.
 const ONE_ARRIVAL: [Arrival; 1] = [Arrival { time: 0.0, x: 0.0, y: 0.0 }];
 
-/// Speed of sound over the governing speed where the scene names none: density then stays within 1 %.
+/// Default speed of sound over the governing speed: it keeps the density within 1 %.
 const SOUND_OVER_FLOW: f64 = 10.0;
 
-/// Least speed of sound over that of the flow or its surface: below, the fluid would be compressed by 4 % and
-/// more, or its surface come loose.
+/// Smallest speed of sound over that of the flow or its surface. Below it the fluid would be compressed by 4 % and
+/// more, or its surface would detach.
 pub const LEAST_SOUND_OVER_FLOW: f64 = 5.0;
 
-/// What moves or presses a fluid most.
+/// Dominant cause of motion or pressure in a fluid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Governing {
     Flow,
@@ -332,13 +331,13 @@ pub enum Governing {
     Viscosity,
 }
 
-/// Weber number from which inertia rules.
+/// Weber number above which inertia dominates.
 const INERTIAL: f64 = 1000.0;
 
-/// Cosine of an angle that is taken for a right one: what is left of that by rounding.
+/// Cosine below which an angle counts as a right angle, given rounding.
 const RIGHT: f64 = 1e-9;
 
-/// Velocity [m/s] at an angle to the way straight down and in a direction along the wall, from x towards y [rad].
+/// Velocity [m/s] from speed, angle to the downward vertical and direction along the wall, from x towards y [rad].
 pub fn velocity(speed: f64, angle: f64, direction: f64) -> [f64; 3] {
     let (down, aside) = (speed * angle.cos(), speed * angle.sin());
     let (sine, cosine) = direction.sin_cos();
@@ -359,20 +358,20 @@ impl Droplet {
         self.height.unwrap_or(0.5 * self.spacing)
     }
 
-    /// The larger of the speed of a drop that has fallen through its gap and its own height, and of
-    /// capillary waves, √(σ/(ρR)) [m/s].
+    /// Larger of two speeds [m/s]: that of a drop that has fallen through its gap and its own height, and that of
+    /// capillary waves, √(σ/(ρR)).
     pub fn fastest_flow(&self) -> f64 {
         let fall = self.gain_by_fall();
         let capillary = self.fluid.capillary_speed_squared(0.5 * self.diameter);
         (self.impact_velocity.powi(2) + fall).max(capillary).sqrt()
     }
 
-    /// What the square of a speed grows by over the fall of a drop through its gap and its own height [m²/s²].
+    /// Increase of the squared speed during the fall of a drop through its gap and its own height [m²/s²].
     fn gain_by_fall(&self) -> f64 {
         2.0 * self.gravity * (self.gap() + self.diameter)
     }
 
-    /// The speed beside which that of sound is to be large [m/s], and what it is the speed of.
+    /// Governing speed [m/s], which the speed of sound must exceed by far, and its cause.
     pub fn governing_speed(&self) -> (Governing, f64) {
         let surface = self.fluid.laplace_speed(self.spacing);
         let viscous = self.fluid.viscous_speed(self.impact_velocity, self.diameter);
@@ -389,12 +388,12 @@ impl Droplet {
         self.fluid.sound_speed.unwrap_or_else(|| SOUND_OVER_FLOW * self.governing_speed().1)
     }
 
-    /// Whether inputs release the drops.
+    /// Returns true if inputs release the drops.
     pub fn is_on_demand(&self) -> bool {
         self.release == ReleaseBy::Input
     }
 
-    /// When and where drops are released, as far as the scene says.
+    /// Releases that the scene sets.
     pub fn arrivals(&self) -> &[Arrival] {
         match &self.arrivals {
             Some(list) => list,
@@ -403,18 +402,18 @@ impl Droplet {
         }
     }
 
-    /// Drops that there are at most.
+    /// Largest number of drops.
     pub fn drops(&self) -> usize {
         if self.is_on_demand() { self.most.unwrap_or(1) } else { self.arrivals().len() }
     }
 
-    /// The largest speed at which a drop may be released by inputs [m/s]: the flow is a fifth of sound then.
+    /// Largest speed at which inputs may release a drop [m/s]; the flow then reaches a fifth of the speed of sound.
     pub fn fastest_release(&self) -> f64 {
         let flow = self.sound_speed() / LEAST_SOUND_OVER_FLOW;
         (flow * flow - self.gain_by_fall()).max(0.0).sqrt()
     }
 
-    /// What a drop that inputs release takes from them when it starts.
+    /// Inputs that a released drop reads when it starts.
     pub fn inputs(&self) -> Vec<BodyInput> {
         if !self.is_on_demand() {
             return Vec::new();
@@ -469,7 +468,7 @@ impl Droplet {
         velocity(self.impact_velocity, self.impact_angle, self.impact_direction)
     }
 
-    /// Whether drops come straight down.
+    /// Returns true if drops come straight down.
     pub fn is_straight(&self) -> bool {
         self.impact_angle == 0.0
     }
@@ -479,12 +478,13 @@ impl Droplet {
         -self.velocity()[2]
     }
 
-    /// Time that a drop takes to fall through its gap at a speed towards the wall [s], without end where it does not.
+    /// Time that a drop takes to fall through its gap at a speed towards the wall [s]; infinite if it never arrives.
     pub fn fall_time(&self, speed: f64) -> f64 {
         2.0 * self.gap() / (speed + (speed * speed + 2.0 * self.gravity * self.gap()).sqrt())
     }
 
-    /// Where a drop comes down that starts above a place [m] at a velocity [m/s]; that place if it never does.
+    /// Landing position of a drop that starts above a position [m] at a velocity [m/s]; the start position if it never
+    /// lands.
     pub fn landing(&self, from: [f64; 2], velocity: [f64; 3]) -> [f64; 2] {
         let time = self.fall_time(-velocity[2]);
         let along = |axis: usize| match time.is_finite() {
@@ -494,25 +494,25 @@ impl Droplet {
         [along(0), along(1)]
     }
 
-    /// Where the drops of the scene come down [m].
+    /// Landing positions of the scene's drops [m].
     pub fn landings(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         let velocity = self.velocity();
         self.arrivals().iter().map(move |arrival| self.landing([arrival.x, arrival.y], velocity))
     }
 
-    /// Whether all drops that the scene releases arrive at the origin.
+    /// Returns true if all drops that the scene releases arrive at the origin.
     pub fn is_centred(&self) -> bool {
         self.arrivals().iter().all(|arrival| arrival.x == 0.0 && arrival.y == 0.0)
     }
 
-    /// Whether particles are shifted.
+    /// Returns true if particles are shifted.
     pub fn shifts(&self) -> bool {
         let tension = self.fluid.surface_tension;
         let inertia = self.fluid.density * self.impact_velocity.powi(2) * self.diameter;
         self.shifting.unwrap_or(inertia > INERTIAL * tension || tension == 0.0)
     }
 
-    /// The impact of a drop as closed forms know it.
+    /// The impact of a drop in terms of the closed forms.
     pub fn impact(&self) -> DropImpact {
         let Fluid { density, viscosity, surface_tension, contact_angle, .. } = self.fluid;
         DropImpact {
@@ -525,7 +525,7 @@ impl Droplet {
         }
     }
 
-    /// Diameter over which a drop spreads at most [m].
+    /// Largest spread diameter of a drop [m].
     pub fn spread_diameter(&self) -> f64 {
         self.impact().largest_spread() * self.diameter
     }

@@ -1,12 +1,12 @@
-//! What part of its drops a droplet models, and how many particles these are.
+//! Modelled part of a droplet's drops, and its number of particles.
 
 use std::f64::consts::PI;
 
 use super::droplet::{Droplet, DropletMethod, DropletSymmetry, Placement};
 
 impl Droplet {
-    /// Whether particles are rings about the axis. What is round lets inputs, too, release drops nowhere but straight
-    /// down the axis. Drops at random places would not be what they are asked to be.
+    /// Returns true if particles are rings about the axis. In an axisymmetric model, inputs release drops only straight
+    /// down the axis. Random placement excludes it, because it would not be random in rings.
     pub fn is_axisymmetric(&self) -> bool {
         let has_axis = self.dimension == 3 && self.is_centred() && self.is_straight();
         match self.symmetry {
@@ -19,7 +19,7 @@ impl Droplet {
         }
     }
 
-    /// Number of particles of all drops that are computed, images at mirrors left out: of drops that are replayed, one.
+    /// Number of particles of all computed drops, images at mirrors excluded; for replayed drops, that of one.
     pub fn particles(&self) -> f64 {
         let across = self.diameter / self.spacing;
         let copies: f64 =
@@ -33,17 +33,17 @@ impl Droplet {
         whole * drops / copies
     }
 
-    /// Axes in which particles stand.
+    /// Number of axes in which particles are arranged.
     pub fn axes(&self) -> usize {
         if self.is_axisymmetric() { 2 } else { self.dimension }
     }
 
-    /// Along which of x and y what the drops do is symmetric.
+    /// Symmetry of the drops' motion along x and y.
     pub fn even(&self) -> [bool; 2] {
         self.mirrors().map(|mirrored| mirrored || self.is_axisymmetric())
     }
 
-    /// Along which of x and y the half of the model stands for the whole.
+    /// Axes x and y along which half of the model represents the whole.
     pub fn mirrors(&self) -> [bool; 2] {
         let is_even = match self.symmetry {
             DropletSymmetry::Auto if self.is_axisymmetric() => false,
@@ -52,7 +52,7 @@ impl Droplet {
             }
             symmetry => symmetry == DropletSymmetry::Quarter,
         };
-        // A drop that comes at an angle mirrors itself in the plane that it moves in, if in any.
+        // A drop at an angle is symmetric about its plane of motion, if that is a coordinate plane.
         let [u, v, _] = self.velocity();
         [is_even && u == 0.0, is_even && v == 0.0 && self.dimension == 3]
     }

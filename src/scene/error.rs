@@ -1,27 +1,27 @@
-//! What is wrong with a scene: place, value, reason and what is allowed instead.
+//! Errors of a scene: position, value, reason and what is allowed instead.
 
 use std::borrow::Cow;
 use std::fmt;
 
-/// One thing that is wrong with a scene.
+/// One error of a scene.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Problem {
-    /// Name of the file, as it was given.
+    /// Name of the file, as given.
     pub file: String,
-    /// Line of the value, counted from 1; `None` where the file as a whole is at fault.
+    /// Line of the value, counted from 1; `None` for an error of the whole file.
     pub line: Option<usize>,
     /// Dotted path of the value, as in `load[0].footprint.disc.radius`; empty for the file.
     pub path: String,
     /// Source text of the value; empty where there is none.
     pub value: String,
-    /// What is wrong with it.
+    /// Description of the error.
     pub message: String,
-    /// What would be right.
+    /// The allowed values.
     pub allowed: String,
 }
 
 impl Problem {
-    /// `FILE:LINE: KEY = VALUE:`, as far as these are known.
+    /// Writes `FILE:LINE: KEY = VALUE:`, as far as known.
     pub(crate) fn write_place(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:", self.file)?;
         if let Some(line) = self.line {
@@ -40,12 +40,12 @@ impl Problem {
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.write_place(f)?;
-        // Names come from the scene as they stand there.
+        // Names come unmodified from the scene.
         write!(f, " {}; allowed: {}", printable(&self.message), printable(&self.allowed))
     }
 }
 
-/// All problems that were found in a scene, in the order of their lines. Never empty.
+/// All errors found in a scene, in the order of their lines. Never empty.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{}", one_a_line(problems))]
 pub struct SceneError {
@@ -53,7 +53,7 @@ pub struct SceneError {
 }
 
 impl SceneError {
-    /// `Err` with the problems in the order of their lines, `Ok` if there are none.
+    /// Returns `Err` with the problems in the order of their lines, or `Ok` if there are none.
     pub(super) fn unless_empty(mut problems: Vec<Problem>) -> Result<(), Self> {
         if problems.is_empty() {
             return Ok(());
@@ -69,7 +69,7 @@ impl From<Problem> for SceneError {
     }
 }
 
-/// The same with control characters escaped.
+/// Escapes control characters.
 fn printable(text: &str) -> Cow<'_, str> {
     if !text.contains(char::is_control) {
         return Cow::Borrowed(text);

@@ -1,18 +1,17 @@
-//! Files that others have written: read to a bound, and only where they are files.
+//! Reads external files: regular ones only, up to a maximum size.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// Opens a regular file, or a link to one. Pipes and devices are refused: they may have no end, or keep the
-/// reader waiting.
+/// Opens a regular file, or a link to one. Refuses pipes and devices: they may be endless, or block the reader.
 pub fn open_file(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true);
     #[cfg(unix)]
     {
         use std::os::unix::fs::OpenOptionsExt;
-        // Without it a pipe that nobody writes to is waited for.
+        // Without this flag, opening a pipe without writer blocks.
         options.custom_flags(libc::O_NONBLOCK);
     }
     let file = options.open(path)?;
@@ -27,10 +26,10 @@ pub fn open_file(path: &Path) -> io::Result<File> {
     Err(io::Error::new(reason, format!("it is {found} (allowed: a regular file)")))
 }
 
-/// The bytes of a regular file, at most `most`.
+/// Reads a regular file of at most `most` bytes.
 pub fn bytes_of(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    // What the system says of its size need not be true.
+    // The reported size need not be true.
     open_file(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most {
         let reason = format!("the file is too large (allowed: at most {most} bytes)");
@@ -45,7 +44,7 @@ mod tests {
     use std::fs;
 
     #[test]
-    fn a_file_is_read_up_to_the_bound() {
+    fn file_is_read_up_to_the_bound() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("file");
         fs::write(&path, b"12345").unwrap();

@@ -1,23 +1,23 @@
-//! What others ask of a footprint: only here, in the scene's checks and for walls it is known which kinds there are.
+//! Properties of footprints. Only this file, the scene's checks and walls distinguish the kinds.
 
 use super::types::{CellShape, Footprint};
 
-/// What a footprint with its values is made of.
+/// Decomposition of a footprint with its values.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Profile {
     /// A sum of uniform discs about its centre, the radius [m] and value of each; all radii grow in proportion.
     Discs(Vec<(f64, f64)>),
     /// The value at the centre, 1/e² of it at the radius.
     Gaussian(f64),
-    /// As many rectangles over a size [m], a value each.
+    /// Rectangles over a size [m], one value each.
     Tiles { count: [usize; 2], size: [f64; 2] },
 }
 
 impl Footprint {
-    /// Least hole that a chosen mesh sees, over the outer radius.
+    /// Smallest hole that an automatic mesh resolves, over the outer radius.
     pub const LEAST_HOLE: f64 = 0.05;
 
-    /// The name as scenes write it.
+    /// Name in scenes.
     pub fn name(&self) -> &'static str {
         match self {
             Footprint::Disc { .. } => "disc",
@@ -28,7 +28,7 @@ impl Footprint {
         }
     }
 
-    /// The key, below that name, of its extent.
+    /// Key of its extent, below that name.
     pub fn key_of_extent(&self) -> &'static str {
         match self {
             Footprint::Disc { .. } | Footprint::Gaussian { .. } | Footprint::Rings { .. } => {
@@ -39,12 +39,12 @@ impl Footprint {
         }
     }
 
-    /// What it is made of, where its outer radius is another than its own [m].
+    /// Decomposition, for an outer radius that may differ from its own [m].
     pub fn profile(&self, radius: f64, values: &[f64]) -> Profile {
         match *self {
             Footprint::Disc { .. } => Profile::Discs(vec![(radius, values[0])]),
             Footprint::Gaussian { .. } => Profile::Gaussian(values[0]),
-            // As a beam out of focus the ring grows as a whole.
+            // Like an unfocused beam, the ring grows as a whole.
             Footprint::Ring { inner, outer } => {
                 Profile::Discs(vec![(radius, values[0]), (radius * (inner / outer), -values[0])])
             }
@@ -64,8 +64,7 @@ impl Footprint {
         }
     }
 
-    /// Number of cells that have a value of their own, first index running along the first axis;
-    /// `None` for a single value without index.
+    /// Cell indices, the first along the first axis; `None` for a single value without index.
     pub fn cells(&self) -> Option<CellShape> {
         match *self {
             Footprint::Disc { .. } | Footprint::Gaussian { .. } | Footprint::Ring { .. } => None,
@@ -74,7 +73,7 @@ impl Footprint {
         }
     }
 
-    /// Number of values that it has.
+    /// Number of values.
     pub fn cell_count(&self) -> usize {
         match self.cells() {
             None => 1,
@@ -83,12 +82,12 @@ impl Footprint {
         }
     }
 
-    /// Whether shear on it is radial rather than along x and y.
+    /// Returns true if shear on it is radial rather than along x and y.
     pub fn shears_outward(&self) -> bool {
         matches!(self, Footprint::Rings { .. })
     }
 
-    /// Extents to both sides of its centre along x and y [m], where round ones have a radius other than their own.
+    /// Extents on both sides of its centre along x and y [m], for a radius that may differ from its own.
     pub fn half_extents(&self, radius: Option<f64>) -> [f64; 2] {
         match *self {
             Footprint::Tiles { size, .. } => size.map(|size| size / 2.0),
@@ -96,12 +95,12 @@ impl Footprint {
         }
     }
 
-    /// Over its extents, those within which its load matters.
+    /// Extent, over its half extents, within which its load is significant.
     pub fn reach(&self) -> f64 {
         if let Footprint::Gaussian { .. } = self { 1.5 } else { 1.0 }
     }
 
-    /// Half of the least width of what it covers, or the radius of a hole that is less [m].
+    /// Half of the smallest covered width, or the radius of a hole if that is smaller [m].
     pub fn half_width(&self, radius: Option<f64>) -> f64 {
         let [x, y] = self.half_extents(radius);
         match *self {
@@ -112,20 +111,21 @@ impl Footprint {
         }
     }
 
-    /// Distances from its centre at which what it brings jumps first and last along an axis, where round ones have a
-    /// radius other than their own [m].
+    /// Distances from its centre at which its load jumps first and last along an axis, for a radius that may differ
+    /// from its own [m].
     pub fn edges(&self, radius: Option<f64>) -> [Option<f64>; 2] {
         let [outer, other] = self.half_extents(radius);
         match *self {
             Footprint::Gaussian { .. } => [None; 2],
             Footprint::Ring { inner, outer: own } => [Some(outer), Some(outer * (inner / own))],
-            // Where the extents of tiles differ, a place is an edge along one axis alone, which harms no mesh.
+            // Where the extents of tiles differ, a position is an edge along one axis alone, which does not harm the
+            // mesh.
             Footprint::Tiles { .. } => [Some(outer), Some(other)],
             Footprint::Disc { .. } | Footprint::Rings { .. } => [Some(outer), None],
         }
     }
 
-    /// Least size of a cell [m].
+    /// Smallest size of a cell [m].
     pub fn finest(&self, radius: Option<f64>) -> f64 {
         let [x, y] = self.half_extents(radius);
         match *self {
@@ -138,7 +138,7 @@ impl Footprint {
         }
     }
 
-    /// Length on which a mesh is to see it, of radii between the least and the largest [m].
+    /// Length that a mesh must resolve, for radii between the smallest and the largest [m].
     pub fn feature(&self, [least, largest]: [f64; 2]) -> f64 {
         let part = |count: usize| (5.0 / count as f64).min(1.0);
         match *self {
@@ -154,7 +154,7 @@ impl Footprint {
         }
     }
 
-    /// For a table, lengths written by `metres`.
+    /// Short description for a table; `metres` writes lengths.
     pub fn label(&self, metres: impl Fn(f64) -> String) -> String {
         match *self {
             Footprint::Disc { radius } => format!("disc, radius {}", metres(radius)),
@@ -171,7 +171,7 @@ impl Footprint {
         }
     }
 
-    /// For a sentence.
+    /// Description for a sentence.
     pub fn words(&self, metres: impl Fn(f64) -> String) -> String {
         match *self {
             Footprint::Disc { radius } => format!("a disc of radius {}", metres(radius)),
@@ -191,7 +191,7 @@ impl Footprint {
     }
 }
 
-/// The outer radius of each ring and the drop of the value there.
+/// The outer radius of each ring and the decrease of the value there.
 fn discs_of_rings(count: usize, radius: f64, values: &[f64]) -> Vec<(f64, f64)> {
     let width = radius / count as f64;
     let disc = |i: usize| {

@@ -32,7 +32,7 @@ impl Grid {
         let (_, place) = field.body_and_place();
         let mut grid = Self::at(place, field, &solid.shape);
         if grid.normal == 2 {
-            // On an interface between layers, that of the upper one.
+            // On an interface between layers, z of the upper layer.
             grid.offset = solid.interface_at(grid.offset).unwrap_or(grid.offset);
         }
         grid
@@ -95,7 +95,7 @@ pub fn lateral_extents(shape: &Shape) -> [f64; 2] {
     }
 }
 
-/// Extents of the whole face or section [m]; of the inscribed square where that is round.
+/// Extents of the whole face or section [m]; of the inscribed square if it is round.
 fn whole_size(shape: &Shape, normal: usize, offset: f64) -> [f64; 2] {
     match *shape {
         Shape::Disc(Disc { radius, .. }) if normal == 2 => [SQRT_2 * radius; 2],
@@ -103,7 +103,7 @@ fn whole_size(shape: &Shape, normal: usize, offset: f64) -> [f64; 2] {
     }
 }
 
-/// Extents of a section [m]; of the rectangle around it where it is round.
+/// Extents of a section [m]; of the bounding rectangle if it is round.
 pub(super) fn section_size(shape: &Shape, normal: usize, offset: f64) -> [f64; 2] {
     let [x, y] = lateral_extents(shape);
     let thickness = shape.thickness();
@@ -137,7 +137,7 @@ mod tests {
     const DISC: &str = "{ disc = { radius = 5, thickness = 2 } }";
 
     #[test]
-    fn a_face_of_a_box_is_covered_by_default() {
+    fn box_face_is_covered_by_default() {
         let top = grid(BOX, "on = 'plate.top'\ngrid = [2, 4]");
         assert_eq!((top.axes, top.normal, top.offset, top.size), ([0, 1], 2, 0.0, [4.0, 8.0]));
         assert_eq!(top.point(0, 0), [-1.0, -3.0, 0.0]);
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_section_is_centred_at_half_the_thickness() {
+    fn section_is_centred_at_half_thickness() {
         let section = grid(BOX, "in = 'plate'\nplane = { y = 1 }\ngrid = [1, 2]\nsize = [1, 1]");
         assert_eq!((section.axes, section.normal), ([0, 2], 1));
         assert_eq!(section.point(0, 0), [0.0, 1.0, -1.25]);
@@ -160,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn a_round_face_is_covered_by_its_inscribed_square() {
+    fn round_face_is_covered_by_its_inscribed_square() {
         let top = grid(DISC, "on = 'plate.top'\ngrid = [3, 3]");
         assert_eq!(top.size, [SQRT_2 * 5.0; 2]);
         let section = grid(DISC, "in = 'plate'\nplane = { x = 3 }\ngrid = [3, 3]");

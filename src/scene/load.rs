@@ -1,4 +1,4 @@
-//! Loads on faces: where they act, what they bring and how that may change.
+//! Loads on faces: their position, their amounts and their range.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use super::types::{IDENTIFIER, Role};
 use crate::channel::{Channel, Direction};
 use crate::limits::{count, footprint_radius, heat_flux, length, place, traction};
 
-/// Heat and traction on a part of a face.
+/// Heat and traction on part of a face.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Load {
@@ -17,21 +17,21 @@ pub struct Load {
     /// The face, `BODY.FACE`.
     #[schemars(extend("condition" = "`top` or `bottom` of a solid"))]
     pub on: String,
-    /// Where it acts.
+    /// Footprint of the load.
     #[schemars(extend("condition" = "on its face"))]
     pub footprint: Footprint,
-    /// List of what it brings.
+    /// Amounts that the load carries.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]
     pub carries: Vec<Carries>,
     /// Start values of the inputs.
     #[serde(default)]
     #[schemars(extend("otherwise" = "zero, at the centre"))]
     pub start: LoadStart,
-    /// Bounds of the inputs that move the footprint; the mesh is fine wherever they let it go.
+    /// Bounds of the inputs that move the footprint; the mesh is fine throughout these bounds.
     #[serde(default)]
     #[schemars(extend("otherwise" = "where it starts"))]
     pub range: LoadRange,
-    /// Whether place and radius are inputs or tunable parameters, which nothing is connected to.
+    /// Role of position and radius: inputs or tunable parameters.
     #[serde(default)]
     pub role: Role,
 }
@@ -51,8 +51,8 @@ pub enum Footprint {
         #[schemars(transform = footprint_radius())]
         radius: f64,
     },
-    /// `{ inner = R1, outer = R2 }`: uniform between both; the input `NAME.radius` is the outer one, with which the inner
-    /// one grows in proportion.
+    /// `{ inner = R1, outer = R2 }`: uniform between both. The input `NAME.radius` is the outer radius; the inner one
+    /// grows in proportion.
     #[schemars(extend("unit" = "m", "condition" = "of loads; R1 up to 0.999 R2"))]
     Ring {
         #[schemars(transform = length("the inner radius of a ring"))]
@@ -60,7 +60,7 @@ pub enum Footprint {
         #[schemars(transform = footprint_radius())]
         outer: f64,
     },
-    /// `{ count = N, radius = R }`: concentric, of equal width, a value each.
+    /// `{ count = N, radius = R }`: concentric, of equal width, one value each.
     #[schemars(extend("unit" = "m", "condition" = "count 1 to 1000"))]
     Rings {
         #[schemars(transform = count())]
@@ -68,8 +68,8 @@ pub enum Footprint {
         #[schemars(transform = footprint_radius())]
         radius: f64,
     },
-    /// `{ count = [NX, NY], size = [LX, LY] }`: rectangles, a value each.
-    #[schemars(extend("unit" = "m", "condition" = "counts 1 to 1000; not on a disc; of a plane drop NY = 1"))]
+    /// `{ count = [NX, NY], size = [LX, LY] }`: rectangles, one value each.
+    #[schemars(extend("unit" = "m", "condition" = "counts 1 to 1000; not on a disc; NY = 1 for a plane drop"))]
     Tiles {
         #[schemars(transform = count())]
         count: [usize; 2],
@@ -115,10 +115,10 @@ pub struct LoadStart {
     /// Shear outward [Pa].
     #[schemars(transform = traction().otherwise("0").condition("on rings"))]
     pub shear_r: Option<CellValues>,
-    /// Place of the centre [m].
+    /// x of the centre [m].
     #[schemars(transform = place().otherwise("0").condition(ON_THE_FACE))]
     pub x: Option<f64>,
-    /// Place of the centre [m].
+    /// y of the centre [m].
     #[schemars(transform = place().otherwise("0").condition(ON_THE_FACE))]
     pub y: Option<f64>,
     /// Radius of a round footprint [m].
@@ -128,14 +128,14 @@ pub struct LoadStart {
     pub radius: Option<f64>,
 }
 
-/// What holds for values of what a load may carry.
-const CARRIED: &str = "what `carries` names";
-/// What holds for places of loads.
+/// Applicability of start values, for the reference.
+const CARRIED: &str = "amounts in `carries`";
+/// Applicability of positions, for the reference.
 const ON_THE_FACE: &str = "on the face; not on a disc";
-/// Where loads may go whose range is left out.
+/// Default of ranges, for the reference.
 const UNBOUNDED: &str = "unbounded, mesh fine at the start";
 
-/// One value for all cells, or one for each.
+/// One value for all cells, or one for each cell.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(
     untagged,
@@ -145,7 +145,7 @@ const UNBOUNDED: &str = "unbounded, mesh fine at the start";
 pub enum CellValues {
     Uniform(f64),
     Rings(Vec<f64>),
-    /// Row i holds the values of the tiles `[i, 1]`, `[i, 2]` …
+    /// One row per index i, with the values of the tiles `[i, 1]`, `[i, 2]` …
     Tiles(Vec<Vec<f64>>),
 }
 
@@ -164,7 +164,7 @@ impl LoadStart {
 }
 
 impl Load {
-    /// The amounts that it brings: shear is radial on rings, and along x and y elsewhere.
+    /// The amounts of the load: shear is radial on rings, and along x and y elsewhere.
     pub fn channels(&self) -> impl Iterator<Item = Channel> {
         let is_radial = self.footprint.shears_outward();
         let fits = move |channel: &Channel| match channel.direction() {
@@ -178,7 +178,7 @@ impl Load {
 }
 
 impl Carries {
-    /// What a load carries that brings an amount.
+    /// The kind of load that carries an amount.
     pub fn of(channel: Channel) -> Self {
         match channel.direction() {
             Direction::Heat => Self::HeatFlux,
@@ -203,10 +203,10 @@ impl CellValues {
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LoadRange {
-    /// `[lowest, highest]` place of the centre [m].
+    /// `[lowest, highest]` x of the centre [m].
     #[schemars(transform = place().otherwise(UNBOUNDED).condition(ON_THE_FACE))]
     pub x: Option<[f64; 2]>,
-    /// `[lowest, highest]` place of the centre [m].
+    /// `[lowest, highest]` y of the centre [m].
     #[schemars(transform = place().otherwise(UNBOUNDED).condition(ON_THE_FACE))]
     pub y: Option<[f64; 2]>,
     /// `[lowest, highest]` radius [m].

@@ -1,4 +1,4 @@
-//! Places in a scene's text: from the path of a value to its line and its source text.
+//! Positions in a scene's text: maps the path of a value to its line and its source text.
 
 use std::fmt;
 
@@ -7,14 +7,14 @@ use toml::de::{DeTable, DeValue};
 
 use super::error::{Problem, SceneError};
 
-/// Longest source text that a message repeats.
+/// Largest length of source text in a message.
 const LONGEST_VALUE: usize = 60;
 
-/// The way from the root of a scene to one of its values.
+/// Path from the root of a scene to one of its values.
 #[derive(Debug, Clone, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Path(Vec<Step>);
 
-/// From a value to one in it.
+/// Step from a value to one of its elements.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Step {
     Key(String),
@@ -55,7 +55,7 @@ impl Path {
         &self.0
     }
 
-    /// Whether this value is part of the value at `other` (or is that value).
+    /// Returns true if this value is part of the value at `other` (or is that value).
     pub fn is_within(&self, other: &Path) -> bool {
         self.0.starts_with(&other.0)
     }
@@ -82,23 +82,23 @@ impl fmt::Display for Path {
     }
 }
 
-/// Whether TOML takes this key without quotes.
+/// Returns true if TOML accepts this key without quotes.
 fn is_bare(key: &str) -> bool {
     !key.is_empty() && key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_' || c == '-')
 }
 
-/// A scene's text together with the places of its values.
+/// A scene's text together with the positions of its values.
 #[derive(Debug)]
 pub struct Source<'a> {
     file: String,
     text: &'a str,
-    /// Where the lines end.
+    /// Positions of the line ends.
     ends: Vec<usize>,
     root: Spanned<DeValue<'a>>,
 }
 
 impl<'a> Source<'a> {
-    /// Reads TOML; fails on every line that is none.
+    /// Parses TOML; the error lists every invalid line.
     pub fn parse(text: &'a str, file: &str) -> Result<Self, SceneError> {
         let (table, errors) = DeTable::parse_recoverable(text);
         let root = Spanned::new(table.span(), DeValue::Table(table.into_inner()));
@@ -121,7 +121,7 @@ impl<'a> Source<'a> {
         self.node(&path.0).map(Spanned::get_ref)
     }
 
-    /// A problem with the value at `path`; where there is none, with the table it is missing in.
+    /// A problem with the value at `path`; if it is missing, with its table.
     pub fn problem(&self, path: &Path, message: String, allowed: String) -> Problem {
         Problem {
             file: self.file.clone(),
@@ -146,7 +146,7 @@ impl<'a> Source<'a> {
         })
     }
 
-    /// First line of a value as it is written; nothing for tables that stand under a header.
+    /// First line of a value as written; empty for tables under a header.
     fn text_of(&self, node: &Spanned<DeValue<'a>>) -> String {
         let text = self.text.get(node.span()).unwrap_or_default();
         let has_header = match node.get_ref() {
@@ -182,7 +182,7 @@ impl<'a> Source<'a> {
     }
 }
 
-/// The first line of a text, cut where it grows long.
+/// The first line of a text, truncated to a maximum length.
 fn shortened(text: &str) -> String {
     let line = text.lines().next().unwrap_or_default().trim_end();
     let cut: String = line.chars().take(LONGEST_VALUE).collect();
@@ -219,17 +219,17 @@ mod tests {
     }
 
     #[test]
-    fn a_long_value_is_cut() {
+    fn long_value_is_truncated() {
         expect(Path::default().at("load").index(1).at("n"), 10, "load[1].n", "'''p…");
     }
 
     #[test]
-    fn a_missing_value_has_the_line_of_its_table() {
+    fn missing_value_reports_the_line_of_its_table() {
         expect(Path::default().at("load").index(0).at("on"), 7, "load[0].on", "");
     }
 
     #[test]
-    fn text_that_is_no_toml_is_refused_with_every_line() {
+    fn invalid_toml_reports_every_line() {
         let error = Source::parse("a = \nb = 1\nb = 2\nc = 'x\n", "file").unwrap_err();
         let lines: Vec<_> = error.problems.iter().map(|problem| problem.line).collect();
         assert_eq!(lines, [Some(1), Some(3), Some(4)], "{error}");

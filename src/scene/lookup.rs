@@ -1,4 +1,4 @@
-//! What others ask of a checked scene.
+//! Look-ups in a checked scene.
 
 use super::droplet::{Coupling, Droplet};
 use super::reservoir::Reservoir;
@@ -6,7 +6,7 @@ use super::types::*;
 use crate::limits::Bounds;
 use crate::quantity::Quantity;
 
-/// Where a field lies in its body.
+/// Position of a field in its body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Place {
     Face(FaceName),
@@ -21,7 +21,7 @@ pub struct BodyInput {
     pub words: &'static str,
     pub quantity: Quantity,
     pub start: f64,
-    /// Values that the variable may have.
+    /// Bounds of the variable.
     pub bounds: Bounds,
 }
 
@@ -35,7 +35,7 @@ impl Body {
         }
     }
 
-    /// The same, to be changed.
+    /// Mutable access to it.
     pub fn initial_temperature_mut(&mut self) -> &mut f64 {
         match self {
             Body::Solid(solid) => &mut solid.initial_temperature,
@@ -44,7 +44,7 @@ impl Body {
         }
     }
 
-    /// Inputs beside those of loads, faces and walls.
+    /// Inputs besides those of loads, faces and walls.
     pub fn inputs(&self) -> Vec<BodyInput> {
         match self {
             Body::Solid(_) => Vec::new(),
@@ -53,7 +53,7 @@ impl Body {
         }
     }
 
-    /// A body that has no extent, in words.
+    /// Describes a body without extent.
     fn lump(&self) -> Option<String> {
         match self {
             Body::Solid(_) | Body::Droplet(_) => None,
@@ -63,12 +63,12 @@ impl Body {
 }
 
 impl Scene {
-    /// Forgets what outputs err by, which was estimated with other parameters.
+    /// Discards estimated errors, which belong to other parameters.
     pub fn forget_estimates(&mut self) {
         self.refinement.values_mut().for_each(|mesh| mesh.estimated_error = None);
     }
 
-    /// The bodies that have no extent, each in words.
+    /// The bodies without extent, with a description of each.
     pub fn lumps(&self) -> impl Iterator<Item = (&str, String)> {
         self.body.iter().filter_map(|(name, body)| Some((name.as_str(), body.lump()?)))
     }
@@ -102,7 +102,7 @@ impl Scene {
         self.body.keys().filter_map(|name| Some((name.as_str(), self.solid(name)?)))
     }
 
-    /// The scene of one solid that nothing touches, with what loads and reads it, and how fine its mesh is.
+    /// The scene of a single isolated solid, with its loads, outputs and mesh settings.
     pub fn alone(&self, name: &str) -> Self {
         let mut own = self.clone();
         own.body.retain(|other, _| other == name);
@@ -131,7 +131,8 @@ impl Scene {
         self.wall.iter().position(|wall| wall.under == droplet)
     }
 
-    /// √(kρc) of what lies below a droplet [W √s/(m² K)]: of a solid that of its top layer; nothing of a wall that is held.
+    /// √(kρc) of the solid below a droplet [W √s/(m² K)], of its top layer; `None` for a wall of prescribed
+    /// temperature.
     pub fn effusivity_below(&self, droplet: &str) -> Option<f64> {
         let solid = self.coupling_from(droplet).and_then(|index| self.coupling[index].solid());
         match solid.and_then(|solid| self.solid(solid)) {
@@ -145,7 +146,7 @@ impl Scene {
         self.coupling.iter().position(|coupling| coupling.from == droplet)
     }
 
-    /// Whether what lies below a droplet is modelled as round: a disc, or a wall of rings.
+    /// Returns true if the surface below a droplet is modelled as round: a disc, or a wall of rings.
     fn is_round_below(&self, droplet: &str) -> bool {
         if let Some(wall) = self.wall_under(droplet) {
             return matches!(self.wall[wall].footprint, Footprint::Rings { .. });
@@ -155,8 +156,8 @@ impl Scene {
         solid.is_some_and(|solid| matches!(solid.shape, Shape::Disc(_)))
     }
 
-    /// Tells each droplet what it stands on.
-    pub(super) fn tell_what_is_below(&mut self) {
+    /// Stores in each droplet the properties of the surface below it.
+    pub(super) fn store_surfaces_below(&mut self) {
         let names: Vec<String> = self.droplets().map(|(name, _)| name.to_owned()).collect();
         for name in names {
             let is_round = self.is_round_below(&name);
@@ -166,7 +167,7 @@ impl Scene {
         }
     }
 
-    /// Whether axisymmetric drops stand on a box, which meets them on rings.
+    /// Returns true if axisymmetric drops stand on a box and exchange with it over rings.
     pub fn meets_rings(&self, solid: &str) -> bool {
         let is_box = self.solid(solid).is_some_and(|solid| matches!(solid.shape, Shape::Box(_)));
         let mut drops = self.couplings_to(solid).filter_map(|place| self.droplet(&place.from));
@@ -178,15 +179,15 @@ impl Scene {
         self.coupling.iter().filter(move |coupling| coupling.solid() == Some(solid))
     }
 
-    /// Whether the mechanics of a body is modelled: it must be, or a droplet pushes on a body whose
-    /// elastic constants are known.
+    /// Returns true if the mechanics of a body is modelled: if outputs or loads require it, or if a droplet loads a
+    /// body with known elastic constants.
     pub fn asks_mechanics(&self, body: &str) -> bool {
         let is_elastic = || self.solid(body).is_some_and(Solid::is_elastic);
         self.needs_mechanics(body)
             || self.couplings_to(body).any(|coupling| coupling.traction) && is_elastic()
     }
 
-    /// Whether the mechanics of a body must be modelled: it is given out, or a load carries traction.
+    /// Returns true if the mechanics of a body must be modelled: it has mechanical outputs, or a load carries traction.
     pub fn needs_mechanics(&self, body: &str) -> bool {
         self.gives_mechanics(body)
             || self.loads_on(body).any(|load| load.carries.iter().any(Carries::is_mechanical))
@@ -197,7 +198,7 @@ impl Scene {
         self.load.iter().filter(move |load| split_place(&load.on).is_some_and(|(on, _)| on == body))
     }
 
-    /// Whether a probe, a field or a running maximum gives stresses or displacements of a body.
+    /// Returns true if a probe, a field or a running maximum has stresses or displacements of a body as outputs.
     pub fn gives_mechanics(&self, body: &str) -> bool {
         let mechanical = |gives: &[Gives]| gives.iter().any(Gives::is_mechanical);
         self.solid(body).is_some_and(Solid::has_stress_peaks)
@@ -217,12 +218,13 @@ impl Shape {
 }
 
 impl Solid {
-    /// How particles conduct heat; `None` where finite elements do.
+    /// Settings of particle conduction; `None` for finite elements.
     pub fn sph(&self) -> Option<SphSettings> {
         (self.heat == HeatMethod::Sph).then(|| self.sph.unwrap_or_default())
     }
 
-    /// Whether running maxima of stress are kept, for which it is solved at every communication point.
+    /// Returns true if running maxima of stress are kept, which requires a stress solution at every communication
+    /// point.
     pub fn has_stress_peaks(&self) -> bool {
         self.peaks.iter().any(PeakOf::is_mechanical)
     }
@@ -247,7 +249,7 @@ impl Solid {
 }
 
 impl Face {
-    /// Keys of the thermal conditions that are given.
+    /// Keys of the thermal conditions that are set.
     pub fn thermal(&self) -> Vec<&'static str> {
         let given = [
             ("temperature", self.temperature.is_some()),
@@ -257,7 +259,7 @@ impl Face {
         given.into_iter().filter(|(_, given)| *given).map(|(key, _)| key).collect()
     }
 
-    /// Keys of the mechanical conditions that are given.
+    /// Keys of the mechanical conditions that are set.
     pub fn mechanical(&self) -> Vec<&'static str> {
         let given = [("clamped", self.clamped), ("roller", self.roller)];
         given.into_iter().filter(|(_, given)| *given).map(|(key, _)| key).collect()
@@ -271,7 +273,7 @@ impl FaceName {
         [Self::Top, Self::Bottom, Self::Left, Self::Right, Self::Front, Self::Back];
     const OF_DISC: [Self; 3] = [Self::Top, Self::Bottom, Self::Sides];
 
-    /// The name as scenes write it.
+    /// Name in scenes.
     pub fn as_str(self) -> &'static str {
         match self {
             Self::Top => "top",
@@ -284,12 +286,12 @@ impl FaceName {
         }
     }
 
-    /// The face that scenes write so.
+    /// The face with this name in scenes.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|face| face.as_str() == name)
     }
 
-    /// Whether `sides` of a box includes the face.
+    /// Returns true if `sides` of a box includes the face.
     pub fn is_one_of_four_sides(self) -> bool {
         matches!(self, Self::Left | Self::Right | Self::Front | Self::Back)
     }
@@ -316,17 +318,17 @@ impl Load {
 }
 
 impl Coupling {
-    /// The solid that a droplet is coupled to, as far as the coupling says one.
+    /// The solid that a droplet is coupled to, if the coupling names one.
     pub fn solid(&self) -> Option<&str> {
         self.upper().is_none().then(|| split_place(&self.to).map(|(body, _)| body))?
     }
 
-    /// The solid and its face below the contact of two solids; nothing where a droplet is coupled.
+    /// The lower solid of a contact and its face; `None` for the coupling of a droplet.
     pub fn lower(&self) -> Option<(&str, FaceName)> {
         split_place(&self.from)
     }
 
-    /// The solid and its face above that contact.
+    /// The upper solid of a contact and its face.
     pub fn upper(&self) -> Option<(&str, FaceName)> {
         self.lower().and_then(|_| split_place(&self.to))
     }
@@ -348,7 +350,7 @@ impl Field {
         }
     }
 
-    /// Name of the body, as far as the field says one.
+    /// Name of the body, if the field names one.
     pub(super) fn body(&self) -> Option<&str> {
         match (&self.on, &self.body) {
             (Some(on), _) => split_place(on).map(|(body, _)| body),
@@ -376,21 +378,21 @@ impl Plane {
 }
 
 impl Carries {
-    /// Whether it is a traction.
+    /// Returns true if it is a traction.
     pub fn is_mechanical(&self) -> bool {
         matches!(self, Carries::Pressure | Carries::Shear)
     }
 }
 
 impl PeakOf {
-    /// Whether it comes from the displacements.
+    /// Returns true if it derives from the displacements.
     pub fn is_mechanical(&self) -> bool {
         !matches!(self, PeakOf::Temperature)
     }
 }
 
 impl Gives {
-    /// Whether it comes from the displacements.
+    /// Returns true if it derives from the displacements.
     pub fn is_mechanical(&self) -> bool {
         !matches!(self, Gives::Temperature)
     }

@@ -1,4 +1,4 @@
-//! Materials by name, and the layers that solids are made of.
+//! Named materials, and the layers of solids.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -12,25 +12,25 @@ use super::locate::Path;
 use super::types::{Layer, Probe, Scene, Side, Solid};
 use crate::laws::{Constants, Material, Thermoelastic};
 
-/// Part of a body's thickness within which a point lies on an interface, and by which layers may miss it.
+/// Tolerance, relative to a body's thickness, for points on an interface and for the sum of layers.
 pub const SLACK: f64 = 1e-9;
 
-/// The name of one of the scene's materials, or a material of its own.
+/// Name of one of the scene's materials, or a separate material.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MaterialChoice {
-    /// The name; none of a material of its own.
+    /// The name; `None` for a separate material.
     pub name: Option<String>,
-    /// A copy of what the name stands for, or the body's own; none until the name has been looked up.
+    /// A copy of the named material, or the body's own one; `None` until the name has been resolved.
     material: Option<Material>,
 }
 
 impl MaterialChoice {
-    /// A material of its own.
+    /// A separate material.
     pub fn of(material: Material) -> Self {
         Self { name: None, material: Some(material) }
     }
 
-    /// Looks the name up among the scene's materials; whether it is one of them.
+    /// Resolves the name among the scene's materials; returns true if it is one of them.
     pub(super) fn look_up<'a>(&mut self, find: impl Fn(&str) -> Option<&'a Material>) -> bool {
         if let Some(name) = &self.name {
             self.material = find(name).cloned();
@@ -38,16 +38,18 @@ impl MaterialChoice {
         self.material.is_some()
     }
 
+    /// The material.
+    ///
     /// # Panics
-    /// If the scene has not been decoded, which looks all names up.
+    /// If the scene has not been decoded, which resolves all names.
     pub fn material(&self) -> &Material {
         self.material.as_ref().expect("a decoded scene's names of materials are looked up")
     }
 
-    /// The material, to be changed.
+    /// Mutable access to the material.
     ///
     /// # Panics
-    /// If the scene has not been decoded, which looks all names up.
+    /// If the scene has not been decoded, which resolves all names.
     pub fn material_mut(&mut self) -> &mut Material {
         self.material.as_mut().expect("a decoded scene's names of materials are looked up")
     }
@@ -101,7 +103,7 @@ impl Serialize for MaterialChoice {
     }
 }
 
-/// A layer as it lies in its body; a body of one material is one layer.
+/// A layer at its position in the body; a body of one material is one layer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stratum {
     pub constants: Constants,
@@ -134,7 +136,7 @@ impl Solid {
         let mut top = 0.0;
         let place = |(i, layer): (usize, &Layer)| {
             depth += layer.thickness;
-            // The lowest ends where the body does, to the bit.
+            // The lowest layer ends at the body's bottom to the bit.
             let low = if i + 1 == layers.len() { bottom } else { -depth };
             let z = [low, top];
             top = low;
@@ -144,7 +146,7 @@ impl Solid {
         layers.iter().enumerate().map(place).collect()
     }
 
-    /// Whether a part of it melts.
+    /// Returns true if part of the body melts.
     pub fn melts(&self) -> bool {
         self.materials_of_layers().iter().any(|own| own.heat.melting.is_some())
     }
@@ -155,14 +157,14 @@ impl Solid {
         strata.iter().take(strata.len().saturating_sub(1)).map(|layer| layer.z[0]).collect()
     }
 
-    /// The interface that a coordinate is on, but for rounding [m].
+    /// The interface at a coordinate, within rounding [m].
     pub fn interface_at(&self, z: f64) -> Option<f64> {
         let slack = SLACK * self.shape.thickness();
         self.interfaces().into_iter().find(|interface| (z - interface).abs() <= slack)
     }
 
-    /// A point of which `side` tells on which side of an interface it is, where it is on one: as coordinate
-    /// of the interface above it, as the next lower number below.
+    /// Moves a point on an interface to the layer of `side`: above the interface it keeps its coordinate, below it gets
+    /// the next lower number.
     pub fn on_side(&self, [x, y, z]: [f64; 3], side: Side) -> [f64; 3] {
         let z = match (self.interface_at(z), side) {
             (None, _) => z,
@@ -172,8 +174,8 @@ impl Solid {
         [x, y, z]
     }
 
-    /// What the body is made of, in the order of layers: the places of the materials in a scene, below the
-    /// body's `path`, and these. A named material stands where the scene names it.
+    /// Materials of the body in the order of layers, with their paths in the scene, below the body's `path`. A named
+    /// material has the path of its definition.
     pub(crate) fn materials(&self, path: &Path) -> Vec<(Path, &Material)> {
         let place = |own: Path, choice: &MaterialChoice| match &choice.name {
             Some(name) => Path::default().key("material").key(name),
@@ -193,13 +195,13 @@ impl Solid {
         list
     }
 
-    /// What each layer is made of, from the top.
+    /// Material of each layer, from the top.
     pub fn materials_of_layers(&self) -> Vec<&Material> {
         let layers = self.layers.iter().flatten().map(|layer| &layer.material);
         self.material.iter().chain(layers).map(MaterialChoice::material).collect()
     }
 
-    /// Whether heat obeys a linear equation: no constant of it depends on the temperature, nothing melts, no face
+    /// Returns true if heat obeys a linear equation: no constant depends on the temperature, nothing melts, no face
     /// radiates.
     pub fn conducts_linearly(&self) -> bool {
         let mut materials = self.materials_of_layers().into_iter();
@@ -207,13 +209,13 @@ impl Solid {
             && self.faces.values().all(|face| face.radiation.is_none())
     }
 
-    /// Whether stress follows linearly from deformation and temperature.
+    /// Returns true if stress depends linearly on deformation and temperature.
     pub fn deforms_linearly(&self) -> bool {
         let mut materials = self.materials_of_layers().into_iter();
         materials.all(|material| material.law.deformation().is_linear())
     }
 
-    /// Whether a part of the body yields.
+    /// Returns true if part of the body yields.
     pub fn yields(&self) -> bool {
         self.materials_of_layers().into_iter().any(Material::yields)
     }
@@ -223,19 +225,19 @@ impl Solid {
         self.stress_free_temperature.unwrap_or(self.initial_temperature)
     }
 
-    /// The laws of deformation of all layers, from the top; none where one of them names no elastic constants.
+    /// Deformation laws of all layers, from the top; `None` if one of them lacks elastic constants.
     pub fn laws(&self) -> Option<Vec<Thermoelastic>> {
         self.strata().iter().map(|layer| layer.constants.law()).collect()
     }
 
-    /// Whether the materials name all constants of elasticity.
+    /// Returns true if the materials have all constants of elasticity.
     pub fn is_elastic(&self) -> bool {
         self.laws().is_some()
     }
 }
 
 impl Scene {
-    /// Places in bodies of materials that are just what their names say, of which a scene's text may hold copies.
+    /// Paths of materials in bodies that are unmodified named ones, of which a scene's text may hold copies.
     pub(crate) fn copied_materials(&self) -> Vec<Path> {
         let is_copy = |choice: &MaterialChoice| {
             let named = choice.name.as_ref().and_then(|name| self.material.get(name));
@@ -252,7 +254,7 @@ impl Scene {
         self.solids().flat_map(of_body).collect()
     }
 
-    /// Where a probe reads its body.
+    /// Position at which a probe reads its body.
     pub fn point_of(&self, probe: &Probe) -> [f64; 3] {
         let side = probe.side.unwrap_or_default();
         self.solid(&probe.body).map_or(probe.at, |solid| solid.on_side(probe.at, side))

@@ -1,6 +1,6 @@
-//! The scene: plain, checked data that says what to model. Nothing here knows how.
+//! The scene: plain, checked data that describes what to model. Nothing here depends on the method.
 //!
-//! Text → `locate` (TOML with places) → `decode` (types) → `check` (sense) → [`Scene`].
+//! Text → `locate` (TOML with positions) → `decode` (types) → `check` (consistency) → [`Scene`].
 
 mod cells;
 pub(crate) mod check;
@@ -57,10 +57,10 @@ pub fn read(path: &Path) -> Result<Scene, SceneError> {
     parse(&text_of(path, &file)?, &file)
 }
 
-/// Bytes of a scene's file, at most: hundreds of thousands of lines.
+/// Largest size of a scene's file in bytes: hundreds of thousands of lines.
 pub const LARGEST_FILE: u64 = 16_000_000;
 
-/// The text of the scene in a file, unchecked; `file` is the name that messages show.
+/// Reads the text of the scene in a file, unchecked; `file` is the name in messages.
 pub fn text_of(path: &Path, file: &str) -> Result<String, SceneError> {
     let problem = |message: String, allowed: String| Problem {
         file: file.to_owned(),
@@ -84,33 +84,33 @@ pub fn text_of(path: &Path, file: &str) -> Result<String, SceneError> {
     Ok(text.map_err(|error| unreadable(io::Error::new(io::ErrorKind::InvalidData, error)))?)
 }
 
-/// Bytes of a text that takes a noticeable time to read.
+/// Number of bytes of a text that takes noticeable time to read.
 const LARGE_TEXT: usize = 1_000_000;
 
-/// What to say before a large text is read.
+/// Notice to show before a large text is read.
 pub fn note_on_reading(text: &str, file: &str) -> Option<String> {
     let size = text.len() as f64 / 1e6;
     (text.len() > LARGE_TEXT).then(|| format!("reading {file}, {size:.1} MB"))
 }
 
-/// Reads and checks a scene's text; `file` is the name that messages show.
+/// Parses and checks a scene's text; `file` is the name in messages.
 pub fn parse(text: &str, file: &str) -> Result<Scene, SceneError> {
     let source = Source::parse(text, file)?;
     parse_located(&source, &Schema::of_scenes())
 }
 
-/// The same of a text whose places are known.
+/// Parses and checks a scene whose positions are known.
 pub(crate) fn parse_located(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
     let mut scene = decode::decode(source, schema)?;
-    scene.tell_what_is_below();
+    scene.store_surfaces_below();
     check::check(&scene, source, schema)?;
     Ok(scene)
 }
 
-/// What stands for the file of a scene that was changed.
+/// File name in messages about a modified scene.
 pub(crate) const CHANGED: &str = "the scene with its parameters as set";
 
-/// Checks a scene whose constants were changed after it was read; problems name no line.
+/// Checks a scene whose constants were modified after reading; problems have no line.
 pub fn check(scene: &Scene) -> Result<(), SceneError> {
     let file = CHANGED;
     let text = toml::to_string(scene).map_err(|error| Problem {
@@ -124,7 +124,7 @@ pub fn check(scene: &Scene) -> Result<(), SceneError> {
     check::check(scene, &Source::parse(&text, file)?, &Schema::of_scenes()).map_err(|mut error| {
         for problem in &mut error.problems {
             problem.line = None;
-            // As TOML writes them, extremes have hundreds of digits.
+            // In TOML's notation, extreme numbers have hundreds of digits.
             if let Ok(value) = problem.value.parse() {
                 problem.value = check::number(value);
             }

@@ -1,4 +1,4 @@
-//! Drops that repeat what is known of one, and how that is recorded.
+//! Drops that repeat a recorded one, and the settings of the recording.
 
 use std::f64::consts::PI;
 
@@ -9,16 +9,16 @@ use super::droplet::{Droplet, DropletMethod};
 use crate::closed_form::DropImpact;
 use crate::limits::within;
 
-/// How an impact is recorded.
+/// Settings of a recorded impact.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Recording {
-    /// Time after the first contact that is recorded [s]; then the splat cools as a film.
+    /// Recorded time after the first contact [s]; afterwards the splat cools as a film.
     #[schemars(transform = within(1e-12, 1e6, "s", "the time that is recorded")
         .otherwise("five times D/U, or as many of the time in which tension pulls the drop round; of films until they are widest, \
                     if that takes longer"))]
     pub duration: Option<f64>,
-    /// Speeds at the release that are recorded [m/s]: drops of speeds between them are interpolated.
+    /// Recorded speeds at the release [m/s]; other speeds between them are interpolated.
     #[schemars(
         length(min = 1),
         transform = within(1e-9, 1e5, "m/s", "a speed that is recorded")
@@ -28,44 +28,45 @@ pub struct Recording {
     pub speeds: Option<Vec<f64>>,
 }
 
-/// Time that is recorded, over D/U.
+/// Default recorded time over D/U.
 const RECORDED: f64 = 5.0;
 
 impl Droplet {
-    /// Whether drops repeat what is known of one.
+    /// Returns true if drops repeat a known one.
     pub fn is_replayed(&self) -> bool {
         self.method != DropletMethod::Sph
     }
 
-    /// Whether drops are made of particles, in the scene itself or ahead.
+    /// Returns true if drops consist of particles, in the scene itself or in a recording.
     pub fn has_particles(&self) -> bool {
         self.method != DropletMethod::Film
     }
 
-    /// Speeds at the release that are known of drops that are replayed [m/s].
+    /// Speeds at the release for which replayed drops are recorded [m/s].
     pub fn recorded_speeds(&self) -> Vec<f64> {
         let speeds = self.record.as_ref().and_then(|record| record.speeds.clone());
         speeds.unwrap_or_else(|| vec![self.impact_velocity])
     }
 
-    /// Of a round drop [kg].
+    /// Mass of a round drop [kg].
     pub fn mass(&self) -> f64 {
         PI / 6.0 * self.diameter.powi(3) * self.fluid.density
     }
 
-    /// Way of a drop from its release to where it is about to touch the wall [m]: half a distance of particles above it.
+    /// Distance that a drop falls from its release until just before it touches the wall [m]: half a particle distance
+    /// above it.
     fn way_down(&self) -> f64 {
         (self.gap() - 0.5 * self.spacing).max(0.0)
     }
 
-    /// How fast a drop is about to touch the wall that comes straight down [m/s], and how long after its release [s].
+    /// Speed of a vertically falling drop just before contact [m/s], and the time since its release [s].
     pub fn contact(&self, speed: f64) -> (f64, f64) {
         let way = self.way_down();
         let fast = (speed * speed + 2.0 * self.gravity * way).sqrt();
         (fast, if way > 0.0 { 2.0 * way / (speed + fast) } else { 0.0 })
     }
 
-    /// Time after the contact that is known of drops that are replayed [s].
+    /// Recorded time after contact of replayed drops [s].
     pub fn recorded_time(&self, speed: f64) -> f64 {
         let impact = DropImpact { speed, ..self.impact() };
         let usual = RECORDED * impact.time();

@@ -1,14 +1,14 @@
-//! Which solids a scene lets be reduced models, and what stands against that.
+//! Solids that a scene allows to be reduced, and obstacles to that.
 
 use super::Sampling;
 use super::check::takes_newton;
 use super::lookup::split_place;
 use super::types::{FidelityLevel, Gives, HeatMethod, Load, Scene, Solid, SolidLevel};
 
-/// What keeps a solid from being reduced.
+/// A reason why a solid cannot be reduced.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Obstacle {
-    /// Where the scene says it.
+    /// Position in the scene.
     pub at: Place,
     pub message: String,
     pub allowed: &'static str,
@@ -19,19 +19,19 @@ pub struct Obstacle {
 pub enum Place {
     /// A key of the body.
     Body(&'static str),
-    /// An element of these tables, with its number.
+    /// An element of these tables, by number.
     Element(&'static str, usize),
-    /// What all of the scene says together.
+    /// The scene as a whole.
     Level,
 }
 
-/// Inputs times outputs times the fewer of both, at most: work of the reduction.
+/// Largest product of inputs, outputs and the smaller of both: work of the reduction.
 const MOST_WORK: usize = 20_000;
-/// Points whose stresses and displacements are given, at most: each of their components takes a solution.
+/// Largest number of points with stresses or displacements as outputs: each of their components needs a solution.
 const MOST_MECHANICAL: usize = 100;
 
 impl Scene {
-    /// Whether a solid is a reduced model.
+    /// Returns true if a solid is a reduced model.
     pub fn is_reduced(&self, name: &str) -> bool {
         match self.fidelity.level {
             FidelityLevel::Full => false,
@@ -43,12 +43,12 @@ impl Scene {
         }
     }
 
-    /// Whether the level of a solid is to be found.
+    /// Returns true if the level of a solid is still to be chosen.
     pub fn is_open_level(&self, name: &str) -> bool {
         self.fidelity.level == FidelityLevel::Auto && !self.resolved.contains_key(name)
     }
 
-    /// What keeps a solid from being a reduced model; the first found.
+    /// The first obstacle to the reduction of a solid.
     pub fn obstacle(&self, name: &str, solid: &Solid) -> Option<Obstacle> {
         self.obstacle_of_kind(name, solid)
             .or_else(|| self.obstacle_of_neighbours(name))
@@ -61,11 +61,11 @@ impl Scene {
             Some(Obstacle { at, message: message.to_owned(), allowed })
         };
         if solid.heat == HeatMethod::Sph {
-            let message = "a reduced model follows from modes, not from particles";
+            let message = "a reduced model is derived from modes, not from particles";
             return obstacle(Place::Body("heat"), message, "fem");
         }
         if takes_newton(self, solid) {
-            let message = "a reduced model needs heat that modes give: constants that are numbers, nothing that melts \
+            let message = "a reduced model needs linear heat: constants independent of temperature, nothing that melts \
                            and no face that radiates";
             return obstacle(Place::Level, message, "full, auto");
         }
@@ -75,7 +75,7 @@ impl Scene {
         }
         if !solid.peaks.is_empty() {
             let message =
-                "a reduced model knows its probes and fields alone, and no extremes of the body";
+                "a reduced model computes only its probes and fields, not the extremes of the body";
             return obstacle(Place::Body("peaks"), message, "no `peaks`, or fidelity full, auto");
         }
         None
@@ -86,7 +86,8 @@ impl Scene {
             |place: &str| place == name || split_place(place).is_some_and(|(body, _)| body == name);
         let own = |coupling: &super::Coupling| touches(&coupling.from) || touches(&coupling.to);
         let place = self.coupling.iter().position(own)?;
-        let message = format!("`{name}` is a reduced model, whose faces other bodies cannot touch");
+        let message =
+            format!("`{name}` is a reduced model, which cannot be in contact with other bodies");
         Some(Obstacle {
             at: Place::Element("coupling", place),
             message,
@@ -103,7 +104,8 @@ impl Scene {
         let place = self.field.iter().position(is_of_cells)?;
         Some(Obstacle {
             at: Place::Element("field", place),
-            message: "a reduced model has no means of stress or displacement over cells".to_owned(),
+            message: "a reduced model does not compute means of stress or displacement over cells"
+                .to_owned(),
             allowed: "temperature, or points of a `grid`, or fidelity full, auto",
         })
     }
@@ -112,8 +114,8 @@ impl Scene {
         let [mechanical, thermal] = self.points_read(name);
         if mechanical > MOST_MECHANICAL {
             let message = format!(
-                "stress and displacement of {mechanical} points of `{name}`; each takes some solutions of mechanics in \
-                 a reduced model, which gives them at {MOST_MECHANICAL} at most"
+                "stress and displacement at {mechanical} points of `{name}`; each needs some solutions of mechanics in a \
+                 reduced model, which computes them at {MOST_MECHANICAL} at most"
             );
             return Some(Obstacle { at: Place::Level, message, allowed: "full, auto" });
         }
@@ -130,7 +132,7 @@ impl Scene {
         None
     }
 
-    /// Points whose stress or displacement is given, and places whose temperature is.
+    /// Numbers of points with stress or displacement as outputs, and of places with temperature.
     fn points_read(&self, name: &str) -> [usize; 2] {
         let mut counts = [0; 2];
         let mut add = |gives: &[Gives], count: usize| {
@@ -148,7 +150,7 @@ impl Scene {
         counts
     }
 
-    /// Values of loads and faces that drive a body.
+    /// Number of values of loads and faces that drive a body.
     fn driving_inputs(&self, name: &str) -> usize {
         let of_load = |load: &Load| {
             let footprints: usize = footprints_along(load).into_iter().product();
@@ -159,9 +161,9 @@ impl Scene {
     }
 }
 
-/// Footprints along the range of a load along x, y and the radius, enough for one that is as smooth as what heat makes of
-/// it: for each of its radii of the range about four, as a Gaussian of 1/e² radius R is a polynomial of degree 4 L/R over a
-/// range L to 1e-5.
+/// Numbers of footprints along the range of a load along x, y and the radius. They suffice for a load smoothed by heat
+/// conduction: about four for each of its radii in the range. A Gaussian of 1/e² radius R is a polynomial of degree 4
+/// L/R over a range L to 1e-5.
 pub fn footprints_along(load: &Load) -> [usize; 3] {
     let own = load.footprint.radius().unwrap_or(0.0);
     let least = load.range.radius.map_or(load.start.radius.unwrap_or(own), |[low, _]| low);
@@ -178,8 +180,8 @@ pub fn footprints_along(load: &Load) -> [usize; 3] {
     [along(load.range.x, half[0]), along(load.range.y, half[1]), of_radius]
 }
 
-/// How many footprints stand for one that moves: at least, for each of its radii that the range is long, for each e-fold
-/// of the radius, at most.
+/// Numbers of footprints that represent a moving one: at least; per radius of the range's length; per e-fold of the
+/// radius; at most.
 const FIRST_FOOTPRINTS: f64 = 3.0;
 const FOOTPRINTS: f64 = 4.0;
 const OF_RADIUS: f64 = 5.0;

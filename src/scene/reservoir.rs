@@ -17,7 +17,7 @@ pub struct Reservoir {
     /// Temperature at time zero; a parameter [K].
     #[schemars(transform = own_temperature())]
     pub initial_temperature: f64,
-    /// Heat P brought in at the start; an input [W].
+    /// Heating power P at the start; an input [W].
     #[serde(default)]
     #[schemars(transform = heating())]
     pub heating: f64,
@@ -33,13 +33,13 @@ pub struct Reservoir {
     pub ambient: Option<f64>,
 }
 
-/// Heat brought into a reservoir [W].
+/// Limits of the heating power of a reservoir [W].
 const fn heating() -> Limits {
     signed("W", "the heating")
 }
 
 impl Reservoir {
-    /// The heating, and the surroundings where heat is lost to any.
+    /// Inputs: the heating, and the temperature of the surroundings if heat is lost to them.
     pub fn inputs(&self) -> Vec<BodyInput> {
         let heating = BodyInput {
             key: "heating",

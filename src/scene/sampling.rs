@@ -1,10 +1,10 @@
-//! What the values of a field belong to: points of a grid, or cells of a footprint.
+//! Locations of a field's values: points of a grid, or cells of a footprint.
 
 use super::grid::Grid;
 use super::lookup::Place;
 use super::types::{FaceName, Field, Footprint, Solid};
 
-/// Where a field takes its values.
+/// Locations of a field's values.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sampling {
     /// At points.
@@ -18,12 +18,12 @@ pub enum Sampling {
 pub struct FieldCells {
     pub face: FaceName,
     pub footprint: Footprint,
-    /// Place of the footprint's centre [m].
+    /// Position of the footprint's centre [m].
     pub at: [f64; 2],
 }
 
 impl Field {
-    /// Where a checked field takes its values in its body.
+    /// Locations of the values of a checked field in its body.
     ///
     /// # Panics
     /// If the scene has not been checked and the field is in no plane of the body.

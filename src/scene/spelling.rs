@@ -1,9 +1,9 @@
-//! Words that were meant by others.
+//! Spelling suggestions.
 
-/// Fewest letters that tell what a word begins.
+/// Smallest number of letters for which a prefix is recognised.
 const SHORTEST_BEGINNING: usize = 3;
 
-/// The known word that is spelt much like another one, or that it begins.
+/// The known word most similar to another one, or of which that is a prefix.
 pub fn meant<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let begins = |known: &str| word.len() >= SHORTEST_BEGINNING && known.starts_with(word);
     known
@@ -13,7 +13,7 @@ pub fn meant<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a
         .map(|(_, known)| known)
 }
 
-/// `" (did you mean …?)"` where a known word is like another one.
+/// `" (did you mean …?)"` if a known word is similar.
 pub fn hint<'a>(word: &str, known: impl Iterator<Item = &'a str>) -> String {
     meant(word, known).map_or(String::new(), |meant| format!(" (did you mean `{meant}`?)"))
 }
@@ -46,7 +46,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_beginning_counts_more_than_likeness() {
+    fn prefix_outweighs_similarity() {
         let known = ["shear", "pressure", "heat_flux"];
         assert_eq!(meant("heat", known.into_iter()), Some("heat_flux"));
         assert_eq!(meant("shaer", known.into_iter()), Some("shear"));
@@ -54,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn edits_are_counted() {
+    fn edit_distance() {
         for (from, to, count) in [("", "abc", 3), ("abc", "acb", 1), ("kitten", "sitting", 3)] {
             assert_eq!(edits(from, to), count, "{from} → {to}");
             assert_eq!(edits(to, from), count, "{to} → {from}");

@@ -16,17 +16,17 @@ use crate::limits::{
 
 pub use super::load::{Carries, CellShape, CellValues, Footprint, Load, LoadRange, LoadStart};
 
-/// The names of variables begin with those of scenes.
+/// Pattern of scene names; variable names begin with them.
 pub(super) const IDENTIFIER: &str = "^[A-Za-z_][A-Za-z0-9_]*$";
 
-/// Everything that a `scene.toml` says.
+/// Contents of a `scene.toml`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Name of the model and of its folder `out/NAME`; a C identifier.
     #[schemars(extend("pattern" = IDENTIFIER, "condition" = "letters, digits and `_`, no digit first"))]
     pub name: String,
-    /// One line for people.
+    /// One-line description.
     #[serde(default)]
     #[schemars(extend("condition" = "no control characters", "otherwise" = "empty"))]
     pub description: String,
@@ -36,11 +36,11 @@ pub struct Scene {
     /// Communication step of the default experiment [s].
     #[schemars(transform = time("the step").condition("up to `stop_time`, at most 1e9 steps"))]
     pub step: f64,
-    /// How the unit's variables are named: `a.b[1,2]` or `a_b_1_2`.
+    /// Style of the unit's variable names: `a.b[1,2]` or `a_b_1_2`.
     #[serde(default)]
     pub naming: Naming,
-    /// Whether the scene is meant to be cold: temperatures below 200 K, or below 250 K beside warmer ones, are else taken
-    /// for °C and warned of.
+    /// Marks an intentionally cold scene. In other scenes temperatures below 200 K, or below 250 K alongside warmer
+    /// ones, raise a warning that they may be in °C.
     #[serde(default, skip_serializing_if = "is_false")]
     #[schemars(extend("otherwise" = "false"))]
     pub cryogenic: bool,
@@ -59,13 +59,14 @@ pub struct Scene {
     /// Tables `[[field]]`: points of grids and means over cells, whose values become arrays of outputs.
     #[serde(default)]
     pub field: Vec<Field>,
-    /// Tables `[[wall]]`: walls below droplets, whose temperatures become inputs and what they get outputs.
+    /// Tables `[[wall]]`: walls below droplets, whose temperatures become inputs; their heat and momentum become
+    /// outputs.
     #[serde(default)]
     pub wall: Vec<Wall>,
     /// Tables `[[coupling]]`: droplets on solids of the same scene, and solids on solids.
     #[serde(default)]
     pub coupling: Vec<Coupling>,
-    /// How much model the scene wants.
+    /// Level of detail of the model.
     #[serde(default)]
     #[schemars(extend("otherwise" = ""))]
     pub fidelity: Fidelity,
@@ -73,15 +74,15 @@ pub struct Scene {
     #[serde(default)]
     #[schemars(extend("otherwise" = ""))]
     pub solver: Solver,
-    /// Tables `[refinement.BODY]`: how much finer than usual a solid's mesh is.
+    /// Tables `[refinement.BODY]`: refinement of a solid's mesh relative to the default.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     #[schemars(extend("condition" = "of solids", "otherwise" = "from `fidelity.tolerance`"))]
     pub refinement: BTreeMap<String, MeshFactors>,
-    /// Tables `[resolved.BODY]`: what `fidelity.level = "auto"` came to for a solid; packing writes them.
+    /// Tables `[resolved.BODY]`: the level that `fidelity.level = "auto"` selected for a solid; packing writes them.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     #[schemars(extend(
         "condition" = "of solids, where the level is `auto`",
-        "otherwise" = "`reduced` where that can be"
+        "otherwise" = "`reduced` where possible"
     ))]
     pub resolved: BTreeMap<String, ResolvedLevel>,
 }
@@ -90,20 +91,20 @@ fn is_false(value: &bool) -> bool {
     !value
 }
 
-/// What a solid is where a scene leaves it open.
+/// Choice for a solid where a scene leaves it open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ResolvedLevel {
-    /// How much model the solid is.
+    /// Level of detail of the solid.
     pub level: SolidLevel,
 }
 
-/// The levels that a solid can have.
+/// Levels of detail of a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SolidLevel {
     Full,
-    /// Some tens of unknowns, with a bound of the error.
+    /// Some tens of unknowns, with an error bound.
     Reduced,
 }
 
@@ -114,7 +115,7 @@ pub enum Naming {
     /// `spot.heat_flux[1,2]`
     #[default]
     Structured,
-    /// `spot_heat_flux_1_2`, for tools that take nothing but identifiers.
+    /// `spot_heat_flux_1_2`, for tools that accept only identifiers.
     Flat,
 }
 
@@ -147,13 +148,13 @@ pub enum Body {
 pub struct Solid {
     /// `{ box = [LX, LY, LZ] }` or `{ disc = { radius = R, thickness = T } }`.
     pub shape: Shape,
-    /// What the body is made of: a table, or the name of a `[material.NAME]`.
+    /// Material of the body: a table, or the name of a `[material.NAME]`.
     #[schemars(extend("otherwise" = "`layers`"))]
     pub material: Option<MaterialChoice>,
     /// Layers from the top, instead of `material`.
     #[schemars(
         length(min = 1, max = 100),
-        extend("condition" = "as thick together as the shape (relative 1e-9)", "otherwise" = "one material")
+        extend("condition" = "total thickness equal to that of the shape (relative 1e-9)", "otherwise" = "one material")
     )]
     pub layers: Option<Vec<Layer>>,
     /// Uniform temperature at time zero [K].
@@ -162,19 +163,19 @@ pub struct Solid {
     /// Temperature at which the body is free of thermal stress [K].
     #[schemars(transform = own_temperature().otherwise("that at time zero"))]
     pub stress_free_temperature: Option<f64>,
-    /// What conducts the heat: finite elements or particles.
+    /// Method of heat conduction: finite elements or particles.
     #[serde(default)]
     pub heat: HeatMethod,
-    /// How particles conduct heat.
+    /// Settings of conduction by particles.
     #[schemars(extend("condition" = "with `heat = \"sph\"` only"))]
     pub sph: Option<SphSettings>,
-    /// Part of the body that is meshed; no load is neglected.
+    /// Meshed part of the body; it represents all loads exactly.
     #[serde(default)]
     #[schemars(extend("condition" = "a box is not `axisymmetric`, a disc is"))]
     pub symmetry: Symmetry,
     /// The mesh.
     #[serde(default)]
-    #[schemars(extend("otherwise" = "chosen"))]
+    #[schemars(extend("otherwise" = "automatic"))]
     pub mesh: Mesh,
     /// Conditions on faces.
     #[serde(default)]
@@ -183,13 +184,13 @@ pub struct Solid {
         transform = Keys(FaceName::ALL.map(FaceName::as_str))
     )]
     pub faces: BTreeMap<FaceName, Face>,
-    /// Running maxima of the body that become outputs, each with its time and place.
+    /// Running maxima of the body as outputs, each with its time and position.
     #[serde(default)]
     #[schemars(extend("uniqueItems" = true))]
     pub peaks: Vec<PeakOf>,
 }
 
-/// What a running maximum over a body and over time is of.
+/// Quantity of a running maximum over a body and over time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PeakOf {
@@ -205,7 +206,7 @@ pub enum PeakOf {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Layer {
-    /// What the layer is made of: the name of a `[material.NAME]`, or a table as that of a solid.
+    /// Material of the layer: the name of a `[material.NAME]`, or a table as in a solid.
     pub material: MaterialChoice,
     /// Thickness [m].
     #[schemars(transform = length("the thickness of a layer").plausible(&plausible::LAYER))]
@@ -263,11 +264,11 @@ pub enum HeatMethod {
     Sph,
 }
 
-/// How particles conduct heat.
+/// Settings of heat conduction by particles.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SphSettings {
-    /// Exact for quadratics on any mesh, or conservative pair by pair.
+    /// Operator: exact for quadratics on any mesh, or conservative pair by pair.
     #[schemars(extend("condition" = "`plain` on a box with equal distances"))]
     pub operator: SphOperator,
     /// Smoothing kernel.
@@ -299,38 +300,37 @@ pub enum SphOperator {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Symmetry {
-    /// Use whatever symmetry shape and faces have.
+    /// All symmetries of shape and faces.
     #[default]
     Auto,
     /// Mesh the whole body (boxes only).
     None,
-    /// Mesh a quarter of a box; loads of any place are split into parts even and odd about the two
+    /// Mesh a quarter of a box. Loads at any position are split into symmetric and antisymmetric parts about the two
     /// planes, so nothing is neglected.
     Quarter,
     /// Mesh a meridian section of a disc.
     Axisymmetric,
 }
 
-/// The mesh; whatever is left out is chosen from loads, material and the shorter of step and stop time.
+/// The mesh; defaults follow from loads, material and the shorter of step and stop time.
 ///
-/// It is fine where something acts: along x and y at loads and at sides that heat passes, along z
-/// below tops and bottoms that are loaded or that heat passes, by whatever kind of condition.
+/// It is fine near loads and heat fluxes: along x and y at loads and at sides that exchange heat, along z below tops
+/// and bottoms with loads or any thermal condition.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Mesh {
-    /// Distance of nodes along x and y at loads and at heated sides [m], everywhere where there are
-    /// neither.
+    /// Distance of nodes along x and y at loads and at heated sides [m]; everywhere if there are none.
     #[schemars(transform = above_zero("m").condition("up to half of the width; at least 12 elements from the centre to a side unless `growth` is 1").otherwise("from the loads"))]
     pub spacing: Option<f64>,
-    /// Distance of nodes along z at loaded or heated faces [m], everywhere where there are none.
+    /// Distance of nodes along z at loaded or heated faces [m]; everywhere if there are none.
     #[schemars(transform = above_zero("m")
         .condition("up to the thickness")
-        .otherwise("from how deep heat goes in a step; `spacing` if given alone"))]
+        .otherwise("from the penetration depth of heat in a step; `spacing` if set alone"))]
     pub depth_spacing: Option<f64>,
-    /// Ratio of the sizes of neighbouring elements away from there [1].
+    /// Ratio of the sizes of neighbouring elements outside the fine region [1].
     #[schemars(transform = within(1.0, 2.0, "1", "")
         .says("neighbouring elements grow by a modest ratio", "1 <= growth <= 2")
-        .otherwise("chosen, about 1.4"))]
+        .otherwise("automatic, about 1.4"))]
     pub growth: Option<f64>,
     /// Order of the shape functions: linear or quadratic.
     #[schemars(transform = whole(1, 2, "no shape functions of this order", "1 (linear), 2 (quadratic)")
@@ -340,7 +340,7 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Fewest elements from the centre to a side, where elements may grow.
+    /// Smallest number of elements from the centre to a side, where elements may grow.
     pub const LATERAL_ELEMENTS: f64 = 12.0;
 }
 
@@ -373,31 +373,31 @@ pub struct Face {
     /// Uniform heat flux into the body [W/m²]; an input.
     #[schemars(transform = heat_flux().otherwise("insulated"))]
     pub flux: Option<f64>,
-    /// Heat flux by what flows by.
+    /// Heat flux by convection to a fluid.
     #[schemars(extend("otherwise" = "insulated"))]
     pub convection: Option<Convection>,
-    /// Heat flux by radiation, beside `flux` or `convection`, or alone.
+    /// Heat flux by radiation, alone or in addition to `flux` or `convection`.
     pub radiation: Option<Radiation>,
-    /// No displacement at all.
+    /// Zero displacement.
     #[serde(default)]
     pub clamped: bool,
-    /// No displacement along the normal.
+    /// Zero displacement along the normal.
     #[serde(default)]
     pub roller: bool,
-    /// Whether the face's value is an input or a tunable parameter, which nothing is connected to.
+    /// Role of the face's value: an input or a tunable parameter.
     #[serde(default)]
     #[schemars(extend("condition" = "of `temperature`, `flux`, `convection`"))]
     pub role: Role,
 }
 
-/// What a variable is to who couples units.
+/// Role of a variable in coupled simulations.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Role {
-    /// May be connected.
+    /// Can be connected.
     #[default]
     Input,
-    /// Keeps its start value until it is set, between steps too; nothing is connected to it.
+    /// Keeps its value until it is set, also between steps; it cannot be connected.
     Parameter,
 }
 
@@ -409,7 +409,7 @@ pub struct Convection {
     #[schemars(transform = not_negative("W/(m² K)", "a heat transfer coefficient")
         .plausible(&plausible::HEAT_TRANSFER))]
     pub coefficient: f64,
-    /// Temperature T∞ of what flows by [K]; an input.
+    /// Temperature T∞ of the fluid [K]; an input.
     #[schemars(transform = ambient())]
     pub ambient: f64,
 }
@@ -437,10 +437,10 @@ pub struct Probe {
     #[serde(rename = "in")]
     #[schemars(extend("condition" = "a solid"))]
     pub body: String,
-    /// The place `[x, y, z]` [m].
+    /// The position `[x, y, z]` [m].
     #[schemars(transform = any("m").condition("in the body"))]
     pub at: [f64; 3],
-    /// Side that is read of an interface between layers.
+    /// Side of an interface between layers at which the probe reads.
     #[schemars(extend("otherwise" = "`above`", "condition" = "at an interface only"))]
     pub side: Option<Side>,
     /// List of outputs.
@@ -479,14 +479,14 @@ pub struct Field {
     /// Number of points along the two axes of the face or section.
     #[schemars(transform = count().otherwise("`footprint`"))]
     pub grid: Option<[usize; 2]>,
-    /// Part of a face over whose cells means are taken, as loads on the same footprint bring their amounts.
+    /// Footprint on a face over whose cells means are taken, as loads on the same footprint deposit their amounts.
     #[schemars(extend("condition" = "on its face, `top` or `bottom` of a solid", "otherwise" = "`grid`"))]
     pub footprint: Option<Footprint>,
-    /// Place of the footprint's centre [m].
+    /// Position of the footprint's centre [m].
     #[schemars(transform = any("m").otherwise("the centre of the face").condition("with `footprint`; not on a disc"))]
     pub at: Option<[f64; 2]>,
     /// Extent of the grid along its axes [m], centred.
-    #[schemars(transform = length("the extent of a grid").otherwise("the whole").condition("up to the whole; with `grid`"))]
+    #[schemars(transform = length("the extent of a grid").otherwise("the whole").condition("up to the full extent; with `grid`"))]
     pub size: Option<[f64; 2]>,
     /// List of outputs.
     #[schemars(length(min = 1), extend("uniqueItems" = true))]
@@ -515,18 +515,18 @@ pub enum Gives {
     MaxPrincipal,
     /// The three components.
     Displacement,
-    /// Accumulated plastic strain, of bodies that yield.
+    /// Accumulated plastic strain, for bodies that yield.
     PlasticStrain,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Fidelity {
-    /// How much model is wanted.
+    /// Level of detail.
     #[serde(default)]
     pub level: FidelityLevel,
-    /// Wanted relative error of what can be read, of its range over the default experiment [1]; times 10 K, what an
-    /// inner step of nonlinear heat may err by; a tenth of it times the largest elastic strain, one of creep.
+    /// Relative tolerance of outputs, over their range in the default experiment [1]. Times 10 K, it is the tolerance
+    /// of an inner step of nonlinear heat; a tenth of it, times the largest elastic strain, that of a creep step.
     #[serde(default = "default_tolerance")]
     #[schemars(transform = within(0.0, 1.0, "1", "")
         .open()
@@ -549,42 +549,42 @@ fn default_tolerance() -> f64 {
 pub enum FidelityLevel {
     #[default]
     Full,
-    /// Solids are reduced to some tens of unknowns, with a bound of the error.
+    /// Solids reduced to some tens of unknowns, with an error bound.
     Reduced,
     /// The cheapest level within the tolerance.
     Auto,
 }
 
-/// Threads that a unit may be told to use.
+/// Largest number of threads of a unit.
 pub const MOST_THREADS: usize = 1024;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Solver {
-    /// Threads that a unit may use; results do not depend on them.
+    /// Number of threads that a unit may use; results do not depend on it.
     #[serde(default)]
     #[schemars(transform = whole(0, MOST_THREADS as u32, "too many threads", "0 to 1024 (0 lets the program choose)")
         .otherwise("0: the program chooses"))]
     pub threads: usize,
-    /// How the heat of solids advances: exactly in time by modes, or in inner steps by Newton's method.
+    /// Time integration of the heat of solids: exact in time by modes, or inner steps by Newton's method.
     #[serde(default)]
     #[schemars(extend("otherwise" = "`auto`: modes wherever heat is linear"))]
     pub method: SolverMethod,
-    /// Memory that the scene may take of the process [B]: one that is forecast to need more is refused.
+    /// Memory that the scene may use [B]; a scene with a larger forecast is refused.
     #[serde(default, deserialize_with = "super::whole::optional")]
-    #[schemars(transform = within(1e6, 1e15, "B", "the memory of a scene").otherwise("all that there is"))]
+    #[schemars(transform = within(1e6, 1e15, "B", "the memory of a scene").otherwise("all available memory"))]
     pub memory: Option<usize>,
 }
 
-/// How the heat of solids is advanced.
+/// Time integration of the heat of solids.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum SolverMethod {
-    /// Exactly in time wherever constants and faces allow it, by Newton's method elsewhere.
+    /// Exact in time wherever constants and faces allow it, Newton's method elsewhere.
     #[default]
     Auto,
-    /// Exactly in time, by modes; refused where that cannot be.
+    /// Exact in time, by modes; refused where that is impossible.
     Modal,
-    /// In steps that Newton's method solves, everywhere.
+    /// Inner steps by Newton's method, everywhere.
     Newton,
 }

@@ -1,11 +1,11 @@
-//! Whole numbers that scenes may write with an exponent.
+//! Whole numbers, which scenes may write with an exponent.
 
 use std::fmt;
 
 use serde::Deserializer;
 use serde::de::{Error, Unexpected, Visitor};
 
-/// Reads a whole number that is written as such or, as TOML takes `1e6`, as a number without a fraction.
+/// Reads a whole number, written as such or as a float without fraction: TOML treats `1e6` as a float.
 pub fn optional<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<usize>, D::Error> {
     struct Reader;
 
@@ -27,7 +27,7 @@ pub fn optional<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<usi
         }
 
         fn visit_f64<E: Error>(self, value: f64) -> Result<usize, E> {
-            // Larger numbers have no fraction that a float could tell.
+            // Floats cannot represent a fraction of larger numbers.
             let is_exact = value.fract() == 0.0 && (0.0..=LARGEST).contains(&value);
             let refuse = || E::invalid_value(Unexpected::Float(value), &self);
             is_exact.then_some(value as usize).ok_or_else(refuse)
@@ -37,5 +37,5 @@ pub fn optional<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<usi
     deserializer.deserialize_any(Reader).map(Some)
 }
 
-/// Largest number up to which floats hold every whole one.
+/// Largest number up to which floats represent every whole number.
 const LARGEST: f64 = 9_007_199_254_740_992.0;

@@ -156,7 +156,7 @@ fn particles_that_are_nowhere_are_refused() {
     for place in places {
         let mut state = state.clone();
         state.position(1).copy_from_slice(&place);
-        refused(&unit, &state, "where none gets to");
+        refused(&unit, &state, "which no run reaches");
     }
     for value in [f64::NAN, f64::INFINITY] {
         let mut state = state.clone();

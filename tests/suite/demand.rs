@@ -310,9 +310,9 @@ fn states_that_contradict_the_count_are_refused() {
         (ledger, 2.0, "more drops wait"),
         (ledger, 6.0, "of at most 5"),
         (ledger, -1.0, "of at most 5"),
-        (ledger + 1, 1e12, "a drop that waits at"),
-        (ledger + 4, 1e9, "a drop that waits at"),
-        (ledger + 6, -1.0, "a drop that waits at"),
+        (ledger + 1, 1e12, "a waiting drop at"),
+        (ledger + 4, 1e9, "a waiting drop at"),
+        (ledger + 6, -1.0, "a waiting drop at"),
         (ledger + 1 + 12, 1.0, "more drops wait"),
     ] {
         let mut forged = state.clone();

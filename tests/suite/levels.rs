@@ -70,7 +70,7 @@ fn auto_says_what_stands_against_a_reduced_model() {
     );
     let Levels { scene, notes, .. } = levels(&parsed(&peaks), AVAILABLE);
     assert_eq!(scene.resolved["plate"].level, SolidLevel::Full);
-    assert!(notes[0].contains("knows its probes and fields alone"), "{}", notes[0]);
+    assert!(notes[0].contains("computes only its probes and fields"), "{}", notes[0]);
     // What does not fit into memory is not tried.
     let Levels { notes, .. } = levels(&parsed(&text(COPPER, "auto", 1e-2)), 1e3);
     assert!(notes[0].starts_with("plate: full, as"), "{}", notes[0]);

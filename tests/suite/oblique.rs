@@ -282,7 +282,7 @@ fn what_needs_drops_straight_down_is_refused() {
     refused(&plane, "drops of a plane model move along x");
     // It starts above the plate, and comes down beside it.
     let beside = drop(&(at_angle(1.2, 0.0) + "height = 2e-4\n")) + PLATE;
-    refused(&beside, "the drop of arrivals[0] comes down beside the face");
+    refused(&beside, "the drop of arrivals[0] lands outside the face");
     let fine = drop(&(at_angle(0.5, 0.0) + "height = 2e-4\n")) + PLATE;
     Model::build(&scene::parse(&fine, "scene.toml").unwrap(), 1).unwrap();
 }

@@ -1,4 +1,4 @@
-//! Units that are made to do harm: bombs, endless lists, names that lie.
+//! Malicious units: bombs, endless lists, misleading names.
 
 use std::fs;
 use std::io::{Cursor, Write};
@@ -11,7 +11,7 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 
 use super::{Entries, PROGRAM, XML, change_xml, good, lint, lint_file, pack, root, write_zip};
 
-/// The text stands once in the findings, of which there is an error.
+/// Asserts that the text occurs once in the findings, which include an error.
 #[track_caller]
 fn refused_for(entries: &Entries, words: &str) {
     let (code, text) = lint(entries);
@@ -47,7 +47,7 @@ fn elements_too_wide_and_too_deep_are_refused_with_their_line() {
     change_xml(&mut deep, |xml| {
         xml.replacen("<ModelVariables>", &format!("{nest}<ModelVariables>"), 1)
     });
-    refused_for(&deep, "more than 1000 elements lie in each other");
+    refused_for(&deep, "elements are nested more than 1000 levels deep");
 }
 
 #[test]
@@ -60,7 +60,7 @@ fn dependencies_without_end_are_one_finding() {
 }
 
 #[test]
-fn of_many_faults_of_one_kind_a_thousand_are_listed() {
+fn at_most_a_thousand_faults_of_a_kind_are_listed() {
     let mut entries = good();
     let variables: String = (0..20_000)
         .map(|i| {
@@ -80,21 +80,21 @@ fn of_many_faults_of_one_kind_a_thousand_are_listed() {
 }
 
 #[test]
-fn many_entries_are_looked_at_and_too_many_refused() {
+fn many_entries_are_checked_and_too_many_refused() {
     let mut entries = good();
     entries.extend((0..60_000).map(|i| (format!("resources/f{i}"), Vec::new())));
     let (code, text) = lint(&entries);
     assert_eq!(code, 0, "{text}");
     entries.extend((60_000..200_000).map(|i| (format!("extra/f{i}"), Vec::new())));
-    refused_for(&entries, "entries; at most 200000 are looked at");
+    refused_for(&entries, "entries; at most 200000 are checked");
 }
 
 #[test]
-fn no_folder_is_left_behind_not_even_by_a_call_that_was_killed() {
+fn no_folder_remains_even_after_a_killed_call() {
     let (folder, place) = (TempDir::new().unwrap(), TempDir::new().unwrap());
     let unit = folder.path().join("unit.fmu");
     write_zip(&good(), &unit);
-    // Numbers of processes are smaller than this.
+    // Process numbers are smaller than this.
     let left = place.path().join("impinge-lint-999999999-x");
     let (running, foreign) = (
         place.path().join(format!("impinge-lint-{}-x", std::process::id())),
@@ -111,9 +111,9 @@ fn no_folder_is_left_behind_not_even_by_a_call_that_was_killed() {
     assert_eq!(names, [running, foreign]);
 }
 
-/// One bit of an entry is another, in the middle of its data.
+/// Flips one bit in the middle of an entry's data.
 #[test]
-fn entries_that_nothing_else_reads_are_read_too() {
+fn every_entry_is_read() {
     let folder = TempDir::new().unwrap();
     let unit = pack(&root().join("tests/fmi/scene.toml"), &folder);
     let bytes = fs::read(&unit).unwrap();
@@ -183,7 +183,7 @@ fn links_and_pipes_among_the_entries_are_found() {
 fn sizes_that_the_directory_invents_are_found() {
     for (said, words, rule) in [
         (3_u32, "unreadable: File is larger than its declared uncompressed size", "zip-readable"),
-        (0xFFFF_FFF0, "the directory says 4294967280 bytes, but there are", "zip-sizes"),
+        (0xFFFF_FFF0, "the directory states 4294967280 bytes, but the entry has", "zip-sizes"),
     ] {
         let bytes = with_directory("resources/scene.toml", |entry| {
             entry[24..28].copy_from_slice(&said.to_le_bytes());

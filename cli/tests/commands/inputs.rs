@@ -13,7 +13,7 @@ fn run_with(place: &Workplace, table: &str, options: &[&str]) -> Called {
 /// Column of a name in a run's table.
 fn column(place: &Workplace, folder: &str, title: &str) -> Vec<f64> {
     let (header, rows) = place.table(folder);
-    // Titles with two indices stand in quotation marks.
+    // Titles with two indices are quoted.
     let titles = header.split('"').enumerate().flat_map(|(i, part)| match i % 2 {
         0 => part.split(',').filter(|title| !title.is_empty()).collect(),
         _ => vec![part],
@@ -28,7 +28,7 @@ const FLUX: &str = "spot.heat_flux [W/m2]";
 #[test]
 fn linear_inputs_bring_the_integral_of_their_table() {
     let place = Workplace::new();
-    // Corners inside of steps, a jump, held before the first row and behind the last.
+    // Corners within steps, a jump, constant before the first row and after the last.
     let table = "time [s],spot.heat_flux [W/m2]\n1.5e-7,2e7\n4.2e-7,8e7\n4.2e-7,1e7\n7e-7,5e7\n";
     run_with(&place, table, &[]).succeeds();
     let flux = [2e7 * 1.5e-7, 0.5 * (2e7 + 8e7) * 2.7e-7, 0.5 * (1e7 + 5e7) * 2.8e-7, 5e7 * 3e-7];
@@ -52,7 +52,7 @@ fn held_inputs_keep_the_value_of_the_row_before() {
 }
 
 #[test]
-fn a_table_of_the_scenes_own_values_changes_nothing() {
+fn table_of_the_scenes_own_values_changes_nothing() {
     let place = Workplace::new();
     place.run(&["--out", "plain", "--fields-every", "0"]).succeeds();
     run_with(&place, "time,spot.heat_flux\n0,5e7\n1e-6,5e7\n", &["--out", "table"]).succeeds();
@@ -68,7 +68,7 @@ fn rows_are_written_as_often_as_asked() {
 }
 
 #[test]
-fn what_is_wrong_with_a_table_is_said_with_line_and_column() {
+fn table_errors_name_line_and_column() {
     let place = Workplace::new();
     for (table, words) in [
         ("", &["table.csv", "no first column `time`"] as &[&str]),
@@ -76,7 +76,7 @@ fn what_is_wrong_with_a_table_is_said_with_line_and_column() {
         ("time,spot.heat_flux\n", &["no rows"]),
         ("time,spot.heat_flix\n0,1\n", &["column `spot.heat_flix`", "did you mean spot.heat_flux"]),
         ("time,centre.temperature\n0,1\n", &["column `centre.temperature`", "it is an output"]),
-        ("time,plate.conductivity\n0,1\n", &["plate.conductivity is a parameter that is fixed"]),
+        ("time,plate.conductivity\n0,1\n", &["plate.conductivity is a fixed parameter"]),
         ("time,spot.heat_flux [MW/m2]\n0,1\n", &["is measured in W/m2"]),
         ("time,spot.heat_flux,spot.heat_flux\n0,1,1\n", &["has a column already"]),
         (
@@ -102,7 +102,7 @@ fn what_is_wrong_with_a_table_is_said_with_line_and_column() {
 }
 
 #[test]
-fn what_a_run_does_before_and_after_its_table_is_said() {
+fn run_notes_values_kept_before_and_after_its_table() {
     let place = Workplace::new();
     for (rows, words) in [
         (
@@ -118,7 +118,7 @@ fn what_a_run_does_before_and_after_its_table_is_said() {
 }
 
 #[test]
-fn pulses_too_short_for_the_mesh_are_warned_of_and_what_comes_and_goes_is_balanced() {
+fn short_pulses_warn_and_balance() {
     let place = Workplace::new();
     let said = |rows: &str| {
         let table = format!("time,spot.heat_flux\n{rows}");
@@ -144,7 +144,7 @@ fn a_run_never_writes_over_its_table() {
 }
 
 #[test]
-fn heat_that_came_and_went_is_no_measure_of_what_rounding_leaves() {
+fn balance_is_relative_to_the_largest_heat_so_far() {
     let place = Workplace::new();
     let scene = SCENE.replace("bottom = { temperature = 293.15 }\n", "");
     fs::write(place.path("scene.toml"), scene).unwrap();
@@ -187,9 +187,9 @@ fn a_run_warns_once_as_its_fluid_would_boil() {
     assert!(!said.contains("boils"), "{said}");
 }
 
-/// Between two rows that lie where the mesh is fine, by its own image, a spot crosses where it is not.
+/// Two rows lie in fine parts of the mesh, one through a mirror image; the path between them crosses a coarse part.
 #[test]
-fn places_between_rows_are_looked_at() {
+fn positions_between_rows_are_sampled() {
     let place = Workplace::new();
     let scene = SCENE
         .replace("box = [4e-4, 4e-4, 1e-4]", "box = [8e-3, 4e-3, 1e-4]")

@@ -46,7 +46,7 @@ grid = [2, 3]
 gives = ["temperature"]
 "#;
 
-/// A scene in a folder of its own, which goes when the test ends.
+/// A scene in a folder of its own, which is removed when the test ends.
 struct Workplace(TempDir);
 
 impl Workplace {
@@ -90,7 +90,7 @@ impl Workplace {
         (header.to_owned(), body.lines().map(row).collect())
     }
 
-    /// Times of a run's fields; every listed file is there.
+    /// Times of a run's fields; asserts that every listed file exists.
     fn field_times(&self, folder: &str) -> Vec<f64> {
         let folder = self.path(folder);
         let list = fs::read_to_string(folder.join("plate.pvd")).unwrap();
@@ -126,7 +126,7 @@ impl Called {
         self
     }
 
-    /// Ends with `status`, and says all of `words` on standard error and nothing on standard output.
+    /// Asserts exit with `status`, all of `words` on standard error and nothing on standard output.
     #[track_caller]
     fn fails(self, status: i32, words: &[&str]) -> Self {
         let stderr = self.stderr();
@@ -140,7 +140,7 @@ impl Called {
 }
 
 #[test]
-fn check_says_what_will_be_modelled() {
+fn check_describes_the_model() {
     let report = Workplace::new().call(&["check", "scene.toml"]).succeeds().stdout();
     for words in [
         "HotSpot: A small plate under a hot spot",
@@ -157,10 +157,10 @@ fn check_says_what_will_be_modelled() {
 }
 
 #[test]
-fn check_and_run_warn_of_what_is_hardly_meant() {
+fn check_and_run_warn_of_implausible_values() {
     let place = Workplace::new();
     let clean = place.call(&["check", "scene.toml"]).succeeds().stderr();
-    // Its mesh is coarse, and that is all.
+    // Its mesh is coarse, and that is the only warning.
     assert_eq!(clean.lines().count(), 1, "{clean}");
     assert!(clean.starts_with("warning: plate: ") && clean.contains(" errs by about "), "{clean}");
     let celsius = SCENE.replacen("293.15", "20.0", 1);
@@ -190,7 +190,7 @@ fn inputs_are_judged_like_the_scenes_constants() {
 }
 
 #[test]
-fn an_input_is_doubted_once_for_all_elements() {
+fn implausible_array_input_warns_once() {
     let place = Workplace::new();
     fs::write(place.path("scene.toml"), DROP).unwrap();
     let said = place.run(&["--set", "wall.temperature=20"]).succeeds().stderr();
@@ -198,7 +198,7 @@ fn an_input_is_doubted_once_for_all_elements() {
 }
 
 #[test]
-fn a_run_in_which_nothing_acts_says_so() {
+fn run_without_any_load_prints_a_note() {
     let place = Workplace::new();
     let said = place.run(&[]).succeeds().stderr();
     assert!(!said.contains("note:"), "{said}");
@@ -214,7 +214,7 @@ fn a_run_in_which_nothing_acts_says_so() {
 
 /// Three steps of 333.33 ns leave 10 ps of a microsecond.
 #[test]
-fn what_steps_leave_over_of_a_run_is_no_short_step() {
+fn rounding_remainder_is_not_a_short_step() {
     let place = Workplace::new();
     let said = place.run(&["--step", "3.3333e-7"]).succeeds().stderr();
     assert!(!said.contains("is shorter than"), "{said}");
@@ -225,7 +225,7 @@ fn what_steps_leave_over_of_a_run_is_no_short_step() {
 
 /// A face of `bed2` at the temperature of `bed` is not at rest.
 #[test]
-fn bodies_whose_names_begin_alike_are_told_apart() {
+fn bodies_with_a_common_prefix_are_distinguished() {
     let solid = |name: &str, temperature: f64| {
         format!(
             r#"[body.{name}]
@@ -257,7 +257,7 @@ fn a_run_to_below_absolute_zero_fails_with_time_and_reason() {
 }
 
 #[test]
-fn check_says_what_particles_will_do() {
+fn check_describes_particle_conduction() {
     let place = Workplace::new();
     let scene = SCENE.replace("mesh = { spacing", "heat = \"sph\"\nmesh = { spacing");
     fs::write(place.path("scene.toml"), scene).unwrap();
@@ -292,7 +292,7 @@ fn wrong_usage_has_its_own_status() {
 }
 
 #[test]
-fn a_step_of_its_own_replaces_the_scenes() {
+fn step_option_replaces_that_of_the_scene() {
     let place = Workplace::new();
     place.run(&["--step", "5e-7", "--out", "coarse", "--fields-every", "0"]).succeeds();
     let times: Vec<f64> = place.table("coarse").1.iter().map(|row| row[0]).collect();
@@ -354,7 +354,7 @@ fn an_array_is_set_by_its_name_or_an_element_by_its_index() {
 }
 
 #[test]
-fn what_cannot_be_set_is_refused_with_the_reason() {
+fn unsettable_names_are_refused_with_the_reason() {
     let place = Workplace::new();
     let refused = |setting: &str, words: &[&str]| {
         place.run(&["--set", setting]).fails(1, words);
@@ -400,7 +400,7 @@ footprint = { tiles = { count = [2, 2], size = [2e-4, 2e-4] } }
 "#;
 
 #[test]
-fn check_tells_what_a_droplet_costs() {
+fn check_forecasts_the_cost_of_a_droplet() {
     let place = Workplace::new();
     fs::write(place.path("drop.toml"), DROP).unwrap();
     let report = place.call(&["check", "drop.toml"]).succeeds().stdout();
@@ -422,7 +422,7 @@ fn check_tells_what_a_droplet_costs() {
 }
 
 #[test]
-fn a_run_of_months_is_refused_with_what_would_do() {
+fn run_of_months_is_refused_with_a_proposal() {
     let place = Workplace::new();
     fs::write(place.path("drop.toml"), DROP.replace("spacing = 1e-5", "spacing = 2e-6")).unwrap();
     let long = ["run", "drop.toml", "--until", "100", "--step", "1e-6"];
@@ -433,7 +433,7 @@ fn a_run_of_months_is_refused_with_what_would_do() {
 }
 
 #[test]
-fn check_tells_what_decides_a_droplets_results() {
+fn check_reports_the_governing_numbers_of_a_droplet() {
     let place = Workplace::new();
     let with_tension =
         DROP.replace("conductivity = 0.6", "conductivity = 0.6, surface_tension = 0.11");
@@ -492,7 +492,7 @@ fn check_gives_no_fitted_error_outside_of_the_fitted_range() {
 }
 
 #[test]
-fn check_tells_of_outputs_what_they_are_if_asked() {
+fn check_describes_outputs_on_request() {
     let place = Workplace::new();
     fs::write(place.path("drop.toml"), DROP).unwrap();
     let short = place.call(&["check", "drop.toml"]).succeeds().stdout();
@@ -502,7 +502,7 @@ fn check_tells_of_outputs_what_they_are_if_asked() {
 }
 
 #[test]
-fn a_plane_droplet_is_told_per_metre_of_depth() {
+fn plane_droplet_is_reported_per_metre_of_depth() {
     let place = Workplace::new();
     let plane = DROP
         .replace("spacing = 1e-5", "spacing = 1e-5\ndimension = 2")
@@ -544,7 +544,7 @@ fn a_scene_may_say_how_much_memory_it_takes() {
     let place = Workplace::new();
     let limited = |memory: &str| format!("solver = {{ memory = {memory} }}\n{SCENE}");
     let words = ["MB of memory", "have 1.000e0 MB", "larger `mesh.spacing`"];
-    // As the documentation has it, too.
+    // The same as in the documentation.
     for memory in ["1_000_000", "1e6", "1000000.0"] {
         fs::write(place.path("scene.toml"), limited(memory)).unwrap();
         place.call(&["check", "scene.toml"]).fails(1, &words);
@@ -562,10 +562,10 @@ fn a_scene_may_say_how_much_memory_it_takes() {
     place.call(&["check", "scene.toml"]).succeeds();
 }
 
-/// With the address space that the process may have all of its own limits are kept.
+/// If the address space is limited, the scene's own memory limit applies as well.
 #[cfg(target_os = "linux")]
 #[test]
-fn a_limit_of_address_space_is_memory_that_is_not_there() {
+fn limited_address_space_counts_as_missing_memory() {
     let place = Workplace::new();
     let large = SCENE.replace("spacing = 2e-5", "spacing = 5e-7");
     fs::write(place.path("scene.toml"), large).unwrap();
@@ -576,7 +576,7 @@ fn a_limit_of_address_space_is_memory_that_is_not_there() {
     Called(output).fails(1, &["MB of address space", "RLIMIT_AS", "larger `mesh.spacing`"]);
 }
 
-/// Whatever the limit is, runs are done or refused.
+/// Runs finish or are refused, whatever the limit is.
 #[cfg(target_os = "linux")]
 #[test]
 fn too_little_address_space_is_refused() {
@@ -602,7 +602,7 @@ fn too_little_address_space_is_refused() {
     assert!(done > 2, "{done} runs of 7 had enough");
 }
 
-/// The table is a pipe first, which holds the run until its files are gone.
+/// The table is a pipe first, which blocks the run until its files have been removed.
 #[cfg(unix)]
 #[test]
 fn endless_scenes_are_refused() {
@@ -612,7 +612,7 @@ fn endless_scenes_are_refused() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn what_cannot_be_printed_ends_without_a_panic() {
+fn unprintable_output_ends_without_a_panic() {
     let place = Workplace::new();
     let program = env!("CARGO_BIN_EXE_impinge");
     let shell = |line: &str| {

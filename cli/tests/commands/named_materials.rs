@@ -1,4 +1,4 @@
-//! Constants of materials that have names, as they are set in a body of theirs.
+//! Constants of named materials, set in one of their bodies.
 
 use std::process::Command;
 
@@ -50,7 +50,7 @@ fn run(setting: &str) -> (bool, String) {
 }
 
 #[test]
-fn what_is_set_is_checked_as_if_it_stood_in_the_scene() {
+fn set_values_are_checked_like_those_of_the_scene() {
     for (setting, key) in [
         ("plate.density=0", "body.plate.material.density"),
         ("plate.specific_heat=0", "body.plate.material.specific_heat"),

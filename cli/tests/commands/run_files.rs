@@ -1,4 +1,4 @@
-//! The files that a run writes, and those that it leaves alone.
+//! The files that a run writes, and those that it does not touch.
 
 use std::fs;
 use std::process::Command;
@@ -25,7 +25,7 @@ fn a_run_writes_a_row_a_step_and_fields() {
 }
 
 #[test]
-fn a_run_tells_running_maxima_with_their_times_and_places() {
+fn run_reports_running_maxima_with_times_and_positions() {
     let place = Workplace::new();
     let peaks = "peaks = [\"temperature\", \"von_mises\"]\nmesh = {";
     fs::write(place.path("scene.toml"), SCENE.replacen("mesh = {", peaks, 1)).unwrap();
@@ -92,16 +92,16 @@ fn the_files_of_an_earlier_run_are_replaced_only_if_asked() {
     assert_eq!(place.field_times("out/HotSpot"), [0.0, 1e-7]);
     let files = fs::read_dir(place.path("out/HotSpot")).unwrap();
     assert_eq!(files.count(), 4, "two grids, their list and the table; none of the longer run");
-    // Fields alone are an earlier run too.
+    // Fields alone also count as an earlier run.
     fs::remove_file(place.path("out/HotSpot/outputs.csv")).unwrap();
     place.run(&["--fields-every", "0"]).fails(1, &["earlier run"]);
-    // A run without fields leaves none that would pass for its own.
+    // A run without fields leaves none that could be mistaken for its own.
     fs::write(place.path("out/HotSpot/mine.pvd"), "").unwrap();
     place.run(&["--until", "1e-7", "--fields-every", "0", "--overwrite"]).succeeds();
     assert_eq!(place.files("out/HotSpot"), ["mine.pvd", "outputs.csv"]);
 }
 
-/// Files that no run wrote, under names that one would write or remove.
+/// Files that no run wrote, under names that a run would write or remove.
 #[test]
 fn foreign_files_of_the_names_of_a_series_are_replaced_only_if_asked() {
     for name in ["plate.pvd", "plate_000003.vtr", "plate_000003.vts", "plate_1000000.vtp"] {
@@ -133,7 +133,7 @@ fn files_of_other_names_are_left_alone() {
 }
 
 #[test]
-fn a_killed_run_is_an_earlier_run() {
+fn killed_run_counts_as_earlier_run() {
     let place = Workplace::new();
     for fields in ["1", "0"] {
         let mut running = Command::new(env!("CARGO_BIN_EXE_impinge"))
@@ -149,7 +149,7 @@ fn a_killed_run_is_an_earlier_run() {
         }
         running.kill().unwrap();
         running.wait().unwrap();
-        // Wherever the end came, a file may be unfinished.
+        // Depending on when the run ended, a file may be unfinished.
         fs::write(place.path("out/HotSpot/plate_000009.vtr.part1_2"), "").unwrap();
         place.run(&["--until", "1e-7"]).fails(1, &["holds the files of an earlier run"]);
         let settings = ["--until", "1e-7", "--overwrite", "--fields-every", fields];
@@ -174,7 +174,7 @@ fn a_folder_that_another_run_is_writing_to_is_left_alone() {
     place.run(&["--until", "1e-7"]).succeeds();
 }
 
-/// Who reads a pipe that nobody writes to waits for ever.
+/// A reader of a pipe without writer blocks for ever.
 #[test]
 fn pipes_and_devices_as_scenes_and_tables_are_refused_at_once() {
     let place = Workplace::new();
@@ -203,7 +203,7 @@ fn files_that_vanish_while_a_run_goes_on_are_noticed() {
     let mut reader = fs::File::open(&pipe).unwrap();
     fs::remove_file(&pipe).unwrap();
     std::io::copy(&mut reader, &mut std::io::sink()).unwrap();
-    Called(running.wait_with_output().unwrap()).fails(1, &["outputs.csv is gone"]);
+    Called(running.wait_with_output().unwrap()).fails(1, &["outputs.csv was removed"]);
 }
 
 #[test]
@@ -232,10 +232,10 @@ fn a_folder_that_cannot_be_made_is_named() {
     place.run(&["--out", "taken/here"]).fails(1, &["cannot create the folder", "taken"]);
 }
 
-/// As on a full disk, the run says so and ends by itself.
+/// The run reports the error and ends, as on a full disk.
 #[cfg(unix)]
 #[test]
-fn files_beyond_the_limit_of_their_size_are_told() {
+fn file_size_limit_is_reported() {
     let place = Workplace::new();
     let command = format!("ulimit -f 1; exec {} run scene.toml", env!("CARGO_BIN_EXE_impinge"));
     let output =

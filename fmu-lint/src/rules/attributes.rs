@@ -1,4 +1,4 @@
-//! Attributes: which, and what they hold.
+//! Attributes: allowed names and values.
 
 use roxmltree::Node;
 

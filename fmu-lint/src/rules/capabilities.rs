@@ -1,4 +1,4 @@
-//! Capability flags that need each other.
+//! Capability flags that depend on each other.
 
 use super::{Check, Rule};
 use crate::Subject;
@@ -7,7 +7,7 @@ use crate::finding::Report;
 pub static RULE: Rule = Rule {
     name: "capabilities",
     section: "4.3.1",
-    says: "canSerializeFMUstate goes with canGetAndSetFMUstate",
+    says: "canSerializeFMUstate requires canGetAndSetFMUstate",
     check: Check::Unit(check),
 };
 
@@ -16,7 +16,7 @@ fn check(subject: &Subject, report: &mut Report) {
         let is_true = |name| matches!(interface.node.attribute(name), Some("true" | "1"));
         if is_true("canSerializeFMUstate") && !is_true("canGetAndSetFMUstate") {
             let place = subject.document.place_of(interface.node, "canSerializeFMUstate");
-            report.error(place, "states can be serialised, but not got and set", RULE.says);
+            report.error(place, "states can be serialised, but not read and set", RULE.says);
         }
     }
 }

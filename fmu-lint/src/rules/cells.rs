@@ -1,4 +1,4 @@
-//! `resources/cells.json`, in which units of this program say where cells lie.
+//! `resources/cells.json`, with the positions of cells in units of this program.
 
 use serde_json::Value;
 
@@ -19,7 +19,7 @@ const FILE: &str = "resources/cells.json";
 /// Keys with a number for each cell.
 const PER_CELL: [&str; 6] = ["area", "inner", "outer", "x", "y", "z"];
 
-/// Other tools may have a file of that name for themselves.
+/// Other tools may use a file of that name for their own purposes.
 fn check(package: &Package, report: &mut Report) {
     if !package.has(FILE) {
         return;
@@ -37,7 +37,7 @@ fn check(package: &Package, report: &mut Report) {
     }
 }
 
-/// Families, and what is wrong with them.
+/// Families and their faults.
 fn faults(bytes: &[u8]) -> Vec<(String, String)> {
     let told: Value = match serde_json::from_slice(bytes) {
         Ok(told) => told,

@@ -21,7 +21,7 @@ fn check(subject: &Subject, report: &mut Report) {
         if variable.node.attribute("variability").is_none()
             && variable.kind.is_some_and(|kind| kind != Kind::Real)
         {
-            let wrong = "variability is left out, and its default, continuous, is for reals only";
+            let wrong = "variability is omitted, and its default, continuous, is for reals only";
             report.warning(subject.document.place(variable.node), wrong, "discrete, fixed, …");
         }
         if let Some((attribute, wrong, allowed)) = fault(variable) {
@@ -35,7 +35,7 @@ fn check(subject: &Subject, report: &mut Report) {
     }
 }
 
-/// The attribute at fault, what is wrong with it and what would be right.
+/// The faulty attribute, a description of the fault and the allowed values.
 fn fault(variable: &Variable) -> Option<(&'static str, String, String)> {
     let (causality, variability) = (variable.causality?, variable.variability?);
     let real = variable.kind == Some(Kind::Real);

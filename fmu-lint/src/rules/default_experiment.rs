@@ -9,7 +9,7 @@ use crate::schema::double;
 pub static RULE: Rule = Rule {
     name: "default-experiment",
     section: "2.2.5",
-    says: "stopTime is after startTime (0 if left out), tolerance and stepSize are positive",
+    says: "stopTime is after startTime (0 if omitted), tolerance and stepSize are positive",
     check: Check::Unit(check),
 };
 

@@ -59,7 +59,7 @@ fn check_indices(
                 report.error(place(), wrong, format!("1 to {count}"));
             }
             Some(variable) if known(index, variable) => {}
-            // Widespread, the reference units of the standard's authors among them.
+            // Widespread, even among the reference units of the standard's authors.
             Some(variable) if variable.causality == Some(Causality::Parameter) => {
                 let wrong = format!("dependency {index}: {:?} is a parameter", variable.name);
                 report.warning(place(), wrong, RULE.says);

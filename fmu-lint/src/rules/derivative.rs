@@ -23,7 +23,7 @@ fn check(subject: &Subject, report: &mut Report) {
             None => {
                 format!("there is no variable {state}; the last is {}", description.variables.len())
             }
-            Some(_) if state == own + 1 => "the variable is said to be its own derivative".into(),
+            Some(_) if state == own + 1 => "the variable is declared as its own derivative".into(),
             Some(other) if other.kind != Some(Kind::Real) => format!("{:?} is no Real", other.name),
             Some(other) if other.variability.is_some_and(|v| v != Variability::Continuous) => {
                 format!("{:?} is not continuous", other.name)

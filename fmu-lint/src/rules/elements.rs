@@ -1,4 +1,4 @@
-//! Elements: which, how many, in which order.
+//! Elements: allowed names, numbers and order.
 
 use roxmltree::Node;
 

@@ -1,4 +1,4 @@
-//! What the libraries export.
+//! Functions that the libraries must export.
 
 use super::{Check, Rule};
 use crate::Subject;

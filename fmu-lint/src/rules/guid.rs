@@ -1,8 +1,8 @@
 //! The GUID, compared with that of the library.
 //!
-//! Of our own units the GUID follows from the scene they carry. Of any unit the library itself can
-//! say: it must agree to be instantiated with the GUID of the XML, and should refuse another one. The
-//! library is loaded in a process of its own, so that its faults stay there.
+//! For our own units the GUID follows from the scene that they carry. For any other unit the library decides: it must
+//! accept instantiation with the GUID of the XML, and should refuse another one. The library is loaded in a separate
+//! process, so that its crashes have no effect here.
 
 use impinge::fmi::guid::guid;
 use impinge::scene;
@@ -33,14 +33,14 @@ fn check(subject: &Subject, report: &mut Report) {
     }
     let is_true = |value: Option<&str>| matches!(value, Some("true" | "1"));
     for interface in &subject.description.interfaces {
-        // Such a library starts another program, which is more than a look at a file may do.
+        // Such a library starts another program, which a check of a file must not do.
         if !is_true(interface.node.attribute("needsExecutionTool")) {
             ask_library(subject, interface, report);
         }
     }
 }
 
-/// Reports a GUID that is not that of the scene, in units that this version has made.
+/// Reports a GUID that differs from that of the scene, in units made by this version.
 fn differs_from_scene(subject: &Subject, report: &mut Report) -> bool {
     let root = subject.description.root;
     let ours = concat!("impinge ", env!("CARGO_PKG_VERSION"));
@@ -70,7 +70,7 @@ fn ask_library(subject: &Subject, interface: &Interface, report: &mut Report) {
     match ask(guid) {
         Outcome::Made => {
             if matches!(ask(FOREIGN), Outcome::Made) {
-                let wrong = format!("the library takes any GUID, such as {FOREIGN}");
+                let wrong = format!("the library accepts any GUID, such as {FOREIGN}");
                 report.warning(Place::file(&path), wrong, RULE.says);
             }
         }
@@ -79,8 +79,9 @@ fn ask_library(subject: &Subject, interface: &Interface, report: &mut Report) {
             report.error(place(), wrong, RULE.says);
         }
         Outcome::Unloadable(reason) => {
-            let wrong =
-                format!("the library cannot be loaded here, so its GUID is not known: {reason}");
+            let wrong = format!(
+                "the library cannot be loaded here, so its GUID cannot be compared: {reason}"
+            );
             report.warning(Place::file(&path), wrong, RULE.says);
         }
         Outcome::Lost(how) => {

@@ -1,4 +1,4 @@
-//! The table of rules. A rule says what is right, where the standard says so, and how to check it.
+//! The table of rules. Each rule states a requirement, its section of the standard, and a check.
 
 mod attributes;
 mod capabilities;
@@ -39,15 +39,15 @@ pub struct Rule {
     pub name: &'static str,
     /// Section of FMI 2.0.4.
     pub section: &'static str,
-    /// What is right.
+    /// The requirement.
     pub says: &'static str,
     pub check: Check,
 }
 
-/// What a rule looks at, and so when it is checked.
+/// Input of a rule, which determines when it is checked.
 #[derive(Clone, Copy)]
 pub enum Check {
-    /// Checked while the unit is read; what comes later needs it.
+    /// Checked while the unit is read; later checks depend on it.
     Reading,
     Package(fn(&Package, &mut Report)),
     Unit(fn(&Subject, &mut Report)),
@@ -97,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_two_rules_have_one_name() {
+    fn rule_names_are_unique() {
         let names: BTreeSet<&str> = all().map(|rule| rule.name).collect();
         assert_eq!(names.len(), all().count());
     }

@@ -1,4 +1,4 @@
-//! Libraries that are not there.
+//! Missing libraries.
 
 use super::{Check, Rule};
 use crate::Subject;

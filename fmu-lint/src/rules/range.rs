@@ -44,7 +44,7 @@ fn check(subject: &Subject, report: &mut Report) {
     }
 }
 
-/// Reports two values that are not in order, at the start value if it is one of them.
+/// Reports two values in the wrong order, at the start value if it is one of them.
 fn order(subject: &Subject, node: Node, low: (&str, f64), high: (&str, f64), report: &mut Report) {
     if low.1 > high.1 {
         let at = if low.0 == "start" { low.0 } else { high.0 };

@@ -1,4 +1,4 @@
-//! What must hold before anything else can be looked at.
+//! Requirements that must hold before any other check.
 
 use super::{Check, Rule};
 use crate::DESCRIPTION;
@@ -15,7 +15,7 @@ pub static READABLE: Rule = Rule {
 pub static WELL_FORMED: Rule = Rule {
     name: "well-formed",
     section: "2.2",
-    says: "modelDescription.xml stands at the root of the zip file, is well-formed XML and UTF-8",
+    says: "modelDescription.xml is at the root of the zip file, is well-formed XML and UTF-8",
     check: Check::Reading,
 };
 
@@ -26,7 +26,7 @@ pub static VERSION: Rule = Rule {
     check: Check::Reading,
 };
 
-/// Warns of a description that says that it is not in UTF-8, though it could be read so.
+/// Warns of a description that declares another encoding than UTF-8, though it could be read as UTF-8.
 pub fn check_encoding(text: &str, report: &mut Report) {
     let declaration = text.split("?>").next().filter(|text| text.contains("<?xml"));
     let Some((_, rest)) = declaration.and_then(|text| text.split_once("encoding")) else { return };
@@ -37,8 +37,8 @@ pub fn check_encoding(text: &str, report: &mut Report) {
     }
 }
 
-/// Whether the description is of FMI 2.0. Units of other versions may be right, by rules that are not
-/// known here.
+/// Returns true if the description is of FMI 2.0. Units of other versions may be valid by rules that are not
+/// implemented here.
 pub fn of_this_version(document: &Document, report: &mut Report) -> bool {
     let root = document.root();
     if root.tag_name().name() != "fmiModelDescription" {

@@ -8,7 +8,7 @@ use crate::finding::Report;
 pub static RULE: Rule = Rule {
     name: "sources",
     section: "4.3.1",
-    says: "every File of SourceFiles stands in the folder sources",
+    says: "every File of SourceFiles is in the folder sources",
     check: Check::Unit(check),
 };
 
@@ -31,7 +31,7 @@ fn check(subject: &Subject, report: &mut Report) {
     }
 }
 
-/// A path without steps that lead nowhere, such as `./util/list.c`.
+/// A path without redundant steps, such as `./util/list.c`.
 fn plain(path: &str) -> String {
     path.split('/').filter(|part| *part != ".").collect::<Vec<_>>().join("/")
 }

@@ -1,4 +1,4 @@
-//! Start values that must be there, and those that must not.
+//! Required and forbidden start values.
 
 use super::{Check, Rule};
 use crate::Subject;
@@ -32,8 +32,8 @@ fn check(subject: &Subject, report: &mut Report) {
     }
 }
 
-/// Whether a variable must or must not have a start value, and why; none where the attributes that
-/// decide on it are at fault themselves.
+/// Returns whether a variable must or must not have a start value, and why; `None` if the attributes that decide this
+/// are faulty themselves.
 fn needs_start(variable: &Variable) -> Option<(bool, &'static str)> {
     match (variable.causality?, variable.initial) {
         (Causality::Input, _) => Some((true, "the variable is an input")),

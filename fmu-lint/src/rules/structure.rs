@@ -36,13 +36,14 @@ fn outputs(subject: &Subject, report: &mut Report) {
     }
 }
 
-/// Which derivatives belong to states only the unit knows, so that none can be told to be missing.
+/// Checks the list of derivatives. Only the unit knows which derivatives belong to states, so none can be reported as
+/// missing.
 fn derivatives(subject: &Subject, report: &mut Report) {
     let is_derivative = |variable: &Variable| variable.derivative().is_some();
     members(subject, &subject.description.derivatives, is_derivative, &DERIVATIVES, report);
 }
 
-/// The indices in a list, after reports on those that do not belong there.
+/// The indices in a list; reports those that do not belong there.
 fn members(
     subject: &Subject,
     unknowns: &[Unknown],

@@ -39,7 +39,7 @@ fn is_structured(name: &str) -> bool {
     }
 }
 
-/// What stands behind names with indices, separated by dots; none if there is no such name.
+/// Parses names with indices, separated by dots; returns the rest of the text, or `None`.
 fn identifier(text: &str) -> Option<&str> {
     let rest = indices(part(text)?)?;
     match rest.strip_prefix('.') {
@@ -48,7 +48,7 @@ fn identifier(text: &str) -> Option<&str> {
     }
 }
 
-/// What stands behind a plain name or one in quotes.
+/// Parses a plain or a quoted name; returns the rest of the text.
 fn part(text: &str) -> Option<&str> {
     let Some(quoted) = text.strip_prefix('\'') else {
         let starts = text.starts_with(|c: char| c == '_' || c.is_ascii_alphabetic());
@@ -72,7 +72,7 @@ fn in_quotes(character: char) -> bool {
     character.is_ascii_alphanumeric() || "_!#$%&()*+,-./:;<>=?@[]^{}|~ \\".contains(character)
 }
 
-/// What stands behind `[1,2]`, or all of the text if it does not begin so.
+/// Parses indices such as `[1,2]`, if any; returns the rest of the text.
 fn indices(text: &str) -> Option<&str> {
     let Some(mut rest) = text.strip_prefix('[') else { return Some(text) };
     loop {
@@ -84,7 +84,7 @@ fn indices(text: &str) -> Option<&str> {
     }
 }
 
-/// What stands behind a number.
+/// Parses a number; returns the rest of the text.
 fn digits(text: &str) -> Option<&str> {
     let rest = text.trim_start_matches(|c: char| c.is_ascii_digit());
     (rest.len() < text.len()).then_some(rest)
@@ -95,7 +95,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn structured_names_are_told_from_others() {
+    fn structured_names_are_recognised() {
         for name in [
             "a",
             "_1",

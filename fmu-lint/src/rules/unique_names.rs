@@ -1,4 +1,4 @@
-//! Names that must tell things apart.
+//! Names that must be unique.
 
 use std::collections::HashMap;
 

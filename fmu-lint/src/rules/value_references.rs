@@ -40,7 +40,7 @@ fn check(subject: &Subject, report: &mut Report) {
             }
         }
     }
-    // Aliases are allowed, and large units have thousands, so one line speaks of all of them.
+    // Aliases are allowed, and large units have thousands, so one line covers all of them.
     let count = permitted.len();
     if let Some((place, shares)) = permitted.into_iter().next() {
         let more =
@@ -50,7 +50,7 @@ fn check(subject: &Subject, report: &mut Report) {
     }
 }
 
-/// Why two variables cannot have one value.
+/// Reason why two variables cannot share a value.
 fn conflict(
     description: &Description,
     set: &[&Variable],

@@ -1,4 +1,4 @@
-//! Paths that are one file to some file systems.
+//! Paths that are equal on some file systems.
 
 use std::collections::HashMap;
 
@@ -9,7 +9,7 @@ use crate::package::Package;
 pub static RULE: Rule = Rule {
     name: "zip-duplicates",
     section: "2.3",
-    says: "a path stands once in the zip file, also where upper and lower case are the same",
+    says: "a path occurs once in the zip file, even on file systems that ignore case",
     check: Check::Package(check),
 };
 

@@ -1,4 +1,4 @@
-//! Entries that become something else than files when they are unpacked.
+//! Entries that do not become regular files when they are unpacked.
 
 use super::{Check, Rule};
 use crate::finding::{Place, Report};

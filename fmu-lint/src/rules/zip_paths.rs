@@ -1,4 +1,4 @@
-//! Paths that some tool would unpack elsewhere, or not at all.
+//! Paths that some tools would unpack elsewhere, or not at all.
 
 use super::{Check, Rule};
 use crate::finding::{Place, Report};
@@ -39,7 +39,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn paths_that_are_no_relative_ones_are_found() {
+    fn non_relative_paths_are_found() {
         for (path, count) in [
             (&b"binaries/linux64/a.so"[..], 0),
             (b"resources/a..b", 0),

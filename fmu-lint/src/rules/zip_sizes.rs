@@ -1,4 +1,4 @@
-//! Sizes that the directory of the zip file gives, against those that entries have.
+//! Sizes in the zip file's directory, compared with those of the entries.
 
 use super::{Check, Rule};
 use crate::finding::{Place, Report};
@@ -7,18 +7,18 @@ use crate::package::Size;
 pub static RULE: Rule = Rule {
     name: "zip-sizes",
     section: "2.3",
-    says: "an entry has as many bytes as the directory says, and above 64 MiB at most 100 times as many as it is packed in",
+    says: "an entry has the size in the directory, and above 64 MiB at most 100 times its packed size",
     check: Check::Reading,
 };
 
-/// Bytes from which on the ratio is judged, and the largest one.
+/// Size above which the compression ratio is checked, and the largest ratio.
 const JUDGED_RATIO: u64 = 1 << 26;
 const MOST_RATIO: u64 = 100;
 
 pub fn check_sizes(sizes: &[Size], report: &mut Report) {
     for Size { path, said, packed, unpacked } in sizes {
         if said != unpacked {
-            let wrong = format!("the directory says {said} bytes, but there are {unpacked}");
+            let wrong = format!("the directory states {said} bytes, but the entry has {unpacked}");
             report.error(Place::file(path), wrong, RULE.says);
         }
         if *unpacked > JUDGED_RATIO && *unpacked > MOST_RATIO * packed {

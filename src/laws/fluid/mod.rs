@@ -21,7 +21,7 @@ pub struct Fluid {
     #[schemars(transform = within(1e-1, 1e7, "J/(kg K)", "the specific heat capacity")
         .plausible(&plausible::FLUID_SPECIFIC_HEAT))]
     pub specific_heat: f64,
-    /// Thermal conductivity [W/(m K)]; 0 leaves heat out.
+    /// Thermal conductivity [W/(m K)]; 0 disables heat.
     #[schemars(transform = within(0.0, 1e6, "W/(m K)", "the thermal conductivity")
         .plausible(&plausible::FLUID_CONDUCTIVITY))]
     pub conductivity: f64,
@@ -29,29 +29,29 @@ pub struct Fluid {
     #[serde(default)]
     #[schemars(transform = within(0.0, 1e5, "N/m", "the surface tension")
         .plausible(&plausible::SURFACE_TENSION)
-        .otherwise("0: left out"))]
+        .otherwise("0: no surface tension"))]
     pub surface_tension: f64,
-    /// Angle of contact with the wall [rad]; matters with tension only.
+    /// Contact angle at the wall [rad]; relevant only with surface tension.
     #[serde(default = "right_angle")]
     #[schemars(transform = within(0.0, PI, "rad", "")
         .says("the angle of contact is out of bounds", "0 to 3.14159 (rad)")
         .otherwise("π/2, which is 90°"))]
     pub contact_angle: f64,
-    /// Artificial speed of sound of the model [m/s]: pressures of the first blow grow with it.
+    /// Artificial speed of sound of the model [m/s]; pressures of the first impact grow with it.
     #[schemars(transform = within(1e-6, 1e6, "m/s", "the speed of sound")
         .otherwise("ten times the fastest flow or √(2σ/(ρΔx))")
         .condition("at least five times these"))]
     pub sound_speed: Option<f64>,
-    /// Temperature at which the fluid would freeze, which the model leaves out: a step that goes below warns [K].
+    /// Freezing temperature, which the model ignores: a step below it warns [K].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = temperature().plausible(&plausible::FREEZING)
-        .otherwise("none: nothing is watched")
+        .otherwise("none: no warning")
         .condition("below `boils_at`"))]
     pub freezes_at: Option<f64>,
-    /// Temperature at which the fluid would boil, which the model leaves out: a step that goes above warns [K].
+    /// Boiling temperature, which the model ignores: a step above it warns [K].
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(transform = temperature().plausible(&plausible::BOILING)
-        .otherwise("none: nothing is watched"))]
+        .otherwise("none: no warning"))]
     pub boils_at: Option<f64>,
 }
 
@@ -69,17 +69,17 @@ impl Fluid {
         self.surface_tension / (self.density * radius)
     }
 
-    /// √(2σ/(ρΔx)) [m/s], the speed that belongs to Laplace's pressure 2σ/Δx of the sharpest surface that
-    /// particles at a distance Δx [m] can show; no less than √(σ/(ρΔx)) of the shortest waves and √(2σ/(ρR)) of the
-    /// whole drop. Sound that is not much faster lets the outermost particles come loose, one after the other.
+    /// √(2σ/(ρΔx)) [m/s], the speed equivalent to Laplace's pressure 2σ/Δx of the sharpest surface that particles at a
+    /// distance Δx [m] resolve. It is no less than √(σ/(ρΔx)) of the shortest waves and √(2σ/(ρR)) of the whole drop. If
+    /// sound is not much faster, the outermost particles detach one after the other.
     pub fn laplace_speed(&self, spacing: f64) -> f64 {
         (2.0 * self.surface_tension / (self.density * spacing)).sqrt()
     }
 
-    /// √(12 µU/(ρD)) [m/s], the speed that belongs to the pressure by which a drop of high viscosity stops, of an
-    /// impact speed U [m/s] and a diameter D [m]: above that of the flow where Re < 12. Drops of Re 0.8 to 5 were seen
-    /// to bear 12 to 14 µU/D; at Re 0.1 (asphalt, D/Δx 10 to 40) density stays within 0.5 % at communication points.
-    /// Below that nothing was measured.
+    /// √(12 µU/(ρD)) [m/s], the speed equivalent to the pressure at which a drop of high viscosity stops, of an impact
+    /// speed U [m/s] and a diameter D [m]; it exceeds that of the flow where Re < 12. Drops of Re 0.8 to 5 were measured
+    /// at 12 to 14 µU/D. At Re 0.1 (asphalt, D/Δx 10 to 40) density stays within 0.5 % at communication points. Below
+    /// that nothing was measured.
     pub fn viscous_speed(&self, speed: f64, diameter: f64) -> f64 {
         (VISCOUS_PRESSURE * self.viscosity * speed / (self.density * diameter)).sqrt()
     }

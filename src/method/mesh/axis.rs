@@ -7,7 +7,7 @@ use faer::Mat;
 use crate::math::gauss::gauss_on;
 use crate::math::lagrange::{shape, slope};
 
-/// What a length element of an axis stands for in integrals.
+/// Measure of a length element of an axis in integrals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Weight {
     /// `dx`
@@ -18,7 +18,7 @@ pub enum Weight {
 
 /// Nodes along one coordinate, grouped into elements of `order + 1` nodes that share end nodes.
 ///
-/// An axis without elements is the single point of a direction that is not modelled.
+/// An axis without elements is the single point of a direction outside the model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axis {
     /// Ascending coordinates [m].
@@ -37,12 +37,12 @@ pub struct ShapeAt {
 }
 
 impl ShapeAt {
-    /// Value at the place of a function with these values at the nodes.
+    /// Interpolates a function from its values at the nodes.
     pub fn interpolate(&self, nodal: &[f64]) -> f64 {
         (0..self.count).map(|i| self.values[i] * nodal[self.first + i]).sum()
     }
 
-    /// Values at the place of functions whose values at the nodes are the columns of a matrix.
+    /// Interpolates functions whose values at the nodes are the columns of a matrix.
     pub fn interpolate_columns(&self, nodal: &Mat<f64>) -> Vec<f64> {
         let value =
             |k: usize| (0..self.count).map(|i| self.values[i] * nodal[(self.first + i, k)]).sum();
@@ -51,19 +51,19 @@ impl ShapeAt {
 }
 
 impl Axis {
-    /// Distance of the last two nodes, or of the first two [m]; none where there is but one.
+    /// Distance of the last two nodes, or of the first two [m]; zero if there is only one.
     pub fn end_distance(&self, at_high_end: bool) -> f64 {
         let count = self.nodes.len();
         let first = if at_high_end { count.saturating_sub(2) } else { 0 };
         self.nodes.get(first + 1).map_or(0.0, |next| next - self.nodes[first])
     }
 
-    /// An axis with elements between `ends`, which ascend.
+    /// Creates an axis with elements between `ends`, which ascend.
     pub fn from_element_ends(ends: &[f64], order: usize, weight: Weight) -> Self {
         let mut nodes = vec![ends[0]];
         for pair in ends.windows(2) {
             for i in 1..=order {
-                // The last node is the end itself, to the bit.
+                // The last node equals the end to the bit.
                 let node = if i == order {
                     pair[1]
                 } else {
@@ -75,7 +75,7 @@ impl Axis {
         Self { nodes, order, weight }
     }
 
-    /// A direction that is not modelled: one node, no element, measure one.
+    /// Axis of a direction outside the model: one node, no element, measure one.
     pub fn point() -> Self {
         Self { nodes: vec![0.0], order: 1, weight: Weight::Uniform }
     }
@@ -92,7 +92,7 @@ impl Axis {
         (self.nodes.len() - 1) / self.order
     }
 
-    /// Whether all nodes stand at equal distances.
+    /// Returns true if all nodes are equidistant.
     pub fn is_uniform(&self) -> bool {
         let steps = || self.nodes.windows(2).map(|pair| pair[1] - pair[0]);
         let [least, most] =
@@ -113,7 +113,7 @@ impl Axis {
         self.nodes[self.nodes.len() - 1]
     }
 
-    /// Shape functions at `x`, which is taken to the nearest end where it lies outside.
+    /// Shape functions at `x`, clamped to the nearest end.
     pub fn shape_at(&self, x: f64) -> ShapeAt {
         if self.elements() == 0 {
             return ShapeAt { first: 0, count: 1, values: [1.0, 0.0, 0.0], slopes: [0.0; 3] };
@@ -136,7 +136,7 @@ impl Axis {
         }
     }
 
-    /// Weight of a length element at `x`.
+    /// Measure of a length element at `x`.
     pub fn weight_at(&self, x: f64) -> f64 {
         match self.weight {
             Weight::Uniform => 1.0,
@@ -205,7 +205,7 @@ impl Axis {
     }
 }
 
-/// Enough for a Gaussian that an element resolves at all.
+/// Enough for any Gaussian that an element resolves.
 const GAUSS_FOR_LOADS: usize = 8;
 
 #[cfg(test)]
@@ -213,7 +213,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn mass_sums_to_the_measure_and_stiffness_to_zero() {
+    fn mass_and_stiffness_sums() {
         for (weight, measure) in [(Weight::Uniform, 3.0), (Weight::Radial, TAU * 7.5)] {
             for order in [1, 2] {
                 let axis = Axis::from_element_ends(&[1.0, 1.5, 2.2, 4.0], order, weight);
@@ -229,7 +229,7 @@ mod tests {
     }
 
     #[test]
-    fn places_outside_are_taken_to_the_nearest_end() {
+    fn outside_places_are_clamped_to_the_nearest_end() {
         let axis = Axis::from_element_ends(&[0.0, 1.0, 3.0], 2, Weight::Uniform);
         assert_eq!(axis.shape_at(7.0).values[2], 1.0);
         assert_eq!(axis.shape_at(7.0).first, 2);

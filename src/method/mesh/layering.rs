@@ -1,18 +1,19 @@
-//! Where along z a body's layers meet.
+//! Interfaces between a body's layers along z.
 
 use std::ops::Range;
 
-/// The interfaces between the layers of a body, which run from the bottom to the top; one layer by default.
+/// The interfaces between the layers of a body, from bottom to top; the default is one layer.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Layering {
     /// First element along z of each layer above the lowest.
     starts: Vec<usize>,
-    /// Thermal resistance of the contact below each of these [m² K/W].
+    /// Thermal resistance of the contact below each of these layers [m² K/W].
     resistances: Vec<f64>,
 }
 
 impl Layering {
-    /// Of layers that begin at these elements, each with the resistance of the contact below it [m² K/W].
+    /// Layering with layers that begin at these elements, each with the resistance of the contact
+    /// below it [m² K/W].
     pub fn new(starts: Vec<usize>, resistances: Vec<f64>) -> Self {
         assert_eq!(starts.len(), resistances.len(), "each interface has a contact");
         Self { starts, resistances }
@@ -48,7 +49,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn elements_belong_to_the_layers_they_lie_in() {
+    fn elements_map_to_their_layers() {
         let layering = Layering::new(vec![3, 5], vec![0.0, 1.0]);
         let layers: Vec<usize> = (0..7).map(|element| layering.layer_of(element)).collect();
         assert_eq!(layers, [0, 0, 0, 1, 1, 2, 2]);

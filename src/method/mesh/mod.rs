@@ -1,4 +1,4 @@
-//! Structured meshes: products of three axes, and the layers that lie along the last.
+//! Structured meshes: products of three axes, with layers along the last.
 
 mod axis;
 mod layering;
@@ -13,9 +13,9 @@ use crate::scene::FaceName;
 /// A structured mesh as the product of three axes; the x index of a node runs fastest.
 ///
 /// In axisymmetry the axes are the radius, a point and z. Where an axis is `mirrored`, the mesh
-/// covers the half from its symmetry plane at 0 to the high end of the body. Displacements belong to nodes;
-/// temperatures and stresses to nodes of which those on interfaces between layers are there twice, first
-/// for the layer below.
+/// covers the half from its symmetry plane at 0 to the high end of the body. Displacements belong
+/// to nodes. Temperatures and stresses belong to sided nodes: nodes on interfaces between layers
+/// are doubled, the one of the layer below first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mesh {
     pub axes: [Axis; 3],
@@ -31,7 +31,7 @@ pub enum Geometry {
 }
 
 impl Geometry {
-    /// Displacements of a node: 3 in a box, 2 (r, z) in axisymmetry.
+    /// Displacement components of a node: 3 in a box, 2 (r, z) in axisymmetry.
     pub fn degrees(self) -> usize {
         match self {
             Geometry::Box => 3,
@@ -40,17 +40,18 @@ impl Geometry {
     }
 }
 
-/// An end of an axis of the mesh, where faces of the body lie.
+/// An end of an axis of the mesh, on which faces of the body lie.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MeshFace {
     pub axis: usize,
     pub high: bool,
 }
 
-/// Symmetry class of a part of the solution: odd or even about the planes x = 0 and y = 0.
+/// Symmetry class of a part of the solution: antisymmetric (odd) or symmetric (even) about the
+/// planes x = 0 and y = 0.
 ///
-/// Even means the mirror image: scalars equal, the normal component of vectors opposite. Odd is
-/// minus that. Every field is the sum of its parts, and linear physics keeps them apart.
+/// Even means equal to the mirror image: scalars equal, the normal component of vectors opposite.
+/// Odd is minus that. Every field is the sum of its parts, and linear physics does not couple them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Parity {
     pub odd: [bool; 2],
@@ -65,18 +66,18 @@ impl Mesh {
         self.node_counts().into_iter().fold(1, usize::saturating_mul)
     }
 
-    /// Nodes along each axis, those on interfaces twice.
+    /// Number of sided nodes along each axis.
     pub fn sided_counts(&self) -> [usize; 3] {
         let [nx, ny, nz] = self.node_counts();
         [nx, ny, nz + self.layering.interfaces()]
     }
 
-    /// Nodes, those on interfaces twice.
+    /// Number of sided nodes.
     pub fn sided_nodes(&self) -> usize {
         self.sided_counts().into_iter().fold(1, usize::saturating_mul)
     }
 
-    /// Node along z of each of those that are there twice on interfaces, ascending.
+    /// Node along z of each sided node, ascending.
     pub fn nodes_of_sided(&self) -> Vec<usize> {
         let order = self.axes[2].order;
         let of_layer = |layer: usize| {
@@ -106,13 +107,14 @@ impl Mesh {
         Self { axes, layering: Layering::default(), ..*self }
     }
 
-    /// Shape functions along z of the nodes that are there twice on interfaces, in one element.
+    /// Shape functions along z of the sided nodes, in one element.
     pub fn sided_shape_in(&self, element: usize, z: f64) -> ShapeAt {
         let shape = self.axes[2].shape_in(element, z);
         ShapeAt { first: shape.first + self.layering.layer_of(element), ..shape }
     }
 
-    /// The same at a place; on an interface those of the layer above.
+    /// Shape functions along z of the sided nodes at a place; on an interface those of the layer
+    /// above.
     pub fn sided_shape_at(&self, z: f64) -> ShapeAt {
         let shape = self.axes[2].shape_at(z);
         let element = shape.first / self.axes[2].order;
@@ -127,12 +129,12 @@ impl Mesh {
         self.axes[0].order
     }
 
-    /// Number of copies of the mesh that make the body.
+    /// Number of copies of the mesh that form the body.
     pub fn copies(&self) -> f64 {
         self.mirrored.iter().map(|&m| if m { 2.0 } else { 1.0 }).product()
     }
 
-    /// The parts that a solution splits into: one, two or four.
+    /// The symmetry classes of a solution: one, two or four.
     pub fn parities(&self) -> Vec<Parity> {
         let choices = |mirrored: bool| if mirrored { vec![false, true] } else { vec![false] };
         let mut list = Vec::new();
@@ -144,8 +146,8 @@ impl Mesh {
         list
     }
 
-    /// Nodes along x (0) or y (1) over the whole body, `(node, is it the image)`, coordinates
-    /// ascending.
+    /// Nodes along x (0) or y (1) over the whole body, as `(node, is_image)`, by ascending
+    /// coordinate.
     pub fn unfolded(&self, axis: usize) -> Vec<(usize, bool)> {
         let own = (0..self.axes[axis].len()).map(|i| (i, false));
         if !self.mirrored[axis] {
@@ -154,7 +156,8 @@ impl Mesh {
         (1..self.axes[axis].len()).rev().map(|i| (i, true)).chain(own).collect()
     }
 
-    /// Where a face of the body lies on the mesh, and whether it is the mirror image of that place.
+    /// Position of a face of the body on the mesh, and whether it is the mirror image of that
+    /// position.
     pub fn place(&self, face: FaceName) -> (MeshFace, bool) {
         let (axis, high) = match face {
             FaceName::Left => (0, false),
@@ -168,8 +171,8 @@ impl Mesh {
         (MeshFace { axis, high: high || image }, image)
     }
 
-    /// A point of the body on the mesh, and along which axes it was mirrored. In axisymmetry the
-    /// first coordinate is the radius.
+    /// Position of a point of the body on the mesh, and the axes along which it was mirrored. In
+    /// axisymmetry the first coordinate is the radius.
     pub fn locate(&self, point: [f64; 3]) -> ([f64; 3], [bool; 2]) {
         let [x, y, z] = point;
         match self.geometry {

@@ -1,11 +1,11 @@
-//! Ends of the axes of a lattice: how heat comes in through them, and what leaves.
+//! Ends of the axes of a lattice: heat that enters and leaves through them.
 
 use super::problem::{Condition, Face};
 use super::rows::{Lattice, Operator, Row};
 use crate::method::heat_totals::HeatTotals;
 
-/// An end of an axis through which heat comes in. What a particle of the face gets is shared with
-/// those below it as the images of an inclined profile would share it.
+/// An end of an axis through which heat enters. The heat of a particle of the face is shared with those below it, as
+/// the images of an inclined profile would share it.
 pub struct Inlet {
     pub axis: usize,
     pub high: bool,
@@ -13,20 +13,20 @@ pub struct Inlet {
     pub surface: Vec<usize>,
     /// Their shares in its area [m²].
     pub areas: Vec<f64>,
-    /// For each particle of the face, `(particle, share)` of what comes in there; empty if held.
+    /// For each particle of the face, `(particle, share)` of the heat that enters there; empty if held.
     pub shares: Vec<Vec<(usize, f64)>>,
 }
 
-/// What the rows say of the ends of the axes.
+/// Contributions of the rows to the ends of the axes.
 #[derive(Default)]
 pub struct Edges {
-    /// Of all rows, see [`Row::gradient`] and [`Row::held_slope`].
+    /// Entries of all rows, see [`Row::gradient`] and [`Row::held_slope`].
     gradients: Vec<[[f64; 2]; 3]>,
     slopes: Vec<[[f64; 2]; 3]>,
     held: Vec<Exchange>,
 }
 
-/// What a row exchanges with the particles that an end of an axis holds.
+/// Exchange of a row with the particles held at an end of an axis.
 struct Exchange {
     row: usize,
     axis: usize,
@@ -35,7 +35,7 @@ struct Exchange {
 }
 
 impl Edges {
-    /// Takes what the next row says and leaves it its entries.
+    /// Moves the contributions of the next row here; its other entries remain.
     pub fn push(&mut self, row: &mut Row) {
         let index = self.gradients.len();
         self.gradients.push(row.gradient);
@@ -47,10 +47,10 @@ impl Edges {
         }
     }
 
-    /// Heat that leaves through held faces per kelvin of each particle [W/K]: what the pairs of free
-    /// and held particles exchange. With the corrected operator it is brought to `k A` for a unit
-    /// gradient, column by column, which it is by itself at equal distances; the plain operator's
-    /// stays as it is, because that is what its particles lose.
+    /// Heat that leaves through held faces per kelvin of each particle [W/K]: the exchange of pairs of free and held
+    /// particles. With the corrected operator it is scaled, column by column, to `k A` for a unit gradient, which it
+    /// equals by itself at equal distances. With the plain operator it is not scaled, because the particles lose
+    /// exactly that.
     pub fn leak(&self, lattice: &Lattice) -> Vec<f64> {
         let mut leak = vec![0.0; lattice.particles()];
         for Exchange { row, axis, end, entries } in &self.held {
@@ -66,7 +66,7 @@ impl Edges {
         leak
     }
 
-    /// What passes a face under a unit gradient over what the column of a place exchanges with it.
+    /// Flux through a face under a unit gradient, over the exchange of a place's column with it.
     fn share_of_slope(
         &self,
         lattice: &Lattice,
@@ -82,7 +82,7 @@ impl Edges {
         -lattice.conductivity * area / column.sum::<f64>()
     }
 
-    /// Both ends of z, where loads act, and all other faces that heat comes in by.
+    /// Both ends of z, where loads act, and all other faces through which heat enters.
     pub fn inlets(&self, faces: &[Face], lattice: &Lattice) -> Vec<Inlet> {
         let faces = faces.iter().filter(|f| f.axis < 2 && f.condition != Condition::Held);
         let ends = faces.map(|f| (f.axis, f.high)).chain([(2, false), (2, true)]);
@@ -111,8 +111,8 @@ impl Inlet {
                 }
                 list.push((below, lattice.volume(place) * gradient));
             }
-            // Per area of the face, not of their sum: exact for inclined profiles on any lattice. The
-            // plain operator misses the second moment of its kernel; its shares make one whole.
+            // Per area of the face, not of their sum: exact for inclined profiles on any lattice. The plain operator
+            // misses the second moment of its kernel; its shares sum to one.
             let whole = match lattice.settings.operator {
                 Operator::Corrected => lattice.conductivity * area(&i),
                 Operator::Plain => list.iter().map(|(_, share)| share).sum(),
@@ -124,7 +124,7 @@ impl Inlet {
         Self { axis, high, surface, areas, shares }
     }
 
-    /// Adds the heat of each particle of the face [W] to those that share it.
+    /// Adds the heat of each particle of the face [W] to the particles that share it.
     pub fn spread(
         &self,
         nodal: impl Iterator<Item = f64>,

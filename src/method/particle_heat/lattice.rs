@@ -1,18 +1,18 @@
 //! Particles at the crossings of three axes, and their mirror images beyond the ends.
 
-/// What the images beyond an end of an axis carry.
+/// Temperature of the images beyond an end of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum End {
-    /// The temperature of the particle they mirror: no heat passes the end.
+    /// The temperature of the mirrored particle: the end is insulated.
     Mirror,
-    /// Twice the temperature of the end less that of the particle they mirror: the end is held.
+    /// Twice the temperature of the end less that of the mirrored particle: the end is held.
     Held,
 }
 
-/// Places of the particles along one axis. A single place is a direction that is not modelled.
+/// Positions of the particles along one axis. A single position is a direction outside the model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LatticeAxis {
-    /// Ascending [m]; the radius, from 0 on, if `radial`.
+    /// Positions, ascending [m]; the radius, from 0 on, if `radial`.
     pub nodes: Vec<f64>,
     /// Share of each node in the measure of the axis: [m], or [m²] if `radial`.
     pub measures: Vec<f64>,
@@ -20,17 +20,17 @@ pub struct LatticeAxis {
     pub radial: bool,
 }
 
-/// A particle or an image of one near another, along one axis.
+/// A particle or an image near another particle, along one axis.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxisNeighbour {
-    /// Distance along the axis, and the length that belongs to it, in units of the other's scale.
+    /// Distance along the axis, and the associated length, in units of the other's scale.
     pub offset: f64,
     pub width: f64,
     /// Its temperature as a sum over particles, `(index, factor)`.
     pub terms: Vec<(usize, f64)>,
-    /// Whether the low and the high end are held and have a part in its temperature.
+    /// True for the low and the high end if it is held and contributes to the temperature.
     pub held: [bool; 2],
-    /// How far it lies beyond the low and the high end [m]; 0 within.
+    /// Distance beyond the low and the high end [m]; 0 within.
     pub beyond: [f64; 2],
 }
 
@@ -44,7 +44,7 @@ impl LatticeAxis {
         self.width(i as isize)
     }
 
-    /// All within `reach` units of the scale of a node, itself included.
+    /// All neighbours within `reach` units of the scale of a node, itself included.
     pub fn neighbours(&self, i: usize, reach: f64) -> Vec<AxisNeighbour> {
         if !self.is_modelled() {
             let own = AxisNeighbour {
@@ -77,7 +77,7 @@ impl LatticeAxis {
         }
     }
 
-    /// Coordinate of the p-th place, mirrored at the ends as often as need be.
+    /// Coordinate of the p-th place, mirrored at the ends as often as necessary.
     fn place(&self, p: isize) -> f64 {
         let last = self.nodes.len() as isize - 1;
         match p {
@@ -91,7 +91,7 @@ impl LatticeAxis {
         0.5 * (self.place(p + 1) - self.place(p - 1))
     }
 
-    /// Adds the terms of the temperature at the p-th place, and notes the held ends among them.
+    /// Adds the terms of the temperature at the p-th place, and records the held ends among them.
     fn unfold(&self, p: isize, factor: f64, terms: &mut Vec<(usize, f64)>, held: &mut [bool; 2]) {
         let last = self.nodes.len() as isize - 1;
         let (end, mirrored) = match p {
@@ -121,7 +121,7 @@ impl LatticeAxis {
         if end == 0 { self.nodes[i] - self.nodes[0] } else { last - self.nodes[i] }
     }
 
-    /// Whether a node is a held end.
+    /// Returns true if a node is a held end.
     pub fn holds(&self, i: usize) -> bool {
         i == 0 && self.ends[0] == End::Held
             || i + 1 == self.nodes.len() && self.ends[1] == End::Held
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn images_continue_even_and_odd_functions() {
+    fn images_extend_even_and_odd_functions() {
         let axis = axis([End::Mirror, End::Held]);
         let scale = axis.scale(1);
         assert_eq!(scale, 1.5);
@@ -167,7 +167,7 @@ mod tests {
     }
 
     #[test]
-    fn widths_of_ends_are_those_of_their_whole_surroundings() {
+    fn end_widths_match_complete_neighbourhoods() {
         let axis = axis([End::Mirror; 2]);
         assert_eq!([0, 1, 2].map(|i| axis.scale(i)), [1.0, 1.5, 2.0]);
     }

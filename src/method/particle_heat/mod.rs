@@ -1,7 +1,7 @@
 //! Conduction of heat by smoothed particles in a solid at rest.
 //!
-//! The particles stand on a lattice and do not move, so that the heat equation is one sparse matrix
-//! (`rows`, from `operators`), with mirror images of the particles beyond the faces (`lattice`).
+//! The particles form a lattice and do not move. So the heat equation is one sparse matrix (`rows`, from `operators`),
+//! with mirror images of the particles beyond the faces (`lattice`).
 
 mod edges;
 mod lattice;

@@ -1,4 +1,4 @@
-//! The heat problem of a body of particles, from its faces and loads to steps in time.
+//! The heat problem of a body of particles, from its faces and loads to time steps.
 
 use super::edges::{Edges, Inlet, face_particles};
 use super::lattice::{End, LatticeAxis};
@@ -13,7 +13,7 @@ use crate::runtime::parallel;
 use crate::runtime::thread::aside;
 use crate::state::{Field, Layout, Per};
 
-/// What the particles are and what surrounds them; ends of the axes are set by the faces.
+/// Particles and their surroundings; the faces set the ends of the axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setup {
     pub axes: [LatticeAxis; 3],
@@ -23,10 +23,9 @@ pub struct Setup {
     /// k [W/(m K)]
     pub conductivity: f64,
     pub faces: Vec<Face>,
-    /// Parts that the temperature splits into: odd or even about the low ends of x and y. The first
-    /// is even about both.
+    /// Symmetry classes of the temperature: odd or even about the low ends of x and y. The first is even about both.
     pub classes: Vec<[bool; 2]>,
-    /// Number of copies of the lattice that make the body.
+    /// Number of copies of the lattice that form the body.
     pub copies: f64,
 }
 
@@ -48,7 +47,7 @@ pub enum Condition {
     Convective(f64),
 }
 
-/// What drives the temperature, or a time derivative of it.
+/// Driving terms of the temperature, or their time derivatives.
 #[derive(Debug, Clone, Copy)]
 pub struct Sources<'a> {
     /// For each class, heat into the particles of the low and the high end of z [W]; empty for none.
@@ -57,13 +56,13 @@ pub struct Sources<'a> {
     pub faces: &'a [Vec<f64>],
 }
 
-/// What a problem will cost, estimated from its finest particle.
+/// Forecast cost of a problem, estimated from its finest particle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cost {
     pub particles: usize,
-    /// Neighbours of a particle, itself included.
+    /// Number of neighbours of a particle, itself included.
     pub neighbours: usize,
-    /// Bound of the rates at which differences decay [1/s].
+    /// Upper bound of the decay rates [1/s].
     pub bound: f64,
 }
 
@@ -71,11 +70,11 @@ pub struct Cost {
 pub struct ParticleHeat {
     setup: Setup,
     threads: usize,
-    /// Made when first needed, the even one at once.
+    /// Classes, made when first needed; the even one immediately.
     classes: Vec<MadeOnce<Class>>,
 }
 
-/// The part of one symmetry class.
+/// The problem of one symmetry class.
 struct Class {
     lattice: Lattice,
     /// Rates [1/s]; rows of held particles are empty.
@@ -99,7 +98,7 @@ impl ParticleHeat {
         problem
     }
 
-    /// What `setup` will cost, without building it.
+    /// Forecasts the cost of `setup` without building it.
     pub fn cost(setup: &Setup) -> Cost {
         let lattice = lattice(setup, [false; 2]);
         let finest = lattice.axes.each_ref().map(|axis| {
@@ -116,8 +115,7 @@ impl ParticleHeat {
         Cost { particles: lattice.particles(), neighbours, bound }
     }
 
-    /// Number of particles whose corrected operator is near singular, so that the plain one stands
-    /// in for it.
+    /// Number of particles with a nearly singular corrected operator, which the plain one replaces.
     pub fn fallback(&self) -> usize {
         self.class(0).fallback
     }
@@ -133,9 +131,9 @@ impl ParticleHeat {
         layout.with(body("lost", "heat lost since time zero [J]"), 1)
     }
 
-    /// Advances `state` by `dt` [s] under sources that are polynomials in time, without error in
-    /// time: one entry of `sources` for their values at the beginning and one for each derivative. What a
-    /// halt leaves in `state` is of no use.
+    /// Advances `state` by `dt` [s] under sources that are polynomials in time, without time error. `sources` has one
+    /// entry for their values at the beginning and one for each derivative. After a halt the values of `state` are
+    /// undefined.
     pub fn advance(
         &self,
         state: &mut [f64],
@@ -151,7 +149,7 @@ impl ParticleHeat {
                 let sources = &sources[..=last.unwrap_or(0)];
                 let passed = self.advance_class(index, content, (sources, dt), allowance)?;
                 if index == 0 {
-                    // Parts that are odd carry no heat in sum.
+                    // Odd parts contain no total heat.
                     totals[0] += self.setup.copies * passed.brought_in;
                     totals[1] += self.setup.copies * passed.lost;
                 }
@@ -160,9 +158,8 @@ impl ParticleHeat {
         Ok(())
     }
 
-    /// Time derivative of a state, laid out like the state itself; `sources` act now and `rates` are
-    /// their time derivatives. It is what the equations say, with held particles at the present
-    /// values of their faces.
+    /// Time derivative of a state, laid out like the state itself; `sources` act now and `rates` are their time
+    /// derivatives. It is that of the equations, with held particles at the present values of their faces.
     pub fn rates(&self, state: &[f64], sources: &Sources, rates: &Sources) -> Vec<f64> {
         let count = self.particles();
         let mut out = Vec::with_capacity(state.len());
@@ -206,8 +203,8 @@ impl ParticleHeat {
         HeatTotals { brought_in: state[n - 2], lost: state[n - 1] }
     }
 
-    /// Temperature of all particles above the initial one, class by class [K], held ones at the
-    /// present `faces`; empty for a class that is zero.
+    /// Temperature of all particles above the initial one, class by class [K], held ones at the present `faces`; empty
+    /// for a class that is zero.
     pub fn temperatures(&self, state: &[f64], faces: &[Vec<f64>]) -> Vec<Vec<f64>> {
         let contents = state.chunks_exact(self.particles()).zip(faces).enumerate();
         contents
@@ -266,8 +263,8 @@ impl ParticleHeat {
         Ok(passed)
     }
 
-    /// Rate of the temperatures that `source` causes [K/s], and what it brings in and loses at once
-    /// [W]. Held particles follow their faces, whose rates are in `next`.
+    /// Rate of the temperatures due to `source` [K/s], and the heat flows that it adds and removes directly [W]. Held
+    /// particles follow their faces, whose rates are in `next`.
     fn drive(
         &self,
         index: usize,
@@ -286,8 +283,8 @@ impl ParticleHeat {
         (rate, passed)
     }
 
-    /// Gives held particles the values of their faces. A particle on the edge of two held faces
-    /// belongs to the one listed first.
+    /// Sets held particles to the values of their faces. A particle on the edge of two held faces belongs to the one
+    /// listed first.
     fn hold(&self, index: usize, content: &mut [f64], values: &[f64]) {
         let lattice = &self.class(index).lattice;
         let odd = self.setup.classes[index];
@@ -312,7 +309,7 @@ impl ParticleHeat {
 }
 
 impl Sources<'_> {
-    /// Whether there is anything but zero for a class.
+    /// Returns true if any source of a class is nonzero.
     fn acts_on(&self, index: usize) -> bool {
         let mut values = self.faces[index].iter().chain(self.surface[index].iter().flatten());
         values.any(|&v| v != 0.0)
@@ -346,7 +343,7 @@ impl Class {
         class
     }
 
-    /// What the temperature of convective faces takes from the particles.
+    /// Adds the heat loss of convective faces, proportional to the particles' temperature.
     fn add_convection(&mut self, setup: &Setup) {
         for face in &setup.faces {
             let Condition::Convective(coefficient) = face.condition else { continue };
@@ -366,8 +363,8 @@ impl Class {
         }
     }
 
-    /// Heat into each particle that does not depend on temperatures [W], and what is brought in and
-    /// lost at once [W]: on held particles, heat goes straight through.
+    /// Heat into each particle, independent of temperatures [W], and the total heat flows that enter and leave directly
+    /// [W]: heat into held particles leaves at once.
     fn inflow(
         &self,
         setup: &Setup,
@@ -395,7 +392,7 @@ impl Class {
                         let mut gained = HeatTotals::default();
                         let heat = inlet.areas.iter().map(|a| h * value * a);
                         inlet.spread(heat, &mut power, &mut gained);
-                        // What the ambient gives to held particles they pass back to it.
+                        // Held particles return the heat that they receive from the surroundings.
                         passed.lost -= gained.brought_in - gained.lost;
                     }
                     Condition::Held => {}
@@ -406,7 +403,7 @@ impl Class {
     }
 }
 
-/// The lattice with the ends that faces and symmetry give it.
+/// The lattice with the ends that faces and symmetry require.
 fn lattice(setup: &Setup, odd: [bool; 2]) -> Lattice {
     let mut axes = setup.axes.clone();
     for face in setup.faces.iter().filter(|face| face.condition == Condition::Held) {

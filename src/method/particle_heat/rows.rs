@@ -6,12 +6,12 @@ use super::operators::{
 };
 use crate::kernel::Kernel;
 
-/// How the heat equation is brought to particles.
+/// Settings of the discretisation by particles.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     pub operator: Operator,
     pub kernel: Kernel,
-    /// Support radius in distances of particles, along each axis its own.
+    /// Support radius in distances of particles, separately along each axis.
     pub support: f64,
 }
 
@@ -37,29 +37,28 @@ pub struct Lattice {
 pub struct Row {
     /// `(particle, factor)`; entries of one particle add up.
     pub entries: Vec<(usize, f64)>,
-    /// The part of the entries that is exchanged with held particles and images beyond them, by the
-    /// axis and end that hold.
+    /// The entries exchanged with held particles and images beyond them, by the axis and end that is held.
     pub held: [[Vec<(usize, f64)>; 2]; 3],
-    /// What this part is where temperature is the distance from the held end [W/m³ per K/m].
+    /// Value of these entries for a temperature equal to the distance from the held end [W/m³ per K/m].
     pub held_slope: [[f64; 2]; 3],
-    /// What a unit gradient out of the low and high end of each axis adds [W/m³ per K/m].
+    /// Contribution of a unit outward gradient at the low and high end of each axis [W/m³ per K/m].
     pub gradient: [[f64; 2]; 3],
-    /// Whether the plain operator stands in for the corrected one.
+    /// True if the plain operator replaces the corrected one.
     pub is_fallback: bool,
 }
 
-/// Largest ratio of distances of particles for which supports are round: a compromise. Measured on a
-/// disc flux into a box of five gradings, larger ratios lose less heat in most (4 in four of five),
-/// smaller ones are more accurate in depth (at 4 µm 0.1 % at 2, 0.8 % at 3, 1.4 % at 4).
+/// Largest ratio of particle distances for which supports are round: a compromise. Measured on a disc flux into a box
+/// of five gradings, larger ratios lose less heat in most (4 in four of five), smaller ones are more accurate in depth
+/// (at 4 µm 0.1 % at 2, 0.8 % at 3, 1.4 % at 4).
 const ROUND_ASPECT: f64 = 3.0 * (1.0 + 1e-5); // Rounding must not divide a lattice of ratio 3.
-/// How far an elongated support reaches across, in distances of particles.
+/// Transverse reach of an elongated support, in distances of particles.
 const NARROW_REACH: f64 = 1.9;
 
-/// A share in the Laplacian: a tensor for the second derivatives and a slope along the first axis.
+/// A term of the Laplacian: a tensor for the second derivatives and a slope along the first axis.
 struct Part {
     tensor: Tensor,
     slope: f64,
-    /// By how much the support is narrower along each axis.
+    /// Factor by which the support is narrower along each axis.
     narrow: [f64; 3],
 }
 
@@ -93,8 +92,8 @@ impl Lattice {
 
     /// The coefficients at one particle.
     ///
-    /// Every particle measures each axis in its own unit, half the distance of its neighbours, so
-    /// that its support holds as many neighbours along every axis however the lattice is graded.
+    /// Every particle measures each axis in its own unit, half the distance of its neighbours. So its support holds the
+    /// same number of neighbours along every axis, however the lattice is graded.
     pub fn row(&self, place: [usize; 3]) -> Row {
         let axes: Vec<usize> = (0..3).filter(|&a| self.axes[a].is_modelled()).collect();
         let seen = [0, 1, 2].map(|a| self.axes[a].neighbours(place[a], self.settings.support));
@@ -132,11 +131,11 @@ impl Lattice {
 
     /// The derivatives whose sum is the Laplacian, each with its support.
     ///
-    /// In the particle's own units a lattice of unlike distances conducts unlike along its axes. A
-    /// round support then brings an error of fourth order along the wide distances that grows as the
-    /// square of their ratio. Supports elongated along the axis of each derivative, which reach no
-    /// further than next neighbours across it, have none: for offsets of −1, 0 and 1 the fourth
-    /// moment is the second. Up to [`ROUND_ASPECT`] round supports are the better ones.
+    /// In the particle's own units a lattice of unequal distances has unequal conductivities along its axes. A round
+    /// support then has an error of fourth order along the wide distances that grows as the square of their ratio.
+    /// Supports elongated along the axis of each derivative, which reach only the nearest neighbours across it, have
+    /// none: for offsets of −1, 0 and 1 the fourth moment is the second. Up to [`ROUND_ASPECT`] round supports are
+    /// better.
     fn parts(&self, place: [usize; 3], axes: &[usize]) -> Vec<Part> {
         let scale = |a: usize| self.axes[a].scale(place[a]);
         let mut whole = Part { tensor: [[0.0; 3]; 3], slope: 0.0, narrow: [1.0; 3] };
@@ -180,7 +179,7 @@ impl Lattice {
         Neighbour::new(pressed, volume, view).map(|neighbour| neighbour.weight)
     }
 
-    /// Coefficients of a part for all neighbours, and whether they are the fall-back's.
+    /// Coefficients of a term for all neighbours, and whether they are those of the fallback.
     fn coefficients(
         &self,
         neighbours: &[Neighbour],
@@ -228,7 +227,7 @@ impl Lattice {
         }
         for (gradient, neighbour) in row.gradient.iter_mut().zip(along) {
             for (sum, distance) in gradient.iter_mut().zip(neighbour.beyond) {
-                // An image beyond an end that passes a gradient g is warmer by 2 g d.
+                // An image beyond an end with a gradient g is warmer by 2 g d.
                 *sum += 2.0 * c * distance;
             }
         }

@@ -7,7 +7,7 @@ use crate::runtime::sealed::{Content, Format, Reader};
 const RECORD: Format = Format { magic: b"IMPREC02", noun: "record", of: "drops" };
 
 impl Course {
-    /// The bytes of a course that follows from what `key` says.
+    /// Serialises a course together with the `key` that describes its inputs.
     pub fn to_bytes(&self, key: &str) -> Vec<u8> {
         let mut content = Content::default();
         content.count(self.profiles().count());
@@ -23,7 +23,7 @@ impl Course {
         RECORD.seal(key, &content)
     }
 
-    /// The course and what it follows from; refuses bytes that are damaged or of another format.
+    /// Deserialises a course and its key; refuses bytes that are damaged or of another format.
     pub fn from_bytes(bytes: &[u8]) -> Result<(String, Self), String> {
         let (key, profiles) = RECORD.open(bytes, profiles)?;
         Ok((key, Self::new(profiles)?))
@@ -66,7 +66,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_stored_is_read_again() {
+    fn round_trip() {
         let bytes = course().to_bytes("a drop");
         assert_eq!(Course::from_bytes(&bytes), Ok(("a drop".to_owned(), course())));
     }

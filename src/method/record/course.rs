@@ -1,25 +1,26 @@
-//! Drops of several speeds: between two that are known, amounts at equal times over D/U are interpolated.
+//! Drops of several speeds: between two recorded speeds, amounts at equal times over D/U are
+//! interpolated.
 
 use super::profile::{Amounts, Profile};
 use super::tail::Tail;
 
-/// Relative difference of speeds that counts as none.
+/// Relative difference below which two speeds are equal.
 const SAME: f64 = 1e-6;
 
 /// Profiles in the order of their speeds, over the same rings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Course {
     profiles: Vec<(Profile, Option<Tail>)>,
-    /// Ages of each between which its heat changes little enough to be told by a mean and a slope [s].
+    /// Ages of each profile between which a mean and a slope represent its heat well enough [s].
     turns: Vec<Vec<f64>>,
-    /// Heat that each ring of each has got at last, for each kelvin [J/K].
+    /// Total heat per kelvin that each ring of each profile receives [J/K].
     wholes: Vec<Vec<f64>>,
-    /// Largest diameter of the film of each [m].
+    /// Largest film diameter of each profile [m].
     spreads: Vec<f64>,
 }
 
 impl Course {
-    /// Refuses profiles that do not go together.
+    /// Creates a course; refuses incompatible profiles.
     pub fn new(profiles: Vec<Profile>) -> Result<Self, String> {
         let Some(first) = profiles.first() else { return Err("there is no profile".to_owned()) };
         profiles.iter().try_for_each(Profile::check)?;
@@ -51,7 +52,7 @@ impl Course {
         self.profiles[0].0.rings
     }
 
-    /// Of the outermost ring [m].
+    /// Radius of the outermost ring [m].
     pub fn radius(&self) -> f64 {
         self.profiles[0].0.radius
     }
@@ -61,13 +62,13 @@ impl Course {
         [self.profiles[0].0.speed, self.profiles[self.profiles.len() - 1].0.speed]
     }
 
-    /// Whether drops of a speed are known.
+    /// Returns true if the course covers drops of a speed.
     pub fn knows(&self, speed: f64) -> bool {
         let [slowest, fastest] = self.speeds();
         speed >= slowest * (1.0 - SAME) && speed <= fastest * (1.0 + SAME)
     }
 
-    /// How long a drop gives anything [s], and how long heat alone.
+    /// Duration of a drop's contributions [s]; at the end only heat.
     pub fn duration(&self, speed: f64) -> f64 {
         let of = |(place, _): (usize, f64)| {
             let (profile, tail) = &self.profiles[place];
@@ -77,8 +78,8 @@ impl Course {
         self.weights(speed).map(of).fold(0.0, f64::max)
     }
 
-    /// Ages of a drop between which its heat changes little enough to be told by a mean and a slope [s]; none of a drop
-    /// that gives no heat.
+    /// Ages of a drop between which a mean and a slope represent its heat well enough [s]; none for
+    /// a drop without heat.
     pub fn turns(&self, speed: f64) -> impl Iterator<Item = f64> {
         let place = self.weights(speed).next().map_or(0, |(place, _)| place);
         let ratio = self.profiles[place].0.speed / speed;
@@ -91,12 +92,12 @@ impl Course {
         weights.map(|(place, weight)| weight * self.spreads[place]).sum()
     }
 
-    /// Largest part of a drop that had come off in small lumps as it was recorded.
+    /// Largest fraction of a drop that had detached in small lumps when it was recorded.
     pub fn largest_stray(&self) -> f64 {
         self.profiles().map(|profile| profile.stray).fold(0.0, f64::max)
     }
 
-    /// Diameter of the film a time after the contact [m].
+    /// Diameter of the film at a time after contact [m].
     pub fn spread(&self, speed: f64, age: f64) -> f64 {
         let of = |(place, weight): (usize, f64)| {
             let (profile, _) = &self.profiles[place];
@@ -105,7 +106,8 @@ impl Course {
         self.weights(speed).map(of).sum()
     }
 
-    /// Amounts that each ring has got a time after the contact [s]. The heat of a ring is that of an age that lags behind.
+    /// Amounts that each ring has received at a time after contact [s]. The heat of a ring is that
+    /// of an age delayed by its lag.
     pub fn amounts(&self, speed: f64, age: f64, lags: &[f64]) -> Vec<Amounts> {
         let mut sums = vec![Amounts::default(); self.rings()];
         if age <= 0.0 {
@@ -121,7 +123,7 @@ impl Course {
                     let rest = shares.get(ring).map_or(0.0, |share| share * heat);
                     sum.heat += weight * (amounts.heat + rest);
                 }
-                // Momentum is in proportion to the speed.
+                // Momentum is proportional to the speed.
                 sum.push += weight * ratio * amounts.push;
                 sum.outward += weight * ratio * amounts.outward;
             }
@@ -132,7 +134,7 @@ impl Course {
         sums
     }
 
-    /// Heat that one ring has got a time after the contact [s], for each kelvin [J/K].
+    /// Heat per kelvin that one ring has received at a time [s] after contact [J/K].
     pub fn heat(&self, speed: f64, ring: usize, age: f64) -> f64 {
         if age <= 0.0 {
             return 0.0;
@@ -148,13 +150,13 @@ impl Course {
         self.weights(speed).map(of).sum()
     }
 
-    /// Heat that a ring gets in all, for each kelvin [J/K].
+    /// Total heat per kelvin that a ring receives [J/K].
     pub fn whole(&self, speed: f64, ring: usize) -> f64 {
         let weights = self.weights(speed);
         weights.map(|(place, weight)| weight * self.wholes[place][ring]).sum()
     }
 
-    /// Places of the profiles that make up a drop of some speed, and their weights.
+    /// Indices and weights of the profiles that make up a drop of a speed.
     fn weights(&self, speed: f64) -> impl Iterator<Item = (usize, f64)> + use<> {
         let of = |place: usize| self.profiles[place].0.speed;
         let above = (0..self.profiles.len()).find(|&place| of(place) * (1.0 + SAME) >= speed);
@@ -170,7 +172,7 @@ impl Course {
     }
 }
 
-/// When a drop has given half of what heat it gives [s], found by halving.
+/// Age at which a drop has transferred half of its heat [s], found by bisection.
 fn half_time((profile, tail): &(Profile, Option<Tail>)) -> f64 {
     let heat = |age: f64| {
         let of_profile: f64 = profile.at(age).iter().map(|amounts| amounts.heat).sum();
@@ -189,22 +191,23 @@ fn half_time((profile, tail): &(Profile, Option<Tail>)) -> f64 {
     high
 }
 
-/// Heat that each ring has got at last [J/K].
+/// Total heat that each ring receives [J/K].
 fn whole((profile, tail): &(Profile, Option<Tail>)) -> Vec<f64> {
     let end = profile.at(profile.duration).into_iter().enumerate();
     let rest = |ring: usize| tail.as_ref().map_or(0.0, |t| t.shares()[ring] * t.heat(t.duration()));
     end.map(|(ring, amounts)| amounts.heat + rest(ring)).collect()
 }
 
-/// To a thousandth of what lasts a million times as long.
+/// Resolves a thousandth of a range that spans a factor of a million.
 const HALVINGS: usize = 30;
 
-/// The first, over what the profile lasts: while its drop comes down.
+/// First age relative to the profile's duration: while the drop comes down.
 const FIRST: f64 = 0.1;
-/// Ages over that at which half of the heat has been given: what is left in a film falls to a tenth in five of it.
+/// Ages over the half time: the remaining heat of a film falls to a tenth in five of them.
 const COOLING: [f64; 12] = [1.0, 2.0, 4.0, 6.0, 8.0, 10.0, 15.0, 30.0, 60.0, 120.0, 1e3, 1e4];
 
-/// Ages that double until half of the heat has been given, as fluxes fall like 1/√t until then, and on as a film cools.
+/// Ages that double until the half time, because fluxes fall like 1/√t until then, and then follow
+/// the cooling of a film.
 fn turns(known: &(Profile, Option<Tail>)) -> Vec<f64> {
     let half = half_time(known);
     if half.is_infinite() {
@@ -213,7 +216,7 @@ fn turns(known: &(Profile, Option<Tail>)) -> Vec<f64> {
     turns_of_film(known.0.duration, half)
 }
 
-/// The same of a drop of which something is known for a `duration`, and which has given half of its heat at an age [s].
+/// Same as `turns` for a drop recorded over a `duration` with a known half time [s].
 pub fn turns_of_film(duration: f64, half: f64) -> Vec<f64> {
     let mut age = FIRST * duration;
     let mut ages = Vec::new();
@@ -252,11 +255,11 @@ mod tests {
     }
 
     #[test]
-    fn speeds_between_are_interpolated_and_others_unknown() {
+    fn speeds_are_interpolated_within_the_course_only() {
         let course = Course::new(vec![profile(1.0), profile(2.0)]).unwrap();
         assert!(course.knows(1.0) && course.knows(1.5) && course.knows(2.0));
         assert!(!course.knows(0.9) && !course.knows(2.1));
-        // These profiles are alike over D/U, so that any speed between is known exactly.
+        // These profiles coincide over D/U, so that interpolation between them is exact.
         for speed in [1.0, 1.25, 1.9, 2.0] {
             let found = course.amounts(speed, 2.0 / speed, &[0.0; 2])[1];
             assert!((found.heat - 0.1).abs() < 1e-12);
@@ -268,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn what_does_not_go_together_is_refused() {
+    fn incompatible_profiles_are_refused() {
         assert!(Course::new(Vec::new()).is_err());
         assert!(Course::new(vec![profile(2.0), profile(1.0)]).is_err());
         assert!(Course::new(vec![profile(1.0), Profile { radius: 2.0, ..profile(2.0) }]).is_err());

@@ -1,6 +1,7 @@
-//! A profile from closed forms: a footprint that grows to the width of published correlations, a force that gives all
-//! momentum, and from the time at which each place is wetted the flux of two half spaces, of which the one spreads over
-//! the other, as far as the heat of the film above it goes.
+//! A profile from closed forms. The footprint grows to the width of published correlations, and a
+//! force transfers all momentum. From the time at which each place is wetted, the flux is that of
+//! two half spaces, one of which spreads over the other, limited by the heat of the film above the
+//! place.
 
 use std::f64::consts::PI;
 
@@ -8,26 +9,26 @@ use super::profile::{Amounts, Profile};
 use crate::closed_form::cooling_film::given_part;
 use crate::closed_form::{DropImpact, flux_over_rest};
 
-/// What a film follows from.
+/// Inputs of a film.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Film {
     pub impact: DropImpact,
     /// c [J/(kg K)] and k [W/(m K)] of the fluid.
     pub specific_heat: f64,
     pub conductivity: f64,
-    /// √(kρc) of the wall [W √s/(m² K)]; nothing for one that is held at its temperature.
+    /// √(kρc) of the wall [W √s/(m² K)]; `None` for a wall of prescribed temperature.
     pub effusivity: Option<f64>,
     /// [s]
     pub duration: f64,
     pub samples: usize,
     pub rings: usize,
-    /// Of the outermost ring, no less than the film's [m].
+    /// Radius of the outermost ring, no less than the film's [m].
     pub radius: f64,
 }
 
-/// Least and largest Prandtl number: the flux hardly depends on it beyond.
+/// Smallest and largest Prandtl number: outside this range the flux hardly depends on it.
 const PRANDTL: [f64; 2] = [1e-6, 1e4];
-/// Circles of a ring on which the time of wetting is looked at.
+/// Number of circles of a ring on which the time of wetting is evaluated.
 const CIRCLES: usize = 8;
 
 impl Film {
@@ -36,12 +37,13 @@ impl Film {
         0.5 * impact.diameter * impact.largest_spread()
     }
 
-    /// Heat that a place has got by the end of each sample, for each kelvin [J/(m² K)].
+    /// Heat per area and kelvin that a place has received by the end of each sample [J/(m² K)].
     ///
-    /// A thermal layer of thickness √D [√s] grows by diffusion from the time at which the place is wetted, and the flow
-    /// u = r/(t + τ) thins it: `dD/dt = 1 − (f² − 1) s D/(t + τ)`. In a flow that has always been, D = t/f², which is
-    /// where f, the flux over that of fluid at rest, comes from. s falls from 1 to 0 as the footprint comes to rest. Over
-    /// fluid at rest for as long the flux is larger by √(age/D), as far as the wall takes it.
+    /// A thermal layer of thickness √D [√s] grows by diffusion from the time at which the place is
+    /// wetted, and the flow u = r/(t + τ) thins it: `dD/dt = 1 − (f² − 1) s D/(t + τ)`. In a flow
+    /// that has lasted forever, D = t/f², which defines f, the ratio of the flux to that of fluid
+    /// at rest. s falls from 1 to 0 as the footprint comes to rest. Compared with fluid at rest for
+    /// the same time, the flux is larger by √(age/D), as far as the wall absorbs it.
     fn heats(&self, (thickness, largest): (f64, f64), flow: f64, at: f64) -> Vec<f64> {
         let impact = &self.impact;
         let step = self.duration / self.samples as f64;
@@ -66,36 +68,36 @@ impl Film {
         (0..self.samples).map(until).collect()
     }
 
-    /// Flux at contact over that of the same fluid at rest above a wall that is held, of a flow that gives so many times
-    /// as much as fluid at rest: the wall warms up.
+    /// Flux at contact relative to that of the same fluid at rest above a wall of prescribed
+    /// temperature. `over_rest` is this ratio for the flow without warming of the wall.
     fn contact(&self, over_rest: f64) -> f64 {
         let capacity = self.impact.density * self.specific_heat;
         let own = over_rest * (self.conductivity * capacity).sqrt();
         over_rest * self.effusivity.map_or(1.0, |wall| wall / (wall + own))
     }
 
-    /// Flux of a flow that has always been over that of fluid at rest.
+    /// Flux of a flow that has lasted forever, relative to that of fluid at rest.
     fn flow(&self) -> f64 {
         let prandtl = self.impact.viscosity * self.specific_heat / self.conductivity;
         flux_over_rest(prandtl.clamp(PRANDTL[0], PRANDTL[1]))
     }
 
-    /// What the wall has got within a radius [N s].
+    /// Impulse that the wall has received within a radius [N s].
     fn pushed_within(&self, radius: f64, largest: f64, time: f64) -> f64 {
-        // A stagnation flow presses as a paraboloid on what is below the drop.
+        // The pressure of a stagnation flow below the drop is a paraboloid.
         let reach = self.impact.wetted_radius(largest, time).min(0.5 * self.impact.diameter);
         let inside = if reach > 0.0 { (radius / reach).min(1.0).powi(2) } else { 1.0 };
         1.0 - (1.0 - inside).powi(2)
     }
 }
 
-/// The profile of a film.
+/// Computes the profile of a film.
 pub fn film_profile(film: &Film) -> Profile {
     let impact = &film.impact;
     let largest = Film::largest_radius(impact);
     let heat_capacity = impact.density * impact.volume() * film.specific_heat;
     let width = film.radius / film.rings as f64;
-    // Even over all circles that are ever wetted.
+    // Uniform over all circles that are ever wetted.
     let all = (0..film.rings).flat_map(|ring| circles(width, ring));
     let wetted: f64 = all.filter(|(at, _)| *at < largest).map(|(_, area)| area).sum();
     let thickness = impact.volume() / wetted;
@@ -176,12 +178,12 @@ mod tests {
     }
 
     #[test]
-    fn all_momentum_is_given_and_no_more_heat_than_there_is() {
+    fn momentum_is_complete_and_heat_is_bounded() {
         let film = film();
         let profile = film_profile(&film);
         let end = profile.at(film.duration);
         let pushed: f64 = end.iter().map(|ring| ring.push).sum();
-        // What is left of the force at the end is 1.4e-6 of it all.
+        // The force at the end is 1.4e-6 of its total.
         let part = film.impact.momentum_given(film.duration);
         assert!((pushed / film.impact.momentum() - part).abs() < 1e-12 && part > 1.0 - 1e-5);
         let heat: f64 = end.iter().map(|ring| ring.heat).sum();
@@ -191,9 +193,9 @@ mod tests {
         assert!((all / profile.heat_capacity - 1.0).abs() < 1e-12);
     }
 
-    /// At first the middle gives what two half spaces exchange.
+    /// At first the flux in the middle is that between two half spaces.
     #[test]
-    fn the_middle_begins_as_two_half_spaces() {
+    fn initial_flux_is_that_of_two_half_spaces() {
         let film = Film { duration: 1e-7, ..film() };
         let profile = film_profile(&film);
         let contact = Contact {
@@ -204,21 +206,22 @@ mod tests {
         };
         let found = film.heats((1e-6, 1e-4), film.flow(), 0.0)[199];
         let exact = contact.heat(1e-7);
-        // The flow has thinned its layer a little.
+        // By then the flow has thinned its layer a little.
         assert!((0.999..1.02).contains(&(found / exact)), "{found} {exact}");
         assert!(profile.at(1e-7)[0].heat < found * PI * (film.radius / 24.0).powi(2));
     }
 
-    /// A held wall under a flow without end: `D = (T/m)(1 − (T₀/T)^m)`, T = t + τ, m = f².
+    /// A wall of prescribed temperature under a flow without end: `D = (T/m)(1 − (T₀/T)^m)`, T
+    /// = t + τ, m = f².
     #[test]
-    fn a_flow_without_end_thins_the_layer_as_its_closed_form_says() {
+    fn persistent_flow_matches_closed_form() {
         let film = Film { effusivity: None, samples: 2000, ..film() };
         let (flow, far) = (film.flow(), 1e3);
         let square = flow.powi(2);
         for at in [0.0, 4e-5] {
             let start = film.impact.age(film.impact.time_of_wetting(far, at));
             let end = film.impact.age(film.duration);
-            // Over √(T − T₀), which leaves nothing infinite.
+            // Divided by √(T − T₀), which leaves no infinite value.
             let (count, whole) = (20_000, (end - start).sqrt());
             let integral: f64 = (0..count)
                 .map(|n| {
@@ -230,7 +233,7 @@ mod tests {
                 .sum();
             let effusivity = (0.6 * 4.18e6_f64).sqrt();
             let exact = effusivity * integral / PI.sqrt();
-            // So thick that it does not cool through.
+            // Thick enough not to cool through.
             let found = film.heats((1e-3, far), flow, at)[1999];
             assert!((found / exact - 1.0).abs() < 2e-3, "{at}: {found} {exact}");
         }

@@ -1,15 +1,15 @@
-//! Rings about the place where a drop has come down, on the cells of a wall.
+//! Rings about the impact position of a drop, on the cells of a wall.
 //!
-//! A ring is points at equal angles on circles that halve its area; what it gives is even over these, so all of it
-//! arrives where cells partition unity.
+//! A ring is represented by equidistant points on circles that halve its area, with equal weights.
+//! So everything arrives where cells partition unity.
 
 use std::f64::consts::TAU;
 
 use crate::port::WallCells;
 
-/// Circles on which the points of a ring lie.
+/// Number of circles on which the points of a ring lie.
 const CIRCLES: usize = 2;
-/// Points on the innermost circles; farther out there are as many more as keep their distance.
+/// Number of points on the innermost circles; farther out their number grows to keep the distance.
 const FEWEST_POINTS: usize = 8;
 
 /// The rings of one drop.
@@ -17,11 +17,11 @@ pub struct Footprint {
     pub rings: Vec<Ring>,
 }
 
-/// A ring: its parts sum, with what is outside, to 1.
+/// A ring: its parts and the outside part sum to 1.
 #[derive(Default)]
 pub struct Ring {
     pub parts: Vec<Part>,
-    /// Part beyond the outermost cells, its direction outward, and the cell that is nearest.
+    /// Part beyond the outermost cells, its outward direction, and the nearest cell.
     pub outside: Vec<Part>,
 }
 
@@ -29,7 +29,8 @@ pub struct Ring {
 pub struct Part {
     pub cell: usize,
     pub weight: f64,
-    /// Weight times the direction outward; for cells that are rings themselves, x is along their radius.
+    /// Weight times the outward direction; for cells that are rings themselves, x is along their
+    /// radius.
     pub outward: [f64; 2],
 }
 
@@ -51,7 +52,7 @@ impl Footprint {
 }
 
 impl Ring {
-    /// Mean of a value of each cell over what lies on cells; that of the nearest ones if nothing does.
+    /// Mean of a value over the ring's cells; over the nearest cells if the ring covers none.
     pub fn mean(&self, value: impl Fn(usize) -> f64) -> f64 {
         let parts = if self.parts.is_empty() { &self.outside } else { &self.parts };
         let all: f64 = parts.iter().map(|part| part.weight).sum();
@@ -95,7 +96,7 @@ impl Ring {
     }
 }
 
-/// The two functions linear between nodes that are not zero at a place; nothing beyond the nodes.
+/// The two functions linear between nodes that are nonzero at a place; `None` beyond the nodes.
 fn hats(nodes: &[f64], at: f64) -> Option<[(usize, f64); 2]> {
     let last = nodes.len().checked_sub(1).filter(|&last| last > 0)?;
     if at < nodes[0] || at > nodes[last] {
@@ -115,9 +116,9 @@ mod tests {
         WallCells::Nodes { x: nodes.clone(), y: nodes }
     }
 
-    /// Moments of what a disc gives to a fine grid are those of a disc.
+    /// The moments of a disc's contributions to a fine grid are those of a disc.
     #[test]
-    fn all_arrives_where_it_was_given() {
+    fn deposits_preserve_amounts_and_moments() {
         let cells = grid();
         let WallCells::Nodes { x, .. } = &cells else { unreachable!() };
         let centre = [0.43, -0.61];
@@ -141,13 +142,13 @@ mod tests {
         }
         assert!((moments[0] - 1.0).abs() < 1e-13);
         assert!(moments[1].abs() < 1e-13 && moments[2].abs() < 1e-13);
-        // R²/2, and what linear functions on a grid add: h²/6 along each axis at most.
+        // R²/2, plus the contribution of linear functions on a grid: at most h²/6 along each axis.
         assert!((moments[3] - 0.5).abs() < 0.1_f64.powi(2) / 3.0 + 1e-2, "{}", moments[3]);
         assert!(outward.iter().all(|x| x.abs() < 1e-13));
     }
 
     #[test]
-    fn what_lies_beyond_an_edge_is_outside() {
+    fn amounts_beyond_an_edge_are_outside() {
         let footprint = Footprint::of(&grid(), [2.0, 0.0], 5, 1.0);
         for ring in &footprint.rings {
             let [inside, outside] = [&ring.parts, &ring.outside]
@@ -158,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn rings_on_rings_keep_their_place() {
+    fn rings_map_to_the_same_rings() {
         let cells = WallCells::Rings { count: 5, radius: 1.0 };
         let footprint = Footprint::of(&cells, [0.0; 2], 5, 1.0);
         for (n, ring) in footprint.rings.iter().enumerate() {

@@ -1,15 +1,15 @@
-//! Heat that goes along a wall during a step, from cells that get it to those beside them.
+//! Lateral heat conduction along a wall during a step, from heated cells to their neighbours.
 
 use crate::port::WallCells;
 
-/// Squared distance over `4at` beyond which nothing is counted.
+/// Squared distance over `4at` beyond which the spread is neglected.
 const REACH: f64 = 9.0;
 
-/// Cells of a wall with the places of their middles [m].
+/// Cells of a wall with the positions of their middles [m].
 pub struct Lateral {
     places: Vec<[f64; 2]>,
     areas: Vec<f64>,
-    /// Largest diffusivity below [m²/s].
+    /// Largest diffusivity of the solid below [m²/s].
     diffusivity: f64,
 }
 
@@ -18,8 +18,8 @@ impl Lateral {
         Self { places: cells.middles(), areas: areas.to_vec(), diffusivity }
     }
 
-    /// Cells to which heat goes from some cells within a time [s], and how: with the cell, its neighbours and their
-    /// shares, which sum to 1 with those of cells that got nothing.
+    /// Cells among which the heat of a cell spreads within a time [s]: the cell itself and its neighbours, with their
+    /// shares. The shares sum to 1, including those of cells that received nothing.
     pub fn around(&self, cell: usize, time: f64) -> Vec<(usize, f64)> {
         let scale = 4.0 * self.diffusivity * time;
         let near = (0..self.places.len()).filter_map(|other| {

@@ -1,13 +1,13 @@
-//! Bounds of what films give in a step: heat goes from what is warmer to what is colder, and no place of a wall that
-//! answers to heat goes beyond the hottest and the coldest film on it.
+//! Bounds on the heat of films in a step. Heat flows from hot to cold, and no place of a wall that
+//! responds to heat leaves the range of the hottest and the coldest film on it.
 //!
-//! A cell rises as if heat went straight down, by `u`, but where heat comes along the wall from those beside it, by no more
-//! than a mean of u about it. Films whose heat would bring a cell beyond what it may have give the part that it can take,
-//! and the rest later.
+//! The rise of a cell is that of purely vertical conduction, `u`. Where heat arrives laterally from
+//! its neighbours, the rise is limited by a mean of u about the cell. Films that would bring a cell
+//! beyond its bound transfer the fraction that it can absorb, and the remainder later.
 
 use super::footprint::{Footprint, Ring};
 use super::lateral::Lateral;
-use super::replay::Given;
+use super::replay::Contribution;
 use super::surface::SurfaceAt;
 use crate::port::Surface;
 
@@ -19,8 +19,8 @@ pub enum Side {
 }
 
 impl Side {
-    /// Of heat [J] under a difference between a drop and the wall that it met [K]; nothing of heat that a ring takes back,
-    /// as some of a record do.
+    /// Side of a film from its heat [J] and the difference between the drop and the wall at contact
+    /// [K]. It is `None` for heat that a ring takes back, as occurs in some records.
     pub fn of(difference: f64, heat: f64) -> Option<Self> {
         match (difference > 0.0, heat > 0.0) {
             _ if heat == 0.0 => None,
@@ -35,7 +35,8 @@ impl Side {
     }
 }
 
-/// Films that warm a cell, or that cool it: how far they bring it [K], and the temperature beyond which they do not [K].
+/// Bound from films that warm a cell, or that cool it: the change that they cause [K], and the
+/// temperature that they cannot exceed [K].
 #[derive(Debug, Clone, Copy)]
 struct Bound {
     rise: f64,
@@ -47,19 +48,20 @@ const SIGNS: [f64; 2] = [1.0, -1.0];
 const NONE: [Bound; 2] =
     [Bound { rise: 0.0, bound: f64::NEG_INFINITY }, Bound { rise: 0.0, bound: f64::INFINITY }];
 
-/// A wall at the end of a step, with what films give to it.
+/// A wall at the end of a step, with the contributions of films.
 pub struct Limit<'a> {
     surface: SurfaceAt<'a>,
     areas: &'a [f64],
     duration: f64,
-    /// Rises [K m²] under a mean flow of 1 J over the step and under one that falls from 1 W to −1 W.
+    /// Rises [K m²] under a mean flux of 1 J over the step and under one that falls from 1 W to −1
+    /// W.
     held: f64,
     falling: f64,
     cells: Vec<[Bound; 2]>,
     touched: Vec<usize>,
 }
 
-/// Parts of what warms and of what cools each cell that may be given.
+/// Transferable fractions of the warming and of the cooling contributions of each cell.
 pub type Parts = Vec<[f64; 2]>;
 
 impl<'a> Limit<'a> {
@@ -75,8 +77,8 @@ impl<'a> Limit<'a> {
         }
     }
 
-    /// Adds what a film gives.
-    pub fn add(&mut self, footprint: &Footprint, temperature: f64, rings: &[Given]) {
+    /// Adds the contribution of a film.
+    pub fn add(&mut self, footprint: &Footprint, temperature: f64, rings: &[Contribution]) {
         for (ring, given) in footprint.rings.iter().zip(rings) {
             let Some(side) = given.side.map(Side::place) else { continue };
             let rise = (self.held * given.heat + self.falling * given.fall).abs();
@@ -95,7 +97,7 @@ impl<'a> Limit<'a> {
         }
     }
 
-    /// Nothing if all can be given everywhere.
+    /// Transferable fractions; `None` if everything can be transferred everywhere.
     pub fn parts(&self, lateral: &Lateral) -> Option<Parts> {
         let mut parts = vec![[1.0; 2]; self.cells.len()];
         let free = self.touched.iter().map(|&cell| self.surface.temperature(cell));
@@ -118,7 +120,7 @@ impl<'a> Limit<'a> {
         }
     }
 
-    /// Whether some cell could go beyond its bound if it rose as far as that which rises most.
+    /// Returns true if some cell could exceed its bound with the largest rise of all cells.
     fn is_near_bound(&self, (side, sign): (usize, f64), free: &[f64]) -> bool {
         let on_side = || {
             let touched = self.touched.iter().zip(free);
@@ -133,7 +135,7 @@ impl<'a> Limit<'a> {
         })
     }
 
-    /// Heat that comes along the wall counts for all cells that it comes from.
+    /// Lateral heat counts for all cells that it comes from.
     fn along(
         &self,
         (side, sign): (usize, f64),
@@ -152,14 +154,14 @@ impl<'a> Limit<'a> {
         }
     }
 
-    /// Part of what a ring gives that all its cells can take.
-    pub fn part_of(parts: &Parts, ring: &Ring, given: &Given) -> f64 {
+    /// Fraction of a ring's contribution that all its cells can absorb.
+    pub fn part_of(parts: &Parts, ring: &Ring, given: &Contribution) -> f64 {
         let Some(side) = given.side.map(Side::place) else { return 1.0 };
         ring.parts.iter().map(|part| parts[part.cell][side]).fold(1.0, f64::min)
     }
 }
 
-/// Part of a rise for which there is room.
+/// Fraction of a rise that fits the available room.
 fn part(room: f64, rise: f64) -> f64 {
     match rise {
         _ if room <= 0.0 => 0.0,

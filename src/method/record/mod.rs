@@ -1,11 +1,12 @@
-//! Drops that are not computed anew: what one of them gives to a wall is known over rings and time, from particles or
-//! from closed forms, and is given again for each drop.
+//! Replayed drops: the heat and momentum of one drop are recorded over rings and time, from
+//! particles or from closed forms, and applied again for each drop.
 //!
-//! What flows does not depend on temperatures, and heat conduction is linear. So the heat that a drop gives is in
-//! proportion to `T_drop − T_wall`, where T_wall is the temperature that the wall would have without this drop: to the
-//! bit of the record where that is uniform, and approximately where other drops have warmed it. Films that share a place
-//! give heat as one drop of all their volumes does (`sharing`), and none brings a place beyond its own temperature
-//! (`limit`): heat that cannot be given stays in the drop and is given later. Momentum is given as if alone.
+//! The flow does not depend on temperatures, and heat conduction is linear. So the heat of a drop
+//! is proportional to `T_drop − T_wall`, where T_wall is the temperature that the wall would have
+//! without this drop. This is exact where T_wall is uniform, and approximate where other drops have
+//! warmed the wall. Films that share a place transfer heat as one drop of their total volume does
+//! (`sharing`), and none brings a place beyond its own temperature (`limit`): surplus heat stays in
+//! the drop and is transferred later. Momentum is transferred as if each drop were alone.
 
 mod bytes;
 mod course;

@@ -1,11 +1,12 @@
-//! What a drop gives to the rings of a wall in the course of its impact.
+//! Heat and momentum that a drop transfers to the rings of a wall during its impact.
 
 use super::tail::Tail;
 
-/// What a ring got since the drop touched the wall.
+/// Heat and momentum that a ring has received since the drop touched the wall.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Amounts {
-    /// Over the difference between the drop's temperature and that of the wall without it [J/K].
+    /// Heat over the difference between the temperatures of the drop and of the wall without it
+    /// [J/K].
     pub heat: f64,
     /// Momentum into the wall [N s].
     pub push: f64,
@@ -14,7 +15,7 @@ pub struct Amounts {
 }
 
 impl Amounts {
-    /// What lies between this and a later or another value, a part of it.
+    /// Interpolates linearly towards another value by the fraction `part`.
     pub fn towards(self, other: Self, part: f64) -> Self {
         let between = |a: f64, b: f64| a + part * (b - a);
         Self {
@@ -25,23 +26,23 @@ impl Amounts {
     }
 }
 
-/// A drop of one speed.
+/// Profile of a drop of one speed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Profile {
-    /// Towards the wall as it touches it [m/s].
+    /// Speed towards the wall at contact [m/s].
     pub speed: f64,
     /// Heat capacity of the drop [J/K].
     pub heat_capacity: f64,
-    /// [s]
+    /// Duration [s].
     pub duration: f64,
-    /// Rings of equal width, out to this radius [m].
+    /// Number of rings of equal width, and the radius of the outermost [m].
     pub rings: usize,
     pub radius: f64,
-    /// At equal distances in time, the first after one of them; all rings of a time together.
+    /// Amounts at equidistant times, the first after one interval; all rings of a time together.
     pub amounts: Vec<Amounts>,
     /// Diameter of the film at these times [m].
     pub spread: Vec<f64>,
-    /// Largest part of the fluid that had come off it in small lumps at one of these times.
+    /// Largest fraction of the fluid, over these times, that had detached in small lumps.
     pub stray: f64,
 }
 
@@ -50,7 +51,8 @@ impl Profile {
         self.spread.len()
     }
 
-    /// Of all rings after a time [s], as if the flux were even between two samples; at the end what there is then.
+    /// Amounts of all rings at a time [s], for uniform fluxes between samples; constant after the
+    /// end.
     pub fn at(&self, time: f64) -> Vec<Amounts> {
         let (before, part) = self.place(time);
         let of = |sample: usize| match sample {
@@ -61,7 +63,7 @@ impl Profile {
         from.into_iter().zip(to).map(|(a, b)| a.towards(b, part)).collect()
     }
 
-    /// Heat of one ring after a time [s], for each kelvin [J/K].
+    /// Heat per kelvin of one ring at a time [s] [J/K].
     pub fn heat_of(&self, ring: usize, time: f64) -> f64 {
         let (before, part) = self.place(time);
         let of = |sample: usize| match sample {
@@ -72,7 +74,7 @@ impl Profile {
         from + part * (to - from)
     }
 
-    /// Diameter of the film after a time [m].
+    /// Diameter of the film at a time [m].
     pub fn spread_at(&self, time: f64) -> f64 {
         let (before, part) = self.place(time);
         let of = |sample: usize| match sample {
@@ -88,12 +90,13 @@ impl Profile {
         self.spread.iter().copied().fold(0.0, f64::max)
     }
 
-    /// How the drop goes on to cool when the profile has ended.
+    /// Further cooling of the drop after the end of the profile.
     pub fn tail(&self) -> Option<Tail> {
         Tail::of(self)
     }
 
-    /// The sample before a time, 0 for the beginning, and how far the time is on the way to the next.
+    /// Index of the sample before a time (0 for the beginning), and the fraction of the interval to
+    /// the next.
     fn place(&self, time: f64) -> (usize, f64) {
         let samples = self.samples() as f64;
         let at = (time / self.duration * samples).clamp(0.0, samples);
@@ -101,7 +104,7 @@ impl Profile {
         (before as usize, at - before)
     }
 
-    /// Refuses what no drop gives, with what is wrong.
+    /// Refuses amounts that no drop can transfer, with the reason.
     pub fn check(&self) -> Result<(), String> {
         let Self { speed, heat_capacity, duration, radius, rings, .. } = self;
         let fine = |x: f64| x.is_finite() && x > 0.0;
@@ -109,7 +112,7 @@ impl Profile {
             return Err("a speed, time or radius is not positive".to_owned());
         }
         if self.amounts.len() != self.samples() * rings || self.samples() < 2 {
-            return Err("its numbers of rings and times do not go together".to_owned());
+            return Err("its numbers of rings and times are inconsistent".to_owned());
         }
         let of = |a: &Amounts| [a.heat, a.push, a.outward];
         let numbers = self.amounts.iter().flat_map(of).chain(self.spread.iter().copied());
@@ -127,5 +130,5 @@ impl Profile {
     }
 }
 
-/// Heat that a drop gives over all that it has, with the allowance that particles need.
+/// Largest heat over that of the drop, with a tolerance for particles.
 const MOST_HEAT: f64 = 1.01;

@@ -1,30 +1,30 @@
-//! A profile from an impact of smoothed particles.
+//! Records a profile from an impact of smoothed particles.
 
 use super::profile::{Amounts, Profile};
 use crate::method::sph::{DropletPlan, DropletSph, Failure};
 use crate::port::{WallCells, WallExchange};
 use crate::runtime::allowance::Allowance;
 
-/// How an impact is recorded.
+/// Settings of a recording.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Recorder {
-    /// Towards the wall as the drop touches it [m/s].
+    /// Speed towards the wall at contact [m/s].
     pub speed: f64,
     /// Heat capacity of the drop [J/K].
     pub heat_capacity: f64,
-    /// [s]
+    /// Duration [s].
     pub duration: f64,
     pub samples: usize,
     pub threads: usize,
 }
 
-/// Difference of temperatures under which heat is recorded [K].
+/// Temperature difference of the recording [K].
 const DIFFERENCE: f64 = 100.0;
 
-/// Computes the one drop of a plan above its wall, which must be rings.
+/// Computes the single drop of a plan above its wall, which must consist of rings.
 ///
 /// # Panics
-/// If the plan's wall is not cut into rings, or the plan has another number of drops than one.
+/// If the plan's wall is not cut into rings, or the plan does not have exactly one drop.
 pub fn record_profile(plan: DropletPlan, recorder: Recorder) -> Result<Profile, Failure> {
     let wall = plan.wall.as_ref().map(|wall| wall.cells.clone());
     let (Some(WallCells::Rings { count, radius }), [drop]) = (wall, &plan.releases[..]) else {
@@ -49,7 +49,7 @@ pub fn record_profile(plan: DropletPlan, recorder: Recorder) -> Result<Profile, 
     Ok(Profile { speed, heat_capacity, duration, rings: count, radius, amounts, spread, stray })
 }
 
-/// What came down beyond the rings counts to the outermost.
+/// Amounts beyond the rings are added to the outermost.
 fn add(sums: &mut [Amounts], exchange: &WallExchange) {
     for (sum, (heat, impulse)) in sums.iter_mut().zip(exchange.heat.iter().zip(&exchange.impulse)) {
         sum.heat += heat / DIFFERENCE;

@@ -1,4 +1,4 @@
-//! Drops that give what is known of one.
+//! Drops that repeat a recorded one.
 
 mod extremes;
 
@@ -13,25 +13,26 @@ use super::surface::SurfaceAt;
 use crate::port::{Domain, Surface, WallCells, WallExchange};
 use crate::state::Layout;
 
-/// What drops are replayed from.
+/// Inputs of a replay.
 #[derive(Debug, Clone)]
 pub struct ReplayPlan {
     pub course: std::sync::Arc<Course>,
     pub cells: WallCells,
-    /// Of a drop [kg] and [J/K].
+    /// Mass [kg] and heat capacity [J/K] of a drop.
     pub mass: f64,
     pub heat_capacity: f64,
-    /// Drops that there may be, and how far from the origin along x and y [m].
+    /// Largest number of drops, and largest distance from the origin along x and y [m].
     pub most: usize,
     pub reach: [f64; 2],
-    /// Largest diffusivity of what is below [m²/s].
+    /// Largest diffusivity of the solid below [m²/s].
     pub diffusivity: f64,
 }
 
-/// Drops above a wall: everything known before time starts. What changes is a flat vector.
+/// Drops above a wall: everything known before time starts. The variables of state form a flat
+/// vector.
 pub struct Replay {
     plan: ReplayPlan,
-    /// Of the cells [m²].
+    /// Areas of the cells [m²].
     areas: Vec<f64>,
     lateral: Lateral,
 }
@@ -39,7 +40,7 @@ pub struct Replay {
 /// A drop that has been released.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Falling {
-    /// When it touches the wall [s], where along x and y [m], how fast [m/s] and how warm [K].
+    /// Contact time [s], position along x and y [m], speed [m/s] and temperature [K] of the drop.
     pub contact: f64,
     pub place: [f64; 2],
     pub speed: f64,
@@ -49,21 +50,22 @@ pub struct Falling {
 /// Sums over all drops.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ReplayTotals {
-    /// Drops asked for, released, in the air or giving, and come down where another was still giving.
+    /// Numbers of drops: requested, released, falling or active, and landed where another was still
+    /// active.
     pub asked: f64,
     pub released: f64,
     pub active: f64,
     pub overlapping: f64,
-    /// Of the drops released [kg].
+    /// Mass of the released drops [kg].
     pub mass: f64,
-    /// Given to the wall since time zero [J], [N s].
+    /// Heat [J] and impulse [N s] transferred to the wall since time zero.
     pub heat: f64,
     pub impulse: [f64; 3],
-    /// Diameter of the film of the drop that came down last [m].
+    /// Film diameter of the drop that landed last [m].
     pub spread: f64,
 }
 
-/// A flow of heat of each cell that falls evenly over a step, see [`Surface::falling_parts`].
+/// A heat flux of each cell that falls linearly over a step, see [`Surface::falling_parts`].
 pub type Falls = Vec<f64>;
 
 impl Replay {
@@ -81,24 +83,24 @@ impl Replay {
         flatten(&mut Ledger::default(), &mut [])
     }
 
-    /// The fields of a state; nothing of a length that fits no number of drops.
+    /// Fields of a state; `None` if its length fits no number of drops.
     pub fn layout(&self, state: &[f64]) -> Option<Layout> {
         let rings = self.plan.course.rings();
         drops_in(state, rings).map(|drops| layout(drops, rings))
     }
 
-    /// Drops asked for so far, and released.
+    /// Numbers of drops requested so far, and released.
     pub fn counts(&self, state: &[f64]) -> [f64; 2] {
         let (ledger, _) = self.of(state);
         [ledger.asked, ledger.released]
     }
 
-    /// Most films that have stood on one place so far.
+    /// Largest number of films on one place so far.
     pub fn most_films(&self, state: &[f64]) -> f64 {
         self.of(state).0.stacked
     }
 
-    /// [s]
+    /// Time [s].
     pub fn time(&self, state: &[f64]) -> f64 {
         self.of(state).0.time
     }
@@ -107,13 +109,14 @@ impl Replay {
         unflatten(state, self.plan.course.rings())
     }
 
-    /// When a drop gives nothing more [s], if its heat lags behind no further.
+    /// Time at which a drop becomes inactive [s], if its heat is delayed no further.
     fn end(&self, drop: &Drop) -> f64 {
         drop.contact + self.plan.course.duration(drop.speed) + drop.longest_lag()
     }
 
-    /// Advances by `duration` [s] with drops that are released meanwhile, of which some have been `asked` for, above
-    /// a surface as it would be without all drops of this step. What the cells got, and how it fell over the step.
+    /// Advances by `duration` [s] with newly released drops, `asked` of them on request, above a
+    /// surface as it would be without all drops of this step. Returns the exchange of the cells,
+    /// and its fall over the step.
     pub fn advance(
         &self,
         state: &mut Vec<f64>,
@@ -133,25 +136,31 @@ impl Replay {
         let start = ledger.time;
         ledger.duration = duration;
         ledger.time += duration;
-        self.touch_down(&mut ledger, &mut drops, surface, start);
+        self.record_landings(&mut ledger, &mut drops, surface, start);
         drops.iter_mut().for_each(|drop| drop.lag_before.clone_from(&drop.lag));
         let (exchange, falls) = self.give(&ledger, &mut drops, surface);
         ledger.heat += exchange.heat.iter().sum::<f64>() + exchange.heat_outside;
         for axis in 0..3 {
             let given: f64 = exchange.impulse.iter().map(|impulse| impulse[axis]).sum();
-            ledger.impulse[axis] += self.as_vector(given, axis) + exchange.impulse_outside[axis];
+            ledger.impulse[axis] += self.cartesian(given, axis) + exchange.impulse_outside[axis];
         }
         *state = flatten(&mut ledger, &mut drops);
         (exchange, falls)
     }
 
-    /// Rings push along their radius, which is no direction.
-    fn as_vector(&self, given: f64, axis: usize) -> f64 {
+    /// The impulses of rings are radial and have no direction.
+    fn cartesian(&self, given: f64, axis: usize) -> f64 {
         if axis < 2 && self.plan.cells.are_radial() { 0.0 } else { given }
     }
 
-    /// Notes how warm the wall is where drops touch it, and which of them meet others.
-    fn touch_down(&self, ledger: &mut Ledger, drops: &mut [Drop], surface: &Surface, start: f64) {
+    /// Records the wall temperature where drops land, and which of them meet others.
+    fn record_landings(
+        &self,
+        ledger: &mut Ledger,
+        drops: &mut [Drop],
+        surface: &Surface,
+        start: f64,
+    ) {
         for n in 0..drops.len() {
             if drops[n].is_down() || drops[n].contact >= ledger.time {
                 continue;
@@ -181,8 +190,9 @@ impl Replay {
         }
     }
 
-    /// Moments within a step of this length [s] at which the wall should be asked anew: as drops touch down, and as they
-    /// cool. A moment at which a drop has cooled may be another that is near.
+    /// Instants within a step of this length [s] at which the wall temperature should be updated:
+    /// as drops land, and as they cool. An instant due to cooling may be shifted to another one
+    /// nearby.
     pub fn moments(&self, state: &[f64], released: &[Falling], duration: f64) -> Vec<f64> {
         let (ledger, drops) = self.of(state);
         let known = drops.iter().map(|drop| (drop.contact, drop.speed));
@@ -212,13 +222,14 @@ impl Replay {
         Footprint::of(&self.plan.cells, drop.place, course.rings(), course.radius())
     }
 
-    /// What the cells got during the last step.
+    /// Exchange of the cells during the last step.
     pub fn exchange(&self, state: &[f64]) -> WallExchange {
         let (ledger, drops) = self.of(state);
-        self.exchanged(&ledger, &drops, &self.before(&ledger, &drops), |_, _, _| ()).0
+        self.collect_exchange(&ledger, &drops, &self.before(&ledger, &drops), |_, _, _| ()).0
     }
 
-    /// Lets drops give what they give during the last step, above a surface as it would be without them.
+    /// Applies the drops' contributions of the last step, above a surface as it would be without
+    /// them.
     fn give(
         &self,
         ledger: &Ledger,
@@ -230,39 +241,40 @@ impl Replay {
         if ledger.duration > 0.0 {
             share(&self.plan.course, ledger, drops, &before);
         }
-        let (exchange, falls) = self.exchanged(ledger, drops, &before, |n, footprint, rings| {
-            limit.add(footprint, drops[n].temperature, rings);
-        });
+        let (exchange, falls) =
+            self.collect_exchange(ledger, drops, &before, |n, footprint, rings| {
+                limit.add(footprint, drops[n].temperature, rings);
+            });
         let Some(parts) = limit.parts(&self.lateral) else { return (exchange, falls) };
-        let mut held_back = drops.to_vec();
+        let mut delay = drops.to_vec();
         let mut falls_of_rings = vec![Vec::new(); drops.len()];
         let mut last = None;
-        self.exchanged(ledger, drops, &before, |n, footprint, rings| {
+        self.collect_exchange(ledger, drops, &before, |n, footprint, rings| {
             // Drops released at once are alike.
             let alike = last.filter(|&last: &usize| drops[last] == drops[n]);
             let (lag, falls) = match alike {
-                Some(last) => (held_back[last].lag.clone(), falls_of_rings[last].clone()),
-                None => self.held_back(ledger, &drops[n], (footprint, &parts), rings),
+                Some(last) => (delay[last].lag.clone(), falls_of_rings[last].clone()),
+                None => self.delay(ledger, &drops[n], (footprint, &parts), rings),
             };
-            (held_back[n].lag, falls_of_rings[n]) = (lag, falls);
+            (delay[n].lag, falls_of_rings[n]) = (lag, falls);
             last = Some(n);
         });
-        drops.clone_from_slice(&held_back);
-        self.exchanged(ledger, drops, &before, |n, _, rings| {
+        drops.clone_from_slice(&delay);
+        self.collect_exchange(ledger, drops, &before, |n, _, rings| {
             let falls = rings.iter_mut().zip(&falls_of_rings[n]);
             falls.for_each(|(given, &fall)| given.fall = fall);
         })
     }
 
-    /// How far the heat of rings lags behind where the wall cannot take all of it [s], and how it falls then [W].
-    fn held_back(
+    /// Lag of the rings' heat where the wall cannot absorb all of it [s], and its fall then [W].
+    fn delay(
         &self,
         ledger: &Ledger,
         drop: &Drop,
         (footprint, parts): (&Footprint, &Parts),
-        rings: &[Given],
+        rings: &[Contribution],
     ) -> (Vec<f64>, Vec<f64>) {
-        let of_ring = |(n, (ring, given)): (usize, (&Ring, &Given))| {
+        let of_ring = |(n, (ring, given)): (usize, (&Ring, &Contribution))| {
             let part = Limit::part_of(parts, ring, given);
             let lag = if part < 1.0 { self.lag_for(ledger, drop, n, part) } else { drop.lag[n] };
             (lag, part * given.fall)
@@ -270,7 +282,7 @@ impl Replay {
         footprint.rings.iter().zip(rings).enumerate().map(of_ring).unzip()
     }
 
-    /// The lag after which a ring has given a part of what it would have during the last step [s].
+    /// Lag at which a ring has transferred a fraction `part` of its heat in the last step [s].
     fn lag_for(&self, ledger: &Ledger, drop: &Drop, ring: usize, part: f64) -> f64 {
         let age = ledger.time - drop.contact;
         let heat = |age: f64| self.plan.course.heat(drop.speed, ring, age);
@@ -286,18 +298,19 @@ impl Replay {
         age - low
     }
 
-    /// What the cells got during the last step, and how it fell. Whoever looks sees each drop that gives anything.
-    fn exchanged(
+    /// Exchange of the cells during the last step, and its fall. `look` is called for each active
+    /// drop.
+    fn collect_exchange(
         &self,
         ledger: &Ledger,
         drops: &[Drop],
         before: &[Vec<Amounts>],
-        mut look: impl FnMut(usize, &Footprint, &mut [Given]),
+        mut look: impl FnMut(usize, &Footprint, &mut [Contribution]),
     ) -> (WallExchange, Falls) {
         let mut exchange = WallExchange::none(self.plan.cells.len());
         exchange.duration = ledger.duration;
         let mut falls = vec![0.0; exchange.heat.len()];
-        // Drops released at once come down on one place.
+        // Drops released at once land on one place.
         let mut last: Option<([f64; 2], Footprint)> = None;
         let down = |(_, drop): &(usize, &Drop)| drop.is_down() && ledger.duration > 0.0;
         for (n, drop) in drops.iter().enumerate().filter(down) {
@@ -307,7 +320,7 @@ impl Replay {
                 None => last.insert((drop.place, self.footprint(drop))),
             };
             look(n, footprint, &mut rings);
-            // What lies beside a body keeps its heat.
+            // What lies beyond a body keeps its heat.
             let keeps = self.plan.cells.end_with_the_body();
             for (ring, given) in footprint.rings.iter().zip(&rings) {
                 ring.parts.iter().for_each(|part| given.to_cell(part, &mut exchange, &mut falls));
@@ -317,7 +330,7 @@ impl Replay {
         (exchange, falls)
     }
 
-    /// What the rings of each drop that is down had got before the last step.
+    /// Amounts that the rings of each landed drop had transferred before the last step.
     fn before(&self, ledger: &Ledger, drops: &[Drop]) -> Vec<Vec<Amounts>> {
         let start = ledger.time - ledger.duration;
         let of_drop = |drop: &Drop| match drop.is_down() {
@@ -327,8 +340,8 @@ impl Replay {
         drops.iter().map(of_drop).collect()
     }
 
-    /// What the rings of a drop gave during the last step, if it gave anything.
-    fn given(&self, ledger: &Ledger, drop: &Drop, before: &[Amounts]) -> Option<Vec<Given>> {
+    /// Contributions of a drop's rings during the last step, if it was active.
+    fn given(&self, ledger: &Ledger, drop: &Drop, before: &[Amounts]) -> Option<Vec<Contribution>> {
         let Drop { contact, speed, lag_before, lag, .. } = drop;
         let start = ledger.time - ledger.duration;
         let amounts = |time: f64, lags| self.plan.course.amounts(*speed, time - contact, lags);
@@ -344,12 +357,12 @@ impl Replay {
                 [before[n], between[n], after[n]].map(|amounts| difference * amounts.heat);
             let fall = 2.0 * (2.0 * b - a - c) / ledger.duration;
             let side = Side::of(difference, c - a);
-            Given { heat: c - a, fall, side, push: minus(&after[n], &before[n]) }
+            Contribution { heat: c - a, fall, side, push: minus(&after[n], &before[n]) }
         };
         Some((0..before.len()).map(of_ring).collect())
     }
 
-    /// Counts the step before the last as part of that.
+    /// Adds the step before the last to the last.
     pub fn join_steps(&self, before: &[f64], state: &mut Vec<f64>) {
         let (earlier, mut drops) = self.of(before);
         let (mut ledger, mut later) = self.of(state);
@@ -378,7 +391,7 @@ impl Replay {
         }
     }
 
-    /// Refuses a vector that no run of these drops leads to, with what is wrong with it.
+    /// Refuses a vector that no run of these drops leads to, with the reason.
     pub fn check_state(&self, state: &[f64]) -> Result<(), String> {
         let rings = self.plan.course.rings();
         if drops_in(state, rings).is_none() {
@@ -442,7 +455,7 @@ impl Replay {
     }
 }
 
-/// Part of its age by which a moment at which a drop has cooled may be moved.
+/// Fraction of its age by which an instant due to cooling may be shifted.
 pub const NEAR: f64 = 0.08;
 /// Relative rounding of times and places.
 const ROUNDING: f64 = 1e-9;
@@ -451,18 +464,19 @@ fn minus(after: &Amounts, before: &Amounts) -> [f64; 2] {
     [after.push - before.push, after.outward - before.outward]
 }
 
-/// Halvings of the time in which a lag is searched for.
+/// Number of bisections when a lag is searched for.
 const HALVINGS: usize = 60;
 
-/// What a ring gave during a step: heat [J], how it fell [W] and to what end, momentum into the wall and outward [N s].
-pub struct Given {
+/// Contribution of a ring during a step: heat [J], its fall [W], its effect on the wall,
+/// and impulse into the wall and outward [N s].
+pub struct Contribution {
     pub heat: f64,
     pub fall: f64,
     pub side: Option<Side>,
     push: [f64; 2],
 }
 
-impl Given {
+impl Contribution {
     fn to_cell(&self, part: &Part, to: &mut WallExchange, falls: &mut [f64]) {
         to.heat[part.cell] += part.weight * self.heat;
         falls[part.cell] += part.weight * self.fall;

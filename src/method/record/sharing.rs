@@ -1,12 +1,13 @@
-//! Films that stand on one place, which do not give what each would alone.
+//! Films on the same place, which transfer less than each would alone.
 //!
-//! Like drops on one place make up one drop of n volumes. Its film is `n^(1/3)` times as thick as that of one drop and
-//! covers `n^(2/3)` times the area, so each drop gives a part of its heat `n^(2/3)` times as late as it would alone: `H(t)`
-//! becomes `H(t/n^(2/3))`, early and late (of a film that cools, see `closed_form::cooling_film`, H depends on `at/δ²`
+//! Equal drops on one place act like one drop of n volumes. Its film is `n^(1/3)` times as thick as
+//! that of one drop and covers `n^(2/3)` times the area. So each drop transfers a given fraction of
+//! its heat `n^(2/3)` times as late as it would alone: `H(t)` becomes `H(t/n^(2/3))`. This holds
+//! early and late (for a film that cools, see `closed_form::cooling_film`, H depends on `at/δ²`
 //! alone). So the heat of each ring has an age of its own, which lags behind that of the drop.
 //!
-//! n counts films by the part of its heat that each still has: a film that has given nearly all of it holds up no other.
-//! Of one drop that is alone, n is 1 to the bit.
+//! n counts films by their remaining fraction of heat: a film that has transferred nearly all of it
+//! delays no other. For a single drop n is 1 to the bit.
 
 use std::array::from_fn;
 use std::f64::consts::PI;
@@ -15,12 +16,14 @@ use super::course::Course;
 use super::profile::Amounts;
 use super::state::{Drop, Ledger};
 
-/// Part of its heat below which a film has cooled: it takes as long to give that as to give all before.
+/// Remaining fraction of heat below which a film has cooled: to transfer that takes as long as all
+/// before.
 const SPENT: f64 = 0.05;
-/// Angles at which a ring about one place is looked at from another, over half a turn.
+/// Number of angles, over half a turn, at which a ring about one place is evaluated from another.
 const ANGLES: usize = 16;
 
-/// Lets the heat of films that share places lag behind over the last step, before which their rings had got some amounts.
+/// Delays the heat of films that share places over the last step; `amounts` are those of their
+/// rings before it.
 pub fn share(course: &Course, ledger: &Ledger, drops: &mut [Drop], amounts: &[Vec<Amounts>]) {
     let places = Places::of(course, ledger, drops, amounts);
     for place in 0..places.all.len() {
@@ -30,7 +33,7 @@ pub fn share(course: &Course, ledger: &Ledger, drops: &mut [Drop], amounts: &[Ve
             let drop = &mut drops[*drop];
             let time = ledger.time - drop.contact.max(ledger.time - ledger.duration);
             for (ring, &weight) in weights.iter().enumerate() {
-                // Without others it is nothing to the bit.
+                // Without other films the lag is zero to the bit.
                 let beside = if own.films.len() > 1 { own.sums[ring] - weight } else { 0.0 };
                 let others = around[ring] + beside;
                 if weight > 0.0 && others > 0.0 {
@@ -43,12 +46,12 @@ pub fn share(course: &Course, ledger: &Ledger, drops: &mut [Drop], amounts: &[Ve
     }
 }
 
-/// Films by the place of their middle.
+/// Films grouped by the position of their middle.
 struct Places {
     all: Vec<Place>,
-    /// Of a ring [m].
+    /// Width of a ring [m].
     width: f64,
-    /// Of the angles at which rings are looked at.
+    /// Cosines of the angles at which rings are evaluated.
     cosines: [f64; ANGLES],
 }
 
@@ -58,7 +61,7 @@ struct Place {
     films: Vec<(usize, Vec<f64>)>,
     /// Sums of the weights over all films.
     sums: Vec<f64>,
-    /// Radius that films cover at most [m].
+    /// Largest radius that films cover [m].
     reach: f64,
 }
 
@@ -88,7 +91,7 @@ impl Places {
         }
     }
 
-    /// Weights of what stands about other places, as means over the rings about one.
+    /// Weights of the films about other places, as means over the rings about one.
     fn around(&self, place: usize) -> Vec<f64> {
         let own = &self.all[place];
         let mut sums = vec![0.0; own.sums.len()];
@@ -103,7 +106,8 @@ impl Places {
         sums
     }
 
-    /// Mean weight of films over a circle of a radius about what is a distance away [m].
+    /// Mean weight of films over a circle, given its radius and its distance from the films' middle
+    /// [m].
     fn mean(&self, films: &Place, radius: f64, distance: f64) -> f64 {
         let at = |cosine: &f64| {
             let square = radius * radius + distance * distance - 2.0 * radius * distance * cosine;
@@ -127,13 +131,13 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Radius that a drop comes to cover [m].
+/// Largest radius that a drop covers [m].
 pub fn reach(course: &Course, drop: &Drop) -> f64 {
     0.5 * course.largest_spread(drop.speed)
 }
 
-/// Weights of the rings of a drop whose rings had got some `amounts` before the last step: the part of its heat that a
-/// film still has, nothing where the wall is dry.
+/// Weights of the rings of a drop, from their `amounts` before the last step: the remaining
+/// fraction of the film's heat, zero where the wall is dry.
 fn weights(course: &Course, age: f64, drop: &Drop, amounts: &[Amounts]) -> Vec<f64> {
     let weight = |(ring, amounts): (usize, &Amounts)| {
         let whole = course.whole(drop.speed, ring);

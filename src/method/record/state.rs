@@ -1,45 +1,46 @@
-//! All that changes of drops that are replayed, and how it lies in a flat vector.
+//! Variables of state of replayed drops, and their layout in a flat vector.
 
 use std::slice::from_mut;
 
 use crate::state::{Field, Fields, Layout, Per, load, store};
 
-/// Sums over time.
+/// Integrals over time and counters.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ledger {
-    /// [s]
+    /// Time [s].
     pub time: f64,
     /// Length of the last step [s].
     pub duration: f64,
-    /// Drops asked for, released, and come down where another was still giving heat or force: whole numbers.
+    /// Numbers of drops: requested, released, and landed where another still transferred heat or
+    /// momentum.
     pub asked: f64,
     pub released: f64,
     pub overlapping: f64,
-    /// Most films that have stood on one place so far: a whole number.
+    /// Largest number of films on one place so far.
     pub stacked: f64,
-    /// Given to the wall since time zero [J], [N s].
+    /// Heat [J] and impulse [N s] transferred to the wall since time zero.
     pub heat: f64,
     pub impulse: [f64; 3],
 }
 
-/// A drop that falls or gives something, or did so in the last step.
+/// A drop that falls or is active, or was so in the last step.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drop {
-    /// When it touches the wall [s], where along x and y [m], how fast [m/s] and how warm [K].
+    /// Contact time [s], position along x and y [m], speed [m/s] and temperature [K] of the drop.
     pub contact: f64,
     pub place: [f64; 2],
     pub speed: f64,
     pub temperature: f64,
-    /// What each ring of the wall had as it was touched [K]; zeros before.
+    /// Wall temperature of each ring at contact [K]; zeros before.
     pub wall: Vec<f64>,
-    /// Time by which the heat of each ring lags behind the age of the drop [s], now and at the beginning of the last step:
-    /// nothing of a drop that had its place for itself.
+    /// Lag of each ring's heat behind the age of the drop [s], now and at the beginning of the last
+    /// step: zero for a drop that shared its place with no other.
     pub lag: Vec<f64>,
     pub lag_before: Vec<f64>,
 }
 
 impl Drop {
-    /// Whether it has touched the wall.
+    /// Returns true if it has touched the wall.
     pub fn is_down(&self) -> bool {
         self.wall.first().is_some_and(|temperature| *temperature > 0.0)
     }
@@ -76,11 +77,11 @@ impl Fields for Ledger {
     }
 }
 
-/// Numbers of a drop beside those of its rings, and numbers of a ring.
+/// Number of values of a drop besides those of its rings, and number of values of a ring.
 const OF_DROP: usize = 5;
 const OF_RING: usize = 3;
 
-/// Length of a drop.
+/// Number of values of a drop.
 const fn width(rings: usize) -> usize {
     OF_DROP + OF_RING * rings
 }
@@ -121,20 +122,20 @@ impl Drop {
     }
 }
 
-/// Number of drops in a state; nothing of a length that fits none.
+/// Number of drops in a state; `None` if its length fits no number.
 pub fn drops_in(state: &[f64], rings: usize) -> Option<usize> {
     let head = Layout::of(&mut Ledger::default()).len();
     let rest = state.len().checked_sub(head)?;
     rest.is_multiple_of(width(rings)).then(|| rest / width(rings))
 }
 
-/// The fields of a state of so many drops, those of each drop together.
+/// Fields of a state with a number of drops, grouped by drop.
 pub fn layout(drops: usize, rings: usize) -> Layout {
     let of_one = Layout::of(&mut Drop::none(rings));
     (0..drops).fold(Layout::of(&mut Ledger::default()), |all, _| all.then(of_one.clone()))
 }
 
-/// A state as it was flattened.
+/// Restores a state from its flat vector.
 pub fn unflatten(state: &[f64], rings: usize) -> (Ledger, Vec<Drop>) {
     let mut ledger = Ledger::default();
     load(&mut ledger, state);
@@ -147,7 +148,7 @@ pub fn unflatten(state: &[f64], rings: usize) -> (Ledger, Vec<Drop>) {
     (ledger, state[head..].chunks_exact(width(rings)).map(drop).collect())
 }
 
-/// One list of all numbers.
+/// Writes a state to a flat vector.
 pub fn flatten(ledger: &mut Ledger, drops: &mut [Drop]) -> Vec<f64> {
     let head = Layout::of(ledger).len();
     let rings = drops.first().map_or(0, |drop| drop.wall.len());
@@ -164,7 +165,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_state_is_read_as_it_was_written() {
+    fn state_round_trip() {
         let mut ledger =
             Ledger { time: 2.0, released: 2.0, impulse: [1.0, 2.0, 3.0], ..Ledger::default() };
         let drop = |at: f64| Drop {

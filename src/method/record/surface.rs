@@ -1,8 +1,8 @@
-//! The surface of the wall at a time of a step.
+//! The surface of the wall at a time within a step.
 
 use crate::port::Surface;
 
-/// A surface at a time of a step, of which few cells are asked for.
+/// A surface at a time within a step, evaluated for a few cells only.
 pub struct SurfaceAt<'a> {
     surface: &'a Surface,
     decays: Vec<f64>,
@@ -15,7 +15,7 @@ impl<'a> SurfaceAt<'a> {
         Self { surface, decays: surface.response.rates.iter().map(decay).collect(), part }
     }
 
-    /// Of a cell, without what is given during the step [K].
+    /// Temperature of a cell, without the contributions of the step [K].
     pub fn temperature(&self, cell: usize) -> f64 {
         let Surface { base, amplitudes, drift, .. } = self.surface;
         let count = self.decays.len();

@@ -1,36 +1,38 @@
-//! What a drop gives when its profile has ended: the heat that is left in it.
+//! Heat that a drop transfers after the end of its profile.
 //!
-//! The splat goes on to cool as a film does whose lower face is held (see `closed_form::cooling_film`), from where the
-//! profile ends. Two numbers belong to such a film: how far it has come and how fast it goes. Both follow from the heat
-//! that the profile has given at its end and shortly before. The rings share the heat as they did at last.
+//! The splat cools further as a film does whose lower face has a prescribed temperature (see
+//! `closed_form::cooling_film`), from the end of the profile on. Two numbers define such a film:
+//! its progress and its rate. Both follow from the heat that the profile has transferred at its end
+//! and shortly before. The rings share the heat as they did at the end.
 
 use super::profile::{Amounts, Profile};
 use crate::closed_form::cooling_film::{fourier_number, given_part};
 
-/// Part of a profile at its end from which a film's rate follows.
+/// Fraction of a profile, at its end, from which a film's rate follows.
 const WINDOW: f64 = 0.125;
-/// Part of all heat that may be left where a drop ends; what is left is spread over the time before.
+/// Fraction of all heat that may remain at the end of a drop; it is spread over the time before.
 const LEFT: f64 = 1e-3;
-/// Longest tail over the profile itself: what has come off the wall again, or hardly touches it, ends there.
+/// Longest tail over the profile itself: fluid that has left the wall, or hardly touches it, ends
+/// there.
 const LONGEST: f64 = 1e4;
 
-/// A film that cools.
+/// A cooling film.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tail {
-    /// Of all heat, given when the tail begins.
+    /// Fraction of all heat, transferred when the tail begins.
     part: f64,
-    /// Fourier numbers at its beginning and end, and δ²/a [s].
+    /// Fourier numbers at the beginning and end of the tail, and δ²/a [s].
     fourier: [f64; 2],
     scale: f64,
-    /// Of all heat, given when the tail ends.
+    /// Fraction of all heat, transferred when the tail ends.
     reached: f64,
-    /// Heat that is left [J/K], and the share of each ring.
+    /// Remaining heat [J/K], and the share of each ring.
     left: f64,
     shares: Vec<f64>,
 }
 
 impl Tail {
-    /// Nothing for a profile at whose end no heat is left, or none passes.
+    /// Tail of a profile; `None` if no heat remains or flows at the profile's end.
     pub fn of(profile: &Profile) -> Option<Self> {
         let capacity = profile.heat_capacity;
         let window = WINDOW * profile.duration;
@@ -45,7 +47,7 @@ impl Tail {
         let flux = |(a, b): (&Amounts, &Amounts)| (b.heat - a.heat).max(0.0);
         let fluxes: Vec<f64> = ends[0].iter().zip(&ends[1]).map(flux).collect();
         let all: f64 = fluxes.iter().sum();
-        // A drop that leaves the wall or is held up by insulation keeps what it has not given by then.
+        // A drop that leaves the wall, or is insulated from it, keeps its remaining heat.
         let reached = given_part(last);
         let whole = if reached >= 1.0 - 1.5 * LEFT { 1.0 } else { reached };
         Some(Self {
@@ -58,12 +60,12 @@ impl Tail {
         })
     }
 
-    /// [s]
+    /// Duration [s].
     pub fn duration(&self) -> f64 {
         self.scale * (self.fourier[1] - self.fourier[0])
     }
 
-    /// Heat that all rings have got a time after the beginning [J/K].
+    /// Heat that all rings have received at a time after the beginning [J/K].
     pub fn heat(&self, time: f64) -> f64 {
         let first = self.fourier[0];
         if time >= self.duration() {
@@ -106,9 +108,9 @@ mod tests {
         }
     }
 
-    /// Of a film the tail is the rest of its own law, early and late.
+    /// The tail of a film is the rest of its own law, early and late.
     #[test]
-    fn a_film_goes_on_as_it_was() {
+    fn tail_continues_the_law_of_a_film() {
         for duration in [0.01, 0.3, 1.0] {
             let tail = film(duration).tail().unwrap();
             for later in [0.1, 0.5, 1.0] {
@@ -123,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn a_drop_that_leaves_the_wall_keeps_its_heat() {
+    fn rebounding_drop_keeps_its_heat() {
         let mut profile = film(0.3);
         let last = profile.amounts.len() - 2;
         let held = [profile.amounts[100], profile.amounts[101]];

@@ -14,24 +14,24 @@ use faer::{Mat, c64};
 
 use crate::math::singular_values::{SingularValues, singular_values};
 
-/// Part of a Gramian that its low-rank factor leaves out.
+/// Fraction of a Gramian that its low-rank factor omits.
 const LEFT_OUT: f64 = 1e-26;
 
-/// Why there is no reduced system.
+/// Reasons why there is no reduced system.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ReductionError {
     #[error("its singular values could not be found")]
     Decomposition,
 }
 
-/// A system balanced: what systems of any order follow from.
+/// A balanced system, from which systems of any order follow.
 pub struct Balanced {
     inputs: usize,
     outputs: usize,
     /// Hankel singular values, descending.
     pub singular: Vec<f64>,
-    /// `Lᵀ diag(M R) L` in blocks, `Lᵀ R` and `R L`, between the singular vectors over the roots of their values: the
-    /// first of these make up the system of an order.
+    /// `Lᵀ diag(M R) L` in blocks, `Lᵀ R` and `R L`, between the singular vectors over the roots of
+    /// their values; the leading part of these is the system of an order.
     matrix: Mat<f64>,
     entering: Mat<f64>,
     leaving: Mat<f64>,
@@ -40,8 +40,8 @@ pub struct Balanced {
 /// A complex number.
 pub type Complex = [f64; 2];
 
-/// A diagonal system that answers `Σ Re(c b e^{−ν t})`: poles ν [1/s], of each pair the one with the positive imaginary
-/// part, `B` by inputs, `C` by outputs.
+/// A diagonal system with the impulse response `Σ Re(c b e^{−ν t})`: poles ν [1/s], of each pair
+/// the one with the positive imaginary part, `B` by inputs, `C` by outputs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Truncated {
     pub poles: Vec<Complex>,
@@ -50,7 +50,7 @@ pub struct Truncated {
 }
 
 impl Balanced {
-    /// Of a system with these rates and, for each output and input, residues there.
+    /// Balances a system with these rates and, for each output and input, residues there.
     pub fn new(rates: &[f64], residues: &[Vec<&[f64]>]) -> Result<Self, ReductionError> {
         let factor = cauchy_factor(rates);
         let rank = factor.len();
@@ -94,12 +94,12 @@ impl Balanced {
         Ok(Self { inputs, outputs, singular, matrix, entering, leaving })
     }
 
-    /// Highest order that singular values above rounding allow.
+    /// Highest order for which singular values exceed rounding.
     pub fn most(&self) -> usize {
         above_rounding(&self.singular)
     }
 
-    /// The system of an order; nothing where rounding makes it unstable.
+    /// The system of an order; `None` where rounding makes it unstable.
     pub fn truncated(&self, order: usize) -> Option<Truncated> {
         if order == 0 {
             return Some(Truncated {
@@ -124,7 +124,7 @@ impl Balanced {
         let leaving = complex(&leaving) * vectors;
         let mut places: Vec<usize> = (0..order).filter(|&i| values[i].im >= 0.0).collect();
         places.sort_by(|&a, &b| values[a].re.total_cmp(&values[b].re));
-        // What is real is so to the bit; the other of a pair adds the same real part.
+        // Real values are real to the bit; the other of a pair contributes the same real part.
         let pick = |i: usize, value: c64, factor: f64| match values[i].im > 0.0 {
             true => [factor * value.re, factor * value.im],
             false => [value.re, 0.0],
@@ -145,7 +145,7 @@ impl Balanced {
     }
 }
 
-/// How many singular values are above rounding.
+/// Number of singular values above rounding.
 fn above_rounding(singular: &[f64]) -> usize {
     let largest = singular.first().copied().unwrap_or(0.0);
     singular.iter().filter(|&&value| value > 1e-13 * largest).count()
@@ -175,7 +175,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_factor_is_that_of_the_cauchy_matrix() {
+    fn factor_reproduces_the_cauchy_matrix() {
         let rates: Vec<f64> = (0..80).map(|i| 1.5f64.powi(i)).collect();
         let factor = cauchy_factor(&rates);
         for i in 0..80 {
@@ -187,8 +187,8 @@ mod tests {
     }
 
     #[test]
-    fn a_system_of_three_poles_comes_back_from_sums_that_hide_it() {
-        // Residues at many rates, of which all but three are zero.
+    fn three_pole_system_is_recovered() {
+        // Residues at many rates, all but three of them zero.
         let rates: Vec<f64> = (0..30).map(|i| 2f64.powi(i - 5)).collect();
         let mut values = vec![0.0; 30];
         for (at, value) in [(3, 2.0), (11, -0.7), (20, 30.0)] {
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn the_error_of_a_truncation_stays_below_twice_the_rest_of_singular_values() {
+    fn truncation_error_is_within_glovers_bound() {
         // At frequency zero and at some others: K. Glover 1984, doi 10.1080/00207178408933239.
         let rates: Vec<f64> = (0..60).map(|i| 0.1 * 1.4f64.powi(i)).collect();
         let values: Vec<f64> = rates.iter().map(|rate| rate.powf(0.4)).collect();

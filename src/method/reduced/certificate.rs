@@ -1,38 +1,39 @@
-//! A bound of what a reduced system errs by under any inputs within limits.
+//! A bound on the error of a reduced system for all inputs within limits.
 //!
-//! If an input stays within `|u_j| ≤ U_j` for all time, outputs of two systems that both start from rest differ by no more
-//! than `Σ_j U_j ∫₀^∞ |h_kj − ĥ_kj| dt`. The difference of impulse responses is a sum of exponentials
-//! `f(t) = Σ w_i e^{−α_i t}`. Over cells of `s = ln t`, short beside 1, it is bounded by its Taylor polynomial in s at the
-//! middle, whose derivatives are sums again (`d/ds = t d/dt`), and by the remainder, term by term: with
-//! `D⁶ e^{−x} = (x⁶ − 15x⁵ + 65x⁴ − 90x³ + 31x² − x) e^{−x}`, `x = αt`. What is before the first cell and behind the last
-//! one is bounded in closed form. No point of time is left out.
+//! If an input stays within `|u_j| ≤ U_j` for all time, outputs of two systems that both start from
+//! rest differ by no more than `Σ_j U_j ∫₀^∞ |h_kj − ĥ_kj| dt`. The difference of impulse responses
+//! is a sum of exponentials `f(t) = Σ w_i e^{−α_i t}`. Over cells of `s = ln t` much shorter than
+//! 1, its Taylor polynomial in s at the middle bounds it, term by term, together with the
+//! remainder. The derivatives are sums again (`d/ds = t d/dt`), with
+//! `D⁶ e^{−x} = (x⁶ − 15x⁵ + 65x⁴ − 90x³ + 31x² − x) e^{−x}`, `x = αt`. Closed forms bound the
+//! times before the first cell and behind the last one, so the bound covers all times.
 
 use faer::Mat;
 
 use super::balanced::{Complex, Truncated};
 use crate::math::product::product;
 
-/// Half the length of a cell along ln t, of a bound and of an estimate.
+/// Half the length of a cell along ln t, for a bound and for an estimate.
 const HALF: f64 = 0.025;
 const HALF_OF_ESTIMATE: f64 = 0.1;
-/// Where cells begin and end: over the fastest and the slowest rate.
+/// First and last end of the cells, over the fastest and the slowest rate.
 const BEGIN: f64 = 1e-6;
 const END: f64 = 45.0;
-/// Exponents beyond which nothing is left of a term.
+/// Exponent beyond which a term vanishes.
 const GONE: f64 = 600.0;
 /// Order of the remainder.
 const ORDER: usize = 6;
-/// Rounding of a term, over it.
+/// Relative rounding error of a term.
 const ROUNDING: f64 = 1e-14;
 
-/// Whether a bound is wanted, or an estimate that is cheaper.
+/// Kind of result: a bound, or a cheaper estimate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wanted {
     Bound,
     Estimate,
 }
 
-/// Differences of all outputs' answers to all inputs, over the same rates and poles.
+/// Differences of all impulse responses, over the same rates and poles.
 struct Differences<'a> {
     rates: Vec<f64>,
     poles: &'a [Complex],
@@ -62,7 +63,7 @@ pub fn integrals(
     found.chunks(inputs.max(1)).map(<[f64]>::to_vec).collect()
 }
 
-/// Estimate of `∫₀^∞ |h| dt` of one answer.
+/// Estimate of `∫₀^∞ |h| dt` of one impulse response.
 pub fn integral(points: &[f64], values: &[f64]) -> f64 {
     let all = Differences {
         rates: points.to_vec(),
@@ -80,7 +81,7 @@ fn size(a: &Complex) -> f64 {
     a[0].hypot(a[1])
 }
 
-/// Of an exponential `D^k e^{−x} δ^k/k!` for k = 0 … 5, and the remainder.
+/// `D^k e^{−x} δ^k/k!` of an exponential for k = 0 … 5, and the remainder.
 type Terms = ([Complex; ORDER], f64);
 
 impl Differences<'_> {
@@ -106,12 +107,13 @@ impl Differences<'_> {
         pairs.map(sum).collect()
     }
 
-    /// Bounds of |f| over cells about these times, or estimates; all cells of one pair after those of another.
+    /// Bounds (or estimates) of |f| over cells about these times, grouped by pairs of output and
+    /// input.
     fn heights(&self, middles: &[f64], wanted: Wanted) -> Vec<f64> {
         let (rates, poles) = (self.rates.len(), self.poles.len());
         let (cells, pairs) = (middles.len(), self.weights.len());
         let powers = if wanted == Wanted::Bound { ORDER } else { 1 };
-        // Of a pole both parts stand beside each other.
+        // The real and the imaginary part of a pole are adjacent.
         let mut terms = vec![Mat::<f64>::zeros(cells, rates + 2 * poles); powers];
         let mut rests = Mat::<f64>::zeros(cells, rates + poles);
         for (cell, middle) in middles.iter().enumerate() {
@@ -155,7 +157,7 @@ impl Differences<'_> {
         heights
     }
 
-    /// Before the first cell, where exponents are small, and behind the last one.
+    /// Bounds before the first cell, where exponents are small, and behind the last one.
     fn ends(&self, (real, complex): &(Vec<f64>, Vec<Complex>), begin: f64, end: f64) -> f64 {
         let value = real.iter().sum::<f64>() + complex.iter().map(|weight| weight[0]).sum::<f64>();
         let (mut change, mut tail) = (0.0, 0.0);
@@ -196,7 +198,7 @@ fn derivatives(x: Complex, wanted: Wanted) -> Terms {
         }
         out[k + 1] = times(times(sum, x), decay).map(|part| scale * part);
     }
-    // The highest that any x of the cell may make of it.
+    // Largest value over all x of the cell.
     let y = size(&x) * HALF.exp();
     let sixth = y * (1.0 + y * (31.0 + y * (90.0 + y * (65.0 + y * (15.0 + y)))));
     let rest = scale * HALF / 6.0 * sixth * (-x[0] * (-HALF).exp()).exp();
@@ -214,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn integrals_with_changes_of_sign_are_bounded_closely() {
+    fn bounds_are_tight_across_sign_changes() {
         // e^{−t} − 3 e^{−2t}: zero at ln 3, ∫|f| = −F(0) + 2 F(ln 3), with F = −e^{−t} + 1.5 e^{−2t}.
         let antiderivative = |t: f64| -(-t).exp() + 1.5 * (-2.0 * t).exp();
         let exact = antiderivative(0.0) - 2.0 * antiderivative(3f64.ln());
@@ -223,19 +225,19 @@ mod tests {
     }
 
     #[test]
-    fn exponentials_of_all_rates_are_bounded_by_their_integrals() {
+    fn bounds_of_exponentials_match_their_integrals() {
         for rate in [1e-9, 1.0, 1e12] {
             let found = integral_of(&[rate], &[2.0], Wanted::Bound) * rate / 2.0;
             assert!((1.0..1.06).contains(&found), "{found}");
         }
-        // What cancels leaves the remainders alone: δ⁶/6! ∫ (x⁶ + 15x⁵ + …) e^{−x} dx = 1.6e-9 of each integral, a third more
-        // for the cell's width.
+        // Cancelling terms leave the remainders alone: δ⁶/6! ∫ (x⁶ + 15x⁵ + …) e^{−x} dx = 1.6e-9
+        // of each integral, a third more for the cell's width.
         let found = integral_of(&[1.0, 1.0], &[1e3, -1e3], Wanted::Bound);
         assert!(found < 2.2e-9 * 2e3, "{found:e}");
     }
 
     #[test]
-    fn a_bound_is_never_below_a_fine_sum() {
+    fn bound_is_never_below_fine_quadrature() {
         let rates: [f64; 6] = [0.1, 0.9, 1.1, 30.0, 1e4, 2e4];
         let values = [0.01, -5.0, 5.2, 40.0, -3e4, 2.9e4];
         let (steps, from, to) = (200_000, 1e-9_f64.ln(), 400_f64.ln());

@@ -1,49 +1,50 @@
-//! Many modes as few: exponentials of any rate from those of fixed ones.
+//! Many modes clumped into few rates.
 //!
-//! What a diagonal system answers to an impulse is `h(t) = Σ_i c_i b_i e^{−λ_i t}`. Over a panel `λ ∈ [a, 4a]` the
-//! function `e^{−λt}` of `ln λ` is interpolated at Chebyshev points μ_q, which turns the sum into `Σ_q R_q e^{−μ_q t}`
-//! with `R_q = Σ_i ℓ_q(λ_i) c_i b_i`: some hundred rates, however many modes there are. The integral over time of the
-//! error of one exponential is at most [`ERROR`]` / λ`, wherever λ lies.
-//! The slowest mode, which may conserve heat for ever, stays as it is.
+//! The impulse response of a diagonal system is `h(t) = Σ_i c_i b_i e^{−λ_i t}`. Over a panel
+//! `λ ∈ [a, 4a]` the function `e^{−λt}` of `ln λ` is interpolated at Chebyshev points μ_q. This
+//! turns the sum into `Σ_q R_q e^{−μ_q t}` with `R_q = Σ_i ℓ_q(λ_i) c_i b_i`: some hundred rates
+//! for any number of modes. The integral over time of the error of one exponential is at most
+//! [`ERROR`]` / λ`, for every λ. The slowest mode, which may conserve heat for ever, is kept
+//! exactly.
 
 use std::f64::consts::PI;
 
 /// Ratio of the rates at the ends of a panel, and points in each.
 const RATIO: f64 = 4.0;
 const POINTS: usize = 16;
-/// Of `λ ∫₀^∞ |e^{−λt} − Σ ℓ_q(λ) e^{−μ_q t}| dt`, an upper bound.
+/// Upper bound of `λ ∫₀^∞ |e^{−λt} − Σ ℓ_q(λ) e^{−μ_q t}| dt`.
 pub const ERROR: f64 = 2e-10;
-/// What sums of very many terms round off, over the sum of their sizes.
+/// Rounding error of sums of very many terms, over the sum of their sizes.
 const ROUNDING: f64 = 1e-13;
 
 /// The modes and inputs of a system, ready for rows of outputs.
 pub struct Clumped {
     modes: usize,
-    /// `B`, for each input a number for each mode.
+    /// `B`: for each input one value per mode.
     inputs: Vec<Vec<f64>>,
-    /// Of each mode.
+    /// Rates of the modes.
     rates: Vec<f64>,
     slowest: usize,
-    /// First point of each mode's panel, and its weights there; nothing for the slowest.
+    /// First point of each mode's panel, and its weights there; empty for the slowest mode.
     first: Vec<usize>,
     weights: Vec<[f64; POINTS]>,
     /// Rates of the points [1/s].
     pub points: Vec<f64>,
 }
 
-/// How an output answers to the inputs: sums of exponentials.
+/// Impulse responses of an output to the inputs: sums of exponentials.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Residues {
-    /// For each input the factor of the slowest mode.
+    /// For each input the residue of the slowest mode.
     pub slow: Vec<f64>,
-    /// For each input the factors of the points.
+    /// For each input the residues at the points.
     pub values: Vec<Vec<f64>>,
-    /// For each input a bound of the integral over time of what is left out.
+    /// For each input a bound of the integral over time of the neglected part.
     pub error: Vec<f64>,
 }
 
 impl Clumped {
-    /// Of modes with these rates of decay [1/s], at least one, and what each input drives.
+    /// Clumps modes with these rates of decay [1/s], at least one, and with these input rows.
     pub fn new(rates: Vec<f64>, inputs: Vec<Vec<f64>>) -> Self {
         let modes = rates.len();
         let slowest = (0..modes).min_by(|&a, &b| rates[a].total_cmp(&rates[b])).unwrap_or(0);
@@ -71,12 +72,13 @@ impl Clumped {
         Self { modes, inputs, rates, slowest, first, weights, points }
     }
 
-    /// How many modes there are.
+    /// Number of modes.
     pub fn modes(&self) -> usize {
         self.modes
     }
 
-    /// Of the slowest mode [1/s]; one that conserves heat misses zero by rounding.
+    /// Rate of the slowest mode [1/s]; for one that conserves heat, rounding leaves it slightly off
+    /// zero.
     pub fn slow_rate(&self) -> f64 {
         self.rates[self.slowest].max(0.0)
     }
@@ -86,12 +88,12 @@ impl Clumped {
         self.inputs.iter().map(|column| column[self.slowest]).collect()
     }
 
-    /// `C` of the slowest mode, of an output's row.
+    /// `C` of the slowest mode, from an output's row.
     pub fn slow_output(&self, row: &[f64]) -> f64 {
         row[self.slowest]
     }
 
-    /// How the output with a row of `C` answers.
+    /// Impulse responses of the output with a row of `C`.
     pub fn residues(&self, row: &[f64]) -> Residues {
         assert_eq!(row.len(), self.modes(), "a row has an entry for each mode");
         let of_input = |column: &Vec<f64>| {
@@ -122,8 +124,8 @@ fn chebyshev() -> [f64; POINTS] {
     std::array::from_fn(|point| -angle(point).cos())
 }
 
-/// Values at a place of the polynomials that are 1 at one point and 0 at the others, by the barycentric formula (J.-P.
-/// Berrut and L. N. Trefethen 2004, doi 10.1137/S0036144502417715).
+/// Values at a place of the Lagrange polynomials, by the barycentric formula (J.-P. Berrut and L.
+/// N. Trefethen 2004, doi 10.1137/S0036144502417715).
 fn lagrange(nodes: &[f64; POINTS], place: f64) -> [f64; POINTS] {
     if let Some(at) = nodes.iter().position(|&node| node == place) {
         return std::array::from_fn(|point| if point == at { 1.0 } else { 0.0 });
@@ -142,12 +144,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_exponential_of_any_rate_misses_by_no_more_than_it_says() {
-        // λ ∫ |…| dt, trapezia over ln t on a fine grid.
+    fn exponentials_of_any_rate_stay_within_the_error_bound() {
+        // λ ∫ |…| dt, by the trapezoidal rule over ln t on a fine grid.
         let mut worst: f64 = 0.0;
         for place in 0..=60 {
             let rate = 4f64.powf(f64::from(place) / 60.0);
-            // The panel begins at 1: a second slow mode puts it there.
+            // A second slow mode makes the panel begin at 1.
             let clumped = Clumped::new(vec![0.0, 1.0, rate], vec![vec![0.0, 0.0, 1.0]]);
             let residues = &clumped.residues(&[0.0, 0.0, 1.0]).values[0];
             let (steps, from, to) = (3000, (1e-9_f64).ln(), (60.0_f64).ln());
@@ -166,7 +168,7 @@ mod tests {
     }
 
     #[test]
-    fn sums_keep_their_sizes() {
+    fn clumping_preserves_magnitudes() {
         let rates: Vec<f64> = (0..500).map(|i| 0.3 * 1.05f64.powi(i)).collect();
         let column: Vec<f64> = (0..500).map(|i| (f64::from(i)).sin()).collect();
         let row: Vec<f64> = (0..500).map(|i| (0.7 * f64::from(i)).cos()).collect();

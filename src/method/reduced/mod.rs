@@ -1,8 +1,8 @@
-//! Balanced truncation of modal systems `ẋ = −Λ x + B u`, `y = C x + D u` with a bound of its error.
+//! Balanced truncation of modal systems `ẋ = −Λ x + B u`, `y = C x + D u` with an error bound.
 //!
-//! [`clumped`] replaces many modes by few rates, [`balanced`] truncates what is left, [`certificate`] bounds the error
-//! that both make, and [`system`] is the result: a few scalar equations that advance exactly. `stored` makes numbers of
-//! these that are kept, and looks at those that come back.
+//! [`clumped`] replaces many modes by few rates, [`balanced`] truncates the result, [`certificate`]
+//! bounds the error of both, and [`system`] is the reduced system: a few scalar equations that
+//! advance exactly. `stored` serialises reduced systems and checks them when they are read.
 
 pub mod balanced;
 pub mod certificate;

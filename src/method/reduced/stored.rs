@@ -1,4 +1,4 @@
-//! Reduced systems as numbers to be stored, and what such numbers must be to be one.
+//! Reduced systems as stored numbers, and the conditions that such numbers must satisfy.
 
 use super::system::ReducedSystem;
 use crate::runtime::sealed::{Content, Reader};
@@ -36,7 +36,7 @@ impl ReducedSystem {
         if let Some(value) = all.into_iter().flatten().find(|value| !value.is_finite()) {
             return Err(format!("{value} is no finite number"));
         }
-        // A bound below zero would promise what nothing keeps.
+        // A negative bound would promise the impossible.
         for (words, values) in
             [("a rate of decay", rates), ("a bound", bounds), ("a range", ranges)]
         {
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn a_system_is_read_again() {
+    fn round_trip() {
         let mut content = Content::default();
         system().put(&mut content);
         let bytes = FORMAT.seal("", &content);
@@ -100,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_no_reduction_leads_to_are_refused() {
+    fn inconsistent_numbers_are_refused() {
         type Edit = fn(&mut ReducedSystem);
         let edits: [(&str, Edit); 6] = [
             ("NaN is no finite number", |system| system.leaving[3] = f64::NAN),

@@ -1,5 +1,6 @@
-//! A reduced system: a few scalar equations `ẋ_r = −ν_r x_r + Σ_j b_rj u_j`, outputs `y_k = Σ_r c_kr x_r + Σ_j d_kj u_j`.
-//! Where ν is one of a pair of complex poles, x is complex: its real and imaginary parts stand one after the other.
+//! A reduced system: a few scalar equations `ẋ_r = −ν_r x_r + Σ_j b_rj u_j`, outputs
+//! `y_k = Σ_r c_kr x_r + Σ_j d_kj u_j`. Where ν is one of a pair of complex poles, x is complex,
+//! stored as its real and then its imaginary part.
 
 use super::balanced::{Balanced, ReductionError, Truncated};
 use super::certificate::{Wanted, integrals};
@@ -16,60 +17,61 @@ pub struct ReducedSystem {
     pub rates: Vec<f64>,
     /// Imaginary part: zero, or that of both unknowns of a pair.
     pub turns: Vec<f64>,
-    /// `b`, for each rate a number for each input.
+    /// `b`: for each rate one value per input.
     pub entering: Vec<f64>,
-    /// `c`, for each output a number for each rate.
+    /// `c`: for each output one value per rate.
     pub leaving: Vec<f64>,
-    /// `d`, for each output a number for each input.
+    /// `d`: for each output one value per input.
     pub direct: Vec<f64>,
-    /// For each output and input what the output may err by for each unit of the input's largest size.
+    /// For each output and input the error bound of the output per unit of the input's largest
+    /// magnitude.
     pub bounds: Vec<f64>,
-    /// For each output and input the largest answer to a unit step up to the horizon.
+    /// For each output and input the largest response to a unit step up to the horizon.
     pub ranges: Vec<f64>,
 }
 
-/// What is to be reduced: residues of all outputs, what acts at once, and what errors are allowed.
+/// Inputs of a reduction: residues of all outputs, direct terms, and allowed errors.
 pub struct Request<'a> {
     pub clumped: &'a Clumped,
-    /// Of each output.
+    /// Residues of each output.
     pub residues: &'a [Residues],
-    /// Of each output: its part of the slowest mode.
+    /// For each output its coefficient of the slowest mode.
     pub slow: &'a [f64],
-    /// For each output a number for each input.
+    /// For each output one direct term per input.
     pub direct: &'a [Vec<f64>],
-    /// Up to where answers to steps are looked at [s].
+    /// Horizon of the step responses [s].
     pub horizon: f64,
     /// Inputs of the default experiment.
     pub start: &'a [f64],
-    /// For each output and input what the inputs themselves miss of what they stand for: part of the bound, but nothing
-    /// that a higher order mends.
+    /// For each output and input the error of the inputs' own representation: part of the bound,
+    /// but independent of the order.
     pub missed: &'a [Vec<f64>],
-    /// For each output and input, from the answers to steps: the error that is allowed.
+    /// Returns for each output and input the allowed error, given the step responses.
     pub allowed: &'a dyn Fn(&Ranges) -> Vec<Vec<f64>>,
 }
 
-/// Largest answers to steps up to the horizon.
+/// Largest step responses up to the horizon.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ranges {
-    /// Of each output to a unit of each input.
+    /// Responses of each output to a unit step of each input.
     pub single: Vec<Vec<f64>>,
-    /// Of each output to the inputs of the default experiment.
+    /// Responses of each output to the inputs of the default experiment.
     pub together: Vec<f64>,
 }
 
-/// Times at which answers to steps are looked at, over a horizon.
+/// Number of times at which step responses are evaluated, over a horizon.
 const LOOKS: usize = 120;
-/// Parts of the horizon at which they begin.
+/// First of these times over the horizon.
 const FIRST_LOOK: f64 = 1e-9;
 
 impl ReducedSystem {
-    /// The smallest system whose bounds are within what is allowed; the one with the smallest excess if none is. With the
-    /// ranges that were looked at.
+    /// Finds the smallest system whose bounds are within the allowed errors, or else the one with
+    /// the smallest excess. Also returns the evaluated ranges.
     pub fn new(request: &Request) -> Result<(Self, Ranges), ReductionError> {
         let Request { clumped, residues, .. } = request;
         let ranges = request.ranges();
         let allowed = (request.allowed)(&ranges);
-        // Singular values count inputs and outputs in parts of what is allowed.
+        // Singular values then count inputs and outputs in fractions of the allowed errors.
         let scale = scales(&allowed, clumped.slow_inputs().len());
         let scaled = request.scaled(&scale);
         let rows: Vec<Vec<&[f64]>> =
@@ -127,7 +129,7 @@ impl ReducedSystem {
         }
     }
 
-    /// What inputs drive an unknown with.
+    /// Sum of the inputs that drive an unknown.
     fn driven(&self, unknown: usize, inputs: &[f64]) -> f64 {
         dot(&self.entering[unknown * self.inputs..][..self.inputs], inputs)
     }
@@ -149,22 +151,23 @@ impl ReducedSystem {
         out
     }
 
-    /// An output.
+    /// Value of an output.
     pub fn output(&self, x: &[f64], inputs: &[f64], place: usize) -> f64 {
         self.from_unknowns(x, place) + self.at_once(inputs, place)
     }
 
-    /// The part of an output that follows the unknowns, and that which follows the inputs at once.
+    /// Contribution of the unknowns to an output.
     pub fn from_unknowns(&self, x: &[f64], place: usize) -> f64 {
         let order = self.order();
         dot(&self.leaving[place * order..][..order], x)
     }
 
+    /// Direct contribution of the inputs to an output.
     pub fn at_once(&self, inputs: &[f64], place: usize) -> f64 {
         dot(&self.direct[place * self.inputs..][..self.inputs], inputs)
     }
 
-    /// How large inputs that never exceeded these sizes can make each unknown.
+    /// Bounds on the unknowns for inputs that never exceeded these magnitudes.
     pub fn reach(&self, sizes: &[f64]) -> Vec<f64> {
         let driven = |i: usize| {
             let row = &self.entering[i * self.inputs..][..self.inputs];
@@ -185,13 +188,13 @@ impl ReducedSystem {
         out
     }
 
-    /// What an output may err by if inputs never exceeded these sizes.
+    /// Error bound of an output for inputs that never exceeded these magnitudes.
     pub fn bound(&self, sizes: &[f64], place: usize) -> f64 {
         dot(&self.bounds[place * self.inputs..][..self.inputs], sizes)
     }
 }
 
-/// Unknowns of a pole.
+/// Number of unknowns of a pole.
 fn parts_of(turn: f64) -> usize {
     if turn == 0.0 { 1 } else { 2 }
 }
@@ -284,15 +287,17 @@ impl Request<'_> {
     }
 }
 
-/// Of the answers that a truncated system misses, output by output and input by input.
+/// Integrals of the neglected impulse responses, output by output and input by input.
 type Integrals = Vec<Vec<f64>>;
 
-/// The truncated system of the smallest order whose bounds are within what is allowed, between orders whose singular
-/// values exceed `hopeless` and the highest; where none is, of those tried the one that exceeds it least.
+/// Finds the truncated system of the smallest order whose bounds are within the allowed errors,
+/// between the orders whose singular values exceed `hopeless` and the highest. If none is, returns
+/// the tried one with the smallest excess.
 ///
-/// Errors fall with the order but for rounding, so the order is found by halving, first of estimates; the bound then
-/// may ask for a few more unknowns. `judge` gives by how much a system exceeds what is allowed, and the integrals that say
-/// so; those that bound come with the system.
+/// Errors fall with the order except for rounding, so the order is found by bisection, first on
+/// estimates; the bound then may require a few more unknowns. `judge` returns the excess of a
+/// system over the allowed errors, and the integrals behind it; the bounding ones are returned with
+/// the system.
 fn smallest(
     balanced: &Balanced,
     hopeless: f64,
@@ -303,7 +308,7 @@ fn smallest(
     let mut keeps = |order: usize, wanted: Wanted| {
         let Some(truncated) = balanced.truncated(order) else { return false };
         let (excess, found) = judge(&truncated, wanted);
-        // An estimate that keeps what is allowed is none yet that a bound keeps.
+        // An estimate within the allowed errors does not yet imply such a bound.
         let kept = excess <= 1.0;
         let counts = !kept || wanted == Wanted::Bound;
         if counts && best.as_ref().is_none_or(|(least, ..)| excess < *least) {
@@ -311,7 +316,7 @@ fn smallest(
         }
         kept
     };
-    // All errors together are no less than the first singular value left out.
+    // The total error is at least the first neglected singular value.
     let first = balanced.singular.iter().take_while(|&&value| value > hopeless).count().min(most);
     let [mut low, mut high] = [first, most];
     while low < high {
@@ -325,10 +330,10 @@ fn smallest(
     })
 }
 
-/// Factors of outputs and inputs that bring what is allowed to about one: `s_k t_j a_kj ≤ 1`, close to it where that can
-/// be.
+/// Factors of outputs and inputs that normalise the allowed errors to about one:
+/// `s_k t_j a_kj ≤ 1`, close to it where possible.
 fn scales(allowed: &[Vec<f64>], inputs: usize) -> (Vec<f64>, Vec<f64>) {
-    // Of each input the least that is allowed; then of each output.
+    // For each input the smallest allowed error; then for each output.
     let is_some = |value: &f64| *value > 0.0 && value.is_finite();
     let least = |values: &mut dyn Iterator<Item = f64>| {
         let least = values.filter(is_some).fold(f64::INFINITY, f64::min);

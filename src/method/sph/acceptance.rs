@@ -1,4 +1,4 @@
-//! Whether a vector that comes from elsewhere is a state that these droplets could have come to.
+//! Checks whether a vector from outside is a state that a run of these droplets can reach.
 
 use super::cloud::{Cloud, HeadNumbers, cloud_of, head_len, ledger_of, particles_in};
 use super::images::Source;
@@ -8,7 +8,7 @@ use super::plan::{Demand, DropletPlan};
 use super::requests::Requests;
 use crate::runtime::parallel::Team;
 
-/// Particles of the drops that a state has released, and their mass over ρ₀H^d.
+/// Particles of the drops released so far, and their mass over ρ₀H^d.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Released {
     pub particles: usize,
@@ -18,8 +18,9 @@ pub struct Released {
 /// Relative rounding of a sum of masses.
 const ROUNDING: f64 = 1e-9;
 
-/// Refuses what the loops over particles could not go on from, or no run leads to. `coldest` tells the
-/// lowest temperature [K], `released` what there is after so many releases.
+/// Returns the reason why a state must not be loaded: the particle loops cannot process it, or no
+/// run leads to it. `coldest` returns the lowest temperature [K] of a cloud, `released` the
+/// particles after a number of releases.
 pub fn check(
     state: &[f64],
     (plan, method, head): (&DropletPlan, &Method, HeadNumbers),
@@ -27,7 +28,7 @@ pub fn check(
     released: impl Fn(usize) -> Released,
 ) -> Result<(), String> {
     let Some(count) = particles_in(state, head) else {
-        return Err(format!("{} unknowns, which are no number of particles", state.len()));
+        return Err(format!("{} unknowns, which fit no number of particles", state.len()));
     };
     let drops = check_head(&state[..head_len(head)], plan, method, head)?;
     let expected = released(drops);
@@ -45,7 +46,7 @@ pub fn check(
     for (i, (x, density)) in cloud.position.iter().zip(&cloud.density).enumerate() {
         for a in 0..3 {
             if x[a].abs() >= FARTHEST || (near_plane[a] && x[a] < 0.0) {
-                return Err(format!("particle {i} at {:?}, where none gets to", x));
+                return Err(format!("particle {i} at {:?}, which no run reaches", x));
             }
         }
         let speed = cloud.velocity[i].iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -60,7 +61,7 @@ pub fn check(
     Ok(())
 }
 
-/// Refuses a ledger that contradicts itself or the plan; how many drops have been released.
+/// Refuses a ledger that contradicts itself or the plan; returns the number of released drops.
 fn check_head(
     numbers: &[f64],
     plan: &DropletPlan,
@@ -92,7 +93,7 @@ fn check_head(
     }
 }
 
-/// Refuses drops on demand that nobody can have asked for.
+/// Refuses requests for drops that no caller can have made.
 fn check_requests(
     requests: &Requests,
     released: f64,
@@ -110,7 +111,7 @@ fn check_requests(
         let speed = drop.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
         if far || speed >= FASTEST * method.units.speed || drop.temperature <= 0.0 {
             return Err(format!(
-                "a drop that waits at {:?} m, {speed} m/s and {} K",
+                "a waiting drop at {:?} m, {speed} m/s and {} K",
                 drop.centre, drop.temperature
             ));
         }

@@ -1,15 +1,16 @@
-//! Random points with a smallest distance, as even as such points can be.
+//! Random points with a minimum distance, distributed as evenly as that allows.
 
 use crate::kernel::Kernel;
 
-/// Distance of Poisson-disk points over the side of the volume that each has on average, in two and
+/// Minimum distance of Poisson-disk points over the side of the mean volume of a point, in two and
 /// three dimensions, for the densest packing that this sampling reaches.
 const DENSITY: [f64; 2] = [0.785, 0.8325];
-/// Attempts around a point before it is given up (Bridson 2007, doi 10.1145/1278780.1278807).
+/// Attempts around a point before it is abandoned (Bridson 2007, doi 10.1145/1278780.1278807).
 const ATTEMPTS: usize = 30;
 
-/// Points inside a sphere about the origin and their shares of its volume, after their number
-/// density; it counts points beyond the surface, so that the surface is not taken for a void.
+/// Returns points inside a sphere about the origin and their shares of its volume, inversely
+/// proportional to the number density. The density includes points outside the sphere, so that its
+/// surface is not mistaken for a void.
 pub fn place(radius: f64, spacing: f64, dimension: usize) -> Vec<([f64; 3], f64)> {
     let least = DENSITY[dimension - 2] * spacing;
     let support = 3.0 * spacing;
@@ -65,7 +66,7 @@ fn sample(radius: f64, least: f64, dimension: usize) -> Vec<[f64; 3]> {
     points
 }
 
-/// Points by cells of one side.
+/// Points sorted into cells of equal side.
 struct Grid {
     side: f64,
     cells: std::collections::HashMap<[i64; 3], Vec<usize>>,
@@ -86,7 +87,7 @@ impl Grid {
         self.cells.entry(self.cell(point)).or_default().push(index);
     }
 
-    /// Visits the points of the cells round a place, which hold all within one side.
+    /// Visits the points in the cells around a place. They include all points within one cell side.
     fn near(&self, point: [f64; 3], mut visit: impl FnMut(usize)) {
         let [i, j, k] = self.cell(point);
         for cell in (0..27).map(|n| [i + n % 3 - 1, j + n / 3 % 3 - 1, k + n / 9 - 1]) {
@@ -112,7 +113,7 @@ impl Random {
         (self.number() * count as f64) as usize
     }
 
-    /// A step with a length between `least` and twice that.
+    /// Returns a random step with a length between `least` and twice that.
     fn shell(&mut self, least: f64, dimension: usize) -> [f64; 3] {
         loop {
             let mut step = [0.0; 3].map(|_: f64| 2.0 * self.number() - 1.0);
@@ -134,7 +135,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn there_is_about_one_point_in_each_cell_of_a_lattice() {
+    fn density_is_about_one_point_per_cell() {
         for (dimension, volume) in [(2, PI), (3, 4.0 * PI / 3.0)] {
             let spacing = [0.02, 0.08][dimension - 2];
             let points = place(1.0, spacing, dimension);
@@ -144,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn no_two_points_are_too_near() {
+    fn minimum_distance_between_points() {
         let points = place(1.0, 0.15, 3);
         for (i, (a, _)) in points.iter().enumerate() {
             for (b, _) in &points[..i] {

@@ -1,37 +1,37 @@
-//! Which particles come near to a box: the coarse half of the search for neighbours.
+//! Coarse phase of the neighbour search: finds the particles close to a box.
 
 use super::images::Image;
 use super::lanes::WIDTH;
 use super::order::{BLOCK, Bounds};
 
-/// Where the particles of a block stand about one of them, in single precision.
+/// Positions of a block's particles relative to one of them, in single precision.
 #[derive(Debug, Clone)]
-pub struct Spots {
+pub struct RelativePoints {
     pub origin: [f64; 3],
     pub along: [[f32; BLOCK]; 3],
-    /// How many there are; what follows them fills whole vectors.
+    /// Number of points; padding follows them to fill whole vectors.
     pub count: usize,
 }
 
-/// Coordinates of points along x, y, z: of so many points, followed by what fills whole vectors.
+/// Coordinates of points along x, y, z: `count` points, followed by padding to whole vectors.
 #[derive(Debug, Clone, Copy)]
 pub struct Points<'a> {
     pub along: [&'a [f32]; 3],
     pub count: usize,
 }
 
-/// Particles that come near to a box, and their coordinates about its centre. Its memory serves for
-/// one search after another.
+/// Particles close to a box, and their coordinates about its centre. Its memory is reused from one
+/// search to the next.
 #[derive(Debug, Default)]
 pub struct Candidates {
     count: usize,
-    /// Of those that were taken last.
+    /// Index of the first candidate of the most recent `take`.
     from: usize,
     numbers: Vec<u32>,
     along: [Vec<f32>; 3],
 }
 
-/// Numbers of candidates, in memory that serves for one list after another.
+/// Numbers of candidates, in memory that is reused from one list to the next.
 #[derive(Debug, Default)]
 pub struct Numbers {
     count: usize,
@@ -44,8 +44,8 @@ impl Numbers {
     }
 }
 
-/// What is searched: x is near if it comes nearer than `reach` to the box that extends from the
-/// centre by `half` along each axis.
+/// Search region: all x nearer than `reach` to the box that extends by `half` from the centre along
+/// each axis.
 #[derive(Debug, Clone, Copy)]
 pub struct Near {
     pub half: [f32; 3],
@@ -53,13 +53,13 @@ pub struct Near {
 }
 
 impl Near {
-    /// A little more than asked for, so that rounding leaves nothing out.
+    /// Region slightly larger than requested, so that rounding excludes nothing.
     pub fn to(bounds: &Bounds, reach: f64) -> Self {
         let half = [0, 1, 2].map(|a| (0.5 * (bounds.high[a] - bounds.low[a])) as f32 + 1e-6);
         Self { half, reach_squared: (reach * reach) as f32 + 1e-6 }
     }
 
-    /// Whether a place about the centre is near.
+    /// Returns true if a place relative to the centre is in the region.
     fn has(&self, at: [f32; 3]) -> bool {
         let mut square = 0.0;
         for (at, half) in at.into_iter().zip(self.half) {
@@ -69,7 +69,8 @@ impl Near {
         square < self.reach_squared
     }
 
-    /// Which of sixteen places are near, with the same roundings.
+    /// Returns a mask of those of sixteen places that are in the region, with the same roundings as
+    /// [`Self::has`].
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx512f")]
     fn has_of_sixteen(&self, at: [std::arch::x86_64::__m512; 3]) -> u16 {
@@ -84,8 +85,8 @@ impl Near {
     }
 }
 
-impl Spots {
-    /// Of the particles of a block.
+impl RelativePoints {
+    /// Positions of the particles of a block.
     pub fn of(points: &[[f64; 3]]) -> Self {
         let origin = points[0];
         let mut along = [[f32::MAX; BLOCK]; 3];
@@ -103,8 +104,8 @@ impl Spots {
 }
 
 impl Candidates {
-    /// Takes what is near of particles that stand at `signs · spot + shift` about the centre of the
-    /// box.
+    /// Appends the particles within `near`, where a particle stands at `signs · spot + shift` about
+    /// the centre of the box.
     pub fn take(&mut self, spots: Points, signs: [f32; 3], shift: [f32; 3], near: Near) {
         self.from = self.count;
         // Room for all, and for the last vector to be written whole.
@@ -118,14 +119,20 @@ impl Candidates {
         self.count += compress(spots, signs, shift, near, numbers, &mut along);
     }
 
-    /// Takes what is near of the images of some particles, for a box with this centre.
-    pub fn take_images(&mut self, spots: &Spots, image: &Image, centre: [f64; 3], near: Near) {
+    /// Appends the nearby images of some particles, for a box with this centre.
+    pub fn take_images(
+        &mut self,
+        spots: &RelativePoints,
+        image: &Image,
+        centre: [f64; 3],
+        near: Near,
+    ) {
         let origin = image.place(spots.origin);
         let shift = [0, 1, 2].map(|a| (origin[a] - centre[a]) as f32);
         self.take(spots.points(), image.signs.map(|sign| sign as f32), shift, near);
     }
 
-    /// Lists the numbers of those that come near to another box, about whose centre they stand displaced
+    /// Lists the numbers of candidates close to another box, about whose centre they are displaced
     /// by `shift`.
     pub fn narrow(&mut self, shift: [f32; 3], near: Near, numbers: &mut Numbers) {
         let (_, points) = self.all();
@@ -136,18 +143,18 @@ impl Candidates {
         numbers.count = select(points, shift, near, &mut numbers.list);
     }
 
-    /// Forgets what was taken before.
+    /// Discards all candidates.
     pub fn clear(&mut self) {
         self.count = 0;
     }
 
-    /// Numbers of those that were taken last, in the list that they were taken from.
+    /// Numbers of the candidates of the most recent `take`, in the list that they were taken from.
     pub fn last_numbers(&self) -> &[u32] {
         &self.numbers[self.from..self.count]
     }
 
-    /// Numbers and coordinates of all, each followed by at least a vector of others, which make whole
-    /// vectors.
+    /// Numbers and coordinates of all candidates, each followed by at least one vector of padding,
+    /// to complete whole vectors.
     pub fn all(&mut self) -> (&[u32], Points<'_>) {
         let (count, full) = (self.count, self.count.next_multiple_of(WIDTH) + WIDTH);
         if self.numbers.len() < full {
@@ -172,13 +179,13 @@ fn compress(
 ) -> usize {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx512f") {
-        // SAFETY: the processor has what the function asks for.
+        // SAFETY: the processor has the features that the function requires.
         return unsafe { compress_avx512(spots, signs, shift, near, numbers, along) };
     }
     compress_each(spots, signs, shift, near, numbers, along)
 }
 
-/// One after the other without a branch: written always, kept if near.
+/// Processes one at a time without a branch: always writes, keeps what is near.
 fn compress_each(
     spots: Points,
     signs: [f32; 3],
@@ -199,7 +206,7 @@ fn compress_each(
     found
 }
 
-/// Sixteen at once, with the same roundings.
+/// Processes sixteen at a time, with the same roundings.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
 fn compress_avx512(
@@ -239,24 +246,24 @@ fn compress_avx512(
     found
 }
 
-/// Which of the next sixteen lanes hold one of `rest` points.
+/// Returns a mask of the next sixteen lanes that hold one of `rest` points.
 #[cfg(target_arch = "x86_64")]
 pub fn inside(rest: usize) -> u16 {
     if rest < WIDTH { (1 << rest) - 1 } else { u16::MAX }
 }
 
-/// Writes the numbers of points that are near into a list that is longer by a vector than these; how
-/// many they are.
+/// Writes the numbers of nearby points into a list with room for one more vector than there are
+/// points; returns their number.
 fn select(points: Points, shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx512f") {
-        // SAFETY: the processor has what the function asks for.
+        // SAFETY: the processor has the features that the function requires.
         return unsafe { select_avx512(points, shift, near, numbers) };
     }
     select_each(points, shift, near, numbers)
 }
 
-/// One after the other without a branch: written always, kept if near.
+/// Processes one at a time without a branch: always writes, keeps what is near.
 fn select_each(points: Points, shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
     let [x, y, z] = points.along;
     let mut found = 0;
@@ -267,7 +274,7 @@ fn select_each(points: Points, shift: [f32; 3], near: Near, numbers: &mut [u32])
     found
 }
 
-/// Sixteen at once, with the same roundings.
+/// Processes sixteen at a time, with the same roundings.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
 fn select_avx512(points: Points, shift: [f32; 3], near: Near, numbers: &mut [u32]) -> usize {
@@ -287,7 +294,8 @@ fn select_avx512(points: Points, shift: [f32; 3], near: Near, numbers: &mut [u32
             at[a] = _mm512_add_ps(spot, _mm512_set1_ps(shift[a]));
         }
         let kept = near.has_of_sixteen(at) & inside(count - k);
-        // SAFETY: no more were found than there are points so far, and there is a vector more.
+        // SAFETY: there are at most as many found numbers as points so far, and room for one more
+        // vector.
         unsafe {
             let place = numbers.as_mut_ptr().add(found);
             _mm512_storeu_epi32(place.cast(), _mm512_maskz_compress_epi32(kept, number));
@@ -303,7 +311,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_taken_is_what_is_near() {
+    fn candidates_match_brute_force() {
         let number = |i: usize| (i as f64 * 0.754877666).fract();
         for count in [1, 30, BLOCK] {
             let point = |i: usize| [4.0 * number(i), 3.0 * number(7 * i + 3), number(13 * i + 5)];
@@ -312,7 +320,7 @@ mod tests {
             let (centre, reach) = (bounds.centre(), 1.2);
             for signs in [[1.0, 1.0, 1.0], [-1.0, 1.0, -1.0]] {
                 let image = |p: &[f64; 3]| [0, 1, 2].map(|a| signs[a] * p[a]);
-                let spots = Spots::of(&points);
+                let spots = RelativePoints::of(&points);
                 let shift = [0, 1, 2].map(|a| (signs[a] * spots.origin[a] - centre[a]) as f32);
                 let (signs, near) = (signs.map(|s| s as f32), Near::to(&bounds, reach));
                 let mut taken = Candidates::default();
@@ -345,11 +353,11 @@ mod tests {
     }
 
     #[test]
-    fn what_it_is_narrowed_to_is_what_is_nearer() {
+    fn narrowed_candidates_match_brute_force() {
         let number = |i: usize| (i as f64 * 0.754877666).fract();
         let points: Vec<_> =
             (0..BLOCK).map(|i| [number(i), number(7 * i + 3), number(13 * i + 5)]).collect();
-        let (spots, mut all) = (Spots::of(&points), Candidates::default());
+        let (spots, mut all) = (RelativePoints::of(&points), Candidates::default());
         let whole = Near { half: [5.0; 3], reach_squared: 1.0 };
         all.take(spots.points(), [1.0; 3], [0.0; 3], whole);
         let near = Near { half: [0.1, 0.2, 0.0], reach_squared: 0.09 };
@@ -370,12 +378,12 @@ mod tests {
         assert_eq!(numbers.list(), &plain[..found]);
     }
 
-    /// What fills the vectors behind the points stands at the largest number, which a shift by as much
-    /// brings near.
+    /// Padding behind the points stands at the largest number, which a shift of equal size moves
+    /// close to the box.
     #[test]
-    fn what_fills_vectors_is_never_near() {
+    fn padding_is_never_near() {
         for count in [1, 15, 17, BLOCK - 1] {
-            let spots = Spots::of(&vec![[0.0; 3]; count]);
+            let spots = RelativePoints::of(&vec![[0.0; 3]; count]);
             let near = Near { half: [1.0; 3], reach_squared: f32::INFINITY };
             let mut all = Candidates::default();
             all.take(spots.points(), [1.0; 3], [-f32::MAX; 3], near);

@@ -1,4 +1,5 @@
-//! The particles of a model and its ledger: all that changes, and how it lies in a flat vector.
+//! The particles of a model and its ledger: all variables of state, and their layout in a flat
+//! vector.
 
 use std::slice::from_mut;
 
@@ -8,10 +9,11 @@ use crate::port::WallExchange;
 use crate::runtime::parallel::Team;
 use crate::state::{Field, Fields, Layout, Per, load, store};
 
-/// Unknowns of a particle: position, velocity, density and temperature. All else follows from them within a step.
+/// Unknowns of a particle: position, velocity, density and temperature. Everything else follows
+/// from them within a step.
 pub const UNKNOWNS: usize = 8;
 
-/// Particles, each list with an entry for each. Lengths over H, velocities over c₀, masses over
+/// Particles: each list has one entry per particle. Lengths over H, velocities over c₀, masses over
 /// ρ₀H^d.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Cloud {
@@ -20,13 +22,13 @@ pub struct Cloud {
     pub mass: Vec<f64>,
     /// ρ/ρ₀ − 1.
     pub density: Vec<f64>,
-    /// Above the model's reference [K].
+    /// Temperature above the model's reference [K].
     pub temperature: Vec<f64>,
-    /// At the release, above the reference [K].
+    /// Temperature at the release, above the reference [K].
     pub initial: Vec<f64>,
-    /// By fluid and by the wall, without what follows.
+    /// Accelerations by fluid and by the wall, without surface tension.
     pub acceleration: Vec<[[f64; 3]; 2]>,
-    /// By surface tension: by fluid along x, y, z and by the wall along z.
+    /// Accelerations by surface tension: by fluid along x, y, z and by the wall along z.
     pub tension: Vec<[f64; 4]>,
     /// Surface tension's φ over ρ₀c₀², see [`Pull`](super::pulls::Pull).
     pub potential: Vec<f64>,
@@ -36,7 +38,8 @@ pub struct Cloud {
     pub moment: Vec<[f64; 6]>,
 }
 
-/// Consecutive particles, for one thread to change: the numbers of [`Cloud`] from `first` on.
+/// Consecutive particles from number `first` on, which one thread may change; the fields are those
+/// of [`Cloud`].
 pub struct Part<'a> {
     pub first: usize,
     pub position: &'a mut [[f64; 3]],
@@ -52,49 +55,50 @@ pub struct Part<'a> {
     pub moment: &'a mut [[f64; 6]],
 }
 
-/// Sums over time.
+/// Integrals over time and counters.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Ledger {
-    /// [s]
+    /// Time [s].
     pub time: f64,
-    /// Drops released so far, a whole number.
+    /// Number of drops released so far.
     pub released: f64,
-    /// Time steps made.
+    /// Number of time steps.
     pub steps: f64,
     /// Heat released with the droplets, above the reference [J].
     pub heat_released: f64,
-    /// Given to the wall since time zero [J], [N s].
+    /// Heat [J] and impulse [N s] transferred to the wall since time zero.
     pub heat_to_wall: f64,
     pub impulse_to_wall: [f64; 3],
     /// Impulse of gravity and of mirrors since time zero [N s].
     pub impulse_of_gravity: [f64; 3],
-    /// Way over H that particles went on average since they were last shifted.
+    /// Mean path length of the particles over H since they were last shifted.
     pub way: f64,
-    /// Of free and wetted surface [J].
+    /// Energy of free and wetted surface [J].
     pub surface_energy: f64,
-    /// Volume that surrounded the blocks of particles, each counted for itself, when the particles
-    /// were last sorted, over H^d.
+    /// Volume within reach of the blocks of particles, summed over blocks, when the particles were
+    /// last sorted, over H^d.
     pub surrounded: f64,
-    /// What the wall got during the last step.
+    /// Heat and impulse that the wall received during the last step.
     pub exchange: WallExchange,
-    /// Of the solid below, see [`SurfaceMemory`]; nothing for a wall whose temperature is held.
+    /// Memory of the solid below, see [`SurfaceMemory`]; `None` for a wall of prescribed
+    /// temperature.
     pub memory: SurfaceMemory,
-    /// Of drops on demand.
+    /// State of drops on demand.
     pub requests: Option<Requests>,
 }
 
-/// How many numbers a state has beside those of its particles.
+/// Dimensions of the part of a state that precedes its particles.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct HeadNumbers {
     /// Cells of the wall.
     pub cells: usize,
-    /// Exponentials of each cell's [`SurfaceMemory`].
+    /// Number of exponentials in each cell's [`SurfaceMemory`].
     pub exponentials: usize,
-    /// Drops that may be asked for; nothing where none can be.
+    /// Largest number of drops that may be requested; `None` without drops on demand.
     pub most: Option<usize>,
 }
 
-/// Numbers that a thread copies at once.
+/// Numbers that a thread copies as one piece of work.
 const COPY: usize = 4096;
 
 impl Fields for Ledger {
@@ -126,15 +130,19 @@ impl Fields for Ledger {
             ),
             (body("duration", "length of the last step [s]", 1), from_mut(duration)),
             (
-                body("heat_outside", "heat given beyond the cells in the last step [J]", 1),
+                body("heat_outside", "heat transferred beyond the cells in the last step [J]", 1),
                 from_mut(heat_outside),
             ),
             (
-                body("impulse_outside", "impulse given beyond the cells in the last step [N s]", 3),
+                body(
+                    "impulse_outside",
+                    "impulse transferred beyond the cells in the last step [N s]",
+                    3,
+                ),
                 impulse_outside,
             ),
             (
-                body("way", "way that particles went since they were shifted, over H", 1),
+                body("way", "mean path of particles since they were shifted, over H", 1),
                 from_mut(&mut self.way),
             ),
             (
@@ -142,7 +150,7 @@ impl Fields for Ledger {
                 from_mut(&mut self.surface_energy),
             ),
             (
-                body("surrounded", "volume about the blocks of particles, over H^d", 1),
+                body("surrounded", "volume within reach of the blocks of particles, over H^d", 1),
                 from_mut(&mut self.surrounded),
             ),
             (cell("heat", "heat given in the last step [J]", 1), heat),
@@ -151,13 +159,13 @@ impl Fields for Ledger {
                 impulse.as_flattened_mut(),
             ),
             (
-                cell("given", "rise of the solid below by the heat as it was given [K]", count),
+                cell("given", "rise of the solid below due to the varying flux [K]", count),
                 &mut self.memory.given,
             ),
             (
                 cell(
                     "reported",
-                    "rise of the solid below by the heat as it was reported [K]",
+                    "rise of the solid below due to the reported mean flux [K]",
                     count,
                 ),
                 &mut self.memory.reported,
@@ -194,7 +202,7 @@ impl Fields for Cloud {
 }
 
 impl Ledger {
-    /// Of a droplet to which nothing happened yet, with so many numbers.
+    /// Ledger of a droplet at time zero, of these dimensions.
     pub fn none(head: HeadNumbers) -> Self {
         let zeros = vec![0.0; head.cells * head.exponentials];
         Self {
@@ -206,7 +214,7 @@ impl Ledger {
     }
 }
 
-/// The layout of the state of a number of particles.
+/// Layout of the state of a number of particles.
 pub fn layout(head: HeadNumbers, particles: usize) -> Layout {
     Layout::of(&mut Ledger::none(head)).then(Layout::of(&mut Cloud::of(particles)))
 }
@@ -222,7 +230,7 @@ impl Cloud {
         self.mass[i] / (1.0 + self.density[i])
     }
 
-    /// The particles in parts of `size`, the last one of the rest.
+    /// Splits the particles into parts of `size`; the last one holds the rest.
     pub fn parts(&mut self, size: usize) -> Vec<Part<'_>> {
         let count = self.len();
         let mut position = self.position.chunks_mut(size);
@@ -255,7 +263,7 @@ impl Cloud {
         (0..count).step_by(size).map_while(part).collect()
     }
 
-    /// Adds a particle at rest density.
+    /// Appends a particle at rest density.
     pub fn push(&mut self, position: [f64; 3], velocity: [f64; 3], mass: f64, temperature: f64) {
         self.position.push(position);
         self.velocity.push(velocity);
@@ -270,7 +278,7 @@ impl Cloud {
         self.moment.push([1.0, 1.0, 1.0, 0.0, 0.0, 0.0]);
     }
 
-    /// Puts the particles into another order.
+    /// Reorders the particles.
     pub fn permute(&mut self, order: &[u32], team: &Team) {
         let permute = Permutation { order, team };
         permute.apply(&mut self.position);
@@ -286,7 +294,7 @@ impl Cloud {
         permute.apply(&mut self.moment);
     }
 
-    /// So many particles of which nothing is known yet.
+    /// Allocates particles whose values are not yet set.
     fn of(count: usize) -> Self {
         Self {
             position: vec![[0.0; 3]; count],
@@ -304,7 +312,7 @@ impl Cloud {
     }
 }
 
-/// Another order of lists.
+/// Permutation of lists.
 struct Permutation<'a> {
     order: &'a [u32],
     team: &'a Team,
@@ -318,19 +326,19 @@ impl Permutation<'_> {
     }
 }
 
-/// Numbers of a state before those of its particles.
+/// Number of state entries before those of the particles.
 pub fn head_len(head: HeadNumbers) -> usize {
     Layout::of(&mut Ledger::none(head)).len()
 }
 
-/// Number of particles of a state; nothing if its length fits none.
+/// Number of particles of a state; `None` if its length fits no number.
 pub fn particles_in(state: &[f64], head: HeadNumbers) -> Option<usize> {
     let rest = state.len().checked_sub(head_len(head))?;
     let numbers = Layout::of(&mut Cloud::of(1)).len();
     (rest % numbers == 0).then_some(rest / numbers)
 }
 
-/// Writes ledger and particles over a flat vector.
+/// Writes ledger and particles to a flat vector.
 pub fn flatten(state: &mut Vec<f64>, ledger: &mut Ledger, cloud: &mut Cloud, team: &Team) {
     state.resize(Layout::of(ledger).len() + Layout::of(cloud).len(), 0.0);
     let head = store(ledger, state);
@@ -369,7 +377,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_state_is_read_as_it_was_written() {
+    fn state_round_trip() {
         let mut cloud = Cloud::default();
         for i in 0..5 {
             let x = f64::from(i);

@@ -1,25 +1,26 @@
-//! How fast the layer of particles at a wall takes its temperature.
+//! Rate at which the layer of particles at a wall adopts the wall's temperature.
 
 use std::f64::consts::PI;
 
 use crate::kernel::Kernel;
 
-/// Cooling of the particles at a wall, right for thermal layers thinner and thicker than they are.
+/// Cooling of the particles at a wall, valid for thermal layers thinner and thicker than the
+/// particle layer.
 ///
-/// Fluid of temperature T∞ above a wall of T_w loses the heat `2 ρc (T∞ − T_w) √(κt/π)` in a time t (H. S.
-/// Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, Oxford 1959, §2.4). The particles at the wall,
-/// a layer of thickness δ and mean temperature T, have lost the part `θ = (T∞ − T)/(T∞ − T_w)` of theirs.
-/// The wall alone changes θ at the rate
+/// Fluid of temperature T∞ above a wall of T_w loses the heat `2 ρc (T∞ − T_w) √(κt/π)` in a time t
+/// (H. S. Carslaw and J. C. Jaeger, *Conduction of Heat in Solids*, Oxford 1959, §2.4). The
+/// particles at the wall form a layer of thickness δ and mean temperature T. They have lost the
+/// fraction `θ = (T∞ − T)/(T∞ − T_w)` of their heat. The wall alone changes θ at the rate
 ///
 /// `dθ/dt = κ/δ² f(θ)`,
 ///
-/// with `f → 2/(πθ)` while the layer holds all the heat that is lost, and `f → 2C (1 − θ)` once the
-/// temperature is even across it, so that T∞ no longer matters. No time of contact is needed.
+/// with `f → 2/(πθ)` while the layer supplies all the lost heat, and `f → 2C (1 − θ)` once the
+/// temperature is uniform across it and T∞ no longer matters. The law needs no time of contact.
 ///
-/// f is found by computation: layers of a lattice conduct by the method's own sums, insulated from the
-/// wall; the exact flux enters the lowest; f is that flux as a function of the θ that this layer
-/// has then. So a lattice takes the exact heat at any time, whatever Δx. C, which is 1 for finite volumes,
-/// makes up for a kernel that smooths over several layers.
+/// f is computed numerically. Layers of a lattice, insulated from the wall, conduct by the method's
+/// own sums; the exact flux enters the lowest layer. f is that flux as a function of this layer's
+/// θ. So a lattice absorbs the exact heat at any time, for every Δx. C is 1 for finite volumes; it
+/// compensates for a kernel that smooths over several layers.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactLaw {
     /// `∫₀^θ dθ/f` for θ at equal distances from 0 to [`THICK`].
@@ -28,18 +29,19 @@ pub struct ContactLaw {
     decay: f64,
 }
 
-/// θ beyond which it decays towards 1 as if it were even across the layer.
+/// θ beyond which the deficit decays towards 1 as in a layer of uniform temperature.
 const THICK: f64 = 0.95;
-/// Places of the table.
+/// Number of entries of the table.
 const PLACES: usize = 96;
-/// Layers of the lattice, and steps of its diffusion time: by their share of the time so far, and at most.
+/// Number of layers of the lattice; its diffusion steps relative to the elapsed time, and their
+/// bounds.
 const LAYERS: usize = 64;
 const SHARE: f64 = 0.02;
 const SHORTEST: f64 = 1e-5;
 const LONGEST: f64 = 0.05;
 
 impl ContactLaw {
-    /// For a kernel of support radius `support` over Δx.
+    /// Law for a kernel of support radius `support` over Δx.
     pub fn of(kernel: Kernel, support: f64, dimension: usize) -> Self {
         let curve = exact_flux(&couplings(kernel, support, dimension));
         // θ f π/2 is smooth where f has a pole.
@@ -61,9 +63,11 @@ impl ContactLaw {
         Self { times, decay: 1.0 / (slowness(THICK) * (1.0 - THICK)) }
     }
 
-    /// Part of `T − T_w` that the layer loses during a diffusion time `κΔt/δ²`, always between 0 and 1.
+    /// Fraction of `T − T_w` that the layer loses during a diffusion time `κΔt/δ²`, always between
+    /// 0 and 1.
     ///
-    /// Without a θ, for fluid of which no temperature before contact is known, the layer is taken to be even.
+    /// Without a θ (fluid whose temperature before contact is unknown) the layer is assumed
+    /// uniform.
     pub fn relaxation(&self, deficit: Option<f64>, diffusion: f64) -> f64 {
         match deficit {
             Some(deficit) if deficit < THICK => {
@@ -74,12 +78,12 @@ impl ContactLaw {
         }
     }
 
-    /// θ < [`THICK`] after a diffusion time.
+    /// θ after a diffusion time, for θ < [`THICK`].
     fn later(&self, deficit: f64, diffusion: f64) -> f64 {
         let (count, width) = (self.times.len(), THICK / (self.times.len() - 1) as f64);
         let place = deficit / width;
         let below = (place as usize).min(count - 2);
-        // Times grow like θ², which is kept between places too.
+        // Times grow like θ²; the interpolation between entries keeps that.
         let square = |n: usize| (n as f64 * width).powi(2);
         let [low, high] = [below, below + 1].map(square);
         let share = (deficit * deficit - low) / (high - low);
@@ -96,8 +100,8 @@ impl ContactLaw {
     }
 }
 
-/// Rates `2 Σ V (−F)` at which a layer of a lattice takes the temperature of one that is 1, 2, … layers away,
-/// over κ/Δx².
+/// Rates `2 Σ V (−F)`, over κ/Δx², at which a layer of a lattice approaches the temperature of the
+/// layer 1, 2, … layers away.
 fn couplings(kernel: Kernel, support: f64, dimension: usize) -> Vec<f64> {
     let reach = support.ceil() as i64;
     let rows = if dimension == 3 { -reach..=reach } else { 0..=0 };
@@ -112,11 +116,11 @@ fn couplings(kernel: Kernel, support: f64, dimension: usize) -> Vec<f64> {
     (1..=reach).map(of_layer).collect()
 }
 
-/// Pairs of θ of the lowest layer and of the flux over k (T∞ − T_w)/Δx, in the course of time, up to
-/// [`THICK`] and a little beyond.
+/// Pairs of the lowest layer's θ and the flux over k (T∞ − T_w)/Δx over time, until slightly beyond
+/// [`THICK`].
 fn exact_flux(couplings: &[f64]) -> Vec<[f64; 2]> {
     let moments = couplings.iter().enumerate().map(|(n, c)| ((n + 1) * (n + 1)) as f64 * c);
-    // What the lattice conducts, 1 but for the kernel's error.
+    // Conductivity of the lattice over the nominal one: 1 but for the kernel's error.
     let effusivity = moments.sum::<f64>().sqrt();
     let heat = |time: f64| 2.0 * effusivity * (time / PI).sqrt();
     let (mut lost, mut time) = (vec![0.0; LAYERS], 0.0);
@@ -125,7 +129,7 @@ fn exact_flux(couplings: &[f64]) -> Vec<[f64; 2]> {
         let step = (SHARE * time).clamp(SHORTEST, LONGEST);
         let rate = |layer: usize| {
             let from = |distance: usize, coupling: f64| {
-                // The wall mirrors the layers; far above nothing has cooled.
+                // The wall mirrors the layers; far above nothing has cooled yet.
                 let below = if layer >= distance { layer - distance } else { distance - layer - 1 };
                 let above = lost.get(layer + distance).copied().unwrap_or(0.0);
                 coupling * (lost[below] + above - 2.0 * lost[layer])
@@ -152,19 +156,19 @@ mod tests {
     }
 
     #[test]
-    fn a_fresh_layer_loses_the_heat_of_a_half_space_whatever_the_step() {
+    fn initial_cooling_matches_half_space_for_any_step() {
         for law in laws() {
             for diffusion in [1e-4, 1e-3, 1e-2] {
                 let exact = 2.0 * (diffusion / PI).sqrt();
                 let lost = law.relaxation(Some(0.0), diffusion);
-                // Short supports conduct by up to 3 % too little.
+                // With short supports the conductivity is up to 3 % too low.
                 assert!((lost / exact - 1.0).abs() < 0.02, "{diffusion}: {lost} {exact}");
             }
         }
     }
 
     #[test]
-    fn two_steps_are_one_step() {
+    fn two_half_steps_equal_one_step() {
         for law in laws() {
             for deficit in [0.0, 0.1, 0.5, 0.9, 0.94] {
                 let once = law.relaxation(Some(deficit), 0.02);
@@ -177,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn no_step_goes_beyond_the_wall() {
+    fn no_step_overshoots_the_wall_temperature() {
         for law in laws() {
             for deficit in [None, Some(-0.5), Some(0.0), Some(0.7), Some(1.0), Some(3.0)] {
                 let parts = [0.0, 1e-3, 0.1, 1.0, 1e3].map(|d| law.relaxation(deficit, d));
@@ -188,8 +192,8 @@ mod tests {
     }
 
     #[test]
-    fn finite_volumes_pass_twice_the_conductivity_over_their_thickness() {
-        // A kernel that reaches no further than the next layer makes finite volumes of a lattice's layers.
+    fn finite_volume_conductance_at_the_wall() {
+        // With a kernel that reaches only the next layer, a lattice's layers are finite volumes.
         let law = ContactLaw::of(Kernel::WendlandC2, 2.0, 3);
         assert!((law.decay / 2.0 - 1.0).abs() < 0.05, "{}", law.decay);
     }

@@ -15,17 +15,17 @@ use crate::kernel::Shape;
 /// `(1 + r_i) dT_i/dt = 2 κ Σ V_j F (T_i − T_j)`,
 ///
 /// with δ for a smoothing length H/2 and `g_i = B_i Σ V_j F (r_j − r_i) x_ij`,
-/// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. Images at planes slip in the first
-/// equation, and under a body force the density goes on in them as it does at rest, so that a fluid at
-/// rest is not diffused; neither is one at rest under surface tension, because r in the diffusion stands
-/// for r + φ with the tension's potential φ (0 without). At a surface that has tension the diffusion fades
-/// with the mean eigenvalue of `−Σ V_j F x_ij ⊗ x_ij` (½ on a flat surface, 1 inside): among the outermost
-/// particles r + φ is not even, and a diffusion that evens it drives them out of the fluid one by one. In the second
-/// equation images are as warm as their originals: heat of the wall comes by
-/// [`WallHeat`](super::wall_heat::WallHeat).
+/// `B_i = [−Σ V_j F x_ij ⊗ x_ij]⁻¹`, of the step before. In the first equation images at planes
+/// slip. Under a body force the density continues in them as at rest, so that a fluid at rest is
+/// not diffused. A fluid at rest under surface tension is not diffused either, because the
+/// diffusion acts on r + φ with the tension's potential φ (0 without). At a surface with tension
+/// the diffusion fades with the mean eigenvalue of `−Σ V_j F x_ij ⊗ x_ij` (½ on a flat surface, 1
+/// inside). Among the outermost particles r + φ is uneven, and a diffusion that evens it would
+/// drive them out of the fluid one by one. In the second equation images have the temperature of
+/// their originals; [`WallHeat`](super::wall_heat::WallHeat) supplies the heat of the wall.
 ///
-/// Only with `HEAT` is heat conducted; without `MOMENTS` all g are 0, and neither they nor what B is
-/// made of are summed.
+/// Heat is conducted only with `HEAT`; without `MOMENTS` all g are 0, and neither g nor the sums
+/// for B are computed.
 ///
 /// Sources: Antuono, Colagrossi & Marrone (2012), Comput. Phys. Commun. 183, 2570–2580, doi
 /// 10.1016/j.cpc.2012.07.006; with g = 0 Molteni & Colagrossi (2009), Comput. Phys. Commun. 180,
@@ -33,11 +33,11 @@ use crate::kernel::Shape;
 /// doi 10.1006/jcph.1998.6118.
 pub struct Continuity<'a, const HEAT: bool, const MOMENTS: bool> {
     pub images: &'a Images,
-    /// Position, velocity, volume and r + φ of every particle.
+    /// Position, velocity, volume and r + φ of each particle.
     pub records: &'a [[f64; 8]],
-    /// r of every particle.
+    /// r of each particle.
     pub densities: &'a [f64],
-    /// g and temperature of every particle; nothing where neither is asked for.
+    /// g and temperature of each particle; empty where neither is needed.
     pub annexes: &'a [[f64; 4]],
     /// σ of the kernel.
     pub normalisation: f64,
@@ -49,10 +49,11 @@ pub struct Continuity<'a, const HEAT: bool, const MOMENTS: bool> {
     pub conduction: f64,
 }
 
-/// Mean eigenvalues of a particle's moment matrix between which its density diffusion rises from nothing to all.
+/// Mean eigenvalues of a particle's moment matrix between which its density diffusion rises from
+/// zero to its full value.
 const FADE: [f64; 2] = [0.4, 0.6];
 
-/// Sums for one particle, their factors included; 0 where they are not asked for.
+/// Sums for one particle, their factors included; 0 where they are not computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContinuityRates {
     /// dr/dt.
@@ -160,7 +161,7 @@ impl<const HEAT: bool, const MOMENTS: bool> PairSum for Continuity<'_, HEAT, MOM
     }
 }
 
-/// Part of its density diffusion that a particle keeps by its moment.
+/// Fraction of its density diffusion that a particle retains, from its moment.
 #[inline(always)]
 fn part_of_diffusion(moment: &[f64; 6], dimension: usize) -> f64 {
     let mean = moment[..3].iter().sum::<f64>() / dimension as f64;
@@ -168,14 +169,14 @@ fn part_of_diffusion(moment: &[f64; 6], dimension: usize) -> f64 {
     way * way * (3.0 - 2.0 * way)
 }
 
-/// The particle whose neighbours are summed, in all lanes.
+/// The particle whose neighbours are summed, broadcast to all lanes.
 struct Here<L> {
     position: [L; 3],
     velocity: [L; 3],
     density: L,
     gradient: [L; 3],
     temperature: L,
-    /// x of the place about which positions are.
+    /// x of the origin of the positions.
     centre: L,
 }
 

@@ -1,15 +1,16 @@
-//! Loops compiled for several kinds of processors, of which the widest that there is runs.
+//! Loops compiled for several instruction sets; the widest one available runs.
 
 use super::lanes::{Array, Lanes};
 use crate::scene::Precision;
 
-/// Work on vectors, whatever they are made of.
+/// Work on vectors, generic in the vector type.
 pub trait Work {
-    /// To be marked as always inlined, so that it is compiled for the instructions at hand.
+    /// Runs the work. Mark implementations `inline(always)`, so that they are compiled for the
+    /// chosen instructions.
     fn run<L: Lanes>(self);
 }
 
-/// What a processor has, or may use.
+/// Instruction set of a processor, or a limit on it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Instructions {
     Plain,
@@ -19,14 +20,14 @@ enum Instructions {
     Avx512,
 }
 
-/// Takes the widest instructions that the processor has.
+/// Runs the work with the widest instructions that the processor has.
 pub fn dispatch(work: impl Work, precision: Precision) {
     if precision == Precision::Double {
         return work.run::<Array<f64>>();
     }
     match widest() {
         Instructions::Plain => work.run::<Array<f32>>(),
-        // SAFETY: the processor has what the functions ask for.
+        // SAFETY: the processor has the features that the functions require.
         #[cfg(target_arch = "x86_64")]
         Instructions::Avx2 => unsafe { run_avx2(work) },
         #[cfg(target_arch = "x86_64")]
@@ -77,11 +78,11 @@ mod tests {
     use crate::port::WallCells;
 
     thread_local! {
-        /// What a test lets its thread use.
+        /// Instruction set to which a test limits its thread.
         pub static LIMIT: Cell<Option<Instructions>> = const { Cell::new(None) };
     }
 
-    /// A hot drop that meets a wall that it wets, with all that droplets can have, on this thread.
+    /// A hot drop on a wall that it wets, with every feature of droplets, on this thread.
     fn drop() -> DropletSph {
         let (diameter, spacing) = (1e-4, 1e-5);
         let fluid = Fluid {
@@ -123,7 +124,7 @@ mod tests {
     }
 
     #[test]
-    fn results_are_the_same_to_the_bit_with_all_instructions() {
+    fn results_are_bit_identical_for_all_instruction_sets() {
         let run = |limit: Instructions| {
             LIMIT.set(Some(limit));
             let drop = drop();

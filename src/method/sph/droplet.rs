@@ -29,20 +29,21 @@ pub use extremes::WarmPlace;
 pub use totals::DropletTotals;
 use totals::totals;
 
-/// Droplets above a wall: everything known before time starts. What changes is a flat vector, whose
-/// length grows when a droplet is released.
+/// Droplets above a wall: everything known before time starts. The variables of state form a flat
+/// vector, which grows when a droplet is released.
 pub struct DropletSph {
     plan: DropletPlan,
     method: Method,
     threads: usize,
-    /// Of a solid below whose temperature somebody else computes; nothing where that is held.
+    /// Response of a solid below that somebody else computes; `None` for a wall of prescribed
+    /// temperature.
     below: SurfaceResponse,
-    /// What there is after each release, found when a state from elsewhere is looked at; of drops on demand, which
-    /// are all alike, after none and one.
+    /// Particles after each release, computed when a state from outside is first checked. Drops on
+    /// demand are all alike, so two entries suffice: after none and after one.
     released: MadeOnce<Vec<Released>>,
 }
 
-/// The particles of a state, images at mirrors left out.
+/// The particles of a state, images at mirrors excluded.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ParticleFields {
     /// [m]
@@ -60,15 +61,15 @@ pub struct ParticleFields {
 }
 
 impl DropletSph {
-    /// `threads` = 0 is taken for 1.
+    /// Creates the droplets of a plan; `threads` = 0 means 1.
     ///
     /// # Panics
-    /// If the plan's planes and periods do not go together, see [`Extent`](super::Extent).
+    /// If the plan's planes and periods are incompatible, see [`Extent`](super::Extent).
     pub fn new(plan: DropletPlan, threads: usize) -> Self {
         Self::with_shares(plan, threads, StepShares::default())
     }
 
-    /// With other time steps than those of scenes, to see where they fail.
+    /// Uses time steps other than those of scenes, to find where they fail.
     pub fn with_shares(plan: DropletPlan, threads: usize, shares: StepShares) -> Self {
         let method = Method::with_shares(&plan, shares);
         let below = response_below(&plan, &method);
@@ -79,15 +80,15 @@ impl DropletSph {
         &self.plan
     }
 
-    /// Time zero: what is released then, nothing else.
+    /// State at time zero: it contains the drops released then.
     pub fn initial_state(&self) -> Vec<f64> {
         let (mut ledger, mut cloud) = (self.empty_ledger(), Cloud::default());
-        // What stands too close to be listed is listed, and refused, again by the first step.
+        // Particles too close to be listed are refused again by the first step.
         let _ = self.release(&mut ledger, &mut cloud);
         flat(&mut ledger, &mut cloud)
     }
 
-    /// A state at time zero of given particles, in place of the plan's droplets.
+    /// A state at time zero with these particles in place of the plan's droplets.
     pub fn state_of(&self, particles: &ParticleFields) -> Vec<f64> {
         let units = &self.method.units;
         let reference = self.reference_temperature();
@@ -98,7 +99,7 @@ impl DropletSph {
             let mass = particles.mass[i] / units.mass();
             cloud.push(position, velocity, mass, particles.temperature[i] - reference);
             cloud.density[i] = particles.density[i] / units.density - 1.0;
-            // They are as the plan's fluid has become.
+            // The particles' state equals that of the plan's fluid.
             cloud.initial[i] = 0.0;
         }
         let released = self.plan.releases.len() as f64;
@@ -113,7 +114,7 @@ impl DropletSph {
         particles_in(state, self.head()).unwrap_or(0)
     }
 
-    /// Refuses a vector that no run of these droplets leads to, with what is wrong with it.
+    /// Returns the reason why no run of these droplets leads to a vector.
     pub fn check_state(&self, state: &[f64]) -> Result<(), String> {
         let released = |drops: usize| self.released_after(drops);
         let coldest = |cloud: &Cloud| self.coldest(cloud);
@@ -131,7 +132,7 @@ impl DropletSph {
         }
     }
 
-    /// What there is after none, one, … of the releases.
+    /// Particles after none, one, … of the releases.
     fn released(&self) -> &[Released] {
         self.released.get_or_make(|| {
             let (mut ledger, mut cloud) = (Ledger::default(), Cloud::default());
@@ -150,8 +151,8 @@ impl DropletSph {
         })
     }
 
-    /// Advances by `duration` [s] with as many time steps as stability asks, under a temperature of
-    /// each wall cell [K], held. A failure leaves the state as it was.
+    /// Advances by `duration` [s] at a prescribed temperature of each wall cell [K], in as many
+    /// time steps as stability requires. A failure leaves the state unchanged.
     pub fn advance(
         &self,
         state: &mut Vec<f64>,
@@ -161,7 +162,7 @@ impl DropletSph {
         self.advance_within(state, wall_temperature, duration, &Allowance::default())
     }
 
-    /// The same, as part of a step that may not compute without end.
+    /// Same as [`Self::advance`], as part of a step with a limited amount of work.
     pub fn advance_within(
         &self,
         state: &mut Vec<f64>,
@@ -173,8 +174,9 @@ impl DropletSph {
         self.advance_above(state, &surface, duration, allowance).map(|_| ())
     }
 
-    /// Advances by `duration` [s] above a surface that answers to the heat it gets; the rises of its cells by
-    /// that heat at the end [K m²]. A failure leaves the state as it was.
+    /// Advances by `duration` [s] above a surface that responds to the heat it receives. Returns
+    /// the rises of its cells due to that heat at the end [K m²]. A failure leaves the state
+    /// unchanged.
     pub fn advance_above(
         &self,
         state: &mut Vec<f64>,
@@ -225,13 +227,13 @@ impl DropletSph {
         Ok(rises)
     }
 
-    /// Lowest temperature of a particle [K]; without end where there is none.
+    /// Lowest temperature of a particle [K]; infinite if there is none.
     fn coldest(&self, cloud: &Cloud) -> f64 {
         let coldest = cloud.temperature.iter().copied().fold(f64::INFINITY, f64::min);
         coldest + self.reference_temperature()
     }
 
-    /// The wall under temperatures [K] that are known at the beginning of a step.
+    /// The wall at temperatures [K] known at the beginning of a step.
     fn surface(&self, state: &[f64], temperature: &[f64]) -> Surface {
         if self.below.is_empty() {
             return Surface::held(temperature);
@@ -240,12 +242,12 @@ impl DropletSph {
         Surface::remembered(temperature, self.below.clone(), &memory)
     }
 
-    /// What the wall got during the last step; nothing before the first.
+    /// Heat and impulse that the wall received during the last step; zero before the first.
     pub fn exchange(&self, state: &[f64]) -> WallExchange {
         ledger_of(state, self.head()).exchange
     }
 
-    /// Counts what the wall got before the last step as part of that.
+    /// Adds the exchange of an earlier part of the step to that of the last.
     pub fn add_exchange(&self, state: &mut [f64], earlier: &WallExchange) {
         let mut ledger = ledger_of(state, self.head());
         ledger.exchange.add(earlier);
@@ -275,8 +277,8 @@ impl DropletSph {
         }
     }
 
-    /// Number of particles that the whole plan will have, and its time step at the speed of the
-    /// fastest droplet [s].
+    /// Number of particles of the whole plan, and its time step at the speed of the fastest droplet
+    /// [s].
     pub fn forecast(plan: &DropletPlan) -> (usize, f64) {
         let particles: f64 = plan.drops().map(|r| plan.particles_of(r.diameter)).sum();
         let speed = |r: Release| r.velocity.iter().map(|v| v * v).sum::<f64>().sqrt();
@@ -299,12 +301,12 @@ impl DropletSph {
         Ledger::none(self.head())
     }
 
-    /// The fields of a state; nothing of a length that fits no number of particles.
+    /// Fields of a state; `None` if its length fits no number of particles.
     pub fn layout(&self, state: &[f64]) -> Option<Layout> {
         particles_in(state, self.head()).map(|count| layout(self.head(), count))
     }
 
-    /// The zero of the model's temperatures [K].
+    /// Zero of the model's temperatures [K].
     fn reference_temperature(&self) -> f64 {
         self.plan.reference_temperature()
     }
@@ -313,7 +315,7 @@ impl DropletSph {
         cloud_of(state, self.head(), &Team::new(1))
     }
 
-    /// Adds all droplets whose time has come; whether there are any.
+    /// Adds all droplets whose release time has been reached; returns true if there are any.
     fn release(&self, ledger: &mut Ledger, cloud: &mut Cloud) -> Result<bool, Failure> {
         let before = cloud.len();
         while let Some(release) =
@@ -333,7 +335,7 @@ impl DropletSph {
         Stepper::new(&self.method, &team, cloud, ledger, None).prime()
     }
 
-    /// Threads for some particles; no more than there are parts for them.
+    /// Threads for a number of particles: at most one per part.
     fn team(&self, particles: usize) -> Team {
         Team::new(self.threads.min(particles.div_ceil(PART)))
     }
@@ -348,7 +350,8 @@ impl DropletSph {
         let mass = plan.fluid.density * plan.volume(release.diameter) / units.mass();
         let temperature = release.temperature - self.reference_temperature();
         let images = copies(plan.mirrors);
-        // Under the pressure that its surface keeps up, so that it does not begin to ring.
+        // At the pressure that balances surface tension, so that the drop does not start to
+        // oscillate.
         let curvature = 2.0 * (plan.dimension as f64 - 1.0) / release.diameter;
         let compressed = density(plan.fluid.surface_tension * curvature / units.pressure());
         for (point, share) in points {
@@ -365,8 +368,8 @@ impl DropletSph {
     }
 }
 
-/// Shortest time over a step of the fluid, and longest, for which the response of a solid below is that of a
-/// half space.
+/// Shortest and longest time, over a step of the fluid, for which the response of a solid below is
+/// that of a half space.
 const REMEMBERED: [f64; 2] = [0.1, 1e4];
 
 fn response_below(plan: &DropletPlan, method: &Method) -> SurfaceResponse {

@@ -1,10 +1,11 @@
-//! How many time steps a run of droplets takes, and for how long they are computed.
+//! Number of time steps of a run of droplets, and its computing time.
 //!
-//! Times are sums of what time steps, listings of neighbours and sheets of the free surface take. Each was
-//! found from processor times of some fifty runs, many of which differ in one of these alone: of 226 to 8378
-//! particles, free and on walls, with and without tension and heat, on one thread. Other work ran on the machine
-//! meanwhile, which lengthens such times by some tenths; times of a step were set lower by about that, by judgement.
-//! Beyond that range times are in proportion to particles and steps.
+//! Computing times are sums over time steps, neighbour lists and sheets of the free surface. Each
+//! contribution was fitted to processor times of some fifty runs, many of which differ in that
+//! contribution alone. The runs had 226 to 8378 particles, free and on walls, with and without
+//! tension and heat, on one thread. Other work on the machine lengthened these times by some
+//! tenths, so the times of a step were set lower by about that, by judgement. Outside the range of
+//! these runs, times are proportional to particles and steps.
 
 use std::f64::consts::PI;
 
@@ -14,60 +15,63 @@ use super::plan::{DropletPlan, Release};
 use super::rings::PLACES;
 use crate::scene::Precision;
 
-/// What the effort of a run depends on beside the droplet.
+/// Settings of a run, besides the droplet, that determine its effort.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunSettings {
     /// End of the run [s].
     pub stop: f64,
     /// Time between two readings of the droplet [s].
     pub reading: f64,
-    /// Time between two exchanges with what is below: one advance [s].
+    /// Time between two exchanges with the body below: one advance [s].
     pub exchange: f64,
-    /// Diameter over which drops are expected to spread on what is below, over their own; nothing in free space.
+    /// Expected spread diameter of drops on the surface below, over their own diameter; `None` in
+    /// free space.
     pub spread: Option<f64>,
 }
 
-/// What a run takes.
+/// Steps and computing time of a run.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Effort {
-    /// Time steps.
+    /// Number of time steps.
     pub steps: f64,
-    /// Time to compute on one thread of a processor of 2024 with AVX-512 [s].
+    /// Computing time on one thread of a 2024 processor with AVX-512 [s].
     pub seconds: f64,
 }
 
-/// Times for each particle [s]: of a time step in free space, more of it above a wall, more for each particle
-/// at the wall, whose images are near, and more with heat.
+/// Times per particle [s] of a time step: in free space; in addition above a wall; in addition for
+/// each particle at the wall, whose images are near; in addition with heat.
 const STEP: f64 = 0.55e-6;
 const STEP_AT_WALL: f64 = 0.10e-6;
 const STEP_IN_FILM: f64 = 0.50e-6;
 const STEP_WITH_HEAT: f64 = 0.10e-6;
-/// Of a time step with tension, of an impulse of tension for all particles and for those near a surface, and of
-/// listing those anew.
+/// Times per particle [s] of: a time step with tension; an impulse of tension, for all particles
+/// and for those near a surface; a listing of the latter.
 const TENSION_STEP: f64 = 0.42e-6;
 const TENSION_IMPULSE: f64 = 1.2e-6;
 const TENSION_NEAR_SURFACE: f64 = 6.0e-6;
 const TENSION_LISTING: f64 = 0.5e-6;
 const TENSION_LISTING_AT_WALL: f64 = 2.3e-6;
-/// Layers of particles at a free surface that tension has to do with.
+/// Number of particle layers at a free surface that tension involves.
 const LAYERS: f64 = 1.0;
-/// Of the beginning of an advance, and for each particle at the wall with heat; of a reading, for each particle
-/// or image at the wall.
+/// Times [s] of: the beginning of an advance, alone and for each particle at the wall with heat; a
+/// reading, for each particle or image at the wall.
 const ADVANCE: f64 = 1.0e-6;
 const ADVANCE_ABOVE_HEAT: f64 = 4.0e-6;
 const READING: f64 = 2.5e-6;
-/// Growth with the number of neighbours, and of double precision.
+/// Exponent of growth with the number of neighbours, the usual support radius over Δx, and the
+/// factor of double precision.
 const BY_NEIGHBOURS: f64 = 0.7;
 const USUAL_SUPPORT: f64 = 3.0;
 const DOUBLE: f64 = 2.7;
-/// A plane model's tension beside that of a drop.
+/// Cost of tension in a plane model relative to that of a drop.
 const PLANE_TENSION: f64 = 0.25;
-/// Tension of rings beside that of particles.
+/// Cost of tension of rings relative to that of particles.
 const RING_TENSION: f64 = 0.6;
-/// Speed of what is pressed out below a drop over that of the drop: bounds time steps by sound.
+/// Speed of the fluid ejected below a drop over that of the drop; it limits time steps by the speed
+/// of sound.
 const PRESSED_OUT: f64 = 3.0;
 const PRESSED_OUT_IN_PLANE: f64 = 5.0;
-/// Places in time at which a run is looked at.
+/// Number of instants at which a run is sampled.
 const SAMPLES: usize = 200;
 
 impl Effort {
@@ -82,17 +86,17 @@ impl Effort {
     }
 }
 
-/// A drop at a time.
+/// A drop at one time.
 struct Drop {
     particles: f64,
     /// Speed of its fastest particles [m/s].
     fastest: f64,
-    /// Share of its particles that lie at the wall, and that lie near its free surface.
+    /// Fraction of its particles at the wall, and near its free surface.
     at_wall: f64,
     near_surface: f64,
 }
 
-/// Steps and computing time for a second of the run.
+/// Steps and computing time per second of the run.
 fn rates_at(plan: &DropletPlan, method: &Method, run: RunSettings, time: f64) -> Effort {
     let released = plan.drops().filter(|release| release.time <= time);
     let drops: Vec<Drop> =
@@ -130,7 +134,7 @@ fn rates_at(plan: &DropletPlan, method: &Method, run: RunSettings, time: f64) ->
     Effort { steps: steps / run.exchange, seconds }
 }
 
-/// A drop grows on the wall as `√(3 U t/D)` at first, and no wider than it is expected to spread.
+/// State of a drop that spreads as `√(3 U t/D)` at first, up to the expected diameter.
 fn drop_at(plan: &DropletPlan, release: &Release, spread: Option<f64>, time: f64) -> Drop {
     let diameter = release.diameter;
     let gravity = plan.gravity.iter().map(|g| g * g).sum::<f64>().sqrt();
@@ -148,7 +152,7 @@ fn drop_at(plan: &DropletPlan, release: &Release, spread: Option<f64>, time: f64
         (true, 2) => PRESSED_OUT_IN_PLANE,
         (true, _) => PRESSED_OUT,
     };
-    // A film on its disc, beside a ball: free surface over that of the ball.
+    // Free surface of a film on its disc over that of the ball.
     let surface = (0.5 * area).max(1.0);
     let (on_wall, layer) = match plan.axes() {
         2 => (4.0 / PI * area.sqrt() / across, 4.0 * LAYERS / across),
@@ -179,7 +183,7 @@ fn neighbours(plan: &DropletPlan) -> f64 {
     number / of_ball(USUAL_SUPPORT)
 }
 
-/// Points of the grid of the free surface for each particle, beside those of the usual support.
+/// Number of grid points of the free surface per particle, relative to the usual support.
 fn tension(plan: &DropletPlan) -> f64 {
     match plan.dimension {
         _ if plan.axisymmetric => RING_TENSION,

@@ -1,10 +1,10 @@
-//! Why a droplet could not be advanced.
+//! Reasons why a droplet could not be advanced.
 
 use super::kick::{FARTHEST, FASTEST};
 use crate::quantity::kelvin;
 use crate::runtime::allowance::Halt;
 
-/// A step that would have no physical meaning; the state is as it was before.
+/// A step without physical meaning; the state is unchanged.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum Failure {
     #[error(
@@ -14,23 +14,23 @@ pub enum Failure {
     #[error("a particle's {quantity} is not finite at t = {time:.6e} s")]
     NotFinite { quantity: &'static str, time: f64 },
     #[error(
-        "65535 particles and more come near to 128 others round x = {:.3e}, y = {:.3e}, z = {:.3e} m, t = {time:.6e} s: the fluid has fallen to pieces", .at[0], .at[1], .at[2]
+        "65 535 or more particles surround a block of 128 at x = {:.3e}, y = {:.3e}, z = {:.3e} m, t = {time:.6e} s: the flow is no longer resolved", .at[0], .at[1], .at[2]
     )]
     Crowded { at: [f64; 3], time: f64 },
     #[error(
-        "a particle has flown {FARTHEST:.0e} support radii away at t = {time:.6e} s, beyond which places are lost in rounding"
+        "a particle is {FARTHEST:.0e} support radii away at t = {time:.6e} s, beyond which rounding makes positions inaccurate"
     )]
     OutOfRange { time: f64 },
     #[error(
-        "a particle flies at {ratio:.3e} times the speed of sound at t = {time:.6e} s (allowed: less than {FASTEST}): the speed of sound is too low for this flow"
+        "a particle moves at {ratio:.3e} times the speed of sound at t = {time:.6e} s (allowed: less than {FASTEST}): the speed of sound is too low for this flow"
     )]
     TooFast { ratio: f64, time: f64 },
     #[error(
-        "a particle would cool to {} at t = {time:.6e} s, not above absolute zero: what lies below takes more heat from it than it holds",
+        "a particle would cool to {} at t = {time:.6e} s, not above absolute zero: the body below absorbs more heat than the particle holds",
         kelvin(*temperature)
     )]
     BelowAbsoluteZero { temperature: f64, time: f64 },
-    #[error("what was recorded of a drop makes no sense: {reason}")]
+    #[error("the recorded drop is invalid: {reason}")]
     Unrecorded { reason: String },
     #[error("{0}")]
     Halted(#[from] Halt),

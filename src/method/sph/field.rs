@@ -1,24 +1,24 @@
-//! Points to be searched for those near a box.
+//! Points sorted for searches near a box.
 
-use super::candidates::{Candidates, Near, Numbers, Spots};
+use super::candidates::{Candidates, Near, Numbers, RelativePoints};
 use super::images::Image;
 use super::order::{BLOCK, BlockTree, Bounds};
 use crate::runtime::parallel::Team;
 
-/// Points that stand in blocks.
+/// Points sorted into blocks.
 pub struct Field {
     tree: BlockTree,
-    spots: Vec<Spots>,
+    spots: Vec<RelativePoints>,
 }
 
 impl Field {
     pub fn of(points: &[[f64; 3]], team: &Team) -> Self {
         let blocks: Vec<_> = points.chunks(BLOCK).collect();
-        let spots = team.map(blocks.len(), |b| Spots::of(blocks[b]));
+        let spots = team.map(blocks.len(), |b| RelativePoints::of(blocks[b]));
         Self { tree: BlockTree::over(points, team), spots }
     }
 
-    /// Takes the points whose images come nearer to a box than `reach`.
+    /// Appends the points whose images come nearer to a box than `reach`.
     pub fn take(&self, (bounds, reach): (&Bounds, f64), image: &Image, nearby: &mut Nearby) {
         let Nearby { candidates, blocks, indices, .. } = nearby;
         blocks.clear();
@@ -32,7 +32,7 @@ impl Field {
     }
 }
 
-/// Points near a box. Its memory serves for one box after another.
+/// Points near a box. Its memory is reused from one box to the next.
 #[derive(Default)]
 pub struct Nearby {
     pub centre: [f64; 3],
@@ -42,19 +42,19 @@ pub struct Nearby {
 }
 
 impl Nearby {
-    /// Forgets what was near another box.
+    /// Discards the points near another box.
     pub fn clear(&mut self, bounds: &Bounds) {
         self.centre = bounds.centre();
         self.candidates.clear();
         self.indices.clear();
     }
 
-    /// Of all that were taken from fields, in their order.
+    /// Indices of all points taken from fields, in their order.
     pub fn indices(&self) -> &[u32] {
         &self.indices
     }
 
-    /// Takes those of some others that come near to a box within theirs.
+    /// Takes from other points those near a box that lies within their box.
     pub fn narrow(&mut self, others: &mut Nearby, bounds: &Bounds, reach: f64) {
         self.clear(bounds);
         let shift = [0, 1, 2].map(|a| (others.centre[a] - self.centre[a]) as f32);
@@ -62,14 +62,14 @@ impl Nearby {
         self.candidates.take(points, [1.0; 3], shift, Near::to(bounds, reach));
     }
 
-    /// Numbers of those that come near to a box.
+    /// Lists the numbers of the points near a box.
     pub fn near(&mut self, bounds: &Bounds, reach: f64, numbers: &mut Numbers) {
         let centre = bounds.centre();
         let shift = [0, 1, 2].map(|a| (self.centre[a] - centre[a]) as f32);
         self.candidates.narrow(shift, Near::to(bounds, reach), numbers);
     }
 
-    /// Of all that were taken from others, numbers in their list.
+    /// Numbers, in the other list, of all points taken from it.
     pub fn numbers(&self) -> &[u32] {
         self.candidates.last_numbers()
     }

@@ -1,4 +1,4 @@
-//! Smoothed volume fractions at the points of a grid, and what their energy asks of the particles.
+//! Smoothed volume fractions at the points of a grid, and the derivatives of their energy.
 
 use std::f64::consts::TAU;
 use std::marker::PhantomData;
@@ -20,10 +20,10 @@ use crate::scene::Precision;
 /// Sixteen points of the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sheet {
-    /// About the grid's origin.
+    /// Middle of the points, relative to the grid's origin.
     pub middle: [f64; 3],
-    /// How many of the points, from the first on, stand for the wall; none where all stand for the space
-    /// above it.
+    /// Number of points, from the first on, that represent the wall; 0 where all represent the
+    /// space above it.
     pub at_wall: usize,
 }
 
@@ -36,7 +36,7 @@ pub struct Slopes {
 }
 
 impl Slopes {
-    /// Whether the points have no say.
+    /// Returns true if the points contribute nothing.
     pub fn are_none(&self) -> bool {
         let mut all = self.by_gradient.iter().flatten().chain(&self.by_fraction);
         all.all(|&slope| slope == 0.0)
@@ -46,18 +46,18 @@ impl Slopes {
 /// Fractions and lengths of their gradients at sixteen points.
 pub type Sample = [[f64; 2]; WIDTH];
 
-/// The particles of which there are fractions, and the grid.
+/// The particles whose fractions are evaluated, and the grid.
 pub struct Fractions<'a> {
     pub field: &'a Field,
     pub images: &'a Images,
     pub positions: &'a [[f64; 3]],
-    /// At rest, so that the energy depends on places alone.
+    /// Volumes at rest, so that the energy depends on positions alone.
     pub volumes: &'a [f64],
     pub smoothing: Smoothing,
     pub precision: Precision,
-    /// Whether particles are rings, and points circles.
+    /// True if particles are rings and points are circles.
     pub rings: bool,
-    /// Of the grid.
+    /// Origin of the grid.
     pub origin: [f64; 3],
 }
 
@@ -75,7 +75,8 @@ impl Fractions<'_> {
         samples
     }
 
-    /// Slopes at the points of sheets, of which so many in turn as it says stand together.
+    /// Slopes at the points of sheets; `together` gives the lengths of consecutive groups of
+    /// neighbouring sheets.
     pub fn slopes(
         &self,
         (mut sheets, together): (&[Sheet], &[usize]),
@@ -99,7 +100,7 @@ impl Fractions<'_> {
     }
 }
 
-/// The energy of points that stand for a volume, and of those that stand for an area of the wall.
+/// Energies of points that represent a volume, and of those that represent an area of the wall.
 pub struct Energies {
     pub law: SurfaceEnergy,
     pub volume: f64,
@@ -167,7 +168,7 @@ impl<F: Form> Work for SlopesOfSheets<'_, '_, F> {
                     (WIDTH, [x, y, z, by_fraction, energy])
                 };
                 if F::ROUND {
-                    // A point stands for its circle.
+                    // A point represents its circle.
                     let middle = L::constant(from(origin, sheet.middle)[0] / smoothing.reach);
                     let circle = L::constant(TAU * smoothing.reach) * (middle + spread[0]);
                     for number in &mut numbers {
@@ -181,7 +182,7 @@ impl<F: Form> Work for SlopesOfSheets<'_, '_, F> {
 }
 
 impl Slopes {
-    /// Takes derivatives by ∇C and C, and the energy, of the first `count` points.
+    /// Stores the derivatives by ∇C and C, and the energy, of the first `count` points.
     #[inline(always)]
     fn store<L: Lanes>(&mut self, count: usize, [x, y, z, by_fraction, energy]: [L; 5]) {
         let (by_gradient, energy) = ([x.to_array(), y.to_array(), z.to_array()], energy.to_array());
@@ -197,7 +198,7 @@ impl Slopes {
     }
 }
 
-/// A place of the grid that is given about its origin.
+/// Position of a place that is given relative to the grid's origin.
 pub fn from(origin: [f64; 3], place: [f64; 3]) -> [f64; 3] {
     [origin[0] + place[0], origin[1] + place[1], origin[2] + place[2]]
 }
@@ -211,7 +212,7 @@ fn fraction<L: Lanes>(sum: FractionSum<L>, smoothing: Smoothing) -> [L; 4] {
     [scale * sum.value, steep * x, steep * y, steep * z]
 }
 
-/// Particles round a box. Its memory serves for one box after another.
+/// Particles around a box. Its memory is reused from one box to the next.
 #[derive(Default)]
 struct Round<R> {
     of_box: Nearby,
@@ -244,8 +245,8 @@ impl<R: Number> Round<R> {
         }
     }
 
-    /// Over the particles near sixteen of the points that these are round, which stand at `spread` about
-    /// the middle of their box, in lengths of h.
+    /// Sums over the particles near sixteen of the points inside the box. The points stand at
+    /// `spread` about the middle of their box, in lengths of h.
     #[inline(always)]
     fn sum<L: Lanes<Real = R>, F: Form>(
         &mut self,

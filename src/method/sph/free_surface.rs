@@ -6,7 +6,7 @@ use super::fractions::{Energies, Fractions, Sheet, Slopes, from};
 use super::grid::Grid;
 use super::images::{Ends, Images};
 use super::lanes::WIDTH;
-use super::neighbours::Ways;
+use super::neighbours::Displacements;
 use super::order::{BLOCK, Bounds, space_order};
 use super::plan::DropletPlan;
 use super::pulls::{Pull, Pulls};
@@ -14,29 +14,30 @@ use super::tension::SurfaceEnergy;
 use crate::runtime::parallel::Team;
 use crate::scene::Precision;
 
-/// Points of the grid over the support radius of the volume fraction. What the energy depends on the grid's
-/// place slows a swinging drop as friction does: at 6 it takes 0.12 of the amplitude in a period beside what
-/// viscosity takes (32 particles over the diameter), at 8 a third of that.
+/// Grid points per support radius of the volume fraction. The energy's dependence on the grid's
+/// position damps an oscillating drop like friction. At 6 this adds 0.12 of the amplitude per
+/// period to viscous damping (32 particles per diameter), at 8 a third of that.
 const FINENESS: f64 = 8.0;
-/// Reach of the set of points beyond the surface, in steps of the motion against the grid; its bounds.
+/// Reach of the set of points beyond the surface, in steps of the motion against the grid; its
+/// bounds.
 const SKIN_STEPS: f64 = 20.0;
 const SKINS: [f64; 2] = [0.1, 0.3];
-/// Bins for whose points particles are looked for at once.
+/// Number of bins whose particles are searched for together.
 const TOGETHER: usize = 4;
 
-/// What a model's free surfaces are computed with.
+/// Settings of the free surfaces of a model.
 #[derive(Debug, Clone)]
 pub struct Setting {
     pub energy: SurfaceEnergy,
     pub grid: Grid,
     pub images: Images,
     pub precision: Precision,
-    /// Whether particles are rings.
+    /// True if particles are rings.
     pub rings: bool,
 }
 
 impl Setting {
-    /// For a plan with images of the model, and a surface tension over ρ₀c₀²H.
+    /// Settings for a plan with images of the model, and a surface tension over ρ₀c₀²H.
     pub fn of(plan: &DropletPlan, tension: f64, images: &Images) -> Self {
         let cosine = plan.wall.as_ref().map_or(0.0, |wall| wall.contact_angle.cos());
         let spacing = 1.0 / plan.support;
@@ -71,31 +72,38 @@ impl Setting {
 
 /// Sheets of points near free surfaces.
 ///
-/// Along axes without planes and periods the grid moves with the fluid's centre of mass, so that the
-/// energy depends on no place in space and its forces change no momentum.
+/// Along axes without planes and periods the grid moves with the fluid's centre of mass. The energy
+/// then depends on no absolute position, and its forces conserve momentum.
 #[derive(Default)]
 pub struct FreeSurface {
     sheets: Vec<Sheet>,
-    /// How many sheets in turn stand together.
+    /// Lengths of consecutive groups of neighbouring sheets.
     together: Vec<usize>,
-    /// How far the fluid may still move against the grid; nothing where no sheets are known.
+    /// Remaining motion of the fluid against the grid; `None` where no sheets are known.
     slack: Option<f64>,
-    /// Of all sheets, and what they do to all particles.
+    /// Slopes of all sheets, and their pulls on all particles.
     slopes: Vec<Slopes>,
     pulls: Vec<Pull>,
 }
 
 impl FreeSurface {
-    /// Looks for all points anew when they are next needed.
+    /// Discards the points, so that they are found anew when next needed.
     pub fn forget(&mut self) {
         self.slack = None;
     }
 
-    /// Makes sure of all points near surfaces where the particles of `cloud` are and on their ways.
-    pub fn prepare(&mut self, setting: &Setting, cloud: &Cloud, ways: &Ways, team: &Team) {
-        let drift = middle_way(ways, cloud, &setting.grid);
+    /// Finds all points near surfaces of the particles of `cloud`, at their positions and along
+    /// their paths.
+    pub fn prepare(
+        &mut self,
+        setting: &Setting,
+        cloud: &Cloud,
+        displacements: &Displacements,
+        team: &Team,
+    ) {
+        let drift = centre_displacement(displacements, cloud, &setting.grid);
         let apart = |way: &Bounds| way.joined(&drift).diagonal();
-        let motion = ways.of_blocks.iter().map(apart).fold(0.0, f64::max);
+        let motion = displacements.of_blocks.iter().map(apart).fold(0.0, f64::max);
         self.slack = self.slack.map(|slack| slack - motion).filter(|&slack| slack > 0.0);
         if self.slack.is_none() {
             let skin = (SKIN_STEPS * motion).clamp(SKINS[0], SKINS[1]).max(1.5 * motion);
@@ -104,7 +112,7 @@ impl FreeSurface {
         }
     }
 
-    /// Finds all sheets with points that a surface may come to within `skin`.
+    /// Finds all sheets with points that lie within `skin` of a surface.
     fn find(&mut self, setting: &Setting, cloud: &Cloud, skin: f64, team: &Team) {
         let Setting { grid, energy, .. } = setting;
         let field = Field::of(&cloud.position, team);
@@ -130,7 +138,8 @@ impl FreeSurface {
         self.together.retain(|&count| count > 0);
     }
 
-    /// Keeps the sheets of a bin that a surface may come to, and what lies in the wall below the lowest.
+    /// Keeps the sheets of a bin that a surface may reach, and their points in the wall below the
+    /// lowest sheet.
     fn keep(&mut self, setting: &Setting, bin: [i32; 3], near: impl Iterator<Item = bool>) {
         let Setting { grid, energy, .. } = setting;
         let sheets = grid.sheets(bin).into_iter().zip(near).enumerate();
@@ -141,7 +150,7 @@ impl FreeSurface {
         }
     }
 
-    /// Pull on all particles, and the energy over ρ₀c₀²H^d.
+    /// Pulls on all particles, and the energy over ρ₀c₀²H^d.
     pub fn pulls(&mut self, setting: &Setting, cloud: &Cloud, team: &Team) -> (&[Pull], f64) {
         let Setting { grid, energy, images, precision, rings } = setting;
         let field = Field::of(&cloud.position, team);
@@ -180,11 +189,11 @@ fn mean(vectors: &[[f64; 3]], masses: &[f64], grid: &Grid) -> [f64; 3] {
     })
 }
 
-/// Bounds of the way of the fluid's centre of mass along the axes in which the grid is free.
-fn middle_way(ways: &Ways, cloud: &Cloud, grid: &Grid) -> Bounds {
+/// Bounds of the path of the fluid's centre of mass along the axes in which the grid is free.
+fn centre_displacement(displacements: &Displacements, cloud: &Cloud, grid: &Grid) -> Bounds {
     let masses: Vec<f64> = cloud.mass.chunks(BLOCK).map(|masses| masses.iter().sum()).collect();
     let corners = |corner: fn(&Bounds) -> [f64; 3]| -> [f64; 3] {
-        let corners: Vec<_> = ways.of_blocks.iter().map(corner).collect();
+        let corners: Vec<_> = displacements.of_blocks.iter().map(corner).collect();
         mean(&corners, &masses, grid)
     };
     Bounds { low: corners(|way| way.low), high: corners(|way| way.high) }
@@ -196,7 +205,7 @@ mod tests {
 
     const SPACING: f64 = 0.4;
 
-    /// A lump of particles over the wall and beside a mirror, and what its surface is computed with.
+    /// A lump of particles over the wall, next to a mirror, and the settings of its surface.
     fn lump(cosine: f64) -> (Setting, Cloud) {
         let mut cloud = Cloud::default();
         let shake = |n: i32| 0.1 * ((f64::from(n) * 0.754877666).fract() - 0.5);
@@ -220,7 +229,7 @@ mod tests {
         (setting, cloud)
     }
 
-    /// The same of rings about the axis, over the wall.
+    /// The same for rings about the axis, over the wall.
     fn rings(cosine: f64) -> (Setting, Cloud) {
         let (setting, lump) = lump(cosine);
         let ends = setting.images.ends();
@@ -236,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn pulls_on_rings_are_the_derivatives_of_the_energy() {
+    fn pulls_on_rings_are_energy_derivatives() {
         const STEP: f64 = 1e-4;
         for cosine in [0.0, 0.6] {
             let (setting, cloud) = rings(cosine);
@@ -266,13 +275,13 @@ mod tests {
 
     fn pulls(setting: &Setting, cloud: &Cloud) -> (Vec<Pull>, f64) {
         let (team, mut surface) = (Team::new(1), FreeSurface::default());
-        surface.prepare(setting, cloud, &Ways::none(cloud.len()), &team);
+        surface.prepare(setting, cloud, &Displacements::none(cloud.len()), &team);
         let (pulls, energy) = surface.pulls(setting, cloud, &team);
         (pulls.to_vec(), energy)
     }
 
     #[test]
-    fn pulls_are_the_derivatives_of_the_energy() {
+    fn pulls_are_energy_derivatives() {
         const STEP: f64 = 1e-5;
         for cosine in [0.0, 0.6] {
             let (setting, cloud) = lump(cosine);
@@ -287,7 +296,7 @@ mod tests {
                     };
                     let slope = (moved(-STEP) - moved(STEP)) / (2.0 * STEP) / cloud.mass[i];
                     let force = |pull: &Pull| pull.by_fluid[a] + pull.by_wall[a];
-                    // Along y the grid goes with the centre of mass.
+                    // Along y the grid moves with the centre of mass.
                     let all_of_them: f64 =
                         all.iter().zip(&cloud.mass).map(|(pull, m)| m * force(pull)).sum();
                     let mean = if a == 1 { all_of_them / mass } else { 0.0 };
@@ -299,14 +308,14 @@ mod tests {
     }
 
     #[test]
-    fn the_potential_is_the_derivative_by_volume() {
+    fn potential_is_the_energy_derivative_by_volume() {
         let (setting, cloud) = lump(0.6);
         let (all, _) = pulls(&setting, &cloud);
         for i in [0, 30, 71] {
             let grown = |by: f64| {
                 let mut cloud = cloud.clone();
                 cloud.mass[i] += by;
-                // The grid's place depends on masses.
+                // The grid's position depends on masses.
                 pulls(&setting, &cloud).1
             };
             let slope = (grown(1e-6) - grown(-1e-6)) / 2e-6;
@@ -315,17 +324,17 @@ mod tests {
     }
 
     #[test]
-    fn points_last_while_the_fluid_goes_by() {
+    fn points_remain_valid_while_the_fluid_moves() {
         let (setting, mut cloud) = lump(0.0);
         let (team, mut surface) = (Team::new(1), FreeSurface::default());
         for step in 0..30 {
             let way = [0.0, 0.3, if step < 15 { 0.01 } else { -0.01 }];
-            let ways = Ways::along(&vec![way; cloud.len()], 30.0, &team);
-            surface.prepare(&setting, &cloud, &ways, &team);
+            let displacements = Displacements::along(&vec![way; cloud.len()], 30.0, &team);
+            surface.prepare(&setting, &cloud, &displacements, &team);
             cloud.position.iter_mut().for_each(|x| (0..3).for_each(|a| x[a] += way[a]));
             let kept = surface.pulls(&setting, &cloud, &team).1;
             let anew = pulls(&setting, &cloud).1;
-            // Points where the surface is faint may be left out.
+            // Points where the surface is faint may be skipped.
             assert!((kept - anew).abs() < 3e-5 * anew, "{step}: {kept} {anew}");
         }
     }

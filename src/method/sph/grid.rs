@@ -4,11 +4,12 @@ use super::images::Ends;
 use super::lanes::WIDTH;
 use super::order::Bounds;
 
-/// Points of a bin along each of its edges. Those of two edges are a sheet, which fills a vector.
+/// Number of points along each edge of a bin. The points of two edges form a sheet, which fills a
+/// vector.
 const BIN: i32 = 4;
 const _: () = assert!((BIN * BIN) as usize == WIDTH);
 
-/// Places of sixteen points about a middle, and half the extent of them all, along x, y, z.
+/// Positions of sixteen points about a middle, and the half extent of all of them, along x, y, z.
 #[derive(Debug, Clone)]
 pub struct Spread {
     pub along: [[f64; WIDTH]; 3],
@@ -20,25 +21,25 @@ impl Spread {
         Self { along, half: along.map(|places| places.into_iter().fold(0.0, f64::max)) }
     }
 
-    /// The box of all points.
+    /// The bounding box of all points.
     pub fn bounds(&self, middle: [f64; 3]) -> Bounds {
         Bounds { low: middle, high: middle }.widened(self.half)
     }
 }
 
-/// A grid that fits between the planes and into the periods of a model; along open axes it has an
-/// origin that may move.
+/// A grid that fits between the planes and into the periods of a model; along open axes its origin
+/// may move.
 #[derive(Debug, Clone)]
 pub struct Grid {
     axes: Vec<(usize, Axis)>,
-    /// Distance of points over H; 1 along an axis that a plane model lacks.
+    /// Distance of points over H; 1 along the axis that a plane model lacks.
     pub spacing: [f64; 3],
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Axis {
     Free,
-    /// From the plane at 0 on.
+    /// Upward from the plane at 0.
     Above,
     /// Between two planes, or within a period, in this many bins.
     Bins {
@@ -48,7 +49,8 @@ enum Axis {
 }
 
 impl Grid {
-    /// Points at most `spacing` apart, lengths over H, along all axes or along x and z alone.
+    /// Grid of points at most `spacing` apart, lengths over H, along all axes or along x and z
+    /// alone.
     pub fn of(ends: [Ends; 3], spacing: f64, axes: usize) -> Self {
         let axes: Vec<_> = if axes == 2 { vec![0, 2] } else { vec![0, 1, 2] };
         let mut distances = [1.0; 3];
@@ -71,22 +73,22 @@ impl Grid {
         Self { axes, spacing: distances }
     }
 
-    /// Whether the grid's origin may move along an axis.
+    /// Returns true if the grid's origin may move along an axis.
     pub fn is_free(&self, axis: usize) -> bool {
         self.axes.contains(&(axis, Axis::Free))
     }
 
-    /// What a point stands for, over H to the power of the dimension.
+    /// Volume that a point represents, over H to the power of the dimension.
     pub fn volume(&self) -> f64 {
         self.axes.iter().map(|&(a, _)| self.spacing[a]).product()
     }
 
-    /// What a point of the plane z = 0 stands for.
+    /// Area of the plane z = 0 that a point represents.
     pub fn area(&self) -> f64 {
         self.volume() / self.spacing[2]
     }
 
-    /// All bins within a distance of points along each axis, once each.
+    /// All bins within a distance of points along each axis, without duplicates.
     pub fn bins(&self, points: &[[f64; 3]], origin: [f64; 3], distance: f64) -> Vec<[i32; 3]> {
         let bin = |x: &[f64; 3]| {
             let mut bin = [0; 3];
@@ -96,7 +98,7 @@ impl Grid {
             bin
         };
         let mut bins: Vec<[i32; 3]> = points.iter().map(bin).collect();
-        // Points that stand together follow one another.
+        // Neighbouring points are consecutive.
         bins.dedup();
         for &(a, axis) in &self.axes {
             bins.sort_unstable();
@@ -117,7 +119,7 @@ impl Grid {
         bins
     }
 
-    /// Places of a sheet's points about its middle.
+    /// Positions of a sheet's points about its middle.
     pub fn spread(&self) -> Spread {
         let mut spread = [[0.0; WIDTH]; 3];
         for (&(a, _), stride) in self.axes.iter().zip([1, BIN as usize]) {
@@ -128,8 +130,8 @@ impl Grid {
         Spread::of(spread)
     }
 
-    /// Middles of the quarters of all sheets of a bin about its middle, sheet by sheet. A plane model
-    /// has one sheet per bin, and the others' are points like its.
+    /// Middles of the quarters of all sheets of a bin about its middle, sheet by sheet. A plane
+    /// model has one sheet per bin; the entries of the others repeat it.
     pub fn quarters(&self) -> Spread {
         let mut quarters = [[0.0; WIDTH]; 3];
         for (n, &(a, _)) in self.axes.iter().enumerate() {
@@ -144,7 +146,7 @@ impl Grid {
         Spread::of(quarters)
     }
 
-    /// How far the points of a quarter are away from its middle.
+    /// Largest distance of a quarter's points from its middle.
     pub fn quarter_radius(&self) -> f64 {
         let half = |&(a, _): &(usize, Axis)| 0.5 * self.spacing[a];
         self.axes.iter().take(2).map(|axis| half(axis).powi(2)).sum::<f64>().sqrt()
@@ -159,7 +161,7 @@ impl Grid {
         middle
     }
 
-    /// Middles of the sheets of a bin about the origin, of which the first is the lowest.
+    /// Middles of the sheets of a bin about the origin, the lowest first.
     pub fn sheets(&self, bin: [i32; 3]) -> Vec<[f64; 3]> {
         let middle = self.middle(bin);
         match self.axes.get(2) {
@@ -174,14 +176,14 @@ impl Grid {
         }
     }
 
-    /// The middle of the sheet of which points lie in the wall below a bin's lowest sheet, and how many
-    /// do, from the first on; nothing where the bin is higher.
+    /// Middle of the sheet whose points lie in the wall below a bin's lowest sheet, and their
+    /// number, from the first on; `None` for higher bins.
     pub fn at_wall(&self, bin: [i32; 3]) -> Option<([f64; 3], usize)> {
         if bin[2] != 0 {
             return None;
         }
         let [x, y, _] = self.middle(bin);
-        // A sheet of a plane model stands on the wall.
+        // A sheet of a plane model extends above the wall.
         Some(match self.axes.len() {
             2 => ([x, y, -self.spacing[2] * along_bin(0)], BIN as usize),
             _ => ([x, y, 0.0], WIDTH),
@@ -189,13 +191,13 @@ impl Grid {
     }
 }
 
-/// Place of the k-th point of a bin about its middle, in distances of points.
+/// Position of the k-th point of a bin about its middle, in distances of points.
 fn along_bin(k: usize) -> f64 {
     k as f64 - 0.5 * f64::from(BIN - 1)
 }
 
 impl Axis {
-    /// The number of a bin, if there is one.
+    /// Canonical number of a bin, if it exists.
     fn fitted(self, bin: i32) -> Option<i32> {
         match self {
             Axis::Free => Some(bin),
@@ -214,7 +216,7 @@ mod tests {
     const MIRROR: Ends = Ends::Planes { near: true, far: None };
 
     #[test]
-    fn a_grid_fits_into_its_model() {
+    fn grid_fits_planes_and_periods() {
         let grid = Grid::of([Ends::Period(2.1), MIRROR, OPEN], 0.2, 3);
         assert!((grid.spacing[0] * 12.0 - 2.1).abs() < 1e-14 && grid.spacing[1] == 0.2);
         assert!(grid.is_free(2) && !grid.is_free(0) && !grid.is_free(1));
@@ -240,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn sheets_hold_the_points_of_their_bin_once() {
+    fn sheets_partition_the_points_of_a_bin() {
         for (dimension, count) in [(2, 16), (3, 64)] {
             let grid = Grid::of([OPEN; 3], 0.1, dimension);
             let along = |a: usize, first: i32| match (dimension, a) {
@@ -261,7 +263,7 @@ mod tests {
     }
 
     #[test]
-    fn every_point_of_a_sheet_is_in_a_quarter_of_it() {
+    fn quarters_cover_the_points_of_a_sheet() {
         for dimension in [2, 3] {
             let grid = Grid::of([OPEN; 3], 0.1, dimension);
             let (spread, quarters) = (grid.spread(), grid.quarters());
@@ -282,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn points_in_the_wall_lie_below_those_of_the_lowest_sheet() {
+    fn wall_points_lie_below_the_lowest_sheet() {
         for (dimension, count) in [(2, 4), (3, WIDTH)] {
             let grid = Grid::of([OPEN, OPEN, MIRROR], 0.1, dimension);
             let (bin, spread) = ([1, 0, 0], grid.spread());

@@ -1,4 +1,4 @@
-//! Images of particles beyond the planes where a model ends, or a period away.
+//! Images of particles beyond the planes that bound a model, or one period away.
 
 use super::plan::{DropletPlan, Extent};
 
@@ -8,9 +8,10 @@ const NEAR: u8 = 2;
 const BITS: u8 = 6;
 /// The wall z = 0 is the highest bit, so its images have the highest codes.
 const WALL: u8 = NEAR << 4;
-/// Shortest period, and least distance of planes, over H: images of images lie out of reach.
+/// Shortest period, and smallest distance of planes, over H: it keeps images of images out of
+/// reach.
 const SHORTEST: f64 = 2.0;
-/// How far beyond its period a particle may go before it is brought back, in periods.
+/// Distance beyond its period, in periods, at which a particle is wrapped back.
 const BEYOND: f64 = 0.1;
 
 /// A particle, or an image of it.
@@ -18,7 +19,7 @@ const BEYOND: f64 = 0.1;
 pub struct Source(u32);
 
 impl Source {
-    /// Particles that a model may have.
+    /// Largest number of particles of a model.
     pub const MOST: usize = 1 << (32 - BITS);
 
     pub fn new(particle: usize, code: u8) -> Self {
@@ -30,7 +31,7 @@ impl Source {
         (self.0 >> BITS) as usize
     }
 
-    /// Whether this is not the particle itself.
+    /// Returns true if this is an image, not the particle itself.
     #[inline(always)]
     pub fn is_image(self) -> bool {
         self.code() != 0
@@ -42,16 +43,16 @@ impl Source {
     }
 }
 
-/// Where an image stands and how it moves: each axis is turned round and then displaced.
+/// Position and motion of an image: each axis is reflected and then displaced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Image {
-    /// −1 along axes that are turned round.
+    /// −1 along reflected axes.
     pub signs: [f64; 3],
-    /// Over H.
+    /// Displacement over H.
     pub offset: [f64; 3],
-    /// 1, or −1 beyond a plane to which the fluid sticks: such an image moves against its original.
+    /// 1, or −1 beyond a no-slip plane: such an image moves against its original.
     stick: f64,
-    /// Body force a mass over c₀²/H along axes that are turned round.
+    /// Body force per mass over c₀²/H along reflected axes.
     weight: [f64; 3],
 }
 
@@ -65,7 +66,7 @@ impl Image {
         ]
     }
 
-    /// A vector, such as the velocity of an image that slips.
+    /// Transforms a vector, such as the velocity of an image that slips.
     #[inline(always)]
     pub fn turn(&self, v: [f64; 3]) -> [f64; 3] {
         [self.signs[0] * v[0], self.signs[1] * v[1], self.signs[2] * v[2]]
@@ -74,12 +75,12 @@ impl Image {
     /// The velocity of an image under no slip at the plane between it and its original.
     #[inline(always)]
     pub fn no_slip(&self, [u, v, w]: [f64; 3]) -> [f64; 3] {
-        // Along z all of these planes turn the velocity round already.
+        // Along z all of these planes reflect the velocity already.
         [self.stick * self.signs[0] * u, self.stick * self.signs[1] * v, self.signs[2] * w]
     }
 
-    /// Pressure in the image of a particle at `x` above its own, over ρ₀c₀²: the body force goes on
-    /// beyond a plane.
+    /// Excess of the image's pressure over that of its original at `x`, over ρ₀c₀²: the body force
+    /// continues beyond a plane.
     #[inline(always)]
     pub fn overpressure(&self, x: [f64; 3]) -> f64 {
         self.weight[0] * (self.offset[0] - 2.0 * x[0])
@@ -87,7 +88,7 @@ impl Image {
             + self.weight[2] * (self.offset[2] - 2.0 * x[2])
     }
 
-    /// The gradient of the pressure in an image, from that of its original.
+    /// Gradient of the pressure in an image, from that of its original.
     #[inline(always)]
     pub fn gradient(&self, g: [f64; 3]) -> [f64; 3] {
         [
@@ -97,22 +98,22 @@ impl Image {
         ]
     }
 
-    /// The image of which the original is this image.
+    /// The image whose image is the original.
     pub fn inverse(&self) -> Self {
         let offset = [0, 1, 2].map(|a| -self.signs[a] * self.offset[a]);
         Self { offset, ..*self }
     }
 }
 
-/// A particle and its images at the mirrors x = 0 and y = 0: how many they are.
+/// Number of copies of a particle due to the mirrors x = 0 and y = 0, itself included.
 pub fn copies(mirrors: [bool; 2]) -> f64 {
     mirrors.iter().map(|&mirrored| if mirrored { 2.0 } else { 1.0 }).product()
 }
 
-/// What ends a model along an axis. Lengths over H.
+/// Ends of a model along an axis. Lengths over H.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ends {
-    /// Planes that nothing passes, at 0 and at a distance.
+    /// Impermeable planes at 0 and at a distance.
     Planes {
         near: bool,
         far: Option<f64>,
@@ -120,22 +121,22 @@ pub enum Ends {
     Period(f64),
 }
 
-/// All kinds of images that a model has.
+/// All kinds of images of a model.
 #[derive(Debug, Clone)]
 pub struct Images {
     ends: [Ends; 3],
-    /// Whether the plane z = 0 is a wall that exchanges heat and momentum.
+    /// True if the plane z = 0 is a wall that exchanges heat and momentum.
     walled: bool,
-    /// Whether x is a radius, so that what gets to x < 0 has gone through the axis.
+    /// True if x is a radius, so that a particle at x < 0 has crossed the axis.
     round: bool,
-    /// Ascending; 0 is the particle itself.
+    /// Codes in ascending order; 0 is the particle itself.
     codes: Vec<u8>,
-    /// For all codes.
+    /// Images for all codes.
     table: Vec<Image>,
 }
 
 impl Images {
-    /// Images of a plan, whose support radius is `length` [m], under a body force over c₀²/H.
+    /// Images of a plan with support radius `length` [m], under a body force over c₀²/H.
     ///
     /// # Panics
     /// If an axis has a period and a plane, or is shorter than two support radii.
@@ -178,7 +179,7 @@ impl Images {
         self.ends
     }
 
-    /// Whether no particle gets below 0 along each axis.
+    /// Returns for each axis whether all particles stay above 0.
     pub fn begin(&self) -> [bool; 3] {
         let mut begin = self.ends.map(|ends| matches!(ends, Ends::Planes { near: true, .. }));
         begin[0] |= self.round;
@@ -195,12 +196,12 @@ impl Images {
         &self.table[usize::from(code)]
     }
 
-    /// Whether an image lies beyond the wall.
+    /// Returns true if an image lies beyond the wall.
     pub fn is_at_wall(&self, code: u8) -> bool {
         self.walled && code & WALL != 0
     }
 
-    /// Brings a place that is beyond a period back into it.
+    /// Wraps a position beyond a period back into it.
     pub fn wrap(&self, x: &mut [f64; 3]) {
         for (x, ends) in x.iter_mut().zip(self.ends) {
             if let Ends::Period(period) = ends {
@@ -209,8 +210,8 @@ impl Images {
         }
     }
 
-    /// Whether particles have gone so far beyond a period that it is time to bring them back. Until
-    /// then they stay where they are, so that lists of neighbours stay true.
+    /// Returns true if particles are so far beyond a period that they must be wrapped back. Until
+    /// then they keep their positions, so that lists of neighbours remain valid.
     pub fn are_beyond_period(&self, points: &[[f64; 3]]) -> bool {
         (0..3).any(|a| match self.ends[a] {
             Ends::Period(period) => {
@@ -221,9 +222,9 @@ impl Images {
         })
     }
 
-    /// Puts a particle that went through a plane in the place of its image, which came through the
-    /// plane at the same time; the signs that its velocity takes.
-    pub fn put_back(&self, x: &mut [f64; 3]) -> [f64; 3] {
+    /// Moves a particle that crossed a plane to the position of its image, which crossed it at the
+    /// same time. Returns the signs for its velocity.
+    pub fn reflect_back(&self, x: &mut [f64; 3]) -> [f64; 3] {
         let mut signs = [1.0; 3];
         for a in 0..3 {
             let Ends::Planes { near, far } = self.ends[a] else { continue };
@@ -240,7 +241,7 @@ impl Images {
 }
 
 impl Ends {
-    /// Sign and offset of an image; nothing where there is none.
+    /// Sign and offset of an image; `None` where there is none.
     fn image(self, side: u8) -> Option<(f64, f64)> {
         match (side, self) {
             (0, _) => Some((1.0, 0.0)),
@@ -260,7 +261,7 @@ mod tests {
     const OPEN: Ends = Ends::Planes { near: false, far: None };
 
     #[test]
-    fn a_source_keeps_particle_and_code() {
+    fn source_round_trips_particle_and_code() {
         for particle in [0, 1, Source::MOST - 1] {
             for code in [0, 1, 42, 63] {
                 let source = Source::new(particle, code);
@@ -270,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn an_image_of_an_image_is_the_particle() {
+    fn inverse_image_restores_the_particle() {
         let ends = [Ends::Period(4.0), OPEN, Ends::Planes { near: true, far: Some(5.0) }];
         let images = Images::new(ends, true, [0.0; 3]);
         assert_eq!(images.codes().len(), 9);
@@ -283,7 +284,7 @@ mod tests {
     }
 
     #[test]
-    fn images_at_planes_lie_as_far_behind_them() {
+    fn images_at_planes_are_reflections() {
         let ends = [OPEN, OPEN, Ends::Planes { near: true, far: Some(5.0) }];
         let images = Images::new(ends, true, [0.0, 0.0, -0.1]);
         let x = [0.3, -2.0, 4.1];
@@ -306,11 +307,11 @@ mod tests {
         let ends = [Ends::Period(4.0), OPEN, Ends::Planes { near: true, far: Some(5.0) }];
         let images = Images::new(ends, false, [0.0; 3]);
         let mut low = [-0.5, -7.0, -0.25];
-        assert_eq!(images.put_back(&mut low), [1.0, 1.0, -1.0]);
+        assert_eq!(images.reflect_back(&mut low), [1.0, 1.0, -1.0]);
         images.wrap(&mut low);
         assert_eq!(low, [3.5, -7.0, 0.25]);
         let mut high = [9.0, 7.0, 5.25];
-        assert_eq!(images.put_back(&mut high), [1.0, 1.0, -1.0]);
+        assert_eq!(images.reflect_back(&mut high), [1.0, 1.0, -1.0]);
         assert!(images.are_beyond_period(&[high]) && !images.are_beyond_period(&[low]));
         images.wrap(&mut high);
         assert_eq!(high, [1.0, 7.0, 4.75]);
@@ -318,7 +319,7 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "support radii")]
-    fn an_axis_in_which_images_of_images_act_is_refused() {
+    fn axis_shorter_than_two_supports_is_refused() {
         Images::new([Ends::Period(1.9), OPEN, OPEN], false, [0.0; 3]);
     }
 }

@@ -1,18 +1,18 @@
-//! Changes of velocity, and what tells how fast the particles move after them.
+//! Changes of velocity, and measures of the motion after them.
 
 use super::cloud::Part;
 use super::order::{BLOCK, Bounds};
 
-/// Densities over that at rest which no weakly compressible flow has.
+/// Range of density over that at rest; no weakly compressible flow leaves it.
 pub const DENSITIES: [f64; 2] = [0.3, 3.0];
 
-/// Coordinates over H that no particle reaches: from there on a 10⁹th of H would be lost in rounding, and
-/// bins of grids in counting.
+/// Bound on coordinates over H: beyond it rounding exceeds 10⁻⁹ H, and bin numbers of grids
+/// overflow.
 pub const FARTHEST: f64 = 1e6;
-/// Speed over that of sound below which particles stay: beyond it nothing flows that is nearly incompressible.
+/// Bound on the speed over that of sound: no nearly incompressible flow exceeds it.
 pub const FASTEST: f64 = 100.0;
 
-/// How some particles move.
+/// Measures of the motion of some particles.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Motion {
     /// Σ v and Σ v².
@@ -23,10 +23,10 @@ pub struct Motion {
     most_accelerated: f64,
     /// Σ m.
     pub mass: f64,
-    /// Whether all numbers are finite, places not too far away, and speeds and densities those of a weakly
-    /// compressible flow.
+    /// True if all numbers are finite, no particle is too far away, and speeds and densities are
+    /// those of a weakly compressible flow.
     pub sound: bool,
-    /// Particles that the wall pushes, in their order.
+    /// Particles that the wall pushes, in ascending order.
     pub pushed: Vec<usize>,
     /// The box of the velocities of each block.
     pub velocities: Vec<Bounds>,
@@ -46,7 +46,7 @@ impl Motion {
         }
     }
 
-    /// Of all parts, added up in their order.
+    /// Combines the motions of all parts, in their order.
     pub fn of(parts: Vec<Self>) -> Self {
         let mut all = Self::none();
         for part in parts {
@@ -70,7 +70,8 @@ impl Motion {
         self.most_accelerated.sqrt()
     }
 
-    /// About the mean velocity, of which axes have none along which nothing moves as a whole.
+    /// Root mean square of the speed relative to the mean velocity, which is zero along axes
+    /// without motion as a whole.
     pub fn root_mean_square_speed(&self, particles: usize, even: [bool; 2]) -> f64 {
         let count = particles as f64;
         let free = [!even[0], !even[1], true];
@@ -79,11 +80,11 @@ impl Motion {
     }
 }
 
-/// For how long accelerations act, over H/c₀.
+/// Durations over which accelerations act, over H/c₀.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Times {
     pub dt: f64,
-    /// Those by surface tension; nothing between their turns.
+    /// Duration of surface tension; `None` between its impulses.
     pub tension: Option<f64>,
 }
 
@@ -91,7 +92,7 @@ impl Times {
     pub const NONE: Self = Self { dt: 0.0, tension: Some(0.0) };
 }
 
-/// Changes velocities by the accelerations, of which those by gravity are the same for all.
+/// Changes velocities by the accelerations; gravity is the same for all.
 pub fn kick(part: &mut Part, times: Times, gravity: [f64; 3]) -> Motion {
     let mut motion = Motion::none();
     for i in 0..part.mass.len() {

@@ -12,7 +12,7 @@ use crate::kernel::Number;
 /// Lanes of a vector.
 pub const WIDTH: usize = 16;
 
-/// A particle as the loops over pairs read it: eight numbers that one load brings.
+/// A particle as the loops over pairs read it: eight numbers, loaded at once.
 pub type Record<R> = [R; 8];
 
 /// Further numbers of a particle, for the loops that need them.
@@ -22,12 +22,12 @@ pub type Annex<R> = [R; 4];
 pub trait Lanes: Number {
     type Real: Float + Number + Default + Into<f64> + Send + Sync;
 
-    /// These, lane by lane, and one for all.
+    /// Lanes from an array of values.
     fn of_array(values: &[Self::Real; WIDTH]) -> Self;
     fn splat(value: Self::Real) -> Self;
     fn to_array(self) -> [Self::Real; WIDTH];
 
-    /// A record of differences from an origin.
+    /// A record relative to an origin.
     #[inline(always)]
     fn about(numbers: &[f64; 8], origin: &[f64; 8]) -> Record<Self::Real> {
         let mut record = [Self::Real::constant(0.0); 8];
@@ -37,13 +37,13 @@ pub trait Lanes: Number {
         record
     }
 
-    /// The numbers of the records at sixteen places, number by number.
+    /// Gathers the records at sixteen places, transposed to one vector per number.
     ///
     /// # Safety
     /// There is a record at every place.
     unsafe fn gather(records: &[Record<Self::Real>], places: &[u16; WIDTH]) -> [Self; 8];
 
-    /// The numbers of the annexes at sixteen places, number by number.
+    /// Gathers the annexes at sixteen places, transposed to one vector per number.
     ///
     /// # Safety
     /// There is an annex at every place.
@@ -64,14 +64,14 @@ pub trait Lanes: Number {
     }
 }
 
-/// Three numbers, each in all lanes. (Loops over lanes are written without closures, which would not
-/// be compiled for the instructions of the function around them.)
+/// Three numbers, each broadcast to all lanes. (Loops over lanes use no closures, which would not
+/// be compiled for the instructions of the enclosing function.)
 #[inline(always)]
 pub fn lanes<L: Lanes>([x, y, z]: [f64; 3]) -> [L; 3] {
     [L::constant(x), L::constant(y), L::constant(z)]
 }
 
-/// Lanes as an array, which the compiler turns into the vectors that it may use.
+/// Lanes as an array, which the compiler maps to the vectors available to it.
 #[derive(Debug, Clone, Copy)]
 pub struct Array<R>([R; WIDTH]);
 
@@ -180,12 +180,12 @@ mod avx512 {
 
     use super::{Annex, Lanes, Number, Record, WIDTH};
 
-    /// Lanes in one register of AVX-512. To be used only inside functions compiled for it.
+    /// Lanes in one AVX-512 register. Use it only inside functions compiled for AVX-512.
     #[derive(Debug, Clone, Copy)]
     pub struct Avx512(__m512);
 
-    // SAFETY, for all blocks below: values of this type are made only in functions that are called
-    // after the processor was found to have AVX-512F.
+    // SAFETY, for all blocks below: values of this type are created only in functions that are
+    // called after AVX-512F was detected.
     macro_rules! lanewise {
         ($trait:ident, $method:ident, $instruction:ident) => {
             impl $trait for Avx512 {
@@ -271,8 +271,8 @@ mod avx512 {
             }
         }
 
-        /// Loads each record at once and transposes them in registers, which is several times
-        /// faster than the processor's own gather instructions.
+        /// Loads each record at once and transposes them in registers; this is several times faster
+        /// than the processor's gather instructions.
         #[inline(always)]
         unsafe fn gather(records: &[Record<f32>], places: &[u16; WIDTH]) -> [Self; 8] {
             // SAFETY: by contract.
@@ -315,7 +315,7 @@ mod avx512 {
         }
     }
 
-    /// Two records in one register; there are records at both places.
+    /// Two records in one register; both places must hold records.
     #[inline(always)]
     unsafe fn pair(records: &[Record<f32>], low: u16, high: u16) -> __m512 {
         debug_assert!(usize::from(low.max(high)) < records.len());
@@ -327,14 +327,14 @@ mod avx512 {
         }
     }
 
-    /// The annex at a place where there is one.
+    /// The annex at a place that has one.
     #[inline(always)]
     unsafe fn annex(annexes: &[Annex<f32>], place: u16) -> __m128 {
         debug_assert!(usize::from(place) < annexes.len());
         unsafe { _mm_loadu_ps(annexes.get_unchecked(usize::from(place)).as_ptr()) }
     }
 
-    /// Four annexes in one register; there are annexes at all four places.
+    /// Four annexes in one register; all four places must hold annexes.
     #[inline(always)]
     unsafe fn four(annexes: &[Annex<f32>], places: [u16; 4]) -> __m512 {
         let [a, b, c, d] = places;

@@ -15,30 +15,30 @@ use crate::runtime::parallel::Team;
 use crate::scene::Precision;
 use crate::with_kernel_shape;
 
-/// Blocks that share one local copy's memory, and their particles.
+/// Number of blocks that share the memory of one local copy.
 const GROUP: usize = 2;
 pub const PART: usize = GROUP * BLOCK;
 
-/// What all sums over pairs of a model have in common.
+/// Properties common to all sums over pairs of a model.
 #[derive(Debug, Clone, Copy)]
 pub struct PairKind {
     pub kernel: Kernel,
     pub precision: Precision,
-    /// Whether particles are rings.
+    /// True if particles are rings.
     pub rings: bool,
 }
 
-/// Something to compute for every particle from its neighbours.
+/// A quantity computed for every particle from its neighbours.
 pub trait PairSum: Sync {
-    /// What comes out for one particle.
+    /// Result for one particle.
     type Output: Send;
 
-    /// The numbers of every particle that all loops read: position first.
+    /// Numbers of every particle that all loops read: position first.
     fn records(&self) -> &[[f64; 8]];
 
     fn images(&self) -> &Images;
 
-    /// Those of an image; by default only its place differs from that of its original.
+    /// Record of an image; by default only its position differs from that of its original.
     #[inline(always)]
     fn record(&self, source: Source) -> [f64; 8] {
         let [x, y, z, u, v, w, volume, last] = self.records()[source.particle()];
@@ -51,7 +51,7 @@ pub trait PairSum: Sync {
         &[]
     }
 
-    /// Those of an image.
+    /// Annex of an image.
     fn annex(&self, _source: Source) -> [f64; 4] {
         [0.0; 4]
     }
@@ -67,7 +67,7 @@ pub trait PairSum: Sync {
     ) -> Self::Output;
 }
 
-/// Copy of what surrounds a block, about its centre. Place 0 holds nothing, far away.
+/// Local copy of a block's surroundings, about its centre. Place 0 is a dummy far away.
 #[derive(Debug, Default)]
 pub struct Local<R> {
     pub records: Vec<Record<R>>,
@@ -75,16 +75,16 @@ pub struct Local<R> {
 }
 
 impl<R: Float + Number> Local<R> {
-    /// Records at places of the block that this is the copy for.
+    /// Gathers records at places of the block that this copy belongs to.
     #[inline(always)]
     pub fn gather<L: Lanes<Real = R>>(&self, places: &[u16; WIDTH]) -> [L; 8] {
-        // SAFETY: `fill` makes a record for place 0 and for each source of the block, and a block's lists
-        // hold no place beyond its sources: `Block::find_places` looks at all of them whenever lists are
-        // made, as a look at every vector here would cost a tenth of the time.
+        // SAFETY: `fill` makes a record for place 0 and for each source of the block, and a block's
+        // lists hold no place beyond its sources. `Block::find_places` checks all of them whenever
+        // lists are made; a check of every vector here would cost a tenth of the time.
         unsafe { L::gather(&self.records, places) }
     }
 
-    /// Annexes at places of the block that this is the copy for.
+    /// Gathers annexes at places of the block that this copy belongs to.
     #[inline(always)]
     pub fn gather_annex<L: Lanes<Real = R>>(&self, places: &[u16; WIDTH]) -> [L; 4] {
         assert!(self.annexes.len() == self.records.len());
@@ -122,7 +122,7 @@ impl<R: Float + Number> Local<R> {
     }
 }
 
-/// Computes a sum for all particles, in their order; the list `all` lends its memory.
+/// Computes a sum for all particles, in their order; reuses the memory of `all`.
 pub fn for_all<P: PairSum<Output: Clone + Default>>(
     pass: &P,
     blocks: &[Block],
@@ -138,8 +138,8 @@ pub fn for_all<P: PairSum<Output: Clone + Default>>(
     all
 }
 
-/// Computes a sum for all particles and gives it, [`PART`] particles at a time, to the part of them
-/// that it belongs to.
+/// Computes a sum for all particles and passes it, [`PART`] particles at a time, to the part that
+/// it belongs to.
 pub fn for_parts<P: PairSum, T: Send>(
     pass: &P,
     blocks: &[Block],
@@ -158,10 +158,10 @@ pub fn for_parts<P: PairSum, T: Send>(
     });
 }
 
-/// What one thread does at once.
+/// Work of one thread at a time.
 struct PairWork<'a, P, T, K, S, F> {
     pass: &'a P,
-    /// [`GROUP`] for each part.
+    /// [`GROUP`] blocks for each part.
     blocks: &'a [Block],
     parts: &'a mut [T],
     take: &'a K,

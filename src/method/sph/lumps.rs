@@ -1,15 +1,16 @@
-//! Which particles belong together: the body of fluid, and what has come off.
+//! Separates the body of fluid from detached lumps.
 
-/// Largest distance over Δx of two particles that touch: more than √2, to which a film of a cubic lattice may
-/// thin out without holes, and less than the reach of forces.
+/// Largest distance over Δx at which two particles touch. It exceeds √2, to which a film of a cubic
+/// lattice may thin without holes, and is below the range of forces.
 const TOUCH: f64 = 2.0;
-/// Share of a drop's mass below which a lump is stray.
+/// Fraction of a drop's mass below which a lump is stray.
 const LEAST: f64 = 0.1;
 
-/// Whether each particle belongs to the body of fluid: to a lump of particles that touch with at least a tenth
-/// of a drop's mass, or to the heaviest one. Positions in the unit of Δx, masses in any.
+/// Returns for each particle whether it belongs to the body of fluid. The body consists of the
+/// heaviest lump and of all lumps of touching particles with at least a tenth of a drop's mass.
+/// Positions are in units of Δx, masses in any unit.
 ///
-/// Images at mirrors touch only what their originals do, too, so none are needed.
+/// Images at mirrors are not needed: they touch only where their originals do.
 pub fn body_of_fluid(positions: &[[f64; 3]], masses: &[f64], drop: f64) -> Vec<bool> {
     let lumps = lumps(positions);
     let mut weights = vec![0.0; masses.len()];
@@ -21,7 +22,7 @@ pub fn body_of_fluid(positions: &[[f64; 3]], masses: &[f64], drop: f64) -> Vec<b
     lumps.iter().map(|&lump| weights[lump as usize] >= least).collect()
 }
 
-/// The number of each particle's lump: that of one of its particles.
+/// Lump number of each particle: the number of one of the lump's particles.
 fn lumps(positions: &[[f64; 3]]) -> Vec<u32> {
     let mut cells: Vec<([i64; 3], u32)> = positions
         .iter()
@@ -44,7 +45,7 @@ fn lumps(positions: &[[f64; 3]]) -> Vec<u32> {
     for (n, here) in starts.iter().enumerate() {
         join_all(here, here);
         let [x, y, z] = here[0].0;
-        // Cells behind this one in their order, row by row along the last axis.
+        // Cells after this one in order, row by row along the last axis.
         for (dx, dy) in [(0, 0), (0, 1), (1, -1), (1, 0), (1, 1)] {
             let low = [x + dx, y + dy, if (dx, dy) == (0, 0) { z + 1 } else { z - 1 }];
             let high = [x + dx, y + dy, z + 1];
@@ -60,7 +61,7 @@ fn touch(a: &[f64; 3], b: &[f64; 3]) -> bool {
     (0..3).map(|n| (a[n] - b[n]).powi(2)).sum::<f64>() <= TOUCH * TOUCH
 }
 
-/// The particle that stands for the lump of a particle; shortens the way to it.
+/// Root particle of a particle's lump; shortens the path to it.
 fn root(parents: &mut [u32], mut of: u32) -> u32 {
     while parents[of as usize] != of {
         let next = parents[parents[of as usize] as usize];
@@ -82,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn lumps_are_told_apart_wherever_they_stand() {
+    fn separate_lumps_are_distinguished_at_any_position() {
         for corner in [[0.0; 3], [-3.7, 11.2, -0.4]] {
             let mut positions = cube(6, corner);
             let gaps = [[7.2, 0.0, 0.0], [0.0, -2.1, 0.0], [2.0, 2.0, 6.9], [6.2, 6.2, 6.2]];
@@ -100,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn small_lumps_are_stray_and_drops_are_not() {
+    fn only_small_lumps_are_stray() {
         let mut positions = cube(6, [0.0; 3]);
         positions.extend(cube(6, [0.0, 0.0, 30.0]));
         positions.extend(cube(2, [20.0, 0.0, 0.0]));

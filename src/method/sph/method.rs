@@ -1,5 +1,5 @@
-//! What a plan of droplets comes to: its numbers without dimension, its limits of time steps, and what they
-//! do to single particles.
+//! Dimensionless numbers of a plan of droplets, its limits of time steps, and their use on single
+//! particles.
 
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ use crate::kernel::Kernel;
 use crate::port::WallCells;
 use crate::scene::Precision;
 
-/// Numbers of the method that a plan fixes, without dimension.
+/// Dimensionless numbers of the method, fixed by a plan.
 pub struct Method {
     pub units: Units,
     pub dimension: usize,
@@ -25,26 +25,26 @@ pub struct Method {
     pub precision: Precision,
     pub normalisation: f64,
     pub mirrors: [bool; 2],
-    /// Axes along which nothing moves as a whole, and whether particles are rings.
+    /// Axes along which there is no motion as a whole, and whether particles are rings.
     pub even: [bool; 2],
     pub rings: bool,
     pub images: Images,
-    /// What pairs of particles make of ν over c₀H, see [`Momentum`](super::momentum::Momentum).
+    /// Pair coefficient of ν over c₀H, see [`Momentum`](super::momentum::Momentum).
     pub pair_viscosity: f64,
     pub conduction: f64,
     pub diffusion: f64,
-    /// Whether density diffusion is corrected by renormalised gradients.
+    /// True if density diffusion is corrected by renormalised gradients.
     pub corrects: bool,
-    /// Surface tension over ρ₀c₀²H, and what it is computed with where there is any.
+    /// Surface tension over ρ₀c₀²H, and its settings where there is any.
     pub tension: f64,
     pub surface: Option<Setting>,
     pub gravity: [f64; 3],
-    /// c₀²/c of the fluid [K], to turn energy of a unit of mass into temperature.
+    /// c₀²/c of the fluid [K], which converts energy per mass into temperature.
     pub heat_unit: f64,
     pub spacing: f64,
     pub shifts: bool,
     pub wall: Option<WallCells>,
-    /// Points of the wall, and how they take heat; nothing without wall, and without heat.
+    /// Points of the wall, and their heat exchange; `None` without a wall, and without heat.
     pub points: PointLattice,
     pub wall_heat: Option<WallHeat>,
     shares: StepShares,
@@ -52,29 +52,30 @@ pub struct Method {
     diffusive_step: f64,
 }
 
-/// Where the wall gets an impulse [m], [N s].
+/// Position [m] and value [N s] of an impulse on the wall.
 pub type Push = ([f64; 2], [f64; 3]);
 
-/// Shares of what bounds a time step that it may take.
+/// Fractions of the bounds of a time step that are used.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct StepShares {
-    /// Of H/c₀.
+    /// Fraction of H/c₀.
     pub courant: f64,
-    /// Of the largest step at which viscosity cannot make a flow grow.
+    /// Fraction of the largest step at which viscosity amplifies no flow.
     pub viscous: f64,
-    /// Of the largest step at which density diffusion cannot make waves grow.
+    /// Fraction of the largest step at which density diffusion amplifies no wave.
     pub diffusive: f64,
-    /// Of H²/κ.
+    /// Fraction of H²/κ.
     pub conductive: f64,
-    /// Of √(H/a).
+    /// Fraction of √(H/a).
     pub forced: f64,
-    /// Of √(ρλ³/16πσ), in which the shortest capillary wave passes half its length λ (Brackbill, Kothe & Zemach 1992,
-    /// J. Comput. Phys. 100, 335–354, doi 10.1016/0021-9991(92)90240-Y).
+    /// Fraction of √(ρλ³/16πσ), in which the shortest capillary wave passes half its length λ
+    /// (Brackbill, Kothe & Zemach 1992, J. Comput. Phys. 100, 335–354, doi
+    /// 10.1016/0021-9991(92)90240-Y).
     pub capillary: f64,
 }
 
 impl Default for StepShares {
-    /// Those of every scene.
+    /// Shares used by every scene.
     fn default() -> Self {
         Self {
             courant: 0.2,
@@ -87,10 +88,10 @@ impl Default for StepShares {
     }
 }
 
-/// Most steps that surface tension acts for at once, as it changes slowly beside sound: impulses between
-/// steps keep its energy (reversible reference system propagator, Tuckerman, Berne & Martyna 1992,
-/// J. Chem. Phys. 97, 1990–2001, doi 10.1063/1.463137).
-const TURN: f64 = 10.0;
+/// Largest number of steps between impulses of surface tension, which changes slowly relative to
+/// sound. Impulses between steps conserve its energy (reversible reference system propagator,
+/// Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97, 1990–2001, doi 10.1063/1.463137).
+const MOST_STEPS_PER_IMPULSE: f64 = 10.0;
 
 impl Method {
     pub fn of(plan: &DropletPlan) -> Self {
@@ -136,18 +137,18 @@ impl Method {
         }
     }
 
-    /// What all sums over pairs have in common.
+    /// Properties common to all sums over pairs.
     pub fn pairs(&self) -> PairKind {
         let Self { kernel, precision, rings, .. } = *self;
         PairKind { kernel, precision, rings }
     }
 
-    /// Whether the moments of the particles' neighbours are asked for.
+    /// Returns true if the moments of the particles' neighbours are needed.
     pub fn needs_moments(&self) -> bool {
         self.corrects || self.shifts || (self.surface.is_some() && self.diffusion > 0.0)
     }
 
-    /// Changes density and temperature of the k-th particle of a part at its rates.
+    /// Advances density and temperature of the k-th particle of a part at its rates.
     pub fn change<const MOMENTS: bool>(
         &self,
         part: &mut Part,
@@ -166,24 +167,24 @@ impl Method {
         part.temperature[k] += dt * rate.temperature;
     }
 
-    /// Where the wall is that a particle is above [m].
+    /// Point of the wall below a particle [m].
     pub fn place(&self, mut position: [f64; 3]) -> [f64; 2] {
         self.images.wrap(&mut position);
         [position[0], position[1]].map(|x| x * self.units.length)
     }
 
-    /// A particle that meets its image at a plane exchanges its place with it: exactly what two mirror
-    /// images do that pass through each other.
+    /// Exchanges a particle that meets its image at a plane with it: two mirror images that pass
+    /// through each other do exactly that.
     pub fn rebound(&self, part: &mut Part, pushes: &mut Vec<Push>) {
         let momentum = self.units.mass() * self.units.speed;
         for k in 0..part.mass.len() {
             let below = part.position[k][2] < 0.0;
-            let signs = self.images.put_back(&mut part.position[k]);
+            let signs = self.images.reflect_back(&mut part.position[k]);
             if signs == [1.0; 3] {
                 continue;
             }
             (0..3).for_each(|a| part.velocity[k][a] *= signs[a]);
-            // Without a wall there is nothing that gets it.
+            // Without a wall nothing receives the impulse.
             if below && signs[2] < 0.0 {
                 let impulse = -2.0 * momentum * part.mass[k] * part.velocity[k][2];
                 pushes.push((self.place(part.position[k]), [0.0, 0.0, impulse]));
@@ -205,29 +206,32 @@ impl Method {
         .fold(f64::INFINITY, f64::min)
     }
 
-    /// The sums of viscosity have no rate above twice their diagonal, `(4d/m) ν`, m the kernel's second moment; the
-    /// steps, whose accelerations are those for velocities ahead, grow nothing whose rate times the step is below 1.
+    /// Viscous limit of the time step. The sums of viscosity have no rate above twice their
+    /// diagonal, `(4d/m) ν`, with m the kernel's second moment. Accelerations use velocities
+    /// predicted ahead, so nothing grows whose rate times the step is below 1.
     fn viscous_step(&self) -> f64 {
         self.shares.viscous / (2.0 * self.pair_viscosity)
     }
 
-    /// For the shortest wave that surface tension, smoothed over h, still drives.
+    /// Capillary limit of the time step, for the shortest wave that surface tension, smoothed over
+    /// h, still drives.
     fn capillary_step(&self) -> f64 {
         let Some(Setting { energy, .. }) = &self.surface else { return f64::INFINITY };
         self.shares.capillary * (energy.smoothing.reach.powi(3) / (16.0 * PI * self.tension)).sqrt()
     }
 
-    /// Number of steps that surface tension may act for at once.
+    /// Number of steps between impulses of surface tension.
     pub fn turn(&self, dt: f64) -> f64 {
         if self.surface.is_none() {
             return 1.0;
         }
-        (self.capillary_step() / dt).floor().clamp(1.0, TURN)
+        (self.capillary_step() / dt).floor().clamp(1.0, MOST_STEPS_PER_IMPULSE)
     }
 }
 
-/// The sums of density diffusion have no rate above twice their diagonal, `δ ∫ −F dV`, and their steps are those of
-/// Euler's method: nothing grows whose rate times the step is below 2.
+/// Diffusive limit of the time step. The sums of density diffusion have no rate above twice their
+/// diagonal, `δ ∫ −F dV`. Their steps are explicit Euler steps, so nothing grows whose rate times
+/// the step is below 2.
 fn diffusive_step(plan: &DropletPlan) -> f64 {
     1.0 / (plan.density_diffusion * plan.kernel.mean_slope(plan.dimension))
 }

@@ -1,9 +1,9 @@
 //! Droplets by weakly compressible smoothed particle hydrodynamics.
 //!
-//! The wall is the plane z = 0, the fluid lies above it. A plane model (two dimensions) lives in
-//! x and z and counts everything per metre of depth along y. In an axisymmetric model particles are rings about the
-//! z axis, see [`rings`]. Further planes and periods may end a
-//! model; all of them act by images of the particles.
+//! The wall is the plane z = 0; the fluid lies above it. A plane model (two dimensions) uses x and
+//! z, and all its totals are per metre of depth along y. In an axisymmetric model particles are
+//! rings about the z axis, see [`rings`]. Further planes and periods may bound a model; all of them
+//! act by images of the particles.
 
 mod acceptance;
 mod blue_noise;

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 /// Determinant below which a moment matrix is not inverted.
 const SINGULAR: f64 = 0.05;
 
-/// The moment matrix; in a plane model nothing happens along y.
+/// Completes the moment matrix: in a plane model its y direction is inert.
 pub fn filled(mut moment: [f64; 6], dimension: usize) -> [f64; 6] {
     if dimension == 2 {
         moment[1] = 1.0;
@@ -27,7 +27,7 @@ pub fn least_eigenvalue(&[xx, yy, zz, xy, yz, xz]: &[f64; 6]) -> f64 {
     mean + 2.0 * spread.sqrt() * (cosine.acos() / 3.0 + 2.0 * PI / 3.0).cos()
 }
 
-/// The gradient that is exact for linear fields; nothing where too few neighbours span space.
+/// Gradient that is exact for linear fields; `None` where too few neighbours span space.
 pub fn renormalised(&[xx, yy, zz, xy, yz, xz]: &[f64; 6], [a, b, c]: [f64; 3]) -> [f64; 3] {
     let [xx_, yy_, zz_] = [yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy];
     let [xy_, yz_, xz_] = [xz * yz - xy * zz, xy * xz - xx * yz, xy * yz - xz * yy];
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn the_least_eigenvalue_is_that_of_an_iterative_solver() {
+    fn least_eigenvalue_matches_iterative_solver() {
         for moment in [MOMENT, [1.0, 1.0, 1.0, 0.0, 0.0, 0.0], [0.3, 0.2, 0.9, 0.0, 0.0, 0.1]] {
             let exact = matrix(moment).symmetric_eigenvalues().min();
             assert!((least_eigenvalue(&moment) - exact).abs() < 1e-12);

@@ -7,29 +7,31 @@ use super::neighbours::Block;
 use super::rings::{Arc, Form, PLACES, flat};
 use crate::kernel::Shape;
 
-/// Pressure and viscosity, equal and opposite in every pair and along the line between both.
+/// Pressure and viscosity: equal and opposite in every pair, and along the line between both
+/// particles.
 ///
 /// With lengths over H, velocities over c₀, pressures over ρ₀c₀², F = w′(q)/q of the kernel and its
 /// second moment m = ∫ q² W dV in d dimensions,
 ///
 /// `(1 + r_i) du_i/dt = Σ V_j F x_ij [−(p_i + p_j) + (2d/m) ν u_ij·x_ij]`.
 ///
-/// Inside the fluid the second part is `ν (∇²u + 2 ∇∇·u)`. What it takes from the flow depends on
-/// the rate of strain e alone, `∫ 2µ e:e dV` of an incompressible flow, so free surfaces bear no viscous stress
+/// Inside the fluid the second part is `ν (∇²u + 2 ∇∇·u)`. Its dissipation depends on the rate of
+/// strain e alone, `∫ 2µ e:e dV` of an incompressible flow. So free surfaces bear no viscous stress
 /// and need no condition.
 ///
 /// Images across z move against their originals, so that the fluid sticks.
 ///
-/// Sources: Monaghan & Gingold (1983), J. Comput. Phys. 52, 374–389, doi 10.1016/0021-9991(83)90036-0,
-/// whose weight F/q² is here F, which needs no division and is less uneven between the directions of a
-/// lattice; any weight will do with its moment (Español & Revenga 2003, Phys. Rev. E 67, 026705, doi
-/// 10.1103/PhysRevE.67.026705). Free surfaces: Colagrossi, Antuono, Souto-Iglesias & Le Touzé (2011), Phys.
-/// Rev. E 84, 026705, doi 10.1103/PhysRevE.84.026705.
+/// Sources: Monaghan & Gingold (1983), J. Comput. Phys. 52, 374–389, doi
+/// 10.1016/0021-9991(83)90036-0. Their weight F/q² is here F, which needs no division and varies
+/// less between the directions of a lattice; any weight is valid with its moment (Español & Revenga
+/// 2003, Phys. Rev. E 67, 026705, doi 10.1103/PhysRevE.67.026705). Free surfaces: Colagrossi,
+/// Antuono, Souto-Iglesias & Le Touzé (2011), Phys. Rev. E 84, 026705, doi
+/// 10.1103/PhysRevE.84.026705.
 pub struct Momentum<'a> {
     pub images: &'a Images,
-    /// Position, velocity, volume and pressure of every particle.
+    /// Position, velocity, volume and pressure of each particle.
     pub records: &'a [[f64; 8]],
-    /// r of every particle.
+    /// r of each particle.
     pub densities: &'a [f64],
     /// σ of the kernel.
     pub normalisation: f64,
@@ -120,13 +122,13 @@ fn scaled<L: Lanes>([x, y, z]: [L; 3], factor: f64) -> [f64; 3] {
     [factor * x.sum().into(), factor * y.sum().into(), factor * z.sum().into()]
 }
 
-/// The particle whose neighbours are summed, in all lanes.
+/// The particle whose neighbours are summed, broadcast to all lanes.
 struct Here<L> {
     position: [L; 3],
     velocity: [L; 3],
     pressure: L,
     viscosity: L,
-    /// x of the place about which positions are.
+    /// x of the origin of the positions.
     centre: L,
 }
 

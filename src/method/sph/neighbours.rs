@@ -1,52 +1,52 @@
-//! Which particles and images lie near which: for every block a list of what surrounds it, and for
-//! every particle a list of places in that.
+//! Lists of neighbouring particles and images: for every block its surroundings, and for every
+//! particle a list of places in these.
 //!
-//! Lengths are in units of the support radius. The lists reach farther than the kernel by a skin, so
-//! that they serve until neighbours have moved against each other by its width.
+//! Lengths are in units of the support radius. The lists reach farther than the kernel by a skin,
+//! so they remain valid until neighbours have moved against each other by its width.
 
 use std::ops::Range;
 
-use super::candidates::{Candidates, Near, Points, Spots, inside};
+use super::candidates::{Candidates, Near, Points, RelativePoints, inside};
 use super::images::{Images, Source};
 use super::lanes::WIDTH;
 use super::order::{BLOCK, BlockTree, Bounds, GROUP};
 use crate::runtime::parallel::Team;
 
-/// Reach of the lists beyond the kernel over the root of the motion against neighbours in a step, and
-/// its bounds. A step costs in proportion to `(1 + s)³ P + L m/s`, with s the skin, m the motion, P the
-/// time of all sums and L that of making lists, L a fifth to a half of it; it is least at
-/// `s = √(m L/3P)`.
+/// Reach of the lists beyond the kernel over the root of the relative motion of neighbours in a
+/// step, and its bounds. The cost of a step is proportional to `(1 + s)³ P + L m/s`, with the skin
+/// s, the motion m, the time P of all sums and the time L of making lists. L is a fifth to a half
+/// of P; the cost is least at `s = √(m L/3P)`.
 const SKIN: f64 = 0.3;
 const SKINS: [f64; 2] = [1e-3, 0.3];
-/// Share of the skin that rounding in single precision could use.
+/// Fraction of the skin reserved for rounding in single precision.
 const MARGIN: f64 = 1e-5;
 
-/// Particles that stand together and all that surrounds them.
+/// Particles of a block and all that surrounds them.
 pub struct Block {
     /// Index of the first particle.
     pub first: usize,
     pub count: usize,
     /// Origin of local coordinates.
     pub centre: [f64; 3],
-    /// The particles' neighbours, themselves included, first without and then with an image at the
-    /// wall. Place 0 of local copies is nowhere, so the k-th source has place k + 1.
+    /// The particles' neighbours, themselves included: first those without, then those with an
+    /// image at the wall. Place 0 of local copies is a dummy, so the k-th source has place k + 1.
     sources: Vec<Source>,
     /// Places of neighbours, in runs whose lengths are multiples of [`WIDTH`]: 0, or those of sources.
     places: Vec<u16>,
     /// For each particle the ends of its runs: neighbours, and images at the wall.
     ends: Vec<[u32; 2]>,
-    /// Blocks that hold all sources, with the codes of their images.
+    /// Blocks that contain all sources, with the codes of their images.
     surroundings: Vec<(usize, u8)>,
-    /// How far neighbours may still move against each other.
+    /// Remaining relative motion of neighbours before the lists expire.
     slack: f64,
-    /// How far anything may still move against anything before what is not among the surroundings
-    /// could be a neighbour.
+    /// Remaining relative motion of any two particles before one outside the surroundings can
+    /// become a neighbour.
     clearance: f64,
-    /// Whether more surrounds the block than its lists can hold: then they hold nothing.
+    /// True if the block has more surroundings than its lists can hold; they are then empty.
     is_crowded: bool,
 }
 
-/// Memory that searches share.
+/// Memory shared by searches.
 #[derive(Default)]
 struct SearchBuffers {
     near_block: Candidates,
@@ -61,24 +61,24 @@ pub struct Neighbours {
     tree: BlockTree,
 }
 
-/// Ways that the particles of each block are about to go: the box of them all.
-pub struct Ways {
+/// Predicted displacements of each block's particles: the bounding box of all.
+pub struct Displacements {
     pub of_blocks: Vec<Bounds>,
-    /// Further steps for which the lists that are made now are to serve.
+    /// Number of further steps for which new lists are to serve.
     pub steps: f64,
 }
 
-impl Ways {
-    /// These vectors.
-    pub fn along(ways: &[[f64; 3]], steps: f64, team: &Team) -> Self {
+impl Displacements {
+    /// Boxes of these displacements.
+    pub fn along(displacements: &[[f64; 3]], steps: f64, team: &Team) -> Self {
         let of_block = |b: usize| {
-            let range = b * BLOCK..((b + 1) * BLOCK).min(ways.len());
-            Bounds::of(ways[range].iter().copied())
+            let range = b * BLOCK..((b + 1) * BLOCK).min(displacements.len());
+            Bounds::of(displacements[range].iter().copied())
         };
-        Self { of_blocks: team.map(ways.len().div_ceil(BLOCK), of_block), steps }
+        Self { of_blocks: team.map(displacements.len().div_ceil(BLOCK), of_block), steps }
     }
 
-    /// Ways over a time, from velocities.
+    /// Displacements over a time, from velocities.
     pub fn times(mut self, dt: f64) -> Self {
         for Bounds { low, high } in &mut self.of_blocks {
             low.iter_mut().chain(high).for_each(|v| *v *= dt);
@@ -86,7 +86,7 @@ impl Ways {
         self
     }
 
-    /// None.
+    /// No displacements.
     pub fn none(particles: usize) -> Self {
         let nowhere = Bounds { low: [0.0; 3], high: [0.0; 3] };
         Self { of_blocks: vec![nowhere; particles.div_ceil(BLOCK)], steps: f64::INFINITY }
@@ -121,7 +121,7 @@ impl Block {
         [start..middle, middle..end].map(|range| self.places[range].as_chunks().0)
     }
 
-    /// Finds the neighbours of the block's particles among what is near the block, of which those from
+    /// Finds the neighbours of the block's particles among its surroundings, of which those from
     /// `wall` on are at the wall.
     fn find_places(
         &mut self,
@@ -160,13 +160,13 @@ impl Block {
                 self.ends.push(ends);
             }
         }
-        // Loops over pairs rely on it without another look.
+        // Loops over pairs rely on this without a further check.
         let last = self.places.iter().fold(0, |last, &place| last.max(place));
         assert!(usize::from(last) <= self.sources.len(), "a place beyond all sources");
     }
 
-    /// Takes no neighbours at all, of which there would be too many.
-    fn give_up(&mut self) {
+    /// Empties the lists of a block with too many neighbours.
+    fn discard_lists(&mut self) {
         self.sources.clear();
         self.places.clear();
         self.ends.clear();
@@ -176,7 +176,7 @@ impl Block {
 }
 
 impl Neighbours {
-    /// Neighbours of particles that stand in blocks; the lists are made when they are first needed.
+    /// Neighbours of particles sorted into blocks; the lists are made when first needed.
     ///
     /// # Panics
     /// If there are more particles than [`Source::MOST`].
@@ -188,19 +188,26 @@ impl Neighbours {
         Self { blocks, tree: BlockTree::over(points, team) }
     }
 
-    /// Volume that surrounded the blocks when lists were last made, each counted for itself.
+    /// Volume of the blocks' surroundings when lists were last made, summed over blocks.
     pub fn surrounded(&self) -> f64 {
         self.tree.surrounded(1.0)
     }
 
-    /// Where a block stands that so many particles surround that its lists cannot hold them.
+    /// Position of a block with more surroundings than its lists can hold.
     pub fn crowded(&self) -> Option<[f64; 3]> {
         self.blocks.iter().find(|block| block.is_crowded).map(|block| block.centre)
     }
 
-    /// Makes the lists hold all neighbours of particles where they are and on their ways.
-    pub fn prepare(&mut self, points: &[[f64; 3]], ways: &Ways, images: &Images, team: &Team) {
-        let drifts = &ways.of_blocks;
+    /// Updates the lists so that they hold all neighbours of particles at their positions and along
+    /// their paths.
+    pub fn prepare(
+        &mut self,
+        points: &[[f64; 3]],
+        displacements: &Displacements,
+        images: &Images,
+        team: &Team,
+    ) {
+        let drifts = &displacements.of_blocks;
         let motion = widest(drifts, images);
         team.for_each(&mut self.blocks, |b, block| {
             block.slack -= span(&drifts[b], drifts, &block.surroundings, images);
@@ -214,8 +221,8 @@ impl Neighbours {
         let blocks: Vec<&[[f64; 3]]> = points.chunks(BLOCK).collect();
         let search = Search {
             points,
-            ways,
-            spots: team.map(blocks.len(), |b| Spots::of(blocks[b])),
+            displacements,
+            spots: team.map(blocks.len(), |b| RelativePoints::of(blocks[b])),
             tree: &self.tree,
             images,
             motion,
@@ -225,7 +232,7 @@ impl Neighbours {
         team.for_pieces(&mut worn, |_, blocks| {
             let mut buffers = SearchBuffers::default();
             for block in blocks {
-                if block.slack >= MARGIN && search.nothing_came_to(block) {
+                if block.slack >= MARGIN && search.is_undisturbed(block) {
                     block.clearance = SKINS[1] - motion;
                 } else {
                     search.list(block, &mut buffers);
@@ -235,7 +242,7 @@ impl Neighbours {
     }
 }
 
-/// How far any particle moves against any particle or image at most.
+/// Upper bound on the motion of any particle against any particle or image.
 fn widest(drifts: &[Bounds], images: &Images) -> f64 {
     let all = drifts.iter().copied().reduce(|all, part| all.joined(&part));
     let Some(drift) = all else { return 0.0 };
@@ -243,20 +250,20 @@ fn widest(drifts: &[Bounds], images: &Images) -> f64 {
     images.codes().iter().fold(drift, image).diagonal()
 }
 
-/// How far the particles of a block and what surrounds them move against each other at most.
+/// Upper bound on the motion of a block's particles against their surroundings.
 fn span(own: &Bounds, drifts: &[Bounds], surroundings: &[(usize, u8)], images: &Images) -> f64 {
     let drift = |&(block, code): &(usize, u8)| drifts[block].turned(images.get(code));
     surroundings.iter().fold(*own, |all, part| all.joined(&drift(part))).diagonal()
 }
 
-/// What lists are made from.
+/// Inputs from which lists are made.
 struct Search<'a> {
     points: &'a [[f64; 3]],
-    ways: &'a Ways,
-    spots: Vec<Spots>,
+    displacements: &'a Displacements,
+    spots: Vec<RelativePoints>,
     tree: &'a BlockTree,
     images: &'a Images,
-    /// How far anything moves against anything at most.
+    /// Upper bound on the motion of any two particles.
     motion: f64,
 }
 
@@ -265,27 +272,27 @@ impl Search<'_> {
         &self.points[block.first..block.first + block.count]
     }
 
-    /// Whether only its surroundings are still near a block.
-    fn nothing_came_to(&self, block: &Block) -> bool {
+    /// Returns true if no particle from outside its surroundings has come near a block.
+    fn is_undisturbed(&self, block: &Block) -> bool {
         let bounds = Bounds::of(self.own(block).iter().copied());
         let near = surroundings(&bounds, self.tree, self.images, 1.0 + SKINS[1]);
         self.motion < SKINS[1] - MARGIN && near.iter().all(|part| block.surroundings.contains(part))
     }
 
-    /// Lists what surrounds a block.
+    /// Lists the surroundings of a block.
     fn list(&self, block: &mut Block, buffers: &mut SearchBuffers) {
-        let Search { ways, spots, tree, images, .. } = self;
+        let Search { displacements, spots, tree, images, .. } = self;
         let own = self.own(block);
         let bounds = Bounds::of(own.iter().copied());
         block.centre = bounds.centre();
         block.surroundings = surroundings(&bounds, tree, images, 1.0 + SKINS[1]);
         let motion = span(
-            &ways.of_blocks[block.first / BLOCK],
-            &ways.of_blocks,
+            &displacements.of_blocks[block.first / BLOCK],
+            &displacements.of_blocks,
             &block.surroundings,
             images,
         );
-        let skin = skin(motion, ways.steps);
+        let skin = skin(motion, displacements.steps);
         let reach = 1.0 + skin;
         if skin > SKINS[1] {
             block.surroundings = surroundings(&bounds, tree, images, reach);
@@ -307,19 +314,19 @@ impl Search<'_> {
         block.is_crowded = false;
         match block.sources.len() < usize::from(u16::MAX) {
             true => block.find_places(own, wall, reach, buffers),
-            false => block.give_up(),
+            false => block.discard_lists(),
         }
     }
 }
 
-/// Reach beyond the kernel of lists that are to serve for some steps of a motion.
+/// Reach of lists beyond the kernel, if they are to serve for a number of steps of a motion.
 fn skin(motion: f64, steps: f64) -> f64 {
     // Particles may become faster by half, and do not leave the lists within this step.
     let needed = 1.5 * motion;
     (SKIN * motion.sqrt()).min(steps * needed).clamp(SKINS[0], SKINS[1]).max(needed)
 }
 
-/// Blocks whose images come near to `bounds`, those at the wall last.
+/// Blocks whose images come close to `bounds`, those at the wall last.
 fn surroundings(
     bounds: &Bounds,
     tree: &BlockTree,
@@ -336,15 +343,16 @@ fn surroundings(
     all
 }
 
-/// Points nearer to a point than the root of a square.
+/// Points within a distance of a point, given by its square.
 #[derive(Debug, Clone, Copy)]
 struct Within {
     at: [f32; 3],
     square: f32,
 }
 
-/// Writes the places of points of a range that are within, in order; how many they are. There is room
-/// for the whole range and a vector more, and behind the points there are as many others.
+/// Writes the places of those points of a range that are within the distance, in order; returns
+/// their number. There must be room for the whole range and one vector more, and as much padding
+/// behind the points.
 fn select(
     along: [&[f32]; 3],
     numbers: &[u32],
@@ -354,13 +362,13 @@ fn select(
 ) -> usize {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx512f") {
-        // SAFETY: the processor has what the function asks for.
+        // SAFETY: the processor has the features that the function requires.
         return unsafe { select_avx512(along, numbers, range, within, places) };
     }
     select_each(along, numbers, range, within, places)
 }
 
-/// One point after the other without a branch: written always, kept if near.
+/// Processes one point at a time without a branch: always writes, keeps what is near.
 fn select_each(
     [x, y, z]: [&[f32]; 3],
     numbers: &[u32],
@@ -378,7 +386,7 @@ fn select_each(
     found
 }
 
-/// Sixteen points at once, with the same roundings.
+/// Processes sixteen points at a time, with the same roundings.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f")]
 fn select_avx512(
@@ -442,7 +450,7 @@ mod tests {
         (points, neighbours)
     }
 
-    /// Asserts that the lists hold all pairs within the support, and tells how many pairs they hold.
+    /// Asserts that the lists hold all pairs within the support, and returns the number of pairs.
     fn assert_complete(points: &[[f64; 3]], neighbours: &Neighbours, images: &Images) -> usize {
         let mut listed_pairs = 0;
         for block in &neighbours.blocks {
@@ -473,10 +481,10 @@ mod tests {
     }
 
     #[test]
-    fn the_lists_hold_what_a_loop_over_all_pairs_finds() {
+    fn lists_match_brute_force() {
         for (images, threads) in models().into_iter().zip([1, 3]) {
             let (points, mut neighbours) = ordered(700);
-            neighbours.prepare(&points, &Ways::none(700), &images, &Team::new(threads));
+            neighbours.prepare(&points, &Displacements::none(700), &images, &Team::new(threads));
             let listed = assert_complete(&points, &neighbours, &images);
             let near = |i: usize, code: u8| {
                 let reach = (1.0 + skin(0.0, 1.0)).powi(2);
@@ -493,7 +501,7 @@ mod tests {
     }
 
     #[test]
-    fn the_lists_stay_complete_while_particles_move() {
+    fn lists_remain_complete_while_particles_move() {
         let drift =
             |i: usize, step: usize| [0, 1, 2].map(|a| 0.03 * (number(i + 11 * a + step / 9) - 0.5));
         for (images, steps) in models().into_iter().zip([1.0, 9.0]) {
@@ -501,7 +509,12 @@ mod tests {
             for step in 0..40 {
                 let drifts: Vec<_> = (0..700).map(|i| drift(i, step)).collect();
                 let team = Team::new(1);
-                neighbours.prepare(&points, &Ways::along(&drifts, steps, &team), &images, &team);
+                neighbours.prepare(
+                    &points,
+                    &Displacements::along(&drifts, steps, &team),
+                    &images,
+                    &team,
+                );
                 assert_complete(&points, &neighbours, &images);
                 for (x, d) in points.iter_mut().zip(&drifts) {
                     *x = [0, 1, 2].map(|a| x[a] + d[a]);
@@ -512,21 +525,21 @@ mod tests {
     }
 
     #[test]
-    fn a_common_motion_wears_no_list_out() {
+    fn common_motion_does_not_expire_lists() {
         let (mut points, mut neighbours) = ordered(500);
         let images = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
         let team = Team::new(1);
-        neighbours.prepare(&points, &Ways::none(500), &images, &team);
+        neighbours.prepare(&points, &Displacements::none(500), &images, &team);
         let slack = neighbours.blocks[0].slack;
         let drifts = vec![[0.5, -0.2, 0.1]; 500];
-        neighbours.prepare(&points, &Ways::along(&drifts, 9.0, &team), &images, &team);
+        neighbours.prepare(&points, &Displacements::along(&drifts, 9.0, &team), &images, &team);
         points.iter_mut().for_each(|x| x[0] += 0.5);
         assert!((neighbours.blocks[0].slack - slack).abs() < 1e-15);
     }
 
     #[test]
-    fn what_comes_from_far_away_is_seen() {
-        // Two clouds, each as stiff as a body, of which one flies through the other.
+    fn particles_from_afar_are_found() {
+        // Two clouds, each moving as a rigid body, one through the other.
         let open = Images::new([Ends::Planes { near: false, far: None }; 3], false, [0.0; 3]);
         let (mut points, _) = ordered(2 * BLOCK);
         points[BLOCK..].iter_mut().for_each(|x| x[0] += 7.0);
@@ -534,11 +547,16 @@ mod tests {
         let order = space_order(&points, &team);
         points = order.iter().map(|&i| points[i as usize]).collect();
         let mut neighbours = Neighbours::of(&points, &team);
-        let ways: Vec<_> =
+        let displacements: Vec<_> =
             points.iter().map(|x| [if x[0] > 5.0 { -0.07 } else { 0.0 }, 0.0, 0.0]).collect();
         for _ in 0..100 {
-            neighbours.prepare(&points, &Ways::along(&ways, 100.0, &team), &open, &team);
-            points.iter_mut().zip(&ways).for_each(|(x, way)| x[0] += way[0]);
+            neighbours.prepare(
+                &points,
+                &Displacements::along(&displacements, 100.0, &team),
+                &open,
+                &team,
+            );
+            points.iter_mut().zip(&displacements).for_each(|(x, way)| x[0] += way[0]);
             assert_complete(&points, &neighbours, &open);
         }
     }

@@ -1,4 +1,4 @@
-//! Particles in an order in which near ones stand together: blocks of a balanced k-d tree.
+//! Spatial order of particles: blocks of a balanced k-d tree.
 
 use std::ops::Range;
 
@@ -7,7 +7,7 @@ use crate::runtime::parallel::Team;
 
 /// Particles in a block; the last block may have fewer.
 pub const BLOCK: usize = 128;
-/// Particles of a block that stand together within it.
+/// Number of particles in a group, within a block.
 pub const GROUP: usize = 16;
 
 /// Corners of a box along x, y, z.
@@ -17,7 +17,7 @@ pub struct Bounds {
     pub high: [f64; 3],
 }
 
-/// A tree over blocks of particles that stand in its order.
+/// A tree over blocks of particles in its order.
 #[derive(Debug, Clone, Default)]
 pub struct BlockTree {
     nodes: Vec<Node>,
@@ -37,7 +37,7 @@ enum Parts {
 }
 
 impl Bounds {
-    /// The smallest box round some points; nothing lies in the box of none.
+    /// The bounding box of some points; the box of no points contains nothing.
     pub fn of(points: impl Iterator<Item = [f64; 3]>) -> Self {
         let none = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
         points.fold(none, |bounds, point| Self {
@@ -53,7 +53,7 @@ impl Bounds {
         }
     }
 
-    /// Larger to both sides by `by`.
+    /// The box enlarged on both sides by `by`.
     pub fn widened(&self, by: [f64; 3]) -> Self {
         Self {
             low: [0, 1, 2].map(|a| self.low[a] - by[a]),
@@ -88,10 +88,10 @@ impl Bounds {
     }
 }
 
-/// The order that puts `points` into blocks, and those of a block into groups.
+/// The order that sorts `points` into blocks, and those of a block into groups.
 pub fn space_order(points: &[[f64; 3]], team: &Team) -> Vec<u32> {
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
-    // Halves are split by one thread each, so first there are to be enough of them.
+    // One thread splits each half, so there must be enough halves first.
     let mut parts = vec![&mut order[..]];
     while team.threads() > 1 && parts.len() < 4 * team.threads() {
         let halves = team.map_each(&mut parts, |part| split(points, std::mem::take(part)));
@@ -105,7 +105,8 @@ pub fn space_order(points: &[[f64; 3]], team: &Team) -> Vec<u32> {
     order
 }
 
-/// Halves of which the first has whole blocks, or within a block whole groups; a group is left whole.
+/// Splits an order in two, so that the first part has whole blocks, or within a block whole groups;
+/// a group is not split.
 fn split<'a>(points: &[[f64; 3]], order: &'a mut [u32]) -> [&'a mut [u32]; 2] {
     let size = if order.len() > BLOCK { BLOCK } else { GROUP };
     if order.len() <= size {
@@ -127,13 +128,13 @@ fn order_within(points: &[[f64; 3]], order: &mut [u32]) {
     }
 }
 
-/// How many of some blocks the first half has.
+/// Number of blocks of the first half.
 fn left(blocks: usize) -> usize {
     blocks / 2
 }
 
 impl BlockTree {
-    /// Over some points that stand in [`space_order`] or did so.
+    /// Tree over points that are, or were, in [`space_order`].
     pub fn over(points: &[[f64; 3]], team: &Team) -> Self {
         let mut tree = Self::default();
         if !points.is_empty() {
@@ -143,7 +144,7 @@ impl BlockTree {
         tree
     }
 
-    /// Adds the part of the tree for some blocks, with empty boxes; its index.
+    /// Adds the subtree for some blocks, with empty boxes; returns its index.
     fn grow(&mut self, blocks: Range<usize>) -> usize {
         let (index, bounds) = (self.nodes.len(), Bounds::of([].into_iter()));
         self.nodes.push(Node { bounds, parts: Parts::Block(blocks.start) });
@@ -155,21 +156,21 @@ impl BlockTree {
         index
     }
 
-    /// Blocks of whose boxes the images come nearer to `bounds` than `reach`, in their order.
+    /// Blocks whose boxes' images come nearer to `bounds` than `reach`, in their order.
     pub fn near(&self, bounds: &Bounds, image: &Image, reach: f64, found: &mut Vec<usize>) {
         if !self.nodes.is_empty() {
-            // Images keep distances, so the search may be among the originals.
+            // Images keep distances, so the originals can be searched instead.
             self.search(0, &bounds.image(&image.inverse()), reach * reach, found);
         }
     }
 
-    /// Fits the boxes to points that have moved.
+    /// Updates the boxes for points that have moved.
     pub fn refit(&mut self, points: &[[f64; 3]], team: &Team) {
         let boxes = team.map(points.len().div_ceil(BLOCK), |block| {
             let range = block * BLOCK..((block + 1) * BLOCK).min(points.len());
             Bounds::of(points[range].iter().copied())
         });
-        // Parts stand behind what they are parts of.
+        // Parts come after the nodes that contain them.
         for node in (0..self.nodes.len()).rev() {
             self.nodes[node].bounds = match self.nodes[node].parts {
                 Parts::Block(block) => boxes[block],
@@ -178,7 +179,7 @@ impl BlockTree {
         }
     }
 
-    /// Volume within reach of the boxes, each counted for itself: how much surrounds the blocks.
+    /// Volume within reach of the boxes, summed over blocks.
     pub fn surrounded(&self, reach: f64) -> f64 {
         let volume = |node: &Node| match node.parts {
             Parts::Block(_) => {
@@ -215,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn every_point_stands_in_one_block() {
+    fn every_point_is_in_exactly_one_block() {
         for count in [0, 1, 64, 65, 1000] {
             let mut order = space_order(&points(count), &Team::new(1));
             assert_eq!(order, space_order(&points(count), &Team::new(5)));
@@ -225,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn the_search_finds_the_blocks_that_a_loop_over_all_finds() {
+    fn block_search_matches_brute_force() {
         let points = points(2000);
         let order = space_order(&points, &Team::new(1));
         let points: Vec<_> = order.iter().map(|&i| points[i as usize]).collect();

@@ -1,13 +1,13 @@
-//! Where the particles of a round droplet stand at first.
+//! Initial positions of the particles of a round droplet.
 
 use super::plan::Placement;
 
-/// Points inside a sphere (a circle in x and z in two dimensions) about the origin, about one in a
-/// volume `spacing`^d, and their shares of its volume.
+/// Points inside a sphere (a circle in x and z in two dimensions) about the origin, about one per
+/// volume `spacing`^d, and their shares of the droplet's volume.
 ///
-/// On the lattice every point has the same share. Points at random have shares after their number
-/// density, so that crowded ones are lighter: `m_i ∝ 1/Σ_j W_ij` (Park 2021, eq. 2.106), with the sum
-/// taken over points beyond the surface too.
+/// Points of a lattice have equal shares. Random points have shares inversely proportional to the
+/// number density, so crowded ones are lighter: `m_i ∝ 1/Σ_j W_ij` (Park 2021, eq. 2.106). The sum
+/// includes points outside the sphere.
 pub fn place(
     placement: Placement,
     diameter: f64,
@@ -26,7 +26,8 @@ pub fn place(
     }
 }
 
-/// The rings of points of a circle in x and z: those with x > 0, whose shares are as their circles are long.
+/// Rings from the points of a circle in x and z: those with x > 0, with shares proportional to
+/// their circumference.
 pub fn rings(points: &[([f64; 3], f64)]) -> Vec<([f64; 3], f64)> {
     let outside = points.iter().filter(|(point, _)| point[0] > 0.0);
     let rings: Vec<_> = outside.map(|&(point, share)| (point, share * point[0])).collect();
@@ -34,7 +35,7 @@ pub fn rings(points: &[([f64; 3], f64)]) -> Vec<([f64; 3], f64)> {
     rings.into_iter().map(|(point, share)| (point, share / sum)).collect()
 }
 
-/// Points of a cubic lattice that has the origin in the middle of a cell.
+/// Points of a cubic lattice with the origin at the centre of a cell.
 fn lattice(radius: f64, spacing: f64, dimension: usize) -> impl Iterator<Item = [f64; 3]> {
     let half = (radius / spacing).ceil() as i64;
     let at = move |i: i64| (i as f64 + 0.5) * spacing;

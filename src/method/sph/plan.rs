@@ -1,4 +1,4 @@
-//! What a model of droplets is made from.
+//! Definition of a model of droplets.
 
 use std::f64::consts::PI;
 
@@ -15,8 +15,8 @@ use crate::scene::Precision;
 pub struct DropletPlan {
     /// 3, or 2 for a plane model in x and z.
     pub dimension: usize,
-    /// Whether all of it is round about the axis x = y = 0: particles are rings, of which x is the radius. Of three
-    /// dimensions, with neither mirrors nor ends along x and y.
+    /// True for an axisymmetric model about x = y = 0: particles are rings, and x is the radius. It
+    /// has three dimensions, and neither mirrors nor ends along x and y.
     pub axisymmetric: bool,
     /// Distance of particles Δx [m].
     pub spacing: f64,
@@ -29,22 +29,22 @@ pub struct DropletPlan {
     pub precision: Precision,
     /// δ of the density diffusion, for a smoothing length H/2.
     pub density_diffusion: f64,
-    /// Whether density diffusion is corrected by renormalised gradients, which leaves linear
-    /// densities (such as of a fluid at rest under gravity) as they are.
+    /// True if density diffusion is corrected by renormalised gradients. The correction preserves
+    /// linear densities, such as that of a fluid at rest under gravity.
     pub corrected_diffusion: bool,
-    /// Whether particles are moved from crowded places to empty ones.
+    /// True if particles are shifted from crowded to sparse regions.
     pub shifting: bool,
-    /// Body force a mass [m/s²].
+    /// Body force per mass [m/s²].
     pub gravity: [f64; 3],
     /// The planes x = 0 and y = 0 mirror the model, which then holds only x ≥ 0 (y ≥ 0).
     pub mirrors: [bool; 2],
-    /// How far the model goes along x, y and z.
+    /// Extents of the model along x, y and z.
     pub extents: [Extent; 3],
-    /// In the order of their times; none where drops are released on demand.
+    /// Releases in the order of their times; empty where drops are released on demand.
     pub releases: Vec<Release>,
-    /// Drops that somebody else releases, see [`DropletSph::ask`](super::DropletSph::ask).
+    /// Drops released by a caller, see [`DropletSph::ask`](super::DropletSph::ask).
     pub demand: Option<Demand>,
-    /// Nothing for a droplet in free space.
+    /// The wall; `None` for a droplet in free space.
     pub wall: Option<Wall>,
 }
 
@@ -52,13 +52,13 @@ pub struct DropletPlan {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Fluid {
-    /// At rest ρ₀ [kg/m³].
+    /// Density at rest ρ₀ [kg/m³].
     pub density: f64,
     /// Dynamic viscosity µ [Pa s].
     pub viscosity: f64,
     /// [J/(kg K)]
     pub specific_heat: f64,
-    /// [W/(m K)]; 0 leaves heat out.
+    /// Thermal conductivity [W/(m K)]; 0 disables heat.
     pub conductivity: f64,
     /// [N/m]
     #[serde(default)]
@@ -68,19 +68,19 @@ pub struct Fluid {
     pub sound_speed: f64,
 }
 
-/// How far a model goes along an axis: at least two support radii, if it ends.
+/// Extent of a model along an axis: at least two support radii, if bounded.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Extent {
     #[default]
     Open,
-    /// Again and again the same after this length [m]; with neither mirror nor wall along this axis.
+    /// Periodic with this length [m]; without mirror or wall along this axis.
     Periodic(f64),
-    /// Between insulated planes at 0 and at this length [m]. The fluid slips along those across x and
-    /// y, and sticks to those across z, of which the one at 0 may be the wall.
+    /// Bounded by insulated planes at 0 and at this length [m]. The fluid slips along those across
+    /// x and y, and sticks to those across z; the one at z = 0 may be the wall.
     Closed(f64),
 }
 
-/// One round droplet that starts to move at a time.
+/// A round droplet and the time at which it starts to move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Release {
     /// [s]
@@ -93,27 +93,27 @@ pub struct Release {
     pub temperature: f64,
 }
 
-/// Drops that are released when they are asked for.
+/// Drops released on demand.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Demand {
-    /// How many there may be.
+    /// Largest number of drops.
     pub most: usize,
-    /// A drop as it is expected. All have its diameter; its temperature is the model's reference.
+    /// The expected drop. All drops have its diameter; its temperature is the model's reference.
     pub expected: Release,
 }
 
 impl DropletPlan {
-    /// Along which of x and y nothing moves as a whole.
+    /// Returns for x and y whether there is no motion as a whole along that axis.
     pub fn even(&self) -> [bool; 2] {
         self.mirrors.map(|mirrored| mirrored || self.axisymmetric)
     }
 
-    /// Axes in which particles stand: 3, or x and z alone.
+    /// Number of axes in which particles are arranged: 3, or 2 (x and z).
     pub fn axes(&self) -> usize {
         if self.axisymmetric { 2 } else { self.dimension }
     }
 
-    /// Volume of a drop of some diameter [m³], in a plane model [m²].
+    /// Volume of a drop of a diameter [m³]; in a plane model [m²].
     pub fn volume(&self, diameter: f64) -> f64 {
         match self.dimension {
             2 => PI / 4.0 * diameter.powi(2),
@@ -121,7 +121,7 @@ impl DropletPlan {
         }
     }
 
-    /// Number of particles of a drop of some diameter [m], images left out.
+    /// Number of particles of a drop of a diameter [m], images excluded.
     pub fn particles_of(&self, diameter: f64) -> f64 {
         if self.axisymmetric {
             return PI / 8.0 * (diameter / self.spacing).powi(2);
@@ -129,13 +129,13 @@ impl DropletPlan {
         self.volume(diameter) / self.spacing.powi(self.dimension as i32) / copies(self.mirrors)
     }
 
-    /// All drops that there may be; those on demand as if all were asked for at once.
+    /// All possible drops; those on demand as if all were requested at once.
     pub fn drops(&self) -> impl Iterator<Item = Release> + '_ {
         let asked = self.demand.iter().flat_map(|demand| (0..demand.most).map(|_| demand.expected));
         self.releases.iter().copied().chain(asked)
     }
 
-    /// The zero of the model's temperatures [K].
+    /// Zero of the model's temperatures [K].
     pub fn reference_temperature(&self) -> f64 {
         self.drops().next().map_or(0.0, |drop| drop.temperature)
     }
@@ -144,11 +144,11 @@ impl DropletPlan {
 /// The rigid plane z = 0, to which the fluid sticks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wall {
-    /// Where temperatures come from and heat and impulse go to.
+    /// Cells that provide temperatures and receive heat and impulse.
     pub cells: WallCells,
     /// Contact angle of the fluid [rad].
     pub contact_angle: f64,
-    /// `√(kρc)` of a solid below [W √s/(m² K)], whose surface answers after a step; nothing for a wall
-    /// whose temperature is held.
+    /// `√(kρc)` of a solid below [W √s/(m² K)] whose surface responds after a step; `None` for a
+    /// wall of prescribed temperature.
     pub effusivity: Option<f64>,
 }

@@ -1,4 +1,4 @@
-//! What the points of the grid do to the particles.
+//! Forces of the grid's points on the particles.
 
 use std::marker::PhantomData;
 
@@ -16,10 +16,10 @@ use crate::kernel::Number;
 use crate::runtime::parallel::Team;
 use crate::scene::Precision;
 
-/// What the grid's points do to a particle, over its volume at rest.
+/// Force of the grid's points on a particle, over its volume at rest.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pull {
-    /// By points on the fluid's side of the wall, and by their images beyond it.
+    /// Force by points on the fluid's side of the wall, and by their images beyond it.
     pub by_fluid: [f64; 3],
     pub by_wall: [f64; 3],
     /// φ, the derivative of the energy by the particle's volume.
@@ -36,19 +36,19 @@ pub struct Pulls<'a> {
     pub images: &'a Images,
     pub smoothing: Smoothing,
     pub precision: Precision,
-    /// Whether particles are rings, and points circles.
+    /// True if particles are rings and points are circles.
     pub rings: bool,
-    /// Of the sheets' points.
+    /// Positions of the sheets' points.
     pub spread: &'a Spread,
-    /// Those of all sheets that pull, which stand in blocks, and their middles.
+    /// All sheets that pull, sorted into blocks, and their middles.
     pub sheets: &'a [u32],
     pub middles: &'a [[f64; 3]],
-    /// Of all sheets.
+    /// Slopes of all sheets.
     pub slopes: &'a [Slopes],
 }
 
 impl Pulls<'_> {
-    /// On particles that stand in blocks.
+    /// Computes the pulls on particles sorted into blocks.
     pub fn on(&self, positions: &[[f64; 3]], pulls: &mut [Pull], team: &Team) {
         pulls.fill(Pull::default());
         let field = Field::of(self.middles, team);
@@ -62,20 +62,20 @@ impl Pulls<'_> {
     }
 }
 
-/// What bounds a model, for the momentum that its surface tension may change.
+/// Bounds of a model that determine how surface tension may change its momentum.
 #[derive(Debug, Clone, Copy)]
 pub struct Bounded {
-    /// Axes along which nothing moves as a whole.
+    /// Axes along which there is no motion as a whole.
     pub even: [bool; 2],
     pub walled: bool,
 }
 
-/// Accelerations by pulls on particles of some masses: by fluid along x, y, z and by the wall along z, so
-/// that they change no momentum but that of the wall.
+/// Accelerations by pulls on particles: by fluid along x, y, z and by the wall along z. They change
+/// no momentum but that of the wall.
 ///
-/// All the force on the fluid across the wall is the wall's, which gets it where images of the grid
-/// pull. Far from a wall it is what rounding and, along z, the grid's place above the wall leave, and
-/// taken from all particles alike.
+/// The total force on the fluid across the wall acts on the wall, at the places where images of the
+/// grid pull. Far from a wall this force consists of rounding and, along z, of the effect of the
+/// grid's position; it is subtracted from all particles alike.
 pub fn balanced(pulls: &[Pull], masses: &[f64], bounded: Bounded, team: &Team) -> Vec<[f64; 4]> {
     let (mut total, mut across, mut mass) = ([0.0; 3], 0.0, 0.0);
     for (Pull { by_fluid, by_wall, .. }, m) in pulls.iter().zip(masses) {
@@ -139,7 +139,7 @@ impl<F: Form> Work for PullsOnBlocks<'_, '_, F> {
     }
 }
 
-/// Sheets round a block of particles. Its memory serves for one block after another.
+/// Sheets around a block of particles. Its memory is reused from one block to the next.
 #[derive(Default)]
 struct Round<R> {
     of_block: Nearby,
@@ -180,7 +180,7 @@ impl<R: Number> Round<R> {
         }
     }
 
-    /// Over the sheets near a particle of the group that they were last narrowed to.
+    /// Sums over the sheets near a particle of the group that they were last narrowed to.
     #[inline(always)]
     fn sum<L: Lanes<Real = R>, F: Form>(
         &mut self,

@@ -1,24 +1,25 @@
-//! Drops that were asked for: how many, and those of them that wait for their place.
+//! Requested drops: their number, and those that wait for free space.
 
 use std::slice::from_mut;
 
 use super::plan::Release;
 use crate::state::{Field, Per};
 
-/// Numbers of a drop that waits: x and y of its centre [m], its velocity [m/s] and its temperature [K].
+/// Numbers of a waiting drop: x and y of its centre [m], its velocity [m/s] and its temperature
+/// [K].
 const NUMBERS: usize = 6;
 
-/// What a state knows of drops on demand.
+/// Part of a state that concerns drops on demand.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Requests {
-    /// Drops asked for so far, a whole number.
+    /// Number of drops requested so far.
     pub asked: f64,
-    /// Drops that wait in the order in which they were asked for, then zeros: as many as there may be.
+    /// Waiting drops in the order of their requests, then zeros up to the largest number.
     pub waiting: Vec<[f64; NUMBERS]>,
 }
 
 impl Requests {
-    /// Nothing was asked for yet of so many drops.
+    /// No requests yet, with room for so many drops.
     pub fn none(most: usize) -> Self {
         Self { waiting: vec![[0.0; NUMBERS]; most], ..Self::default() }
     }
@@ -26,19 +27,19 @@ impl Requests {
     pub fn fields(&mut self) -> Vec<(Field, &mut [f64])> {
         let field = |name, words, per, width| Field { name, words, per, width };
         let body = |name, words| field(name, words, Per::Body, 1);
-        let waits = "place [m], velocity [m/s] and temperature [K] of a drop that waits";
+        let waits = "position [m], velocity [m/s] and temperature [K] of a waiting drop";
         vec![
             (body("asked", "drops asked for so far"), from_mut(&mut self.asked)),
             (field("waiting", waits, Per::Drop, NUMBERS), self.waiting.as_flattened_mut()),
         ]
     }
 
-    /// Number of drops that wait, where so many were released.
+    /// Number of waiting drops, given the number of released ones.
     pub fn waiting(&self, released: f64) -> usize {
         ((self.asked - released) as usize).min(self.waiting.len())
     }
 
-    /// Puts drops in the place of those that wait.
+    /// Replaces the waiting drops.
     pub fn wait(&mut self, drops: &[Release]) {
         self.waiting.fill([0.0; NUMBERS]);
         for (place, drop) in self.waiting.iter_mut().zip(drops) {
@@ -47,7 +48,7 @@ impl Requests {
         }
     }
 
-    /// Those that wait, as they differ from one that is expected.
+    /// The waiting drops, built from the expected one.
     pub fn drops(&self, released: f64, expected: &Release) -> Vec<Release> {
         let drop = |&[x, y, u, v, w, temperature]: &[f64; NUMBERS]| Release {
             centre: [x, y, expected.centre[2]],

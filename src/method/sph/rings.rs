@@ -1,21 +1,22 @@
-//! Particles that are rings about the axis x = y = 0, and how sums over pairs go round them.
+//! Particles that are rings about the axis x = y = 0, and sums over pairs of them.
 //!
-//! A ring is spread evenly round the axis, so a pair of rings interacts as one place of the first does with all
-//! places of the second. All laws are those of three dimensions, and what they say of a cylinder's strain along its
-//! hoops, of a surface's second curvature and of the axis itself follows from the sum.
+//! A ring is uniform around the axis, so a pair of rings interacts as one place of the first with
+//! all places of the second. All laws are those of three dimensions. Hoop strain, the second
+//! curvature of a surface and the behaviour at the axis follow from the sum.
 
 use super::lanes::Lanes;
 
-/// What a particle is.
+/// Form of a particle.
 pub trait Form: Send + Sync + 'static {
-    /// Whether it goes round the axis.
+    /// True for a ring about the axis.
     const ROUND: bool;
 }
 
-/// A particle that is at one place.
+/// A particle at a point.
 pub struct Point;
 
-/// A ring about the axis, which lies at y = 0 with x for its radius. Mass and volume are those of the whole ring.
+/// A ring about the axis. Its position has y = 0 and its radius as x. Mass and volume are those of
+/// the whole ring.
 pub struct Ring;
 
 impl Form for Point {
@@ -43,39 +44,41 @@ macro_rules! with_form {
 }
 pub(crate) use with_form;
 
-/// Places on half of an arc that stand for all of it.
+/// Quadrature points on half of an arc.
 pub const PLACES: usize = 4;
 /// sin²θ and cos θ at the middles θ of equal parts of a right angle.
 const SQUARES: [f64; PLACES] =
     [0.03806023374435663, 0.3086582838174551, 0.6913417161825449, 0.9619397662556434];
 const COSINES: [f64; PLACES] =
     [0.9807852804032304, 0.8314696123025452, 0.5555702330196022, 0.19509032201612825];
-/// Product of two radii below which there is no arc to speak of.
+/// Product of two radii below which the arc degenerates.
 const LEAST: f64 = 1e-12;
 
-/// The part of a ring that is within a length of 1 of a place on another, as half of what is symmetric.
+/// The arc of a ring within a distance of 1 of a place on another ring, as half of a symmetric arc.
 ///
-/// At an angle φ between both, their distance is `√(d² + 4 r r′ t²)`, t = sin(φ/2), d that at φ = 0, so that the
-/// arc ends at `t_m² = min(1, (1 − d²)/(4 r r′))`. With `t = t_m sin θ` a sum over the ring is
+/// At an angle φ between both, their distance is `√(d² + 4 r r′ t²)`, with t = sin(φ/2) and d the
+/// distance at φ = 0. So the arc ends at `t_m² = min(1, (1 − d²)/(4 r r′))`. With `t = t_m sin θ` a
+/// sum over the ring is
 ///
-/// `1/(2π) ∫ f dφ = (2/π) ∫ f t_m cos θ/√(1 − t²) dθ` over a right angle,
+/// `1/(2π) ∫ f dφ = (2/π) ∫ f t_m cos θ/√(1 − t²) dθ` over a right angle.
 ///
-/// whose integrand goes on evenly beyond both ends: the rule of equal parts takes it to some 1e-3 with four of
-/// them, wherever the arc ends and for whole rings too (L. N. Trefethen and J. A. C. Weideman, SIAM Rev. 56 (2014)
-/// 385–458, doi 10.1137/130932132). Arcs are the same from both ends, so that sums over pairs stay symmetric.
+/// The integrand continues evenly beyond both ends, so the midpoint rule with four points is
+/// accurate to some 1e-3, for all arcs and for whole rings (L. N. Trefethen and J. A. C. Weideman,
+/// SIAM Rev. 56 (2014) 385–458, doi 10.1137/130932132). Arcs are the same from both ends, so that
+/// sums over pairs stay symmetric.
 #[derive(Clone, Copy)]
 pub struct Arc<L> {
     /// t_m and t_m².
     end: L,
     square: L,
-    /// Radius of the ring that is gone round.
+    /// Radius of the ring that the arc belongs to.
     radius: L,
 }
 
 /// A place on an arc, by its angle φ.
 #[derive(Clone, Copy)]
 pub struct Turn<L> {
-    /// Part of the ring that it stands for, with its mirror image at −φ.
+    /// Fraction of the ring that it represents, together with its mirror image at −φ.
     pub weight: L,
     /// 1 − cos φ and sin φ.
     back: L,
@@ -84,7 +87,7 @@ pub struct Turn<L> {
 }
 
 impl<L: Lanes> Arc<L> {
-    /// Of a ring about a place at another radius, at a distance squared within the plane.
+    /// Arc of a ring about a place at another radius, at a squared distance within the plane.
     #[inline(always)]
     pub fn about(own: L, radius: L, distance_squared: L) -> Self {
         let one = L::constant(1.0);
@@ -110,26 +113,26 @@ impl<L: Lanes> Arc<L> {
 }
 
 impl<L: Lanes> Turn<L> {
-    /// A position on the plane y = 0, about any place of that, turned round the axis.
+    /// Rotates a position in the plane y = 0, relative to any origin in it, about the axis.
     #[inline(always)]
     pub fn place(&self, [x, _, z]: [L; 3]) -> [L; 3] {
         [x - self.radius * self.back, self.radius * self.aside, z]
     }
 
-    /// A vector in the plane y = 0 that goes round with its place.
+    /// Rotates a vector in the plane y = 0 along with its place.
     #[inline(always)]
     pub fn vector(&self, [x, _, z]: [L; 3]) -> [L; 3] {
         [x - x * self.back, x * self.aside, z]
     }
 
-    /// A record of position, velocity, volume and one more.
+    /// Rotates a record of position, velocity, volume and one more number.
     #[inline(always)]
     pub fn record(&self, [x, y, z, u, v, w, volume, last]: [L; 8]) -> [L; 8] {
         let ([x, y, z], [u, v, w]) = (self.place([x, y, z]), self.vector([u, v, w]));
         [x, y, z, u, v, w, volume * self.weight, last]
     }
 
-    /// An annex of a vector and one more.
+    /// Rotates an annex of a vector and one more number.
     #[inline(always)]
     pub fn annex(&self, [x, y, z, last]: [L; 4]) -> [L; 4] {
         let [x, y, z] = self.vector([x, y, z]);
@@ -137,7 +140,7 @@ impl<L: Lanes> Turn<L> {
     }
 }
 
-/// What goes round an axis has nothing along y.
+/// Removes the y component, which a ring does not have.
 #[inline(always)]
 pub fn flat<F: Form>([x, y, z]: [f64; 3]) -> [f64; 3] {
     [x, if F::ROUND { 0.0 } else { y }, z]
@@ -149,13 +152,14 @@ mod tests {
     use super::*;
     use crate::kernel::{Kernel, Number};
 
-    /// Mean over a ring of a function of the distance to a place at another radius, `d` away within the plane.
+    /// Mean over a ring of a function of the distance to a place at another radius, `d` away within
+    /// the plane.
     fn mean(f: impl Fn(f64) -> f64, [own, radius]: [f64; 2], d: f64) -> f64 {
         let lanes = Array::<f64>::constant;
         let arc = Arc::about(lanes(own), lanes(radius), lanes(d * d));
         let place = |place: usize| {
             let turn = arc.turn(place);
-            // From the place at x = own to what stands at x = radius, turned round the axis.
+            // From the place at x = own to the rotated place at x = radius.
             let [x, y, _] = turn.place([lanes(radius), lanes(0.0), lanes(0.0)]);
             let [x, y, weight] = [x, y, turn.weight].map(|l| l.to_array()[0]);
             let height = d * d - (own - radius).powi(2);
@@ -164,7 +168,7 @@ mod tests {
         (0..PLACES).map(place).sum()
     }
 
-    /// The same by very many places.
+    /// Reference value from very many places.
     fn exact(f: impl Fn(f64) -> f64, [own, radius]: [f64; 2], d: f64) -> f64 {
         const COUNT: usize = 400_000;
         let place = |n: usize| {
@@ -175,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn arcs_hold_what_rings_hold() {
+    fn quadrature_on_arcs_matches_fine_quadrature() {
         for own in [0.05_f64, 0.17, 0.5, 1.5, 20.0] {
             for d in [0.05_f64, 0.3, 0.6, 0.9] {
                 for part in [0.0, 0.7, -0.7] {
@@ -196,7 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn whole_rings_are_whole() {
+    fn weights_of_whole_rings_sum_to_one() {
         // The farthest place is within reach.
         for radii in [[0.1_f64, 0.2], [0.3, 0.3], [0.01, 0.6]] {
             let d = (radii[0] - radii[1]).abs();
@@ -205,7 +209,7 @@ mod tests {
     }
 
     #[test]
-    fn arcs_are_the_same_from_both_ends() {
+    fn arcs_are_symmetric_in_both_rings() {
         let value = |q: f64| Kernel::WendlandC2.value(q, 1.0, 3);
         for radii in [[0.2, 0.7], [2.0, 2.3], [0.0, 0.5]] {
             let [a, b] = [radii, [radii[1], radii[0]]].map(|radii| mean(value, radii, 0.6));

@@ -1,4 +1,4 @@
-//! Particles are moved a little from crowded places to empty ones.
+//! Shifts particles slightly from crowded to sparse regions.
 
 use super::images::Images;
 use super::lanes::{Lanes, lanes};
@@ -7,24 +7,24 @@ use super::neighbours::Block;
 use super::rings::{Arc, Form, PLACES, flat};
 use crate::kernel::Shape;
 
-/// Weight of the term that acts against pairs (Monaghan 2000), and its power.
+/// Weight of the term against pairing (Monaghan 2000), and its power.
 const PAIRING: f64 = 0.2;
-/// Distance squared over H² of places that are one.
+/// Squared distance over H² at which two places coincide.
 const SAME: f64 = 1e-12;
-/// Particles fuller than this lie inside the fluid.
+/// Fullness above which particles lie inside the fluid.
 pub const INSIDE: f64 = 0.75;
 
-/// Gradient of the concentration of particles, and where the free surface lies.
+/// Gradient of the concentration of particles, and location of the free surface.
 ///
-/// `∇C_i = Σ V_j [1 + 0.2 (w(q)/w(q₀))⁴] F x_ij`, with q₀ the distance of particles over H;
-/// the normal follows the gradient of the smallest eigenvalue λ of the moment matrix.
+/// `∇C_i = Σ V_j [1 + 0.2 (w(q)/w(q₀))⁴] F x_ij`, with q₀ the distance of particles over H; the
+/// normal follows the gradient of the smallest eigenvalue λ of the moment matrix.
 ///
-/// Sources: Sun, Colagrossi, Marrone & Zhang (2017), Comput. Methods Appl. Mech. Eng. 315, 25–49, doi
-/// 10.1016/j.cma.2016.10.028; Marrone, Colagrossi, Le Touzé & Graziani (2010), J. Comput. Phys. 229,
-/// 3652–3663, doi 10.1016/j.jcp.2010.01.019.
+/// Sources: Sun, Colagrossi, Marrone & Zhang (2017), Comput. Methods Appl. Mech. Eng. 315, 25–49,
+/// doi 10.1016/j.cma.2016.10.028; Marrone, Colagrossi, Le Touzé & Graziani (2010), J. Comput. Phys.
+/// 229, 3652–3663, doi 10.1016/j.jcp.2010.01.019.
 pub struct Crowding<'a> {
     pub images: &'a Images,
-    /// Position, 0, 0, 0, volume and λ of every particle.
+    /// Position, 0, 0, 0, volume and λ of each particle.
     pub records: &'a [[f64; 8]],
     /// σ of the kernel.
     pub normalisation: f64,
@@ -32,7 +32,7 @@ pub struct Crowding<'a> {
     pub reference: f64,
 }
 
-/// What tells how to move a particle.
+/// Sums that determine the displacement of a particle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct CrowdingSums {
     pub gradient: [f64; 3],
@@ -76,8 +76,8 @@ impl PairSum for Crowding<'_> {
                 lanes.add::<S>(&here, neighbour, closeness);
                 continue;
             }
-            // Two rings are as close as they are where they are closest, and no ring is close to itself: places
-            // along it would press it outward.
+            // Two rings are as close as their closest places. No ring is close to itself: places
+            // along it would push it outward.
             let closeness = square.choose_below(SAME, L::constant(0.0), closeness);
             let arc = Arc::about(at[0] + centre, neighbour[0] + centre, square);
             for place in 0..PLACES {
@@ -100,7 +100,7 @@ impl PairSum for Crowding<'_> {
     }
 }
 
-/// The particle whose neighbours are summed, in all lanes.
+/// The particle whose neighbours are summed, broadcast to all lanes.
 struct Here<L> {
     position: [L; 3],
     fullness: L,
@@ -128,7 +128,7 @@ impl<L: Lanes> Sums<L> {
         Self { gradient: [zero; 3], normal: [zero; 3], surface: zero }
     }
 
-    /// Adds sixteen neighbours, whose closeness is w(q)/w(q₀).
+    /// Adds sixteen neighbours with closeness w(q)/w(q₀).
     #[inline(always)]
     fn add<S: Shape>(&mut self, here: &Here<L>, neighbour: [L; 8], closeness: L) {
         let [x, y, z, _, _, _, volume, theirs] = neighbour;
@@ -148,14 +148,14 @@ impl<L: Lanes> Sums<L> {
     }
 }
 
-/// Displacement for a gradient of 1 and a mean way of 1, both in units of H. Sun et al. (2017) take 2 and
-/// the way at the highest speed, which is about twice the mean one.
+/// Displacement for a gradient of 1 and a mean path of 1, both in units of H. Sun et al. (2017) use
+/// 2 and the path at the highest speed, which is about twice the mean one.
 const STRENGTH: f64 = 2.0;
-/// Largest displacement at once, over H.
+/// Largest single displacement over H.
 const MOST: f64 = 0.02;
 
-/// The displacement of a particle over H, for the way that particles went on average since the last
-/// one. Near a free surface it is along the surface only; at its rim there is none.
+/// Displacement of a particle over H, for the mean path of particles since the last one. Near a
+/// free surface it is tangential; at its edge it vanishes.
 pub fn displacement(sums: &CrowdingSums, fullness: f64, way: f64) -> [f64; 3] {
     let mut shift = sums.gradient.map(|g| -STRENGTH * way * g);
     if fullness < INSIDE {

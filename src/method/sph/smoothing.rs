@@ -1,13 +1,13 @@
-//! The smoothed volume fraction and what derives from it: the innermost loops of surface tension.
+//! The smoothed volume fraction and its derivatives: the innermost loops of surface tension.
 
 use super::lanes::{Lanes, WIDTH};
 use super::rings::{Arc, Form, PLACES};
 use crate::kernel::{Kernel, Shape, WendlandC2};
 
-/// The kernel W of support h that smooths. Kernels of which the Fourier transform has zeros, such as
-/// (1 − q²)ⁿ, are blind to unevenness of some wavelengths, and particles come loose.
+/// The smoothing kernel W of support h. Kernels whose Fourier transform has zeros, such as (1 −
+/// q²)ⁿ, do not resist unevenness of some wavelengths, and particles detach.
 ///
-/// The sums below take lengths over h and leave out factors that all their terms have.
+/// The sums below use lengths over h and omit factors common to all their terms.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Smoothing {
     /// h over H.
@@ -21,19 +21,20 @@ impl Smoothing {
         Self { reach, scale: Kernel::WendlandC2.scale(reach, dimension) }
     }
 
-    /// What the sums of [`FractionSum`] have to be multiplied by: C, ∇C.
+    /// Factors of the sums of [`FractionSum`]: for C and for ∇C.
     pub fn of_fraction(&self) -> [f64; 2] {
         [self.scale, self.scale / self.reach]
     }
 
-    /// What A and b have to be multiplied by for [`SheetSlopes`], and the potential that comes out.
+    /// Factors of A and b for [`SheetSlopes`], and of the resulting potential.
     pub fn of_pull(&self) -> [f64; 3] {
         let slope = self.scale / self.reach;
         [slope / self.reach, slope, self.reach]
     }
 }
 
-/// Sums over particles at points in lanes: `Σ V w` and `Σ V (w′/q) ξ`, ξ from the particle to the point.
+/// Sums over particles at points in lanes: `Σ V w` and `Σ V (w′/q) ξ`, ξ from the particle to the
+/// point.
 #[derive(Clone, Copy)]
 pub struct FractionSum<L> {
     pub value: L,
@@ -46,7 +47,7 @@ impl<L: Lanes> FractionSum<L> {
         Self { value: L::constant(0.0), gradient: [L::constant(0.0); 3] }
     }
 
-    /// Adds a particle with its position and volume; `centre` is x of the place about which positions are.
+    /// Adds a particle with its position and volume; `centre` is x of the origin of the positions.
     #[inline(always)]
     pub fn add<F: Form>(&mut self, at: &[L; 3], particle: &[L::Real; 4], centre: L) {
         let [x, y, z, volume] = *particle;
@@ -63,7 +64,7 @@ impl<L: Lanes> FractionSum<L> {
             let [x, y, z] = turn.place(own);
             self.add_at([at[0] - x, at[1] - y, at[2] - z], volume * turn.weight);
         }
-        // What is on both sides of the plane y = 0 cancels.
+        // Contributions from both sides of the plane y = 0 cancel.
         self.gradient[1] = L::constant(0.0);
     }
 
@@ -100,8 +101,8 @@ impl<L: Lanes> PullSum<L> {
         Self { force: [L::constant(0.0); 3], potential: L::constant(0.0) }
     }
 
-    /// Adds a sheet whose points stand at `spread` about its middle; `centre` is x of the place about which
-    /// positions are.
+    /// Adds a sheet whose points stand at `spread` about its middle; `centre` is x of the origin of
+    /// the positions.
     #[inline(always)]
     pub fn add<F: Form>(
         &mut self,

@@ -1,23 +1,23 @@
-//! How far fluid spreads on the wall.
+//! Spread diameter of fluid on the wall.
 
 use std::f64::consts::{PI, TAU};
 
 use super::plan::DropletPlan;
 
-/// Radius over Δx of the disc of wall that a particle covers: a lattice of particles leaves no hole
-/// up to a distance of √2 Δx, so that a film may thin out.
+/// Radius over Δx of the disc of wall that a particle covers. A lattice of particles leaves no hole
+/// up to a distance of √2 Δx, so a film may thin out.
 const COVER: f64 = 1.0;
 /// Width of rings over Δx.
 const RING: f64 = 0.25;
 
-/// What the places of particles on a wall are.
+/// Arrangement of particles on a wall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Film {
-    /// Places on a line, of a plane model.
+    /// Points on a line, of a plane model.
     Line,
-    /// Places in a plane.
+    /// Points in a plane.
     Plane,
-    /// Rings about the origin, of which x is the radius.
+    /// Rings about the origin with radius x.
     Rings,
 }
 
@@ -31,16 +31,17 @@ impl Film {
     }
 }
 
-/// Diameter of the film that particles at places on the wall make round the origin, in the unit of
-/// their distance Δx.
+/// Diameter of the film that particles on the wall form around the origin, in units of their
+/// distance Δx.
 ///
-/// Every particle covers a disc of radius Δx, and c(r) is the covered share of a circle of radius r.
-/// A share above 3/4 counts as all, below 1/4 as nothing (so that drops which flew off do not count),
-/// and what lies within counts as much as what lies outside of it (so that holes do not count either):
+/// Every particle covers a disc of radius Δx, and c(r) is the covered fraction of a circle of
+/// radius r. A fraction above 3/4 counts as 1, one below 1/4 as 0, which excludes drops that flew
+/// off. Each circle counts at least as much as any circle outside it, which fills holes:
 /// `s(r) = max over r' ≥ r of min(1, max(0, 2c(r') − 1/2))`. The film is as large as the disc of
-/// the same area, `(D/2 + Δx/2)² = ∫ s d(r²)`, in a plane model the line of the same length,
-/// `D/2 + Δx/2 = ∫ s dr`; of the outermost particles a disc of radius Δx/2 belongs to the film, hence
-/// the Δx/2. More places make D no smaller, and one among many changes it by a small part of Δx.
+/// the same area, `(D/2 + Δx/2)² = ∫ s d(r²)`. In a plane model it is the line of the same length,
+/// `D/2 + Δx/2 = ∫ s dr`. A disc of radius Δx/2 of the outermost particles belongs to the film,
+/// hence the Δx/2. Additional particles never reduce D, and one among many changes it by a small
+/// fraction of Δx.
 pub fn spread_diameter(places: &[[f64; 2]], film: Film) -> f64 {
     let mut arcs: Vec<Arc> = places.iter().flat_map(|&place| arcs_of(place, film)).collect();
     arcs.sort_by(|a, b| b.ring.cmp(&a.ring).then(a.start.total_cmp(&b.start)));
@@ -67,8 +68,8 @@ struct Arc {
     end: f64,
 }
 
-/// What a particle covers of the rings' middle circles; in a plane model a half circle stands for
-/// each side.
+/// Arcs of the rings' middle circles that a particle covers; in a plane model a half circle
+/// represents each side.
 fn arcs_of([x, y]: [f64; 2], film: Film) -> Vec<Arc> {
     let distance = x.hypot(y);
     let first = ((distance - COVER) / RING).max(0.0) as usize;
@@ -111,7 +112,7 @@ fn arcs_of([x, y]: [f64; 2], film: Film) -> Vec<Arc> {
     arcs
 }
 
-/// Length of the union of arcs in the order of their starts.
+/// Length of the union of arcs sorted by their starts.
 fn union(arcs: &[Arc]) -> f64 {
     let (mut length, mut reached) = (0.0, 0.0_f64);
     for arc in arcs {
@@ -137,7 +138,7 @@ mod tests {
         points.filter(|[x, y]| (hole..radius).contains(&x.hypot(*y))).collect()
     }
 
-    /// Concentric rings, as a drop that spread evenly leaves them.
+    /// Concentric rings, as an evenly spread drop leaves them.
     fn rings(count: usize) -> Vec<[f64; 2]> {
         let ring = |k: usize| {
             let radius = k as f64 + 0.5;
@@ -151,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_round_film_has_its_diameter() {
+    fn diameter_of_a_round_film() {
         for count in [3, 8, 20, 40] {
             let diameter = spread_diameter(&rings(count), Film::Plane);
             assert!((diameter - 2.0 * count as f64).abs() < 0.3, "{count}: {diameter}");
@@ -163,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_has_its_length() {
+    fn length_of_a_plane_film() {
         for count in [1, 4, 31] {
             let places: Vec<[f64; 2]> =
                 (0..count).map(|i| [i as f64 + 0.5 - 0.5 * count as f64, 0.0]).collect();
@@ -173,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn neither_holes_nor_thinning_nor_spray_count() {
+    fn holes_thinning_and_spray_are_ignored() {
         let whole = spread_diameter(&lattice(20.0, 1.0, 0.0), Film::Plane);
         assert_eq!(spread_diameter(&lattice(20.0, 1.0, 10.0), Film::Plane), whole);
         let thin = spread_diameter(&lattice(20.0, 1.4, 0.0), Film::Plane);
@@ -185,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn one_particle_more_changes_it_by_little() {
+    fn one_more_particle_changes_the_diameter_little() {
         let mut places = lattice(22.0, 1.0, 0.0);
         places.sort_by(|a, b| a[0].hypot(a[1]).total_cmp(&b[0].hypot(b[1])));
         let mut before = spread_diameter(&places[..300], Film::Plane);

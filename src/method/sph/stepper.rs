@@ -16,7 +16,7 @@ use super::loops::{PART, PairSum, for_all, for_parts};
 use super::method::{Method, Push};
 use super::moment::least_eigenvalue;
 use super::momentum::Momentum;
-use super::neighbours::{Neighbours, Ways};
+use super::neighbours::{Displacements, Neighbours};
 use super::order::space_order;
 use super::pulls::{Bounded, balanced};
 use super::shifting::{Crowding, displacement};
@@ -26,34 +26,34 @@ use super::wall_points::WallPoints;
 use crate::runtime::allowance::Allowance;
 use crate::runtime::parallel::Team;
 
-/// Everything of a run between two communication points.
+/// State of a run between two communication points.
 pub struct Stepper<'a, 'p> {
     method: &'a Method,
     team: &'a Team,
     cloud: &'a mut Cloud,
     ledger: &'a mut Ledger,
     neighbours: Neighbours,
-    /// Points of the wall; nothing where there is none.
+    /// Points of the wall; `None` where there is none.
     points: Option<&'a mut WallPoints<'p>>,
-    /// Whether heat is conducted: not where all temperatures are the same.
+    /// True if heat is conducted: not where all temperatures are equal.
     heats: bool,
-    /// What the loops over pairs read and give, in memory that is kept for the next ones.
+    /// Inputs and results of the loops over pairs, in memory that is reused.
     records: Vec<[f64; 8]>,
     annexes: Vec<[f64; 4]>,
-    /// Density of every particle.
+    /// Density of each particle.
     densities: Vec<f64>,
     accelerations: Vec<[[f64; 3]; 2]>,
     /// Free surfaces, where they have tension.
     free_surface: FreeSurface,
     /// Kicks whose reaction the wall has not received yet.
-    unanswered: Vec<Times>,
+    pending_kicks: Vec<Times>,
 }
 
-/// What the rounds over the particles of a droplet are called.
+/// Name of the loop over time steps in messages.
 const STEPS: &str = "time steps of a droplet";
-/// Growth of what surrounds the blocks at which the particles are sorted anew.
+/// Growth of the blocks' surroundings at which the particles are sorted anew.
 const GROWTH: f64 = 1.2;
-/// Way at the mean speed over H after which particles are moved from crowded places.
+/// Mean path over H after which particles are shifted.
 const SHIFT_WAY: f64 = 0.05;
 
 impl<'a, 'p> Stepper<'a, 'p> {
@@ -82,12 +82,12 @@ impl<'a, 'p> Stepper<'a, 'p> {
             densities: Vec::new(),
             accelerations: Vec::new(),
             free_surface: FreeSurface::default(),
-            unanswered: Vec::new(),
+            pending_kicks: Vec::new(),
         }
     }
 
-    /// Whether it is time to sort: particles have mixed, or are to be brought back into a period.
-    fn is_untidy(&self) -> bool {
+    /// Returns true if particles must be sorted: they have mixed, or must be wrapped into a period.
+    fn needs_sorting(&self) -> bool {
         self.neighbours.surrounded() > GROWTH * self.ledger.surrounded
             || self.method.images.are_beyond_period(&self.cloud.position)
     }
@@ -101,25 +101,30 @@ impl<'a, 'p> Stepper<'a, 'p> {
         self.free_surface.forget();
     }
 
-    /// Lists neighbours for ways that the particles are about to go.
-    fn list(&mut self, ways: &Ways) -> Result<(), Failure> {
-        self.neighbours.prepare(&self.cloud.position, ways, &self.method.images, self.team);
+    /// Lists neighbours for predicted displacements of the particles.
+    fn list(&mut self, displacements: &Displacements) -> Result<(), Failure> {
+        self.neighbours.prepare(
+            &self.cloud.position,
+            displacements,
+            &self.method.images,
+            self.team,
+        );
         if let Some(at) = self.neighbours.crowded() {
             let at = at.map(|x| x * self.method.units.length);
             return Err(Failure::Crowded { at, time: self.ledger.time });
         }
         if let Some(setting) = &self.method.surface {
-            self.free_surface.prepare(setting, self.cloud, ways, self.team);
+            self.free_surface.prepare(setting, self.cloud, displacements, self.team);
         }
         Ok(())
     }
 
-    /// Advances by `duration` [s]. Lists of neighbours are made anew, so that what comes out follows from
-    /// the state alone; the order of the particles is part of that, and stays while it is good.
+    /// Advances by `duration` [s]. Neighbour lists are made anew, so that the result depends on the
+    /// state alone; the order of the particles is part of the state, and is kept while it is good.
     pub fn advance(&mut self, duration: f64, allowance: &Allowance) -> Result<(), Failure> {
         let method = self.method;
         self.neighbours = Neighbours::of(&self.cloud.position, self.team);
-        if self.is_untidy() {
+        if self.needs_sorting() {
             self.sort();
         }
         let mut rest = duration / method.units.time();
@@ -141,17 +146,17 @@ impl<'a, 'p> Stepper<'a, 'p> {
         Ok(())
     }
 
-    /// Order and accelerations of particles that stand where they are, for a start.
+    /// Computes order and accelerations of particles at their positions, for a start.
     pub fn prime(&mut self) -> Result<(), Failure> {
         self.sort();
-        self.list(&Ways::none(self.cloud.len()))?;
+        self.list(&Displacements::none(self.cloud.len()))?;
         self.accelerate(Times::NONE);
         self.apply_tension();
         Ok(())
     }
 
-    /// Steps, the first of some that are left, between which surface tension does not act: impulses of half
-    /// their time at both ends.
+    /// Advances by several steps without surface tension, the first of some remaining ones;
+    /// impulses of half their duration act at both ends.
     fn round(
         &mut self,
         dt: f64,
@@ -172,7 +177,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         Ok(motion.expect("a round has a step"))
     }
 
-    /// The first of some steps that are left, with surface tension at its ends.
+    /// Advances by one step with surface tension at its ends, the first of some remaining ones.
     fn step(
         &mut self,
         dt: f64,
@@ -186,13 +191,13 @@ impl<'a, 'p> Stepper<'a, 'p> {
         if self.ledger.way > SHIFT_WAY {
             self.shift()?;
         }
-        let mut ways = Ways { of_blocks: motion.velocities, steps };
-        if self.is_untidy() {
+        let mut displacements = Displacements { of_blocks: motion.velocities, steps };
+        if self.needs_sorting() {
             self.sort();
-            ways = Ways::along(&self.cloud.velocity, steps, self.team);
+            displacements = Displacements::along(&self.cloud.velocity, steps, self.team);
         }
-        self.list(&ways.times(dt))?;
-        self.depart(dt);
+        self.list(&displacements.times(dt))?;
+        self.drift_to_middle(dt);
         self.change_density_and_heat(dt);
         let times = Times { dt: 0.5 * dt, tension: ends };
         self.accelerate(times);
@@ -208,8 +213,8 @@ impl<'a, 'p> Stepper<'a, 'p> {
         Ok(motion)
     }
 
-    /// Moves particles to the middle of a step, and notes what its rates are made of there.
-    fn depart(&mut self, dt: f64) {
+    /// Moves particles to the middle of a step, and records the inputs of the rates there.
+    fn drift_to_middle(&mut self, dt: f64) {
         let method = self.method;
         let count = self.cloud.len();
         let annexed = self.heats || method.needs_moments();
@@ -231,7 +236,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
             }
             for (k, annex) in annexes.iter_mut().flat_map(|list| list.iter_mut()).enumerate() {
                 let [x, y, z] = part.gradient[k];
-                // Of first order in time, so that no temperature leaves the range of its neighbours.
+                // First order in time, so that no temperature leaves the range of its neighbours.
                 *annex = [x, y, z, part.temperature[k]];
             }
         });
@@ -250,15 +255,15 @@ impl<'a, 'p> Stepper<'a, 'p> {
         for (impulse, gravity) in self.ledger.impulse_of_gravity.iter_mut().zip(gravity) {
             *impulse += images * momentum * motion.mass * times.dt * gravity;
         }
-        self.unanswered.push(times);
+        self.pending_kicks.push(times);
         motion
     }
 
-    /// Gives the wall the reaction to the kicks of the particles that it pushes since that was last done, between
-    /// which nothing moved.
+    /// Transfers to the wall the reaction to all pending kicks of the particles that it pushes;
+    /// nothing moved between these kicks.
     fn push_wall(&mut self, pushed: &[usize]) {
         let (method, cloud) = (self.method, &*self.cloud);
-        let kicks = std::mem::take(&mut self.unanswered);
+        let kicks = std::mem::take(&mut self.pending_kicks);
         let dt: f64 = kicks.iter().map(|times| times.dt).sum();
         let turn: f64 = kicks.iter().filter_map(|times| times.tension).sum();
         let momentum = method.units.mass() * method.units.speed;
@@ -282,8 +287,8 @@ impl<'a, 'p> Stepper<'a, 'p> {
         }
     }
 
-    /// Changes densities and temperatures over a step from what was noted at its middle, and moves the
-    /// particles to its end.
+    /// Advances densities and temperatures over a step from the records at its middle, and moves
+    /// the particles to its end.
     fn change_density<const HEAT: bool, const MOMENTS: bool>(&mut self, dt: f64) {
         let method = self.method;
         let pass = Continuity::<HEAT, MOMENTS> {
@@ -321,7 +326,8 @@ impl<'a, 'p> Stepper<'a, 'p> {
         }
     }
 
-    /// Accelerations for the velocities after some times under those of the step before.
+    /// Computes accelerations for velocities extrapolated over some times with the accelerations of
+    /// the step before.
     fn accelerate(&mut self, times: Times) {
         let method = self.method;
         let cloud = &*self.cloud;
@@ -342,7 +348,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         self.records = records;
     }
 
-    /// Accelerations by surface tension.
+    /// Computes accelerations by surface tension.
     fn apply_tension(&mut self) {
         let method = self.method;
         let Some(setting) = &method.surface else { return };
@@ -363,7 +369,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         for_all(pass, &self.neighbours.blocks, self.method.pairs(), self.team, memory)
     }
 
-    /// Moves particles from crowded places to empty ones.
+    /// Shifts particles from crowded to sparse regions.
     fn shift(&mut self) -> Result<(), Failure> {
         let way = std::mem::take(&mut self.ledger.way);
         if !self.method.shifts {
@@ -371,7 +377,7 @@ impl<'a, 'p> Stepper<'a, 'p> {
         }
         let (method, team) = (self.method, self.team);
         // At the beginning and after sorting there are no lists yet.
-        self.list(&Ways::none(self.cloud.len()))?;
+        self.list(&Displacements::none(self.cloud.len()))?;
         let cloud = &*self.cloud;
         let fullness = team.map(cloud.len(), |i| least_eigenvalue(&cloud.moment[i]));
         let mut records = std::mem::take(&mut self.records);
@@ -386,10 +392,10 @@ impl<'a, 'p> Stepper<'a, 'p> {
         let sums = self.over_pairs(&pass, Vec::new());
         let shifts = team.map(sums.len(), |i| displacement(&sums[i], fullness[i], way));
         self.records = records;
-        self.list(&Ways::along(&shifts, f64::INFINITY, team))?;
+        self.list(&Displacements::along(&shifts, f64::INFINITY, team))?;
         team.for_each(&mut self.cloud.position, |i, x| {
             (0..3).for_each(|a| x[a] += shifts[i][a]);
-            method.images.put_back(x);
+            method.images.reflect_back(x);
         });
         Ok(())
     }
@@ -431,11 +437,12 @@ fn drift(part: &mut Part, dt: f64) {
     }
 }
 
-/// Part of a moment's trace that particles well inside the fluid have at least.
+/// Lower bound on the moment's trace, over its full value, of particles well inside the fluid.
 const INSIDE: f64 = 0.85;
 
-/// What the plain sums conduct over what they should, as a mean of all particles well inside the fluid: 1 on a
-/// lattice, 0.95 once particles have settled. The sum of a linear temperature's fluxes is the moment matrix.
+/// Effective over nominal conductivity of the plain sums, as a mean over all particles well inside
+/// the fluid: 1 on a lattice, 0.95 once particles have settled. For a linear temperature, the sum
+/// of fluxes is the moment matrix.
 fn conducting<const MOMENTS: bool>(method: &Method, moments: &[[f64; 6]]) -> f64 {
     if !MOMENTS {
         return 1.0;
@@ -478,7 +485,7 @@ fn exchange_heat(
     }
 }
 
-/// Fills a list with a number for every particle.
+/// Fills a list with one value per particle.
 fn fill<T: Copy + Default + Send>(
     list: &mut Vec<T>,
     count: usize,
@@ -489,7 +496,7 @@ fn fill<T: Copy + Default + Send>(
     team.for_each(list, |i, place| *place = number(i));
 }
 
-/// Velocity of a particle after some times under the accelerations of the step before.
+/// Velocity of a particle extrapolated over some times with the accelerations of the step before.
 fn ahead(cloud: &Cloud, i: usize, times: Times, gravity: [f64; 3]) -> [f64; 3] {
     let (v, [a, b]) = (cloud.velocity[i], cloud.acceleration[i]);
     let along = |n: usize| v[n] + times.dt * (a[n] + b[n] + gravity[n]);
@@ -499,7 +506,7 @@ fn ahead(cloud: &Cloud, i: usize, times: Times, gravity: [f64; 3]) -> [f64; 3] {
     [velocity[0] + turn * x, velocity[1] + turn * y, velocity[2] + turn * (z + by_wall)]
 }
 
-/// Whether some numbers are not all the same.
+/// Returns true if some numbers differ.
 fn differ(mut numbers: impl Iterator<Item = f64>) -> bool {
     numbers.next().is_some_and(|first| numbers.any(|number| number != first))
 }

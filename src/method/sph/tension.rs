@@ -3,20 +3,21 @@
 use super::smoothing::Smoothing;
 use crate::kernel::Number;
 
-/// Support radius h of the smoothed volume fraction over the distance of particles: at 3 the energy of
-/// a lattice that is cut along steps is 2 % above that of its plane surfaces, here half of that.
+/// Support radius h of the smoothed volume fraction over the distance of particles. At 3 the energy
+/// of a lattice cut along steps exceeds that of its plane surfaces by 2 %, here by half of that.
 const REACH: f64 = 4.0;
-/// Volume fraction c above which no surfaces are counted, so that the unevenness of the bulk has no
+/// Volume fraction c above which no surfaces count, so that the unevenness of the bulk has no
 /// energy.
 const FULL: f64 = 0.95;
-/// Volume fraction below which surfaces have no weight to speak of.
+/// Volume fraction below which surfaces have a negligible weight.
 const FAINTEST: f64 = 0.02;
-/// Share of h beyond the outermost particles from which the volume fraction has no weight: 1e-3 at a plane
-/// surface, Δx/2 beyond them.
+/// Distance from the outermost particles, over h, beyond which the volume fraction has no weight:
+/// 1e-3 at a plane surface, Δx/2 beyond them.
 const OUTSIDE: f64 = 0.75;
-/// How much particles that stand unevenly lower the volume fraction beyond what its slope tells.
+/// Reduction of the volume fraction by unevenly distributed particles, beyond the estimate from its
+/// slope.
 const UNEVENNESS: f64 = 0.03;
-/// Share of 1/h below which a gradient of the volume fraction has no certain direction.
+/// Fraction of 1/h below which the gradient of the volume fraction has no reliable direction.
 const FAINT: f64 = 0.01;
 
 /// The energy of free and wetted surface.
@@ -29,12 +30,12 @@ const FAINT: f64 = 0.01;
 ///
 /// the second part over the wall z = 0 with contact angle θ (Young 1805, Phil. Trans. R. Soc. 95,
 /// 65–87, doi 10.1098/rstl.1805.0005). Both are sums over points of a grid, see
-/// [`FreeSurface`](super::free_surface::FreeSurface), and forces the exact derivatives of the sums.
-/// A plane surface has the energy σ a unit of area with nothing fitted; that of a sphere of radius R
-/// is counted Δx/6 outside of it.
+/// [`FreeSurface`](super::free_surface::FreeSurface), and the forces are the exact derivatives of
+/// these sums. A plane surface has the energy σ per area without any fitted constant; that of a
+/// sphere of radius R is evaluated Δx/6 outside of it.
 ///
-/// The outermost particles have to be pressed onto the others, or they come loose and take the energy
-/// of the flow: f begins and ends smoothly, and favours the outer surfaces.
+/// The outermost particles must be pressed onto the others: otherwise they detach and absorb energy
+/// of the flow. So f begins and ends smoothly, and favours the outer surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SurfaceEnergy {
     /// σ over ρ₀c₀²H, and cos θ.
@@ -44,31 +45,31 @@ pub struct SurfaceEnergy {
 }
 
 impl SurfaceEnergy {
-    /// For a surface tension over ρ₀c₀²H and a distance of particles over H.
+    /// Energy for a surface tension over ρ₀c₀²H and a distance of particles over H.
     pub fn of(tension: f64, cosine: f64, spacing: f64, dimension: usize) -> Self {
         Self { tension, cosine, smoothing: Smoothing::of(REACH * spacing, dimension) }
     }
 
-    /// Whether the wall has a share.
+    /// Returns true if the wall contributes.
     pub fn wets(&self) -> bool {
         self.cosine.abs() > 1e-12
     }
 
-    /// Distance from all particles beyond which no point has a share.
+    /// Distance from all particles beyond which no point contributes.
     pub fn farthest(&self) -> f64 {
         OUTSIDE * self.smoothing.reach
     }
 
-    /// Whether the surface may pass within `distance` of a point with a volume fraction and a length of its
-    /// gradient.
+    /// Returns true if the surface may pass within `distance` of a point, given the volume fraction
+    /// and the length of its gradient there.
     pub fn is_near(&self, fraction: f64, length: f64, distance: f64) -> bool {
-        // Twice the slope, for it grows towards the surface.
+        // Twice the slope, because it grows towards the surface.
         let change = 2.0 * length * distance;
         fraction + change > FAINTEST && fraction - change < FULL + UNEVENNESS
     }
 
-    /// Of points that stand for a volume in the space above the wall, with a fraction and its gradient: the
-    /// derivatives of the energy by the gradient and by the fraction, and the energy.
+    /// Energy of points that represent a volume above the wall, from the fraction and its gradient:
+    /// the derivatives of the energy by the gradient and by the fraction, and the energy.
     #[inline(always)]
     pub fn of_free<N: Number>(&self, fraction: N, gradient: [N; 3], volume: f64) -> ([N; 3], N, N) {
         let [x, y, z] = gradient;
@@ -81,8 +82,8 @@ impl SurfaceEnergy {
         ([along * x, along * y, along * z], energy * change, energy * weight)
     }
 
-    /// Of points that stand for an area of the wall: the derivative of the energy by the fraction, and the
-    /// energy.
+    /// Energy of points that represent an area of the wall: the derivative of the energy by the
+    /// fraction, and the energy.
     #[inline(always)]
     pub fn of_wall<N: Number>(&self, fraction: N, area: f64) -> (N, N) {
         let [share, weight, _] = weights(fraction);
@@ -114,7 +115,7 @@ mod tests {
     use crate::kernel::Kernel;
 
     #[test]
-    fn weights_are_an_integral_its_derivative_and_that_of_it() {
+    fn weights_are_successive_derivatives() {
         const STEP: f64 = 1e-6;
         for fraction in [0.02f64, 0.2, 0.4, 0.7, 0.93] {
             let [low, here, high] = [-STEP, 0.0, STEP].map(|step| weights(fraction + step));
@@ -128,8 +129,8 @@ mod tests {
         assert!((share - 1.0).abs() < 1e-14 && weight == 0.0);
     }
 
-    /// Two steps within a layer of particles in a volume 1 each, the way from one layer to the next above
-    /// it, and their gap.
+    /// Two steps within a layer of particles of volume 1 each, the offset from one layer to the
+    /// next above it, and their gap.
     struct Layers {
         steps: [[f64; 2]; 2],
         aside: [f64; 2],
@@ -150,7 +151,7 @@ mod tests {
         [triangles, Layers { steps, aside: [0.5 * row; 2], gap: row / 2f64.sqrt() }]
     }
 
-    /// A plane surface of layers, its energy and the depth at which it is counted.
+    /// A plane surface of layers: its energy and the depth at which it lies.
     fn surface(layers: &Layers) -> [f64; 2] {
         const POINTS: i32 = 12;
         let energy = SurfaceEnergy::of(1.0, 0.0, 1.0, 3);
@@ -161,7 +162,7 @@ mod tests {
                 let k = f64::from(k);
                 for (i, j) in (-8..=8).flat_map(|i| (-8..=8).map(move |j| (i, j))) {
                     let (i, j) = (f64::from(i), f64::from(j));
-                    // Layers are as wide as needed about the axis, whatever they are moved by.
+                    // Layers are wide enough about the axis for every offset.
                     let shift = [0, 1].map(|n| -k * aside[n]);
                     let back = (k / 3.0).floor();
                     let at = [0, 1].map(|n| (i + back) * a[n] + (j + back) * b[n] + shift[n]);
@@ -190,7 +191,7 @@ mod tests {
     }
 
     #[test]
-    fn surfaces_of_all_lattices_have_the_energy_asked_for() {
+    fn surface_energy_of_lattices() {
         let [triangles, squares] = closest();
         for layers in [cubic(), triangles, squares] {
             let [energy, height] = surface(&layers);
@@ -199,13 +200,13 @@ mod tests {
         }
     }
 
-    /// Surface energy of a film without unevenness over σ, by its thickness over the distance of particles:
-    /// both surfaces' `∫ f dC` up to the fraction in its middle.
+    /// Surface energy over σ of an even film, as a function of its thickness over the distance of
+    /// particles: `∫ f dC` of both surfaces up to the fraction in its middle.
     fn film(thickness: f64) -> f64 {
         const POINTS: usize = 400;
         let step = REACH / POINTS as f64;
         let middle = |k: usize| step * (k as f64 + 0.5);
-        // Cylinders about the middle, and what of each is in the film.
+        // Cylinders about the middle, and the fraction of each inside the film.
         let inside = |radius: f64| -> f64 {
             let heights = (0..POINTS).map(middle).filter(|&z| z < 0.5 * thickness);
             let weight = |z: f64| Kernel::WendlandC2.value(radius.hypot(z), REACH, 3);
@@ -216,11 +217,11 @@ mod tests {
     }
 
     #[test]
-    fn thin_films_have_less_tension() {
+    fn tension_decreases_in_thin_films() {
         let expected =
             [(5.0, 1.0), (3.5, 0.99), (3.0, 0.92), (2.5, 0.70), (2.0, 0.30), (1.5, -0.15)];
         for (thickness, share) in expected {
-            // At a given volume a film that widens becomes thinner.
+            // At constant volume a film that widens becomes thinner.
             let change = (film(thickness + 0.1) - film(thickness - 0.1)) / 0.2;
             let tension = film(thickness) - thickness * change;
             assert!((tension / 2.0 - share).abs() < 0.02, "{thickness}: {tension}");

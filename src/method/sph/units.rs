@@ -1,4 +1,4 @@
-//! The units in which droplets are computed: support radius, speed of sound, density at rest.
+//! Units of the computation of droplets: support radius, speed of sound, density at rest.
 
 use super::plan::DropletPlan;
 
@@ -24,22 +24,22 @@ impl Units {
         }
     }
 
-    /// [s]
+    /// Unit of time [s].
     pub fn time(&self) -> f64 {
         self.length / self.speed
     }
 
-    /// [kg], in a plane model [kg/m].
+    /// Unit of mass [kg]; in a plane model [kg/m].
     pub fn mass(&self) -> f64 {
         self.density * self.length.powi(self.dimension as i32)
     }
 
-    /// [J], in a plane model [J/m].
+    /// Unit of energy [J]; in a plane model [J/m].
     pub fn energy(&self) -> f64 {
         self.mass() * self.speed * self.speed
     }
 
-    /// [Pa]
+    /// Unit of pressure [Pa].
     pub fn pressure(&self) -> f64 {
         self.density * self.speed * self.speed
     }
@@ -50,13 +50,13 @@ pub fn pressure(r: f64) -> f64 {
     ((1.0 + r).powi(STIFFNESS) - 1.0) / f64::from(STIFFNESS)
 }
 
-/// r under a pressure over ρ₀c₀².
+/// r at a pressure over ρ₀c₀².
 pub fn density(pressure: f64) -> f64 {
     let gamma = f64::from(STIFFNESS);
     (1.0 + gamma * pressure).powf(1.0 / gamma) - 1.0
 }
 
-/// Elastic energy a mass that belongs to it, over c₀²: ∫ p/ρ² dρ.
+/// Elastic energy per mass at r, over c₀²: ∫ p/ρ² dρ.
 pub fn compression_energy(r: f64) -> f64 {
     let gamma = f64::from(STIFFNESS);
     let rho = 1.0 + r;
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn pressure_is_the_slope_of_the_energy() {
+    fn pressure_is_the_derivative_of_the_energy() {
         for r in [-0.1, -0.01, 0.0, 0.02, 0.2] {
             let step = 1e-6;
             let slope =
@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn the_speed_of_sound_is_one() {
+    fn speed_of_sound_is_one() {
         let step = 1e-6;
         assert!(((pressure(step) - pressure(-step)) / (2.0 * step) - 1.0).abs() < 1e-10);
     }

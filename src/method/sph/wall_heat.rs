@@ -1,4 +1,4 @@
-//! Exchange of heat between the particles at a wall and its points.
+//! Heat exchange between the particles at a wall and its points.
 
 use super::contact_law::ContactLaw;
 use super::plan::DropletPlan;
@@ -7,28 +7,30 @@ use super::wall_points::{Point, Stencil, WallPoints};
 use crate::math::exponential;
 use crate::runtime::parallel::Team;
 
-/// Heights over Δx below which a particle's middle is all at the wall, and above which it is not at all.
-/// Shares of evenly spread fluid sum to one layer of particles.
+/// Heights over Δx: a particle counts fully as at the wall below the first, and not at all above
+/// the second. Shares of evenly spread fluid sum to one layer of particles.
 const AT_WALL: [f64; 2] = [0.95, 1.05];
-/// Share of a layer of particles at a point below which no fluid covers it, and above which fluid covers it
-/// all. At an edge the share passes the middle between them, and unevenly spread particles stay above both.
+/// Fraction of a full layer of particles at a point: below the first no fluid covers it, above the
+/// second fluid covers all of it. At an edge the fraction crosses their mean, and unevenly spread
+/// particles stay above both.
 const COVERED: [f64; 2] = [0.25, 0.75];
-/// Passes in which the law's relaxation and the temperature of the wall come to agree; every pass keeps the
-/// latter between its own without the flux and that of the fluid.
+/// Number of passes that reconcile the law's relaxation with the wall temperature. Every pass keeps
+/// the latter between its value without flux and that of the fluid.
 const PASSES: usize = 3;
 
-/// What a plan comes to for the heat of contact.
+/// Constants of the heat of contact, from a plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WallHeat {
     law: ContactLaw,
     /// κ over c₀H, and Δx over H.
     conduction: f64,
     spacing: f64,
-    /// Mass over ρ₀H^d of a whole layer of particles above the square of a point, of a ring over its extent.
+    /// Mass over ρ₀H^d of a full layer of particles above a point's square; for a ring, over its
+    /// extent.
     layer: f64,
     /// Heat capacity of the unit of mass [J/K].
     capacity: f64,
-    /// [s]
+    /// Unit of time [s].
     unit_of_time: f64,
 }
 
@@ -36,17 +38,18 @@ pub struct WallHeat {
 #[derive(Clone)]
 pub struct Touching {
     pub particle: usize,
-    /// Where [m].
+    /// Position on the wall [m].
     pub at: [f64; 2],
-    /// Share of it that is at the wall.
+    /// Fraction of the particle that is at the wall.
     pub share: f64,
     pub mass: f64,
     pub temperature: f64,
-    /// Before contact.
+    /// Temperature before contact.
     pub initial: f64,
 }
 
-/// What a point gives to a step: heat capacity times relaxation [J/K], and temperature of the fluid.
+/// Contribution of a point to a step: heat capacity times relaxation [J/K], and temperature of the
+/// fluid.
 #[derive(Clone, Copy, Default)]
 struct Contact {
     conductance: f64,
@@ -55,7 +58,7 @@ struct Contact {
 }
 
 impl WallHeat {
-    /// Nothing without wall or heat. `area` is that of a point's square [m²].
+    /// Constants of a plan; `None` without wall or heat. `area` is that of a point's square [m²].
     pub fn of(plan: &DropletPlan, units: &Units, area: f64) -> Option<Self> {
         let fluid = &plan.fluid;
         if plan.wall.is_none() || fluid.conductivity <= 0.0 {
@@ -72,18 +75,20 @@ impl WallHeat {
         })
     }
 
-    /// Share of a particle at a height over H that is at the wall.
+    /// Fraction of a particle, at a height over H, that is at the wall.
     pub fn share(&self, height: f64) -> f64 {
         let [all, none] = AT_WALL;
         ((none - height / self.spacing) / (none - all)).clamp(0.0, 1.0)
     }
 
-    /// Exchanges heat for a time over H/c₀; changes of temperature [K] of the particles at the wall.
+    /// Exchanges heat for a time over H/c₀; returns the changes of temperature [K] of the particles
+    /// at the wall.
     ///
-    /// At every point the mean temperature of the layer of particles relaxes towards that of the wall by the
-    /// [`ContactLaw`], while the columns below take the heat: one flux for both, and temperatures that
-    /// are the columns' answers to it, so that no step is too long. Each particle then goes towards the
-    /// wall by the same part of its own difference, and no temperature leaves the range of all.
+    /// At every point the mean temperature of the particle layer relaxes towards that of the wall
+    /// by the [`ContactLaw`], while the columns below absorb the heat. One flux applies to both
+    /// sides, and temperatures are the columns' responses to it, so no step is too long. Each
+    /// particle then approaches the wall by the same fraction of its own difference, so no
+    /// temperature leaves the initial range.
     pub fn exchange(
         &self,
         touching: &[Touching],
@@ -106,7 +111,7 @@ impl WallHeat {
         })
     }
 
-    /// Adds the fluid at the wall up in its points.
+    /// Accumulates the fluid at the wall in its points.
     fn gather(&self, touching: &[Touching], points: &mut WallPoints) -> Vec<Stencil> {
         let mut stencils = Vec::with_capacity(touching.len());
         for Touching { at, share, mass, temperature, initial, .. } in touching {
@@ -126,7 +131,8 @@ impl WallHeat {
         stencils
     }
 
-    /// Finds the temperatures of points and columns at the end of a step, and gives the columns their heat.
+    /// Solves for the temperatures of points and columns at the end of a step, and deposits the
+    /// heat in the columns.
     fn settle(&self, points: &mut WallPoints, dt: f64, team: &Team) {
         let seconds = dt * self.unit_of_time;
         let response = &points.surface.response;
@@ -140,7 +146,7 @@ impl WallHeat {
             column.base + decayed + part * column.drift
         };
         let free: Vec<f64> = (0..points.columns.len()).map(free).collect();
-        // Rise of a column by its heat, as a flux that is held over the step [K/J].
+        // Rise of a column per heat, for a constant flux over the step [K/J].
         let held = response.of_held_flux(seconds) / seconds;
         let answers: Vec<f64> = points.columns.iter().map(|column| held / column.area).collect();
         let mut walls = free.clone();
@@ -174,7 +180,8 @@ impl WallHeat {
         }
         for (point, contact) in points.points.iter_mut().zip(contacts) {
             (point.mass, point.temperature_sum, point.initial_sum) = (0.0, 0.0, 0.0);
-            // Where nothing is below, as beyond the edge of a body, there is nothing to relax towards.
+            // Where nothing is below, as beyond the edge of a body, there is nothing to relax
+            // towards.
             point.relaxation = contact.relaxation * covered(point);
             point.wall = wall_below(point, &walls);
             if let Some((column, part)) = point.beyond {
@@ -184,7 +191,7 @@ impl WallHeat {
         }
     }
 
-    /// How the fluid at a point exchanges heat with what is below, of which the columns' temperatures are given.
+    /// Heat exchange of the fluid at a point with the columns below, at their given temperatures.
     fn contact(&self, point: &Point, walls: &[f64], dt: f64) -> Contact {
         let [bare, covered] = COVERED;
         let layers = point.mass / (self.layer * point.extent);
@@ -193,11 +200,11 @@ impl WallHeat {
         }
         let cover = ((layers - bare) / (covered - bare)).min(1.0);
         let fluid = point.temperature_sum / point.mass;
-        // The fluid lies as a layer on the part that it covers.
+        // The fluid forms a layer on the part that it covers.
         let thickness = self.spacing * layers / cover;
         let diffusion = self.conduction * dt / (thickness * thickness);
         let wall = wall_below(point, walls);
-        // Where drops meet that were not equally warm, the mean of what came to the point counts.
+        // Where drops of unequal temperature meet, the mean of the fluid at the point counts.
         let before = point.initial_sum / point.mass;
         let deficit = (before - fluid) / (before - wall);
         let relaxation = self.law.relaxation(Some(deficit).filter(|d| d.is_finite()), diffusion);
@@ -205,7 +212,7 @@ impl WallHeat {
     }
 }
 
-/// Mean temperature of what is below a point.
+/// Mean temperature of the columns below a point.
 fn wall_below(point: &Point, walls: &[f64]) -> f64 {
     let parts = point.below.iter().chain(&point.beyond);
     let (sum, whole) = parts.fold((0.0, 0.0), |(sum, whole), &(column, part)| {
@@ -214,7 +221,7 @@ fn wall_below(point: &Point, walls: &[f64]) -> f64 {
     if whole > 0.0 { sum / whole } else { 0.0 }
 }
 
-/// Part of a point's square that has something below it.
+/// Fraction of a point's square with something below it.
 fn covered(point: &Point) -> f64 {
     point.below.iter().chain(&point.beyond).map(|&(_, part)| part).sum()
 }

@@ -1,7 +1,8 @@
-//! Points of the wall at equal distances, through which fluid and wall exchange heat and momentum.
+//! Equidistant points of the wall, through which fluid and wall exchange heat and momentum.
 //!
-//! Every point stands for the square about it. So each part of the wall has its true area, however the
-//! particles above it stand and however small the cells are that get what the squares got.
+//! Every point represents the square about it. So each part of the wall has its true area,
+//! regardless of the particles above it and of the size of the cells that receive the squares'
+//! heat.
 
 use std::collections::HashMap;
 use std::f64::consts::TAU;
@@ -12,32 +13,34 @@ use crate::port::Cover;
 use crate::port::{CellHeat, Surface};
 use crate::port::{Domain, WallCells, WallExchange};
 
-/// Points along an edge of a page, that is made when fluid first comes there.
+/// Number of points along an edge of a page; a page is allocated when fluid first reaches it.
 const PAGE: i32 = 16;
 
-/// Where points stand along an axis.
+/// Points along an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Row {
-    /// Distance of points [m]; none along an axis that a plane model has not.
+    /// Distance of points [m]; `None` along the axis that a plane model lacks.
     pitch: Option<f64>,
-    /// Whether a mirror stands at 0.
+    /// True if a mirror stands at 0.
     mirrored: bool,
-    /// Number of points to the far end, and whether they begin anew there instead of being mirrored.
+    /// Number of points to the far end, and whether that end is periodic (true) or a mirror.
     end: Option<(i32, bool)>,
 }
 
-/// How points stand on the wall of a plan.
+/// Arrangement of points on the wall of a plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointLattice {
     rows: [Row; 2],
     mirrors: [bool; 2],
-    /// Whether points are rings about the origin, in a row along the radius.
+    /// True if points are rings about the origin, in a row along the radius.
     rings: bool,
-    /// Area that a point stands for [m²]; metres of depth in a plane model, of a ring the square of its width.
+    /// Area that a point represents [m²]: of metres of depth in a plane model, of a ring the square
+    /// of its width.
     pub area: f64,
 }
 
-/// A place of a particle among the points: up to nine of them, their weights and what turns a vector there.
+/// Interpolation of a particle to points: up to nine of them, their weights and the signs that
+/// reflect a vector there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stencil {
     points: [(u32, f64); 9],
@@ -45,47 +48,50 @@ pub struct Stencil {
     count: usize,
 }
 
-/// A point and what it got during a step of the model, of which images at mirrors are left out.
+/// A point and what it received during a step of the model, images at mirrors excluded.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Point {
-    /// Its place, counted from the origin.
+    /// Indices of the point, counted from the origin.
     place: [i32; 2],
-    /// Whether the following is known.
+    /// True if the following fields are set.
     pub active: bool,
     /// Its area over that of the lattice.
     pub extent: f64,
-    /// Columns below its square and their parts of it.
+    /// Columns below its square and the fractions that they cover.
     pub below: Vec<(u32, f64)>,
-    /// The part beyond the outermost cells of a wall that goes on there, and the column whose temperature it has.
+    /// The fraction beyond the outermost cells of a wall that continues there, and the column whose
+    /// temperature it has.
     pub beyond: Option<(u32, f64)>,
-    /// Sums over the fluid at the wall of mass, and of mass times temperature, now and at the release, each over their
-    /// units.
+    /// Sums over the fluid at the wall of mass, and of mass times temperature, now and at the
+    /// release, each over their units.
     pub mass: f64,
     pub temperature_sum: f64,
     pub initial_sum: f64,
-    /// Mean temperature of the wall [K], and part of its difference to that of the fluid that the latter loses.
+    /// Mean temperature of the wall [K], and the fraction of its difference from the fluid that the
+    /// fluid loses.
     pub wall: f64,
     pub relaxation: f64,
-    /// [N s]
+    /// Impulse [N s].
     pub impulse: [f64; 3],
 }
 
-/// What lies below a cell of the wall, as far as heat goes in a step.
+/// A solid column below a cell of the wall, for the heat of one step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Column {
     cell: usize,
-    /// Of the cell, images at mirrors left out [m²].
+    /// Area of the cell, images at mirrors excluded [m²].
     pub area: f64,
-    /// Temperature [K] without the amplitudes, and what is added to it in the course of the step.
+    /// Temperature [K] without the amplitudes, and its additions in the course of the step.
     pub base: f64,
     pub drift: f64,
-    /// Temperature at the end if the fluid gave nothing [K].
+    /// Temperature at the end if the fluid transferred no heat [K].
     free: f64,
-    /// What it got so far [J].
+    /// Heat received so far [J].
     pub heat: f64,
 }
 
-/// All points that fluid has come to, and columns below them, in the course of a step of the model.
+/// All points that fluid has reached, and the columns below them, in the course of a step of the
+/// model.
 pub struct WallPoints<'a> {
     lattice: &'a PointLattice,
     cells: &'a WallCells,
@@ -94,12 +100,12 @@ pub struct WallPoints<'a> {
     last: ([i32; 2], usize),
     pub points: Vec<Point>,
     pub columns: Vec<Column>,
-    /// Those of [`Surface`] for each column, as they are now.
+    /// Amplitudes of [`Surface`] for each column at the current time.
     pub amplitudes: Vec<f64>,
-    /// The column of each cell, and the area of the latter.
+    /// Column of each cell, and the cell's area.
     column_of: Vec<Option<u32>>,
     areas: Vec<f64>,
-    /// Heat that went to the wall beyond the outermost cells [J].
+    /// Heat transferred to the wall beyond the outermost cells [J].
     pub heat_beyond: f64,
     /// Time since the beginning of the step, and its length [s].
     pub time: f64,
@@ -133,7 +139,7 @@ impl PointLattice {
         Self { rows, mirrors: plan.mirrors, rings, area }
     }
 
-    /// Where the model has points, along x and y [m]; a plane model is a metre deep.
+    /// Region of the model's points along x and y [m]; a plane model is a metre deep.
     fn domain(&self) -> Domain {
         let along = self.rows.map(|row| {
             let pitch = row.pitch?;
@@ -149,13 +155,13 @@ impl PointLattice {
         if self.rings { TAU * (f64::from(i) + 0.5) } else { 1.0 }
     }
 
-    /// Which cells the part of the wall covers that a point stands for.
+    /// Cells covered by the part of the wall that a point represents.
     fn cover(&self, cells: &WallCells, place: [i32; 2]) -> Cover {
         let square = self.square(place);
         if self.rings { cells.cover_ring(square[0]) } else { cells.cover(square) }
     }
 
-    /// The square that a point stands for [m]; a line in a plane model, and of a ring.
+    /// Square that a point represents [m]; a line in a plane model, and for a ring.
     fn square(&self, place: [i32; 2]) -> [[f64; 2]; 2] {
         [0, 1].map(|axis| match self.rows[axis].pitch {
             Some(pitch) => [place[axis], place[axis] + 1].map(|n| pitch * f64::from(n)),
@@ -165,8 +171,8 @@ impl PointLattice {
 }
 
 impl Row {
-    /// Three points about a place [m], their weights by the quadratic B-spline, and −1 where the place is a
-    /// mirror image.
+    /// Three points about a position [m], their quadratic B-spline weights, and −1 where the point
+    /// is a mirror image.
     fn about(&self, at: f64) -> ([(i32, f64, f64); 3], usize) {
         let Some(pitch) = self.pitch else { return ([(0, 1.0, 1.0); 3], 1) };
         let place = at / pitch;
@@ -180,7 +186,7 @@ impl Row {
         ([point(0), point(1), point(2)], 3)
     }
 
-    /// Where a point is in the model, and −1 if that is its mirror image.
+    /// Index of a point within the model, and −1 if it is its mirror image.
     fn within(&self, index: i32) -> (i32, f64) {
         match self.end {
             Some((count, true)) => (index.rem_euclid(count), 1.0),
@@ -221,7 +227,7 @@ impl<'a> WallPoints<'a> {
         }
     }
 
-    /// The points about a place [m].
+    /// Interpolation to the points about a position [m].
     pub fn stencil(&mut self, [x, y]: [f64; 2]) -> Stencil {
         let x = if self.lattice.rings { spread_radius(x, self.lattice.area) } else { x };
         let (columns, nx) = self.lattice.rows[0].about(x);
@@ -236,7 +242,7 @@ impl<'a> WallPoints<'a> {
         stencil
     }
 
-    /// Index of a point, on a page that is made if there is none yet.
+    /// Index of a point; allocates its page if needed.
     fn index(&mut self, place: [i32; 2]) -> usize {
         let page = place.map(|n| n.div_euclid(PAGE));
         if self.last.0 != page {
@@ -258,7 +264,7 @@ impl<'a> WallPoints<'a> {
         first
     }
 
-    /// Adds an impulse [N s] to the points about a place [m].
+    /// Adds an impulse [N s] to the points about a position [m].
     pub fn push(&mut self, at: [f64; 2], [x, y, z]: [f64; 3]) {
         let stencil = self.stencil(at);
         for (n, (point, weight)) in stencil.weights().enumerate() {
@@ -269,19 +275,19 @@ impl<'a> WallPoints<'a> {
         }
     }
 
-    /// Makes a point exchange heat with the columns below it.
+    /// Connects a point to the columns below it.
     pub fn activate(&mut self, point: usize) {
         let cover = self.lattice.cover(self.cells, self.points[point].place);
         let below = cover.cells.iter().map(|&(cell, part)| (self.column(cell), part));
         let below: Vec<(u32, f64)> = below.collect();
-        // Where a body ends there is nothing to be as warm as its edge.
+        // A body ends here: nothing has the temperature of its edge.
         let goes_on = cover.outside > 0.0 && !self.cells.end_with_the_body();
         let beyond = goes_on.then(|| (self.column(cover.nearest), cover.outside));
         let point = &mut self.points[point];
         (point.active, point.below, point.beyond) = (true, below, beyond);
     }
 
-    /// The column of a cell, with the temperatures that it has now if nothing was given to it.
+    /// Column of a cell, with its current temperatures in the absence of heat from the fluid.
     fn column(&mut self, cell: usize) -> u32 {
         if let Some(column) = self.column_of[cell] {
             return column;
@@ -300,20 +306,22 @@ impl<'a> WallPoints<'a> {
         column
     }
 
-    /// Heat [J] and impulse [N s] that all points got, images at mirrors included.
+    /// Heat [J] and impulse [N s] that all points received, images at mirrors included.
     pub fn totals(&self) -> (f64, [f64; 3]) {
         let images = copies(self.lattice.mirrors);
         let heat = self.columns.iter().map(|column| column.heat).sum::<f64>() + self.heat_beyond;
         let impulse =
             [0, 1, 2].map(|n| match n < 2 && (self.lattice.mirrors[n] || self.lattice.rings) {
-                // What the images give along a mirrored axis cancels, and what a ring gives along its radius.
+                // The images' contributions along a mirrored axis cancel, and so do a ring's along
+                // its radius.
                 true => 0.0,
                 false => images * self.points.iter().map(|point| point.impulse[n]).sum::<f64>(),
             });
         (images * heat, impulse)
     }
 
-    /// What all cells got, images at mirrors included, and the rises of their surface by it [K m²].
+    /// Exchange of all cells, images at mirrors included, and the rises of their surface due to it
+    /// [K m²].
     pub fn settle(&self) -> (WallExchange, Vec<f64>) {
         let mut exchange = WallExchange::none(self.cells.len());
         exchange.duration = self.duration;
@@ -325,14 +333,14 @@ impl<'a> WallPoints<'a> {
         for point in self.points.iter().filter(|point| point.impulse != [0.0; 3]) {
             for signs in self.images() {
                 let impulse = point.impulse.map(|p| images * p);
-                let given = Given { place: point.place, impulse }.turned(signs);
+                let given = Contribution { place: point.place, impulse }.turned(signs);
                 self.deposit(&given, &mut exchange);
             }
         }
         (exchange, rises)
     }
 
-    /// What the cells got so far that have a column.
+    /// Heat received so far by the cells that have a column.
     pub fn cell_heat(&self) -> impl Iterator<Item = CellHeat<'_>> {
         let count = self.surface.response.len();
         self.columns.iter().enumerate().map(move |(n, column)| CellHeat {
@@ -342,7 +350,7 @@ impl<'a> WallPoints<'a> {
         })
     }
 
-    /// Which way mirrors turn x and y in what each of the images gives on its own.
+    /// Signs of x and y of the images' individual contributions.
     fn images(&self) -> impl Iterator<Item = [f64; 2]> + use<> {
         let sides = |mirrored: bool| if mirrored { &[1.0, -1.0][..] } else { &[1.0][..] };
         let apart = self.lattice.mirrors.map(|mirrored| mirrored && !self.cells.are_radial());
@@ -369,7 +377,7 @@ impl<'a> WallPoints<'a> {
         rises
     }
 
-    fn deposit(&self, given: &Given, exchange: &mut WallExchange) {
+    fn deposit(&self, given: &Contribution, exchange: &mut WallExchange) {
         let square = self.lattice.square(given.place);
         let cover = self.lattice.cover(self.cells, given.place);
         let radial = self.cells.are_radial();
@@ -386,26 +394,28 @@ impl<'a> WallPoints<'a> {
     }
 }
 
-/// Square of the length over the width of rings by which [`spread_radius`] moves what is at the origin.
+/// Square of the length, over the width of rings, by which [`spread_radius`] moves a contribution
+/// at the origin.
 const OFF_AXIS: f64 = 0.1742;
 
-/// Radius at which what is at a radius is given to rings of some width squared [m²].
+/// Radius at which a contribution from a radius is assigned to rings of a squared width [m²].
 ///
-/// Spread by the B-spline along a line across the axis, an even film would give the ring at the axis a quarter more
-/// than its share, and those at its edge as much less: in the plane, what is spread evenly to all sides moves
-/// outward. At `√(r² + 0.1742 Δ²)` the first ring gets its share, and every other to 0.3 %.
+/// The B-spline spreads along a line across the axis. With it an even film would assign to the ring
+/// at the axis a quarter more than its share, and correspondingly less to those at its edge. In the
+/// plane, isotropic spreading moves the mean outward. At `√(r² + 0.1742 Δ²)` the first ring
+/// receives its share, and every other to 0.3 %.
 fn spread_radius(radius: f64, area: f64) -> f64 {
     (radius * radius + OFF_AXIS * area).sqrt()
 }
 
-/// What a point or an image of it gives.
-struct Given {
+/// Contribution of a point or of an image of it.
+struct Contribution {
     place: [i32; 2],
     impulse: [f64; 3],
 }
 
-impl Given {
-    /// Where mirrors turn it.
+impl Contribution {
+    /// The contribution reflected by mirrors.
     fn turned(self, signs: [f64; 2]) -> Self {
         let along = |n: usize| if signs[n] < 0.0 { -1 - self.place[n] } else { self.place[n] };
         let [x, y, z] = self.impulse;
@@ -413,7 +423,7 @@ impl Given {
     }
 }
 
-/// The impulse at a place along its radius from the origin, 0, and along z.
+/// The impulse at a position: along its radius from the origin, 0, and along z.
 fn radially([x, y]: [f64; 2], [u, v, w]: [f64; 3]) -> [f64; 3] {
     let radius = x.hypot(y);
     if radius > 0.0 { [(x * u + y * v) / radius, 0.0, w] } else { [0.0, 0.0, w] }

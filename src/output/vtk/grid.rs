@@ -108,7 +108,7 @@ mod tests {
     }
 
     #[test]
-    fn a_body_without_mechanics_has_temperature_only() {
+    fn body_without_mechanics_has_only_temperature() {
         let mut fields = fields([vec![0.0, 1.0], vec![0.0, 1.0], vec![-0.1, 0.0]]);
         fields.displacement.clear();
         fields.stress.clear();

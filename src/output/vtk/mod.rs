@@ -1,4 +1,4 @@
-//! VTK XML files, arrays appended as raw little-endian numbers of eight bytes.
+//! VTK XML files with appended arrays of raw little-endian numbers of eight bytes.
 //!
 //! Source: *VTK File Formats*, <https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html>.
 
@@ -45,7 +45,7 @@ impl<'a> Array<'a> {
         Self { name, unit: "1", components: &[""], values: Values::Whole(values) }
     }
 
-    /// VTK's name of the type of number.
+    /// VTK's name of the number type.
     fn type_name(&self) -> &'static str {
         match self.values {
             Values::Real(_) => "Float64",
@@ -60,7 +60,7 @@ impl<'a> Array<'a> {
         }
     }
 
-    /// Bytes the array takes in the appended section: its length, then its values.
+    /// Number of bytes of the array in the appended section: its length, then its values.
     fn appended_bytes(&self) -> usize {
         size_of::<u64>() + self.bytes()
     }
@@ -87,8 +87,8 @@ fn write_file<W: Write>(
     xml.write_event(Event::End(BytesEnd::new("VTKFile")))
 }
 
-/// Writes an element, each a name with its attributes, that holds a time and one piece: arrays at points, and further
-/// arrays by the element of the piece that they belong to.
+/// Writes nested elements, each a name with its attributes, with a time and one piece. The piece holds arrays at
+/// points, and further arrays under their own elements.
 fn write_structure<W: Write>(
     xml: &mut Writer<W>,
     (grid, grid_attributes): (&str, &[(&str, &str)]),
@@ -193,7 +193,7 @@ mod reader {
     use quick_xml::Reader;
     use quick_xml::events::Event;
 
-    /// What a reader finds: attributes of the last element of each kind, arrays by name.
+    /// Result of reading: attributes of the last element of each kind, arrays by name.
     #[derive(Default)]
     pub struct Read {
         pub elements: BTreeMap<String, BTreeMap<String, String>>,

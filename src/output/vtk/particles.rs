@@ -73,7 +73,7 @@ mod tests {
     }
 
     #[test]
-    fn no_particles_are_a_file_too() {
+    fn empty_particle_file() {
         let mut bytes = Vec::new();
         write_particles(&mut bytes, 0.0, &ParticleFields::default()).unwrap();
         assert_eq!(read(&bytes).elements["Piece"]["NumberOfPoints"], "0");

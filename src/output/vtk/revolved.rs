@@ -1,8 +1,8 @@
-//! The nodes of a disc, whose meridian section is turned once round the axis: a structured grid (`.vts`).
+//! The nodes of a disc, whose meridian section is revolved about the axis: a structured grid (`.vts`).
 //!
-//! Viewers know no meridian section: they would show the half plane alone. So the section is repeated at
-//! equal angles, vectors and tensors turned with it into components along x, y, z. Values at the angle 0 are
-//! those of the section to the bit.
+//! Viewers do not support meridian sections: they would show the half plane alone. So the section is repeated at equal
+//! angles, with vectors and tensors rotated into components along x, y, z. Values at the angle 0 are those of the
+//! section to the bit.
 
 use std::f64::consts::TAU;
 use std::io::{self, Write};
@@ -13,7 +13,7 @@ use super::grid::{invariants, point_arrays};
 use super::{AXES, Array, Values, write_file, write_structure};
 use crate::model::NodalFields;
 
-/// Steps round the axis: with 24 the outline is within 1 % of a circle.
+/// Number of angles: with 24 the outline is within 1 % of a circle.
 const SECTORS: usize = 24;
 
 /// Writes the fields of a disc at `time` [s].
@@ -41,10 +41,10 @@ pub fn write_revolved(out: impl Write, time: f64, fields: &NodalFields) -> io::R
 
 /// Nodes of all sections.
 struct Revolved {
-    /// Along the radius and z.
+    /// Numbers of nodes along the radius and z.
     counts: [usize; 2],
     position: Vec<[f64; 3]>,
-    /// Values there.
+    /// Values at the nodes.
     fields: NodalFields,
 }
 
@@ -53,7 +53,7 @@ fn revolved(fields: &NodalFields) -> Revolved {
     let [radii, _, heights] = &fields.axes;
     let counts = [radii.len(), heights.len()];
     let angle = |sector: usize| {
-        // Back at the beginning to the bit.
+        // Returns to the first angle to the bit.
         let angle = TAU * (sector % SECTORS) as f64 / SECTORS as f64;
         (angle.cos(), angle.sin())
     };
@@ -94,7 +94,7 @@ mod tests {
     use crate::output::vtk::reader::read;
 
     #[test]
-    fn a_disc_is_written_all_round() {
+    fn disc_is_written_as_full_revolution() {
         let fields = NodalFields {
             axes: [vec![0.0, 1.0, 2.0], vec![0.0], vec![-0.5, 0.0]],
             temperature: (0..6).map(|i| 300.0 + f64::from(i)).collect(),
@@ -110,7 +110,7 @@ mod tests {
         let vector = |name: &str, node: usize| read.arrays[name].1[3 * node..][..3].to_vec();
         let stress = |node: usize| read.arrays["stress"].1[6 * node..][..6].to_vec();
         let close = |a: Vec<f64>, b: &[f64]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-14);
-        // The section itself, a quarter of the way round, and the same place again.
+        // The section itself, a quarter turn, and the full turn.
         let quarter = 3 * (SECTORS / 4) + 2;
         let last = 3 * SECTORS + 2;
         for (node, place, moved, pulled) in [
@@ -124,7 +124,7 @@ mod tests {
             assert!(close(stress(node), &pulled), "{node}: {:?}", stress(node));
         }
         assert_eq!(read.arrays["stress"].0["ComponentName5"], "xz");
-        // Invariants are the same all round: σ₁ of [5 2; 2 1] and 3.
+        // Invariants are the same at all angles: σ₁ of [5 2; 2 1] and 3.
         let largest = &read.arrays["max_principal"].1;
         assert!(largest.iter().all(|s| (s - (3.0 + 8f64.sqrt())).abs() < 1e-12), "{largest:?}");
     }

@@ -1,4 +1,4 @@
-//! Shape, material, faces, symmetry and mesh of each solid.
+//! Checks shape, material, faces, symmetry and mesh of each solid.
 
 use super::{Checker, MOST_ELEMENTS, fits, is_sound, layers, material, nonlinear, number};
 use crate::laws::solid::Elasticity;
@@ -17,7 +17,7 @@ pub fn check(checker: &mut Checker) {
             for (place, own) in solid.materials(&path) {
                 // Laws that need them anyway were checked where they stand.
                 if own.law.deformation().needs().is_empty() {
-                    let why = "stress, displacement or traction is asked for";
+                    let why = "outputs or loads require stress, displacement or traction";
                     material::needs(checker, &place, own, Elasticity::needs(why));
                 }
             }
@@ -52,7 +52,7 @@ fn conditions(checker: &mut Checker, path: &Path, face: &Face) {
         let message = format!("a face takes one {kind} condition, not {}", keys.join(" and "));
         checker.require(keys.len() <= 1, path, message, format!("one of {}", keys.join(", ")));
     }
-    let message = "a face of prescribed temperature loses whatever it has to";
+    let message = "a face of prescribed temperature has no other thermal condition";
     let fine = face.radiation.is_none() || face.temperature.is_none();
     checker.require(fine, &path.at("radiation"), message, "`temperature` or `radiation`");
     let has_value = face.temperature.is_some() || face.flux.is_some() || face.convection.is_some();
@@ -61,8 +61,8 @@ fn conditions(checker: &mut Checker, path: &Path, face: &Face) {
     checker.require(fine, &path.at("role"), message, "with `temperature`, `flux` or `convection`");
 }
 
-/// One of the four lateral faces and `sides` may both be given, but not with the same kind of
-/// condition.
+/// Refuses conditions of the same kind on `sides` and on one of the four lateral faces; different kinds may be
+/// combined.
 fn overlap_with_sides(checker: &mut Checker, path: &Path, solid: &Solid, name: FaceName) {
     let Some(sides) = solid.faces.get(&FaceName::Sides) else { return };
     if !name.is_one_of_four_sides() {
@@ -104,7 +104,7 @@ fn quarter(checker: &mut Checker, path: &Path, solid: &Solid) {
     }
 }
 
-/// What particles ask of a body.
+/// Checks the settings of particles and what they require of a body.
 fn sph(checker: &mut Checker, path: &Path, solid: &Solid) {
     if solid.heat != HeatMethod::Sph {
         let message = "settings of particles, but finite elements conduct the heat";
@@ -114,14 +114,14 @@ fn sph(checker: &mut Checker, path: &Path, solid: &Solid) {
     }
     let order = solid.mesh.order.unwrap_or(1);
     let message =
-        "particles take linear elements, whose nodes have volumes like those of particles";
+        "particles require linear elements, whose nodes have volumes like those of particles";
     checker.require(order == 1, &path.at("mesh.order"), message, "1");
     if solid.sph.unwrap_or_default().operator == SphOperator::Plain {
         plain_operator(checker, path, solid);
     }
 }
 
-/// The plain operator is wrong by a finite amount wherever distances differ.
+/// Refuses the plain operator on unequal distances, where its error remains finite.
 fn plain_operator(checker: &mut Checker, path: &Path, solid: &Solid) {
     let mesh = &solid.mesh;
     let at = path.at("sph.operator");
@@ -142,7 +142,7 @@ fn spacing(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {
         let path = path.at("spacing");
         let fine = at_most(checker, &path, spacing, x.min(y) / 2.0, "half of the body's width");
         if fine && mesh.depth_spacing.is_none() {
-            let what = "the body's thickness, which it is for too unless `depth_spacing` is given";
+            let what = "the body's thickness, to which it applies unless `depth_spacing` is given";
             at_most(checker, &path, spacing, thickness, what);
         }
         not_too_fine(checker, &path, spacing, x.max(y));
@@ -154,10 +154,10 @@ fn spacing(checker: &mut Checker, path: &Path, mesh: &Mesh, shape: &Shape) {
     }
 }
 
-/// Refuses distances of nodes of which a body would hold more than can be counted, wherever it is fine.
+/// Refuses node distances whose number of nodes would be too large to count.
 fn not_too_fine(checker: &mut Checker, path: &Path, spacing: f64, extent: f64) {
     let least = extent / MOST_ELEMENTS;
-    let message = "the body holds more of these distances than a mesh has elements";
+    let message = "the body would have more elements than a mesh can have";
     let fine = spacing <= 0.0 || spacing >= least;
     checker.require(fine, path, message, format!("{} >= {}", path.last_key(), number(least)));
 }

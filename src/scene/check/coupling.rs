@@ -1,5 +1,5 @@
-//! Whether couplings join what goes together: a droplet with the top of a solid that can take what it gives, or the
-//! top of a solid with the bottom of another.
+//! Checks that couplings join compatible partners: a droplet with the top of a solid that can receive its heat and
+//! momentum, or the top of a solid with the bottom of another.
 
 use super::{Checker, fits, number};
 use crate::scene::droplet::{Coupling, Droplet};
@@ -43,7 +43,7 @@ fn check_droplet(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
     }
 }
 
-/// A contact of two solids, or of a solid and a reservoir.
+/// Checks a contact of two solids, or of a solid and a reservoir.
 fn check_contact(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupling) {
     let below = on_reservoir(checker, &path.at("from"), &coupling.from, FaceName::Top);
     let above = on_reservoir(checker, &path.at("to"), &coupling.to, FaceName::Bottom);
@@ -78,7 +78,7 @@ fn check_contact(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
     for (key, place, found) in [("from", &coupling.from, lower), ("to", &coupling.to, upper)] {
         let Some((face, solid)) = found else { continue };
         if !solid.face(face).thermal().is_empty() || solid.face(face).radiation.is_some() {
-            let message = "the face has a thermal condition of its own beside the contact";
+            let message = "the face has a thermal condition in addition to the contact";
             checker.refuse(
                 &path.at(key),
                 message,
@@ -111,7 +111,7 @@ fn check_contact(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupli
     }
 }
 
-/// Whether earlier contacts stack a body on another, with any number between them.
+/// Returns true if earlier contacts stack a body on another, with any number between them.
 fn stands_on(checker: &Checker, i: usize, body: &str, other: &str) -> bool {
     let below = |coupling: &&Coupling| {
         split_place(&coupling.to)
@@ -124,26 +124,26 @@ fn stands_on(checker: &Checker, i: usize, body: &str, other: &str) -> bool {
     bodies.any(|lower| lower == other || stands_on(checker, i, lower, other))
 }
 
-/// Whether an end of a contact is on a reservoir, at its top if it is below and at its bottom if it is above; any number
-/// of solids may touch it there.
+/// Returns true if an end of a contact is on a reservoir: on its top if the reservoir is below, on its bottom if it is
+/// above. Any number of solids may touch it there.
 fn on_reservoir(checker: &mut Checker, path: &Path, place: &str, face: FaceName) -> bool {
     let Some((body, found)) = split_place(place) else { return false };
     if checker.scene.reservoir(body).is_none() {
         return false;
     }
     let allowed = format!("{body}.{}", face.as_str());
-    let message = "what is below is touched at its top, what is above at its bottom";
+    let message = "a contact joins the top of the lower body with the bottom of the upper one";
     checker.require(found == face, path, message, allowed);
     true
 }
 
-/// Whether an earlier contact of solids has this face.
+/// Returns true if an earlier contact of solids uses this face.
 fn is_in_contact(checker: &Checker, i: usize, place: &str) -> bool {
     let contacts = checker.scene.coupling[..i].iter().filter(|other| other.lower().is_some());
     contacts.into_iter().any(|other| other.from == *place || other.to == *place)
 }
 
-/// A droplet has one thing below it.
+/// Refuses a second partner below a droplet.
 fn alone(checker: &mut Checker, path: &Path, i: usize, coupling: &Coupling) {
     let scene = checker.scene;
     let from = path.at("from");
@@ -192,7 +192,7 @@ fn fit(checker: &mut Checker, path: &Path, droplet: &Droplet, shape: &Shape) {
         !fits(x + radius, half[0]) || !fits(y + radius, half[1])
     });
     if let Some(beyond) = beyond {
-        let message = format!("the drop of arrivals[{beyond}] comes down beside the face");
+        let message = format!("the drop of arrivals[{beyond}] lands outside the face");
         let [x, y] = half.map(number);
         checker.refuse(path, message, format!("|x| + radius <= {x}, |y| + radius <= {y}"));
     }

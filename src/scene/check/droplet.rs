@@ -1,4 +1,4 @@
-//! Size, fluid, particles and arrivals of each droplet.
+//! Checks size, fluid, particles and arrivals of each droplet.
 
 use super::{Checker, fits, number, replayed};
 use crate::scene::droplet::{
@@ -7,9 +7,9 @@ use crate::scene::droplet::{
 use crate::scene::locate::Path;
 use crate::scene::types::{Footprint, Shape};
 
-/// Fewest particles across a drop that make it one.
+/// Smallest number of particles across a drop.
 const FEWEST_ACROSS: f64 = 6.0;
-/// More particles than this fit no machine of today.
+/// Number of particles that exceeds the memory of any current machine.
 const MOST_PARTICLES: f64 = 2e7;
 
 pub fn check(checker: &mut Checker) {
@@ -21,7 +21,7 @@ pub fn check(checker: &mut Checker) {
         if is_sound(checker, &path) && droplet.has_particles() {
             resolution(checker, &path.at("spacing"), droplet);
         }
-        // What moves the surface depends on the distance of particles.
+        // The governing speed depends on the distance of particles.
         if is_sound(checker, &path) {
             if droplet.has_particles() {
                 sound(checker, &path.at("fluid.sound_speed"), droplet);
@@ -35,7 +35,7 @@ pub fn check(checker: &mut Checker) {
     }
 }
 
-/// Whether the numbers are fine that all of a droplet depends on.
+/// Returns true if all numbers are valid on which further checks depend.
 fn is_sound(checker: &Checker, path: &Path) -> bool {
     let arrivals = path.key("arrivals");
     checker.refused_in(path).all(|refused| refused.is_within(&arrivals))
@@ -86,7 +86,7 @@ fn sound(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     }
 }
 
-/// A fluid is liquid over some range of temperatures.
+/// Checks that the fluid is liquid over some range of temperatures.
 fn phases(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let Some((freezes, boils)) = droplet.fluid.freezes_at.zip(droplet.fluid.boils_at) else {
         return;
@@ -96,7 +96,7 @@ fn phases(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     checker.require(freezes < boils, path, message, format!("> {}", number(freezes)));
 }
 
-/// Drops are released either at times or by inputs, which say nothing of how many there will be.
+/// Checks releases: either at times or by inputs; with inputs the number of drops is not known in advance.
 fn release(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let (message, allowed) = match (droplet.is_on_demand(), droplet.most, &droplet.arrivals) {
         (true, None, _) => {
@@ -154,8 +154,8 @@ fn direction(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     checker.require(fine, path, message, "0");
 }
 
-/// Whether a drop is released where an earlier one still is: it falls freely, its centre to the
-/// wall at most.
+/// Returns true if a drop is released where an earlier one still is. The earlier drop falls freely, until its centre
+/// reaches the wall.
 fn meets(droplet: &Droplet, earlier: &Arrival, later: &Arrival, free: bool) -> bool {
     let time = (later.time - earlier.time).max(0.0);
     let [u, v, _] = droplet.velocity();
@@ -163,7 +163,7 @@ fn meets(droplet: &Droplet, earlier: &Arrival, later: &Arrival, free: bool) -> b
     let fall = speed * time + 0.5 * droplet.gravity * time * time;
     let deepest = droplet.gap() + 0.5 * droplet.diameter;
     let fall = if free { fall } else { fall.min(deepest) };
-    // What has come down does not go on along the wall for certain.
+    // Fluid on the wall is not assumed to move along it.
     let aside = if free { time } else { time.min(droplet.fall_time(speed)) };
     let along = |v: f64| if v == 0.0 { 0.0 } else { v * aside };
     let apart = (later.x - earlier.x - along(u)).hypot(later.y - earlier.y - along(v));
@@ -185,7 +185,8 @@ fn symmetry(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
     }
 }
 
-/// What is round needs three dimensions, and below it what is round or can meet rings.
+/// Checks axisymmetric droplets: they need three dimensions, and below them a round surface or a box whose cells are
+/// rings.
 fn round(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
     let message = "a plane model has no axis";
     checker.require(droplet.dimension == 3, path, message, "auto, none, or dimension = 3");
@@ -202,7 +203,7 @@ fn round(checker: &mut Checker, path: &Path, name: &str, droplet: &Droplet) {
     }
 }
 
-/// A box meets all of its drops on the same rings.
+/// Requires that all drops above a box use the same rings.
 fn on_box(checker: &mut Checker, path: &Path, body: &str, droplet: &Droplet) {
     let message = format!("drops that are repeated give nothing to rings of `{body}`, a box");
     let is_computed = droplet.method == DropletMethod::Sph;

@@ -1,4 +1,4 @@
-//! Whether the solids of a scene can be what its level says.
+//! Checks that the solids of a scene admit the level of fidelity.
 
 use super::Checker;
 use crate::scene::locate::Path;
@@ -6,7 +6,7 @@ use crate::scene::reduction::Place;
 use crate::scene::types::FidelityLevel;
 
 pub fn check(checker: &mut Checker) {
-    // What is wrong by itself says so already.
+    // Errors of the solid itself are reported elsewhere.
     if !checker.problems.is_empty() {
         return;
     }

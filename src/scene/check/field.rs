@@ -1,4 +1,4 @@
-//! Whether fields lie on a face or section of their bodies and give something.
+//! Checks that fields lie on a face or section of their bodies and have outputs.
 
 use super::{Checker, field_cells, fits, is_in_depth, number, probe};
 use crate::scene::grid::{Grid, lateral_extents, section_size};
@@ -31,7 +31,7 @@ pub fn check(checker: &mut Checker) {
     }
 }
 
-/// A field without footprint has a grid, and nothing that places a footprint.
+/// Checks a field without footprint: it has a grid, and no position of a footprint.
 fn points(checker: &mut Checker, path: &Path, field: &Field) {
     let message = "a field gives values at the points of a `grid` or means over a `footprint`";
     let allowed = "`grid = [NX, NY]` or `footprint = { … }`";
@@ -40,7 +40,7 @@ fn points(checker: &mut Checker, path: &Path, field: &Field) {
     checker.require(field.at.is_none(), &path.at("at"), message, "`at` with `footprint`");
 }
 
-/// The face or section and the body it belongs to.
+/// The face or section and the body that it belongs to.
 fn place<'a>(checker: &mut Checker<'a>, path: &Path, field: &Field) -> Option<(Place, &'a Solid)> {
     match (&field.on, &field.body, field.plane) {
         (Some(on), None, None) => {
@@ -60,7 +60,7 @@ fn place<'a>(checker: &mut Checker<'a>, path: &Path, field: &Field) -> Option<(P
     }
 }
 
-/// The faces whose points two coordinates count.
+/// The faces on which a field may lie: those described by two coordinates.
 fn plane_faces(shape: &Shape) -> Vec<FaceName> {
     shape.faces().iter().copied().filter(|face| face.normal().is_some()).collect()
 }

@@ -1,4 +1,4 @@
-//! Whether fields that give means lie on faces that have such cells.
+//! Checks that fields of means lie on faces that have such cells.
 
 use super::load::{check_ring, loaded_faces};
 use super::{Checker, fits, number};
@@ -32,7 +32,7 @@ pub fn check(checker: &mut Checker, path: &Path, field: &Field, footprint: &Foot
     }
 }
 
-/// A disc is modelled in its meridian section.
+/// Checks a field on a disc, which is modelled in its meridian section.
 fn axisymmetry(checker: &mut Checker, path: &Path, field: &Field, footprint: &Footprint) {
     if let Footprint::Tiles { .. } = footprint {
         let message = "a disc is modelled axisymmetric, which tiles are not";

@@ -1,4 +1,4 @@
-//! What stands outside bodies, loads, probes, fields and walls; and the names of all of these.
+//! Checks everything outside bodies, loads, probes, fields and walls, and the names of all of these.
 
 use std::collections::BTreeMap;
 
@@ -8,9 +8,9 @@ use crate::scene::locate::Path;
 
 /// Prefixes of variables that belong to no body, load, probe, field or wall.
 const RESERVED: [&str; 2] = ["solver", "output"];
-/// Bytes of a name, at most: files are named after it, whose names have at most 255 bytes with all endings.
+/// Largest number of bytes of a name: files are named after it, and file names have at most 255 bytes with all endings.
 const LONGEST_NAME: usize = 200;
-/// More communication steps than any run takes.
+/// Number of communication steps that no run reaches.
 const MOST_STEPS: f64 = 1e9;
 
 pub fn check(checker: &mut Checker) {
@@ -43,7 +43,7 @@ fn times(checker: &mut Checker) {
     }
 }
 
-/// Names become prefixes of FMI variables, so that each must be an identifier of its own.
+/// Checks that names are identifiers, because they become prefixes of FMI variables.
 fn names(checker: &mut Checker) {
     let scene = checker.scene;
     let root = Path::default();
@@ -74,14 +74,14 @@ fn names(checker: &mut Checker) {
     }
 }
 
-/// Flat names run prefix and rest together: they could meet where a prefix begins with another one
-/// and `_`.
+/// Checks that flat names are unambiguous. They concatenate prefix and rest, so they could coincide where one prefix
+/// begins with another one and `_`.
 fn apart(checker: &mut Checker, owners: &BTreeMap<&str, Path>) {
     for (&name, path) in owners {
         let mut others = name.match_indices('_').map(|(at, _)| &name[..at]);
         let is_taken = |other: &&str| owners.contains_key(other) || RESERVED.contains(other);
         if let Some(other) = others.find(is_taken) {
-            let message = format!("with flat names it may be taken for a part of `{other}`");
+            let message = format!("with flat names it is ambiguous with a part of `{other}`");
             checker.refuse(path, message, format!("a name that does not begin with `{other}_`"));
         }
     }
@@ -115,6 +115,6 @@ fn identifier(checker: &mut Checker, path: &Path, name: &str) {
     let allowed = "letters a-z and A-Z, digits and _, no digit first";
     checker.require(fine, path, format!("{name:?} is not a C identifier"), allowed);
     let length = name.len();
-    let message = format!("a name of {length} bytes, which no file can be called after");
+    let message = format!("a name of {length} bytes is too long for a file name");
     checker.require(length <= LONGEST_NAME, path, message, format!("at most {LONGEST_NAME} bytes"));
 }

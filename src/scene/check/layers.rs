@@ -1,13 +1,13 @@
-//! What solids are made of: one material, or layers that fill their thickness.
+//! Checks the materials of solids: one material, or layers that fill the thickness.
 
 use super::{Checker, is_sound, material, number};
 use crate::scene::locate::Path;
 use crate::scene::materials::MaterialChoice;
 use crate::scene::types::{FaceName, HeatMethod, Layer, Solid, SolverMethod};
 
-/// Layers of a body, at most: each has elements of its own.
+/// Largest number of layers of a body: each has elements of its own.
 const MOST_LAYERS: usize = 100;
-/// Part of a thickness by which the sum of layers may miss it.
+/// Tolerance on the sum of layers, relative to the thickness.
 const SLACK: f64 = 1e-9;
 
 /// Checks the materials of the solid at `path`.
@@ -36,7 +36,7 @@ fn layers(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
         let place = place.index(i);
         own_material(checker, &place.key("material"), &layer.material);
         sound &= checker.is_fine(&place.key("thickness"));
-        let message = "above the top layer there is none to be in contact with";
+        let message = "the top layer has no contact above it";
         let fine = i > 0 || layer.contact_resistance.is_none();
         let place = place.key("contact_resistance");
         checker.require(fine, &place, message, "a layer below another one");
@@ -54,7 +54,7 @@ fn layers(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
     }
 }
 
-/// Checks a material where it is not just what its name says: one of its own, or a copy whose constants were set.
+/// Checks a material that is not simply a named one: the body's own, or a copy with modified constants.
 fn own_material(checker: &mut Checker, path: &Path, choice: &MaterialChoice) {
     let named = choice.name.as_ref().and_then(|name| checker.scene.material.get(name));
     if named != Some(choice.material()) {
@@ -62,7 +62,7 @@ fn own_material(checker: &mut Checker, path: &Path, choice: &MaterialChoice) {
     }
 }
 
-/// Layers fill the shape.
+/// Checks that layers fill the shape.
 fn thickness(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) {
     let wanted = solid.shape.thickness();
     let sum: f64 = list.iter().map(|layer| layer.thickness).sum();
@@ -71,8 +71,8 @@ fn thickness(checker: &mut Checker, path: &Path, solid: &Solid, list: &[Layer]) 
     checker.require(fine, path, message, format!("thicknesses that add up to {wanted:e} m"));
 }
 
-/// What passes a convective lateral face follows the temperature along it, but modes along the surface are
-/// those of all layers only where these conduct equally.
+/// Checks lateral convection on layers. Its flux follows the temperature along the face, but lateral modes are common
+/// to all layers only if these have equal conductivities.
 fn lateral_convection(checker: &mut Checker, path: &Path, solid: &Solid) {
     let mut conductivities = solid.strata().into_iter().map(|layer| layer.constants.conductivity);
     let Some(first) = conductivities.next() else { return };
@@ -81,7 +81,7 @@ fn lateral_convection(checker: &mut Checker, path: &Path, solid: &Solid) {
         if condition.convection.is_some() && !matches!(face, FaceName::Top | FaceName::Bottom) {
             let path = path.key("faces").key(face.as_str()).key("convection");
             let message = format!(
-                "a lateral face of layers that conduct differently ({} and {} W/(m K)) cannot be convective",
+                "a lateral face of layers with different conductivities ({} and {} W/(m K)) cannot be convective",
                 number(first),
                 number(other)
             );

@@ -1,10 +1,10 @@
-//! Single numbers against the bounds that the schema gives their keys.
+//! Checks single numbers against the bounds that the schema sets for their keys.
 
 use super::Checker;
 use crate::limits::Side;
 use crate::scene::schema::{Limits, Schema};
 
-/// Refuses every number that is beyond its bounds.
+/// Refuses every number beyond its bounds.
 pub fn check(checker: &mut Checker, schema: &Schema) {
     schema.numbers(checker.source, &mut |place, limits, value| {
         if let Some((why, allowed)) = refusal(limits, value) {
@@ -13,9 +13,9 @@ pub fn check(checker: &mut Checker, schema: &Schema) {
     });
 }
 
-/// Why a number is refused, and what is allowed.
+/// Reason why a number is refused, and what is allowed.
 ///
-/// Bounds without words are looked at by checks that know more.
+/// Bounds without words are left to more specific checks.
 fn refusal(limits: &Limits, value: f64) -> Option<(String, String)> {
     let side = limits.bounds.side(value)?;
     let words = match side {

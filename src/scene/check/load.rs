@@ -1,4 +1,4 @@
-//! Whether loads act on faces that take them, and lie on them wherever they go.
+//! Checks that loads act on suitable faces, and stay on them throughout their range.
 
 use super::{Checker, MOST_ELEMENTS, fits, number, start};
 use crate::scene::grid::lateral_extents;
@@ -27,12 +27,12 @@ pub fn check(checker: &mut Checker) {
     }
 }
 
-/// The faces that loads act on.
+/// The faces on which loads may act.
 pub fn loaded_faces(_: &Shape) -> Vec<FaceName> {
     vec![FaceName::Top, FaceName::Bottom]
 }
 
-/// Inner radius of a ring over its outer one, at most: it is the difference of two discs.
+/// Largest inner radius of a ring over its outer one: the ring is the difference of two discs.
 const WIDEST_HOLE: f64 = 0.999;
 
 /// Refuses rings that are too thin.
@@ -46,7 +46,7 @@ pub fn check_ring(checker: &mut Checker, path: &Path, footprint: &Footprint) {
     }
 }
 
-/// What a face is held at, it does not take from a load: it would leave again at once.
+/// Refuses a load on a prescribed quantity of its face, which would remove the load at once.
 fn held_face(checker: &mut Checker, path: &Path, load: &Load, name: FaceName, solid: &Solid) {
     let face = solid.face(name);
     let name = name.as_str();
@@ -69,7 +69,7 @@ fn held_face(checker: &mut Checker, path: &Path, load: &Load, name: FaceName, so
     }
 }
 
-/// On a disc, which is modelled in its meridian section, loads are centred and act alike all round.
+/// Checks that loads on a disc, which is modelled in its meridian section, are centred and axisymmetric.
 fn axisymmetry(checker: &mut Checker, path: &Path, load: &Load) {
     let footprint = &load.footprint;
     if let Footprint::Tiles { .. } = footprint {
@@ -93,8 +93,8 @@ fn axisymmetry(checker: &mut Checker, path: &Path, load: &Load) {
     }
 }
 
-/// Without a spacing of its own the mesh is as fine as the smallest footprint: refuses those of which the
-/// face would hold more than can be counted.
+/// Refuses footprints so small that the face would hold too many elements to count. Without a spacing of its own, the
+/// mesh is as fine as the smallest footprint requires.
 fn fineness(checker: &mut Checker, path: &Path, load: &Load, solid: &Solid) {
     let [x, y] = lateral_extents(&solid.shape);
     let least = x.max(y) / (0.1 * MOST_ELEMENTS);
@@ -114,21 +114,21 @@ fn fineness(checker: &mut Checker, path: &Path, load: &Load, solid: &Solid) {
 /// An axis along which a footprint must stay on its face.
 struct Reach {
     axis: &'static str,
-    /// Place of the centre at the start, and bounds of it [m].
+    /// Position of the centre at the start, and its bounds [m].
     start: f64,
     range: Option<[f64; 2]>,
-    /// Extent of the face to both sides of its centre [m].
+    /// Extent of the face on both sides of its centre [m].
     half: f64,
-    /// Extent of the footprint to both sides of its centre, at the start and at most [m].
+    /// Extent of the footprint on both sides of its centre, at the start and at most [m].
     half_start: f64,
     half_most: f64,
 }
 
-/// Refuses footprints that leave their face at the start or in a corner of their range. Of a
-/// Gaussian this concerns its radius, not its tails.
+/// Refuses footprints that leave their face at the start or in a corner of their range. For a Gaussian its radius
+/// counts, not its tails.
 fn reach(checker: &mut Checker, path: &Path, load: &Load, shape: &Shape) {
     let tried = reaches(load, shape).into_iter().find_map(|reach| {
-        let key = reach.culprit(load)?;
+        let key = reach.key_at_fault(load)?;
         Some((key, reach))
     });
     let Some((key, reach)) = tried else { return };
@@ -157,7 +157,7 @@ fn reaches(load: &Load, shape: &Shape) -> Vec<Reach> {
     }
 }
 
-/// Extent of a footprint to both sides of its centre, at the start and at most [m].
+/// Extent of a footprint on both sides of its centre, at the start and at most [m].
 fn half_extents(load: &Load, axis: usize) -> (f64, f64) {
     let start = load.footprint.half_extents(load.start.radius)[axis];
     match (load.footprint.radius(), load.range.radius) {
@@ -168,7 +168,7 @@ fn half_extents(load: &Load, axis: usize) -> (f64, f64) {
 
 impl Reach {
     /// The key that lets the footprint leave its face.
-    fn culprit(&self, load: &Load) -> Option<String> {
+    fn key_at_fault(&self, load: &Load) -> Option<String> {
         let farthest =
             self.range.map_or(self.start.abs(), |range| range[0].abs().max(range[1].abs()));
         let leaves = |centre: f64, extent: f64| !fits(centre + extent, self.half);

@@ -1,11 +1,11 @@
-//! The constants of materials: tables, melting and yield.
+//! Checks the constants of materials: tables, melting and yield.
 
 use super::{Checker, number};
 use crate::laws::solid::Need;
 use crate::laws::{Material, Melting, Property, PropertyError, Table};
 use crate::scene::locate::Path;
 
-/// The materials that have names.
+/// Checks the named materials.
 pub fn named(checker: &mut Checker) {
     for (name, material) in &checker.scene.material {
         check(checker, &Path::default().key("material").key(name), material);
@@ -28,7 +28,7 @@ pub fn check(checker: &mut Checker, path: &Path, material: &Material) {
 
 fn table(checker: &mut Checker, path: &Path, table: &Table) {
     let Err(error) = table.check() else { return };
-    // What is allowed stands apart in a scene's errors.
+    // The allowed values are a separate part of a scene's errors.
     let message = error.to_string();
     let message = message.split(" (allowed").next().unwrap_or_default().to_owned();
     match error {

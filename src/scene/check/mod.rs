@@ -1,4 +1,4 @@
-//! Whether what a scene says makes sense and can be modelled. One subject a file.
+//! Checks that a scene makes sense and can be modelled. Each file covers one subject.
 
 mod body;
 mod coupling;
@@ -33,13 +33,13 @@ use super::schema::Schema;
 use super::spelling::hint;
 use super::types::{Body, FaceName, Scene, Shape, Solid};
 
-/// Elements along an axis of a mesh at most, were it as fine throughout as in its finest place.
+/// Largest number of elements along an axis, if the mesh were as fine everywhere as in its finest place.
 const MOST_ELEMENTS: f64 = 1e6;
 
-/// Relative slack of comparisons of lengths, for places that were computed.
+/// Relative tolerance of comparisons of computed lengths.
 const SLACK: f64 = 1e-9;
 
-/// Finds everything that is wrong with a scene whose numbers are all finite.
+/// Finds all errors of a scene whose numbers are all finite.
 pub fn check(scene: &Scene, source: &Source, schema: &Schema) -> Result<(), SceneError> {
     let mut checker = Checker { scene, source, problems: Vec::new(), refused: BTreeSet::new() };
     limits::check(&mut checker, schema);
@@ -63,29 +63,29 @@ struct Checker<'a> {
     scene: &'a Scene,
     source: &'a Source<'a>,
     problems: Vec<Problem>,
-    /// Where these are.
+    /// Positions of these problems.
     refused: BTreeSet<Path>,
 }
 
 impl<'a> Checker<'a> {
-    /// Notes a problem with the value at `path`.
+    /// Records a problem with the value at `path`.
     fn refuse(&mut self, path: &Path, message: impl Into<String>, allowed: impl Into<String>) {
         self.problems.push(self.source.problem(path, message.into(), allowed.into()));
         self.refused.insert(path.clone());
     }
 
-    /// The places in the value at `path` that have been refused.
+    /// Positions of refused values within the value at `path`.
     fn refused_in(&self, path: &Path) -> impl Iterator<Item = &Path> {
         let all = path.clone();
         self.refused.range(path..).take_while(move |refused| refused.is_within(&all))
     }
 
-    /// Whether nothing in the value at `path` has been refused.
+    /// Returns true if nothing in the value at `path` has been refused.
     fn is_fine(&self, path: &Path) -> bool {
         self.refused_in(path).next().is_none()
     }
 
-    /// Notes a problem unless `fine`; returns `fine`.
+    /// Records a problem unless `fine`; returns `fine`.
     fn require(
         &mut self,
         fine: bool,
@@ -108,21 +108,21 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The body of that name, refused if there is none; `None` also for bodies whose shape has
-    /// been refused, on which no place can be judged.
+    /// Returns the body of that name; refuses an unknown name. Also returns `None` for bodies with a refused shape, on
+    /// which no position can be checked.
     fn body(&mut self, path: &Path, name: &str) -> Option<&'a Solid> {
         let solid = self.scene.solid(name);
         if solid.is_none() {
             let known = self.scene.solids().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
             let hint = hint(name, self.scene.solids().map(|(name, _)| name));
             let message = self.not_a_solid(name, format!("there is no body `{name}`{hint}"));
-            self.refuse(path, message, or_none(known, "a body of kind `solid`"));
+            self.refuse(path, message, list_or(known, "a body of kind `solid`"));
         }
         solid.filter(|solid| is_sound(&solid.shape))
     }
 
-    /// The face that `BODY.FACE` names, refused if it is none of those that `offered` says of a
-    /// shape; `None` also on bodies whose shape has been refused.
+    /// Returns the face that `BODY.FACE` names; refuses a face that is not among those that `offered` returns for the
+    /// shape. Also returns `None` on bodies with a refused shape.
     fn face(
         &mut self,
         path: &Path,
@@ -145,16 +145,16 @@ impl<'a> Checker<'a> {
                 None => hint(body, self.scene.solids().map(|(name, _)| name)),
             };
             let message = self.not_a_solid(body, format!("`{place}` is no face for this{hint}"));
-            self.refuse(path, message, or_none(known, "a face of a body of kind `solid`"));
+            self.refuse(path, message, list_or(known, "a face of a body of kind `solid`"));
         }
         named.filter(|(_, solid)| is_sound(&solid.shape))
     }
 
-    /// What to say of a body that a solid's name was expected for.
+    /// Message for a body that is used where a solid is expected.
     fn not_a_solid(&self, body: &str, otherwise: String) -> String {
         match self.scene.body.get(body) {
             Some(Body::Reservoir(_)) => format!(
-                "`{body}` is a reservoir, whose values are outputs by themselves and which touches solids alone"
+                "`{body}` is a reservoir, whose values are always outputs and which can be in contact with solids only"
             ),
             Some(Body::Droplet(_)) => format!(
                 "`{body}` is a droplet, on which nothing else acts and whose values are outputs by \
@@ -164,25 +164,25 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// The droplet of that name, refused if there is none.
+    /// Returns the droplet of that name; refuses an unknown name.
     fn droplet(&mut self, path: &Path, name: &str) -> Option<&'a Droplet> {
         let droplet = self.scene.droplet(name);
         if droplet.is_none() {
             let known = self.scene.droplets().map(|(name, _)| name).collect::<Vec<_>>().join(", ");
             let hint = hint(name, self.scene.droplets().map(|(name, _)| name));
             let message = format!("there is no droplet `{name}`{hint}");
-            self.refuse(path, message, or_none(known, "a body of kind `droplet`"));
+            self.refuse(path, message, list_or(known, "a body of kind `droplet`"));
         }
         droplet
     }
 }
 
-/// A list, or what to say where it is empty.
-fn or_none(list: String, otherwise: &str) -> String {
+/// Returns a list, or another text if it is empty.
+fn list_or(list: String, otherwise: &str) -> String {
     if list.is_empty() { otherwise.to_owned() } else { list }
 }
 
-/// Whether all extents of a shape are positive.
+/// Returns true if all extents of a shape are positive.
 fn is_sound(shape: &Shape) -> bool {
     match shape {
         Shape::Box(extents) => extents.iter().all(|&extent| extent > 0.0),
@@ -190,12 +190,12 @@ fn is_sound(shape: &Shape) -> bool {
     }
 }
 
-/// Whether a length is at most as large as another.
+/// Returns true if a length is at most as large as another.
 pub(crate) fn fits(length: f64, limit: f64) -> bool {
     length <= limit * (1.0 + SLACK)
 }
 
-/// Whether z lies between the bottom and the top of a body.
+/// Returns true if `z` lies within the body's thickness.
 fn is_in_depth(z: f64, thickness: f64) -> bool {
     z <= SLACK * thickness && fits(-z, thickness)
 }
@@ -205,7 +205,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn lengths_have_a_little_slack() {
+    fn lengths_compare_with_tolerance() {
         assert!(fits(1.0 + 1e-10, 1.0) && !fits(1.0 + 1e-8, 1.0));
         assert!(is_in_depth(1e-10, 1.0) && !is_in_depth(1e-8, 1.0));
         assert!(is_in_depth(-1.0 - 1e-10, 1.0) && !is_in_depth(-1.0 - 1e-8, 1.0));

@@ -1,11 +1,11 @@
-//! Whether a solid can be solved as the scene asks, and as its constants and faces need.
+//! Checks that a solid can be solved by the method that the scene sets and that its constants and faces need.
 
 use super::Checker;
 use crate::scene::locate::Path;
 use crate::scene::lookup::split_place;
 use crate::scene::types::{HeatMethod, Layer, Scene, Solid, SolverMethod, Symmetry};
 
-/// Whether Newton's method advances the heat of a solid.
+/// Returns true if Newton's method advances the heat of a solid.
 pub fn takes_newton(scene: &Scene, solid: &Solid) -> bool {
     match scene.solver.method {
         SolverMethod::Newton => true,
@@ -14,7 +14,7 @@ pub fn takes_newton(scene: &Scene, solid: &Solid) -> bool {
     }
 }
 
-/// Refuses loads that a part of a body cannot take for the whole where it is not linear.
+/// Refuses loads without the symmetry of a nonlinear body's modelled part, which then cannot represent the whole.
 fn even_loads(checker: &mut Checker, path: &Path) {
     let name = path.last_key().to_owned();
     for (i, load) in checker.scene.load.iter().enumerate() {
@@ -23,7 +23,8 @@ fn even_loads(checker: &mut Checker, path: &Path) {
         }
         let path = Path::default().key("load").index(i);
         for (key, value) in [("start.x", load.start.x), ("start.y", load.start.y)] {
-            let message = "a quarter of a body that is not linear takes loads that are even about x = 0 and y = 0 alone";
+            let message =
+                "a quarter of a nonlinear body requires loads symmetric about x = 0 and y = 0";
             let fine = value.is_none_or(|value| value == 0.0);
             checker.require(
                 fine,
@@ -38,12 +39,11 @@ fn even_loads(checker: &mut Checker, path: &Path) {
 pub fn check(checker: &mut Checker, path: &Path, solid: &Solid) {
     let method = checker.scene.solver.method;
     if method == SolverMethod::Modal && !solid.conducts_linearly() {
-        let message =
-            "modes need constants that are numbers, nothing that melts and no face that radiates";
+        let message = "modes need constants independent of temperature, nothing that melts and no face that radiates";
         checker.refuse(&Path::default().at("solver.method"), message, "auto, newton");
     }
     if takes_newton(checker.scene, solid) && solid.heat == HeatMethod::Sph {
-        let message = "particles conduct heat with constants that are numbers alone, and by no Newton's method";
+        let message = "particles conduct heat only with constants independent of temperature, and without Newton's method";
         checker.refuse(&path.key("heat"), message, "fem");
     }
     let is_part = solid.symmetry == Symmetry::Quarter;

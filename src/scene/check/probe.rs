@@ -1,4 +1,4 @@
-//! Whether probes lie in their bodies and give something.
+//! Checks that probes lie in their bodies and have outputs.
 
 use super::{Checker, fits, is_in_depth, number};
 use crate::scene::grid::lateral_extents;
@@ -17,7 +17,7 @@ pub fn check(checker: &mut Checker) {
     }
 }
 
-/// Only what yields has plastic strain.
+/// Refuses plastic strain as an output of bodies that do not yield.
 pub fn yields(checker: &mut Checker, path: &Path, gives: &[Gives], (name, solid): (&str, &Solid)) {
     let place = gives.iter().position(|gives| *gives == Gives::PlasticStrain);
     if let Some(place) = place.filter(|_| !solid.yields()) {
@@ -31,11 +31,12 @@ fn place(checker: &mut Checker, path: &Path, probe: &Probe, shape: &Shape) {
     checker.require(contains(shape, probe.at), path, message, inside(shape));
 }
 
-/// Only an interface has sides.
+/// Refuses a `side` away from interfaces.
 fn side(checker: &mut Checker, path: &Path, probe: &Probe, solid: &Solid) {
     if probe.side.is_some() && solid.interface_at(probe.at[2]).is_none() {
         let list: Vec<String> = solid.interfaces().into_iter().map(number).collect();
-        let message = format!("the point is on no interface between layers of `{}`", probe.body);
+        let message =
+            format!("the point is not on an interface between layers of `{}`", probe.body);
         let allowed = match list.is_empty() {
             true => "a point of a body with layers".to_owned(),
             false => format!("a point with z = {}", list.join(" or ")),

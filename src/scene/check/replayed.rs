@@ -1,4 +1,5 @@
-//! What drops are computed by: particles, a record of these, or the closed forms of a film, each with keys of its own.
+//! Checks how drops are computed: by particles, by a recording of these, or by the closed forms of a film. Each has
+//! keys of its own.
 
 use super::{Checker, number};
 use crate::kernel::Kernel;
@@ -8,19 +9,19 @@ use crate::scene::locate::Path;
 pub fn check(checker: &mut Checker, path: &Path, (name, droplet): (&str, &Droplet)) {
     let method = droplet.method;
     if droplet.has_particles() {
-        let message = "drops of particles need the distance of these";
+        let message = "drops of particles need the particle spacing";
         let allowed = "spacing, up to a sixth of the diameter";
         checker.require(droplet.spacing > 0.0, &path.at("spacing"), message, allowed);
     }
     if method == DropletMethod::Sph {
-        let message = "particles are computed for each drop, and nothing is recorded";
+        let message = "`sph` computes each drop and records nothing";
         let allowed = "no such key, or method = \"record\"";
         checker.require(droplet.record.is_none(), &path.at("record"), message, allowed);
         return;
     }
     let scene = checker.scene;
     let stands = scene.wall_under(name).is_some() || scene.coupling_from(name).is_some();
-    let message = "what a drop gives to a wall is repeated, and there is none below it";
+    let message = "a recorded drop needs a wall or a solid below it";
     checker.require(
         stands,
         &path.at("method"),
@@ -56,7 +57,7 @@ fn speeds(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     }
 }
 
-/// A film has no particles, so what concerns these is refused.
+/// Refuses the keys of particles for a film, which has none.
 fn without_particles(checker: &mut Checker, path: &Path, droplet: &Droplet) {
     let given = [
         ("spacing", droplet.spacing != 0.0),
@@ -71,7 +72,7 @@ fn without_particles(checker: &mut Checker, path: &Path, droplet: &Droplet) {
         ("fluid.sound_speed", droplet.fluid.sound_speed.is_some()),
     ];
     for (key, is_given) in given {
-        let message = "a film has no particles, which this key is about";
+        let message = "a film has no particles, which this key describes";
         checker.require(!is_given, &path.at(key), message, "no such key, or another `method`");
     }
 }

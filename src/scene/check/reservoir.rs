@@ -1,4 +1,4 @@
-//! Whether reservoirs have all that losing heat takes.
+//! Checks that reservoirs have all keys that heat loss needs.
 
 use super::Checker;
 use crate::scene::locate::Path;

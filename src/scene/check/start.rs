@@ -1,4 +1,4 @@
-//! Start values and bounds of a load's inputs.
+//! Checks start values and bounds of a load's inputs.
 
 use super::{Checker, number};
 use crate::channel::{Channel, Direction};
@@ -16,7 +16,7 @@ fn amounts(checker: &mut Checker, path: &Path, load: &Load) {
         let Some(values) = load.start.amounts(channel) else { continue };
         let path = path.key(channel.key());
         if !load.carries.contains(&Carries::of(channel)) {
-            let message = "a start value of something that the load does not carry";
+            let message = "a start value of an amount that the load does not carry";
             checker.refuse(&path, message, keys(load.channels()));
         } else if load.channels().any(|own| own == channel) {
             cells(checker, &path, values, load.footprint.cells());
@@ -34,7 +34,7 @@ fn keys(channels: impl Iterator<Item = Channel>) -> String {
     channels.map(Channel::key).collect::<Vec<_>>().join(", ")
 }
 
-/// Refuses values that are not one for each cell.
+/// Refuses lists that do not have one value per cell.
 pub fn cells(checker: &mut Checker, path: &Path, values: &CellValues, cells: Option<CellShape>) {
     let allowed = match cells {
         None => "one number".to_owned(),

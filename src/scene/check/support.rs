@@ -1,4 +1,4 @@
-//! Whether bodies whose mechanics is asked for are held against rigid motion.
+//! Checks that bodies with mechanical outputs are supported against rigid motion.
 
 use super::Checker;
 use crate::scene::locate::Path;
@@ -9,7 +9,7 @@ pub fn check(checker: &mut Checker) {
         if checker.scene.asks_mechanics(name) {
             let free = free_motions(solid);
             let message = format!(
-                "stress and displacement are asked for, but nothing holds the body against {}",
+                "stress or displacement is an output, but nothing supports the body against {}",
                 free.join(", ")
             );
             let path = Path::default().key("body").key(name);
@@ -30,7 +30,8 @@ fn free_motions(solid: &Solid) -> Vec<&'static str> {
     }
 }
 
-/// A roller holds the translation along its normal and the rotations about the axes in its face.
+/// Rigid motions that rollers leave free. A roller blocks the translation along its normal and the rotations about the
+/// axes in its face.
 fn free_motions_of_box(rollers: &[FaceName]) -> Vec<&'static str> {
     let normals: Vec<_> = rollers.iter().filter_map(|face| face.normal()).collect();
     let translations = ["translation along x", "translation along y", "translation along z"];
@@ -42,7 +43,8 @@ fn free_motions_of_box(rollers: &[FaceName]) -> Vec<&'static str> {
     moves.chain(turns).collect()
 }
 
-/// Axisymmetry leaves a disc one rigid motion, along its axis, which its lateral face slides in.
+/// Rigid motions of a disc that rollers leave free. Axisymmetry leaves only the one along its axis; the lateral face
+/// slides in it.
 fn free_motions_of_disc(rollers: &[FaceName]) -> Vec<&'static str> {
     let held = rollers.iter().any(|face| face.normal() == Some(2));
     if held { Vec::new() } else { vec!["translation along z"] }

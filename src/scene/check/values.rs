@@ -1,10 +1,10 @@
-//! Whether a unit would have more variables than tools can read.
+//! Checks that a unit does not have more variables than tools can read.
 
 use super::{Checker, number};
 use crate::scene::locate::Path;
 use crate::scene::types::{Carries, CellShape, Footprint, Gives};
 
-/// Values of all loads, fields and walls together: a description of some hundred megabytes.
+/// Largest number of values of all loads, fields and walls together: a model description of some hundred megabytes.
 const MOST_VALUES: usize = 500_000;
 
 pub fn check(checker: &mut Checker) {

@@ -1,4 +1,4 @@
-//! Whether walls lie below droplets and are cut into cells that fit them.
+//! Checks that walls lie below droplets and have suitable cells.
 
 use super::{Checker, start};
 use crate::scene::droplet::Droplet;
@@ -30,7 +30,7 @@ fn cells(checker: &mut Checker, path: &Path, footprint: &Footprint) {
     checker.require(footprint.cells().is_some(), &path, message, "rings, tiles");
 }
 
-/// Rings are for what is round about the axis, a row of tiles for what is plane.
+/// Checks the cells of a wall: rings for axisymmetric models, a row of tiles for plane ones.
 fn fit(checker: &mut Checker, path: &Path, footprint: &Footprint, droplet: &Droplet) {
     let path = path.key(footprint.name());
     match footprint {

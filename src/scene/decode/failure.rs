@@ -1,4 +1,4 @@
-//! Why a value does not fit its type, with what would.
+//! Reasons why a value does not fit its type, and what would fit.
 
 use std::fmt;
 
@@ -10,12 +10,12 @@ use crate::scene::spelling::meant;
 /// The first value that does not fit.
 #[derive(Debug)]
 pub struct Failure {
-    /// Where; `None` until the failure has come up to the innermost value with a known place.
+    /// Position of the value; `None` until the failure has reached the innermost value with a known position.
     pub path: Option<Path>,
     pub misfit: Misfit,
 }
 
-/// What does not fit.
+/// Kind of misfit.
 #[derive(Debug)]
 pub enum Misfit {
     UnknownKey { key: String, known: Vec<&'static str> },
@@ -25,12 +25,12 @@ pub enum Misfit {
 }
 
 impl Failure {
-    /// The failure of a value that is not `expected`, in serde's words.
+    /// Failure of a value that is not `expected`, in serde's words.
     pub fn expecting(expected: impl fmt::Display) -> Self {
         Misfit::Unexpected { expected: expected.to_string() }.into()
     }
 
-    /// Gives the failure a place unless it has one.
+    /// Sets the position of the failure unless it has one.
     pub fn or_at(mut self, path: &Path) -> Self {
         self.path.get_or_insert_with(|| path.clone());
         self
@@ -44,7 +44,7 @@ impl From<Misfit> for Failure {
 }
 
 impl Misfit {
-    /// What is wrong, as a sentence.
+    /// Describes the misfit in a sentence.
     pub fn message(&self) -> String {
         let hint = self.meant().map(|meant| format!(" (did you mean `{meant}`?)"));
         let hint = hint.unwrap_or_default();
@@ -56,7 +56,7 @@ impl Misfit {
         }
     }
 
-    /// What would fit.
+    /// Describes what would fit.
     pub fn allowed(&self) -> String {
         match self {
             Misfit::UnknownKey { known, .. } | Misfit::UnknownName { known, .. } => {
@@ -67,7 +67,7 @@ impl Misfit {
         }
     }
 
-    /// The known key or name that is spelt much like the unknown one.
+    /// The known key or name most similar to the unknown one.
     pub fn meant(&self) -> Option<&'static str> {
         let (Misfit::UnknownKey { key: word, known } | Misfit::UnknownName { name: word, known }) =
             self
@@ -78,7 +78,7 @@ impl Misfit {
     }
 }
 
-/// What a type takes, in the words of a scene's author instead of serde's.
+/// Describes what a type accepts, in terms of scenes instead of serde's.
 pub fn expectation(serde: &str) -> String {
     match serde {
         "f64" => "a finite number".to_owned(),
@@ -104,7 +104,7 @@ impl fmt::Display for Failure {
 impl std::error::Error for Failure {}
 
 impl Error for Failure {
-    /// Only untagged enums come here, with the words of their `expecting`.
+    /// Only untagged enums arrive here, with the text of their `expecting`.
     fn custom<T: fmt::Display>(message: T) -> Self {
         Self::expecting(message)
     }
@@ -139,7 +139,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_slip_of_the_pen_is_understood() {
+    fn typing_errors_are_recognised() {
         let meant = |word: &str| {
             Failure::unknown_field(word, &["density", "young", "on", "at"]).misfit.meant()
         };

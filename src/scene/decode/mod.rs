@@ -1,7 +1,7 @@
-//! From located TOML values to the types of a scene, with every misfit at its place.
+//! Decodes located TOML values into the types of a scene, and reports every misfit at its position.
 //!
-//! serde stops at the first misfit. Here that value is noted, left out and the rest read again,
-//! until nothing new turns up, so that one run reports what one run can.
+//! serde stops at the first misfit. Here that value is recorded and omitted, and the rest is read again until no new
+//! misfit occurs. So one run reports as many problems as possible.
 
 mod failure;
 mod keys;
@@ -25,11 +25,10 @@ use failure::{Failure, Misfit, expectation};
 use unit::with_unit;
 use value::{Keys, Node, View};
 
-/// More problems than this are not worth reading.
+/// Largest number of reported problems.
 const MOST_PROBLEMS: usize = 100;
 
-/// Reads a scene whose keys, types and numbers are in order; whether they make sense together is
-/// not looked at.
+/// Decodes a scene whose keys, types and numbers are in order; their mutual consistency is checked later.
 pub fn decode(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
     let mut decoder = Decoder { source, schema, left_out: BTreeSet::new(), problems: Vec::new() };
     decoder.refuse_numbers_that_are_not_finite(source.root(), &Path::default());
@@ -48,13 +47,13 @@ pub fn decode(source: &Source, schema: &Schema) -> Result<Scene, SceneError> {
 struct Decoder<'a> {
     source: &'a Source<'a>,
     schema: &'a Schema,
-    /// What reads as if it were not there.
+    /// Values treated as absent.
     left_out: BTreeSet<Path>,
     problems: Vec<Problem>,
 }
 
 impl Decoder<'_> {
-    /// Reads the materials that have names, as [`Self::read_bodies`] does bodies.
+    /// Reads the named materials, as [`Self::read_bodies`] does bodies.
     fn read_materials(&mut self) {
         let path = Path::default().key("material");
         let Some(DeValue::Table(materials)) = self.source.value(&path) else { return };
@@ -63,7 +62,7 @@ impl Decoder<'_> {
         }
     }
 
-    /// Gives each body and layer that names a material a copy of it.
+    /// Copies the named material into each body and layer that uses it.
     fn look_up_materials(&mut self, scene: &mut Scene) {
         let known = &scene.material;
         for (name, body) in &mut scene.body {
@@ -76,7 +75,7 @@ impl Decoder<'_> {
             for (path, choice) in own.chain(layers) {
                 if !choice.look_up(|name| known.get(name)) {
                     let name = choice.name.as_deref().unwrap_or_default();
-                    // What is wrong with a table that is there has been said.
+                    // Errors of an existing table have already been reported.
                     let table = Path::default().key("material").key(name);
                     if self.source.value(&table).is_some() {
                         continue;
@@ -93,8 +92,8 @@ impl Decoder<'_> {
         }
     }
 
-    /// Reads tables whose type a key of theirs chooses, from the inside out: serde loses the
-    /// places of values in such tables, so that they must be faultless when it gets to them.
+    /// Reads tables whose type is chosen by one of their keys, from the inside out. serde loses the positions of values
+    /// in such tables, so they must be valid before it reads them.
     fn read_bodies(&mut self) {
         let path = Path::default().key("body");
         let Some(DeValue::Table(bodies)) = self.source.value(&path) else { return };
@@ -115,7 +114,7 @@ impl Decoder<'_> {
         }
     }
 
-    /// Reads the table at `path` as a `T` where its key `tag` says `name`.
+    /// Reads the table at `path` as a `T` if its key `tag` is `name`.
     fn read_if<T: DeserializeOwned>(&mut self, path: &Path, tag: &'static str, name: &str) {
         let chosen = self.source.value(&path.key(tag)).and_then(DeValue::as_str);
         if chosen == Some(name) {
@@ -123,7 +122,7 @@ impl Decoder<'_> {
         }
     }
 
-    /// Reads the table at `path`, notes all that is wrong with it and leaves that out from then on.
+    /// Reads the table at `path`, records all its misfits and omits them from then on.
     fn read<T: DeserializeOwned>(&mut self, path: &Path, keys: Keys) -> Option<T> {
         let value = self.source.value(path)?;
         while self.problems.len() < MOST_PROBLEMS && !self.left_out.contains(path) {
@@ -133,7 +132,7 @@ impl Decoder<'_> {
                 Err(failure) => failure,
             };
             let place = failure.path.clone().unwrap_or_else(|| path.clone());
-            if !self.is_echo(&place, &failure.misfit) {
+            if !self.is_consequence(&place, &failure.misfit) {
                 let allowed = self.allowed::<T>(value, path, keys, &failure, &place);
                 self.note(&failure.misfit, &place, allowed);
             }
@@ -144,8 +143,8 @@ impl Decoder<'_> {
         None
     }
 
-    /// Whether the misfit only says that something is gone that was left out.
-    fn is_echo(&self, place: &Path, misfit: &Misfit) -> bool {
+    /// Returns true if the misfit only reports an omitted value as missing.
+    fn is_consequence(&self, place: &Path, misfit: &Misfit) -> bool {
         match misfit {
             Misfit::MissingKey(key) => self.left_out.contains(&place.key(key)),
             _ => self.left_out.iter().any(|path| path.is_within(place)),
@@ -168,9 +167,8 @@ impl Decoder<'_> {
         self.problems.push(self.source.problem(&place, misfit.message(), allowed));
     }
 
-    /// A table that lacks a key goes as a whole; anything else that does not fit goes alone, and
-    /// with a misspelt key goes the one that was meant.
-    /// Returns whether that changes anything.
+    /// Omits a misfit: a whole table if it lacks a key, otherwise the single value; for a misspelt key also the
+    /// intended one. Returns true if this changes anything.
     fn leave_out(&mut self, misfit: &Misfit, place: Path) -> bool {
         if let (Misfit::UnknownKey { .. }, Some(meant)) = (misfit, misfit.meant()) {
             let meant = place.parent().key(meant);
@@ -181,7 +179,7 @@ impl Decoder<'_> {
         self.left_out.insert(place)
     }
 
-    /// What would fit; for a missing key, what its type takes.
+    /// Describes what would fit; for a missing key, what its type accepts.
     fn allowed<T: DeserializeOwned>(
         &self,
         value: &DeValue,
@@ -199,7 +197,8 @@ impl Decoder<'_> {
         }
     }
 
-    /// TOML knows `nan` and `inf`, and rounds numbers beyond the range of a double to the latter.
+    /// Refuses numbers that are not finite: TOML allows `nan` and `inf`, and rounds numbers beyond the range of a
+    /// double to infinity.
     fn refuse_numbers_that_are_not_finite(&mut self, value: &DeValue, path: &Path) {
         match value {
             DeValue::Float(float) if !is_finite(float) => {

@@ -1,4 +1,4 @@
-//! A serde deserializer over TOML values that knows where each of them stands.
+//! A serde deserializer over TOML values that records the position of each of them.
 
 use std::collections::BTreeSet;
 
@@ -13,15 +13,15 @@ use toml::de::{DeInteger, DeTable, DeValue};
 use super::failure::Failure;
 use crate::scene::locate::Path;
 
-/// How the values of a scene are looked at.
+/// Modifications with which the values of a scene are read.
 pub struct View<'a> {
-    /// Values that read as if they were not there.
+    /// Values treated as absent.
     pub left_out: &'a BTreeSet<Path>,
-    /// A key that reads as if it were there, with a value that fits no type.
+    /// A key treated as present, with a value that fits no type.
     pub blank: Option<&'a Path>,
 }
 
-/// A value at its place.
+/// A value and its position.
 #[derive(Clone)]
 pub struct Node<'a> {
     /// `None` is the value that fits no type.
@@ -51,7 +51,7 @@ impl Keys {
 }
 
 impl<'a> Node<'a> {
-    /// The value that stands at `path`.
+    /// Node of the value at `path`.
     pub fn new(value: &'a DeValue<'a>, path: Path, view: &'a View<'a>) -> Self {
         Self { value: Some(value), path, view, keys: Keys::All }
     }
@@ -132,7 +132,7 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// The name that stands here alone or as the only key of a table.
+    /// The variant name: a plain string, or the only key of a table.
     fn choice(&self, known: &'static [&'static str]) -> Result<Choice<'a>, Failure> {
         let path = self.path.clone();
         match self.value {
@@ -148,7 +148,7 @@ impl<'a> Node<'a> {
     }
 }
 
-/// What serde says that a value should be.
+/// Describes the value that serde expects.
 fn shown(expected: &dyn Expected) -> String {
     expected.to_string()
 }
@@ -176,7 +176,7 @@ impl<'a> Deserializer<'a> for Node<'a> {
         visitor.visit_newtype_struct(self)
     }
 
-    /// serde would take a list, too, for the fields in their order.
+    /// serde would also accept a list with the fields in their order.
     fn deserialize_struct<V: Visitor<'a>>(
         self,
         _: &'static str,
@@ -223,7 +223,7 @@ impl<'a> SeqAccess<'a> for Elements<'a> {
 
 struct Entries<'a> {
     entries: std::vec::IntoIter<(&'a str, Node<'a>)>,
-    /// The value of the key that was read last.
+    /// The value of the most recently read key.
     value: Option<Node<'a>>,
 }
 
@@ -252,7 +252,7 @@ fn name(key: &str) -> StrDeserializer<'_, Failure> {
     key.into_deserializer()
 }
 
-/// A variant of an enum: its name, and what stands under the name.
+/// A variant of an enum: its name, and the value under that name.
 struct Choice<'a> {
     name: &'a str,
     path: Path,

@@ -1,4 +1,4 @@
-//! The schema that follows from the types, in the form in which it is kept.
+//! The schema derived from the types, in its stored form.
 
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
@@ -7,14 +7,14 @@ use serde_json::Value;
 
 use crate::scene::types::Scene;
 
-/// The JSON schema that follows from the scene's types: what [`super::SCHEMA`] must be.
+/// The JSON schema derived from the scene's types: [`super::SCHEMA`] must equal it.
 pub fn derived_schema() -> Schema {
     let settings = SchemaSettings::draft2020_12();
     let settings = settings.with_transform(RecursiveTransform(simplify));
     settings.into_generator().into_root_schema_for::<Scene>()
 }
 
-/// Leaves out what TOML and readers of scenes do without: null, formats of numbers, lines of doc comments.
+/// Removes what TOML and readers of scenes do not need: null, formats of numbers, line breaks of doc comments.
 fn simplify(schema: &mut Schema) {
     let Some(object) = schema.as_object_mut() else { return };
     object.remove("format");
@@ -38,7 +38,7 @@ fn simplify(schema: &mut Schema) {
     if let [Value::Object(only)] = &mut choices[..] {
         let only = std::mem::take(only);
         object.remove("anyOf");
-        // What is said of a key comes before what is said of its type.
+        // The description of a key precedes that of its type.
         for (key, value) in only {
             object.entry(key).or_insert(value);
         }

@@ -1,7 +1,7 @@
-//! The JSON schema of scenes: what each key is, in one place, for editors, checks, messages and tables.
+//! The JSON schema of scenes: a single description of each key, for editors, checks, messages and tables.
 //!
-//! It follows from the scene's types: doc comments are descriptions, and [`crate::limits`] says what numbers may be.
-//! What makes it takes more code than all that reads scenes, so units carry its text, which a test compares.
+//! It is derived from the scene's types: doc comments are descriptions, and [`crate::limits`] bounds the numbers. Its
+//! generator is larger than all code that reads scenes, so units carry the text, which a test compares.
 
 mod derived;
 mod node;
@@ -19,25 +19,27 @@ pub use place::Place;
 /// The JSON schema of a scene, draft 2020-12.
 pub const SCHEMA: &str = include_str!("../../../docs/scene.schema.json");
 
-/// The schema, read.
+/// The parsed schema.
 pub struct Schema {
     root: Node<'static>,
 }
 
 impl Schema {
+    /// The schema of scenes.
+    ///
     /// # Panics
-    /// If [`SCHEMA`] is no schema.
+    /// If [`SCHEMA`] is not a valid schema.
     pub fn of_scenes() -> Self {
         Self { root: serde_json::from_str(SCHEMA).expect("the schema is one") }
     }
 
-    /// The schema that a reference leads to, or the schema itself.
+    /// Follows a reference; returns other schemas unchanged.
     fn resolved<'s>(&'s self, node: &'s Node<'static>) -> &'s Node<'static> {
         let name = node.reference.and_then(|reference| reference.strip_prefix("#/$defs/"));
         name.and_then(|name| self.root.definitions.get(name)).unwrap_or(node)
     }
 
-    /// The schemas of which a value may follow one, those that references lead to among them.
+    /// The alternative schemas of a value, with references resolved.
     fn alternatives<'s>(&'s self, node: &'s Node<'static>) -> Vec<&'s Node<'static>> {
         let node = self.resolved(node);
         match &node.choices[..] {
@@ -46,7 +48,7 @@ impl Schema {
         }
     }
 
-    /// What numbers at a place are measured in, or those of the list that it is an element of.
+    /// Unit of the numbers at a position, or of the list that it is an element of.
     pub fn unit_at(&self, path: &Path) -> Option<&'static str> {
         let mut nodes = self.alternatives(&self.root);
         let mut unit = None;

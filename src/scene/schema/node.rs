@@ -5,7 +5,7 @@ use serde::{Deserialize, de};
 
 use super::number::Limits;
 
-/// What a schema says of a value, as far as reading scenes takes it.
+/// The part of a schema that reading scenes needs.
 #[derive(Default)]
 pub struct Node<'s> {
     pub reference: Option<&'s str>,
@@ -13,19 +13,19 @@ pub struct Node<'s> {
     pub kind: Option<&'s str>,
     pub constant: Option<&'s str>,
     pub properties: BTreeMap<&'s str, Node<'s>>,
-    /// Of keys that have no schema of their own.
+    /// Schema of all other keys.
     pub others: Option<Box<Node<'s>>>,
     pub required: Vec<&'s str>,
     pub items: Option<Box<Node<'s>>>,
-    /// Least and largest length of a list.
+    /// Smallest and largest length of a list.
     pub length: [Option<usize>; 2],
-    /// Schemas of which a value must follow one.
+    /// Alternative schemas, one of which a value must satisfy.
     pub choices: Vec<Node<'s>>,
     pub limits: Limits<'s>,
 }
 
 impl<'s> Node<'s> {
-    /// The schema of what stands under a key.
+    /// Schema of the value under a key.
     pub fn of_key(&self, key: &str) -> Option<&Node<'s>> {
         self.properties.get(key).or(self.others.as_deref())
     }
@@ -34,13 +34,13 @@ impl<'s> Node<'s> {
         matches!(self.kind, Some("number" | "integer"))
     }
 
-    /// Whether lists may have more than one length.
+    /// Returns true if lists may have more than one length.
     pub fn is_of_any_length(&self) -> bool {
         self.length[0].is_none() || self.length[0] != self.length[1]
     }
 }
 
-/// By hand, as keywords of numbers stand beside all others.
+/// Written by hand, because keywords of numbers are mixed with all others.
 impl<'de> Deserialize<'de> for Node<'de> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Reader;
@@ -52,7 +52,7 @@ impl<'de> Deserialize<'de> for Node<'de> {
                 f.write_str("a schema")
             }
 
-            /// `false`, of keys that there are not.
+            /// `false` marks keys that do not exist.
             fn visit_bool<E: de::Error>(self, _: bool) -> Result<Self::Value, E> {
                 Ok(Node::default())
             }

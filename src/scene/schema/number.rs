@@ -3,14 +3,14 @@ use serde::de::MapAccess;
 use crate::limits::plausible::{Cold, Range};
 use crate::limits::{Bounds, End, keyword};
 
-/// Why a number is refused, and what is allowed.
+/// Reason why a number is refused, and what is allowed.
 pub type Words<'s> = (&'s str, &'s str);
 
-/// What a schema says of a number, or of those that a value is made of.
+/// Constraints of a schema on a number, or on the numbers of a value.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Limits<'s> {
     pub unit: Option<&'s str>,
-    /// What the number is, in words.
+    /// Noun for the number in messages.
     pub noun: Option<&'s str>,
     pub bounds: Bounds,
     pub too_low: Option<Words<'s>>,
@@ -21,7 +21,7 @@ pub struct Limits<'s> {
 }
 
 impl<'s> Limits<'s> {
-    /// Reads the value of a keyword; whether it is one of numbers.
+    /// Reads the value of a keyword; returns true if it is one of numbers.
     pub fn read<A: MapAccess<'s>>(&mut self, key: &str, map: &mut A) -> Result<bool, A::Error> {
         match key {
             "minimum" => self.bounds.low = end(map, true)?,
@@ -40,7 +40,7 @@ impl<'s> Limits<'s> {
         Ok(true)
     }
 
-    /// The plausible range, if there is one, in a scene that is so cold.
+    /// The plausible range, if any, in a scene of this coldness.
     pub fn plausible(&self, cold: Cold) -> Option<Range<'s>> {
         let range = self.plausible.clone()?;
         let lowest = match cold {
@@ -51,14 +51,14 @@ impl<'s> Limits<'s> {
         Some(Range { lowest: lowest.unwrap_or(range.lowest), ..range })
     }
 
-    /// Whether nobody doubts the value, whatever else the scene holds.
+    /// Returns true if the value raises no warning in any scene.
     pub fn is_usual(&self, value: f64) -> bool {
         let is_warm = self.beside_warm.is_none_or(|lowest| value >= lowest);
         is_warm && self.plausible.as_ref().is_none_or(|range| range.holds(value))
     }
 }
 
-/// The end of an interval that a keyword gives.
+/// Reads the end of an interval from a keyword.
 fn end<'s, A: MapAccess<'s>>(map: &mut A, is_included: bool) -> Result<Option<End>, A::Error> {
     Ok(Some(End { value: map.next_value()?, is_included }))
 }

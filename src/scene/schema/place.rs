@@ -1,10 +1,10 @@
 use crate::scene::locate::Path;
 
-/// Where a walk through a scene stands; its path is made only where it is asked for.
+/// Position of a walk through a scene; its path is built only on request.
 #[derive(Default)]
 pub struct Place<'v> {
     steps: Vec<Step<'v>>,
-    /// Lists of any length that the walk has come to, and whether it is in the last of them.
+    /// Number of variable-length lists that the walk has reached, and whether it is inside the last of them.
     lists: usize,
     is_in_list: bool,
 }
@@ -22,7 +22,7 @@ impl<'v> Place<'v> {
         })
     }
 
-    /// The number, counted from 1, of the outermost list of any length of numbers that the value is in.
+    /// Number, counted from 1, of the outermost variable-length list of numbers that contains the value.
     pub fn list(&self) -> Option<usize> {
         self.is_in_list.then_some(self.lists)
     }
@@ -41,7 +41,7 @@ impl<'v> Place<'v> {
         self.steps.pop();
     }
 
-    /// Goes through a list of any length of numbers, or of lists of these.
+    /// Walks through a variable-length list of numbers, or of lists of these.
     pub(super) fn in_list(&mut self, then: impl FnOnce(&mut Self)) {
         let is_outermost = !self.is_in_list;
         if is_outermost {

@@ -1,4 +1,4 @@
-//! Finds every number of a scene together with what the schema says of it.
+//! Finds every number of a scene together with its schema.
 
 use toml::de::{DeTable, DeValue};
 
@@ -16,7 +16,7 @@ impl Schema {
         Walk { schema: self, visit }.value(&mut Place::default(), &self.root, source.root());
     }
 
-    /// Whether a value is of the kind that the schema is of, without a look at all that is in it.
+    /// Returns true if a value is of the schema's kind, without checking all its contents.
     fn fits(&self, node: &Node<'static>, value: &DeValue) -> bool {
         let node = self.resolved(node);
         if !node.choices.is_empty() {
@@ -37,7 +37,7 @@ impl Schema {
     }
 }
 
-/// Whether a table has the keys that it must have, and says what it must say.
+/// Returns true if a table has its required keys and constants.
 fn is_table(node: &Node, table: &DeValue) -> bool {
     node.required.iter().all(|key| {
         let Some(value) = table.get(*key) else { return false };

@@ -1,11 +1,10 @@
 use super::{Neighbour, Renormalisation, Tensor, dot, renormalisation, square, times};
 use crate::math::small_inverse::inverse;
 
-/// Largest κ₁ of the systems for B and L, in coordinates of the order of the distances between
-/// particles, at which a correction is used. Full supports have about 3 (2-D and 3-D), faces and
-/// corners of lattices and shaken clouds some tens. Beyond this limit neighbours are all but missing
-/// in some direction, and the coefficients, of both signs, add up to some hundreds of what they are
-/// in a full support.
+/// Largest κ₁ of the systems for B and L, in coordinates of the order of the distances between particles, for which a
+/// correction is used. Full supports have about 3 (2-D and 3-D), faces and corners of lattices and disordered clouds
+/// some tens. Beyond this limit neighbours are almost missing in some direction. The coefficients, of both signs, then
+/// sum to some hundreds of their value in a full support.
 pub const CONDITION_LIMIT: f64 = 1e3;
 
 /// Coefficients of `K : ∇∇f`, exact for every quadratic f on any set of neighbours whose offsets are
@@ -34,7 +33,7 @@ pub fn corrected(neighbours: &[Neighbour], dimension: usize, tensor: &Tensor) ->
         .iter()
         .map(|n| n.conductivity * n.weight * dot(n.offset, times(&l, n.offset)) / square(n.offset))
         .collect();
-    // What the gradient takes off, Σ_j share_j r_j · B Σ_m w_m r_m (f_m − f_i), neighbour by neighbour.
+    // Subtracted by the gradient: Σ_j share_j r_j · B Σ_m w_m r_m (f_m − f_i), neighbour by neighbour.
     let mut sum = [0.0; 3];
     for (n, share) in neighbours.iter().zip(&shares) {
         (0..3).for_each(|a| sum[a] += share * n.offset[a]);
@@ -43,7 +42,7 @@ pub fn corrected(neighbours: &[Neighbour], dimension: usize, tensor: &Tensor) ->
     Some(shares.iter().zip(taken).map(|(share, taken)| share - taken).collect())
 }
 
-/// The larger κ₁ of the systems for B and L, by which [`corrected`] decides; infinite where one is singular.
+/// The larger κ₁ of the systems for B and L, on which [`corrected`] depends; infinite if one is singular.
 pub fn condition(neighbours: &[Neighbour], dimension: usize) -> f64 {
     let largest = || {
         let b = renormalisation(neighbours, dimension)?;

@@ -1,9 +1,9 @@
 //! Second derivatives on scattered particles: functions of one particle and its neighbours.
 //!
-//! `r = x_j − x_i` points from the particle to a neighbour, `e = r/|r|`, and every neighbour weighs
-//! `w = −F V_j`, with the factor F of `∇_i W_ij = F (x_i − x_j)` and the volume V_j: so
-//! `∇_i W_ij V_j = w r`. An operator is a list of coefficients c_j, to be used as
-//! `Σ_j c_j (f_j − f_i)`. Coordinates may be scaled along each axis, if tensors are scaled alike.
+//! `r = x_j − x_i` points from the particle to a neighbour, and `e = r/|r|`. Every neighbour has the weight
+//! `w = −F V_j`, with the factor F of `∇_i W_ij = F (x_i − x_j)` and the volume V_j: so `∇_i W_ij V_j = w r`. An
+//! operator is a list of coefficients c_j, to be used as `Σ_j c_j (f_j − f_i)`. Coordinates may be scaled along each
+//! axis, if tensors are scaled alike.
 
 mod corrected;
 mod gradient;
@@ -15,7 +15,7 @@ pub use corrected::{CONDITION_LIMIT, condition, corrected};
 pub use gradient::{Renormalisation, renormalisation};
 pub use plain::plain;
 
-/// A neighbour as the particle sees it; beyond the dimension, offsets are zero.
+/// A neighbour relative to the particle; beyond the dimension, offsets are zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Neighbour {
     /// `r = x_j − x_i` [m]

@@ -3,8 +3,8 @@ use super::{Neighbour, Tensor, dot, square, times};
 /// Coefficients of `K : ∇∇f`, `c_j = k w [(d + 2) e·K·e − tr K]`, in d dimensions. For K = 1 they are
 /// `2 k w`, the operator of Cleary and Monaghan (Park 2.97).
 ///
-/// Exact for quadratics in the limit of many neighbours all round; wrong by a finite amount wherever
-/// the support is cut. Symmetric in volumes, so that what one particle loses another gains.
+/// Exact for quadratics in the limit of many neighbours all around; the error remains finite wherever the support is
+/// cut. Symmetric in volumes, so that one particle gains what another loses.
 ///
 /// Source: Cleary & Monaghan (1999), J. Comput. Phys. 148, 227–264, doi 10.1006/jcph.1998.6118;
 /// Español & Revenga (2003), Phys. Rev. E 67, 026705, doi 10.1103/PhysRevE.67.026705 (tensors).

@@ -16,8 +16,7 @@ impl Random {
     }
 }
 
-/// A lattice of spacing one around the origin, shaken by up to `disorder`, on the side where
-/// `keep` holds.
+/// A lattice of spacing one around the origin, perturbed by up to `disorder`, on the side where `keep` holds.
 fn cloud(dimension: usize, disorder: f64, keep: impl Fn([i32; 3]) -> bool) -> Vec<[f64; 3]> {
     let mut random = Random(7);
     let reach = |axis: usize| if axis < dimension { -4..=4 } else { 0..=0 };
@@ -48,7 +47,7 @@ fn applied(coefficients: &[f64], neighbours: &[Neighbour], f: impl Fn([f64; 3]) 
 }
 
 #[test]
-fn the_corrected_operator_is_exact_for_all_quadratics_on_any_cloud() {
+fn corrected_operator_is_exact_for_quadratics() {
     let tensor = [[1.3, 0.4, -0.2], [0.4, 0.7, 0.1], [-0.2, 0.1, 2.0]];
     type Keep = fn([i32; 3]) -> bool;
     let sides: [Keep; 3] = [|_| true, |[i, ..]| i >= 0, |[i, j, k]| i >= 0 && j >= 0 && k >= 0];
@@ -74,7 +73,7 @@ fn the_corrected_operator_is_exact_for_all_quadratics_on_any_cloud() {
 }
 
 #[test]
-fn the_renormalised_gradient_is_exact_for_linear_functions() {
+fn renormalised_gradient_is_exact_for_linear_functions() {
     for dimension in 1..=3 {
         let points = cloud(dimension, 0.3, |[i, ..]| i >= 0);
         let neighbours = seen(&points, Kernel::WendlandC2, dimension, 3.0);
@@ -104,7 +103,7 @@ fn both_operators_agree_on_full_lattices_up_to_one_factor() {
 }
 
 #[test]
-fn the_plain_operator_tends_to_the_tensor_with_many_neighbours_all_round() {
+fn plain_operator_converges_to_the_tensor_for_full_supports() {
     let tensor = [[1.0, 0.0, 0.0], [0.0, 2.5, 0.0], [0.0, 0.0, 0.0]];
     let error = |support: f64| {
         let reach = support.ceil() as i32;
@@ -123,7 +122,7 @@ fn the_plain_operator_tends_to_the_tensor_with_many_neighbours_all_round() {
 
 #[test]
 fn neighbours_on_too_few_lines_are_refused() {
-    // Next neighbours along the axes alone leave mixed derivatives open.
+    // Nearest neighbours along the axes alone do not determine mixed derivatives.
     let cross = cloud(3, 0.0, |p| p.iter().filter(|&&i| i != 0).count() == 1);
     assert_eq!(corrected(&seen(&cross, Kernel::WendlandC2, 3, 3.0), 3, &IDENTITY), None);
     let plane = cloud(3, 0.0, |[_, _, k]| k == 0);
@@ -134,7 +133,7 @@ fn neighbours_on_too_few_lines_are_refused() {
 
 #[test]
 fn heat_flows_through_an_interface_without_a_jump() {
-    // Steady rod of unlike halves: the flux of the harmonic mean of a pair is that of two resistors.
+    // Steady rod of two unlike halves: the harmonic mean of a pair has the flux of two resistors in series.
     let [k_i, k_j] = [400.0, 0.6];
     let resistance = 0.5 / k_i + 0.5 / k_j;
     assert!((conductivity_between(k_i, k_j) * resistance - 1.0).abs() < 1e-15);

@@ -45,7 +45,7 @@ const MIXED: [(usize, bool, Condition); 4] = [
     (2, false, Condition::Held),
 ];
 
-/// Runs from zero and returns state, problem.
+/// Runs from zero and returns problem and state.
 fn run(setup: Setup, values: &[f64], steps: &[f64]) -> (ParticleHeat, Vec<f64>) {
     let problem = ParticleHeat::new(setup, 1);
     let mut state = vec![0.0; problem.layout().len()];
@@ -73,7 +73,7 @@ fn heat_balances_at_equal_distances_under_every_condition() {
 }
 
 #[test]
-fn the_drift_of_the_corrected_operator_falls_as_graded_lattices_are_refined() {
+fn heat_drift_of_the_corrected_operator_decreases_under_refinement() {
     for (condition, value) in [(Condition::Flux, 1e4), (Condition::Held, 1.0)] {
         let drifts = [20, 40, 80].map(|n| {
             // The same grading, sampled ever finer: the last distance is nine times the first.
@@ -89,7 +89,7 @@ fn the_drift_of_the_corrected_operator_falls_as_graded_lattices_are_refined() {
 }
 
 #[test]
-fn a_linear_profile_between_held_ends_stays() {
+fn linear_profile_between_held_ends_is_steady() {
     for (operator, growth) in [(Operator::Corrected, 1.4), (Operator::Plain, 1.0)] {
         let axes = [axis(1e-3, 3, growth), axis(1e-3, 4, growth), axis(1e-3, 8, growth)];
         let depths = axes[2].nodes.clone();
@@ -119,21 +119,21 @@ fn slab_error(intervals: usize, operator: Operator) -> f64 {
 }
 
 #[test]
-fn a_flux_into_a_slab_converges_at_second_order_with_the_corrected_operator_alone() {
+fn slab_under_flux_converges_at_second_order_only_with_the_corrected_operator() {
     let corrected = [40, 80, 160].map(|n| slab_error(n, Operator::Corrected));
     let plain = [40, 80, 160].map(|n| slab_error(n, Operator::Plain));
     for pair in corrected.windows(2) {
         let order = (pair[0] / pair[1]).log2();
         assert!(order > 1.8, "{corrected:?}");
     }
-    // The kernel sums of a lattice miss the second moment by a fixed share.
+    // The kernel sums of a lattice miss a fixed fraction of the second moment.
     assert!(plain[2] > 4.0 * corrected[2], "{plain:?}");
     assert!((plain[1] / plain[2]).log2() < 0.5, "{plain:?}");
 }
 
 /// A rod of unit length and diffusivity, its left end suddenly at one: Park (2019) Fig. 2.7.
 #[test]
-fn a_sudden_end_temperature_converges_with_the_corrected_operator_alone() {
+fn sudden_end_temperature_converges_only_with_the_corrected_operator() {
     let exact =
         SuddenSurface { body: Conductor { conductivity: 1.0, heat_capacity: 1.0 }, step: 1.0 };
     let error = |intervals: usize, operator| {
@@ -198,7 +198,7 @@ fn steps_of_any_length_give_the_same() {
 }
 
 #[test]
-fn a_support_of_next_neighbours_alone_falls_back_everywhere_and_is_counted() {
+fn nearest_neighbour_support_falls_back_everywhere() {
     let axes = [axis(1e-3, 3, 1.0), axis(1e-3, 3, 1.0), axis(1e-3, 3, 1.0)];
     let mut narrow = setup(axes, Operator::Corrected, &[(2, true, Condition::Held)]);
     assert_eq!(ParticleHeat::new(narrow.clone(), 1).fallback(), 0);
@@ -209,8 +209,8 @@ fn a_support_of_next_neighbours_alone_falls_back_everywhere_and_is_counted() {
 
 #[test]
 fn a_radius_is_a_round_body() {
-    // A disc heated through its rim: the mean rises by the heat over the capacity, and once the
-    // profile is settled the rim leads the axis by q R/(2k).
+    // A disc heated through its rim: the mean rises by the heat over the capacity. In the settled profile the rim
+    // exceeds the axis by q R/(2k).
     let error = |intervals: usize| {
         let mut radius = axis(1e-3, intervals, 1.0);
         let share = |i: usize| -> f64 {
@@ -239,8 +239,8 @@ fn a_radius_is_a_round_body() {
 }
 
 #[test]
-fn nothing_grows_on_lattices_of_any_grading() {
-    // Any value at any particle; insulated, the differences can only die away.
+fn stability_on_lattices_of_any_grading() {
+    // Any value at any particle; in an insulated body all differences decay.
     for (growth, fine) in [(1.0, 0.05), (1.3, 1.0), (1.3, 0.1), (1.7, 1.0)] {
         for insulated in [true, false] {
             let axes = [axis(1e-3, 5, growth), axis(1e-3, 3, 1.0), axis(fine * 1e-3, 6, growth)];
@@ -265,7 +265,7 @@ fn nothing_grows_on_lattices_of_any_grading() {
 }
 
 #[test]
-fn a_convective_face_cools_at_second_order_on_graded_lattices() {
+fn convective_cooling_converges_at_second_order_on_graded_lattices() {
     // The slowest mode of a slab, cos(b x/L) with b tan b = hL/k = 2, decays as exp(−b² at/L²).
     let mut b: f64 = 1.0;
     for _ in 0..20 {
@@ -294,7 +294,7 @@ fn a_convective_face_cools_at_second_order_on_graded_lattices() {
         let worst = (0..4 * nodes.len()).map(|i| (state[i] - decay * mode(i)).abs());
         [worst.fold(0.0, f64::max), lost.abs()]
     });
-    // First to last: the error of the temperature changes its sign on the way.
+    // First to last: the error of the temperature changes sign in between.
     for q in 0..2 {
         assert!((errors[0][q] / errors[2][q]).log2() / 2.0 > 1.8, "{errors:?}");
     }

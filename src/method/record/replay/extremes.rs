@@ -1,12 +1,12 @@
-//! The coldest and the hottest fluid of drops that are replayed.
+//! The coldest and the hottest fluid of replayed drops.
 
 use super::{Drop, Ledger, Replay};
 use crate::method::sph::WarmPlace;
 
 impl Replay {
-    /// The coldest and the hottest fluid of drops that fall or give heat, as far as known: drops in the air, films as a
-    /// whole, and the contact with rings that a drop has wetted; `share` is the part of the difference of drop and wall
-    /// by which the contact is above the wall.
+    /// The coldest and the hottest fluid of drops that fall or transfer heat, as far as known:
+    /// falling drops, films as a whole, and the contact with wetted rings. The contact temperature
+    /// exceeds the wall's by the fraction `share` of the difference between drop and wall.
     pub fn extremes(&self, state: &[f64], share: f64) -> Option<[WarmPlace; 2]> {
         let (ledger, drops) = self.of(state);
         let places: Vec<WarmPlace> = drops

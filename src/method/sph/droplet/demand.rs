@@ -8,25 +8,26 @@ use crate::method::sph::plan::{Demand, Release};
 use crate::runtime::parallel::Team;
 use crate::state::store;
 
-/// Distance over Δx that particles have at least from the surface of a drop that starts.
+/// Smallest distance, over Δx, of particles from the surface of a drop that starts.
 const CLEARANCE: f64 = 0.5;
-/// Part of the distance beyond which places are lost at which drops may start.
+/// Fraction of [`FARTHEST`] within which drops may start.
 const NEAR: f64 = 0.5;
 
 impl DropletSph {
-    /// Drops asked for so far.
+    /// Number of drops requested so far.
     pub fn asked(&self, state: &[f64]) -> f64 {
         ledger_of(state, self.head()).requests.map_or(0.0, |requests| requests.asked)
     }
 
-    /// How far from the origin drops may start along each axis [m].
+    /// Largest start coordinates of drops from the origin along each axis [m].
     pub fn farthest_start(&self) -> f64 {
         NEAR * FARTHEST * self.method.units.length
     }
 
-    /// Asks for further drops, each like one that is given, and releases those that wait and whose places are free:
-    /// no particle nearer to the drop than half a distance of particles, and no drop that waits for longer. All others
-    /// go on waiting. A failure leaves the state as it was. Of more drops than there may be, the last are left out.
+    /// Requests further drops, each like `release`, and releases all waiting drops whose place is
+    /// free. A place is free if no particle is nearer to the drop than half a particle distance,
+    /// and no earlier waiting drop overlaps it. The other drops continue to wait. Requests beyond
+    /// the largest number of drops are ignored. A failure leaves the state unchanged.
     ///
     /// # Panics
     /// If the plan has no drops on demand.
@@ -68,15 +69,15 @@ impl DropletSph {
         Ok(())
     }
 
-    /// All drops are as large, and start as high, as the plan expects.
+    /// The drop with the size and start height that the plan expects of all drops.
     fn as_expected(&self, release: &Release, demand: &Demand) -> Release {
         let [x, y, _] = release.centre;
         let Release { time, centre: [_, _, z], diameter, .. } = demand.expected;
         Release { time, centre: [x, y, z], diameter, ..*release }
     }
 
-    /// Whether there is no particle where a drop would start. Images at mirrors are as far from it as the particles
-    /// themselves, as it stands on these.
+    /// Returns true if no particle occupies the start position of a drop. Images need no check: the
+    /// drop stands on the mirrors, so they are as far from it as their originals.
     fn is_free(&self, cloud: &Cloud, drop: &Release) -> bool {
         let length = self.method.units.length;
         let radius = (0.5 * drop.diameter + CLEARANCE * self.plan.spacing) / length;
@@ -89,7 +90,7 @@ impl DropletSph {
     }
 }
 
-/// Whether two drops do not overlap at their start.
+/// Returns true if two drops do not overlap at their start.
 fn are_apart(one: &Release, other: &Release) -> bool {
     let square: f64 = one.centre.iter().zip(other.centre).map(|(a, b)| (a - b).powi(2)).sum();
     square >= (0.5 * (one.diameter + other.diameter)).powi(2)

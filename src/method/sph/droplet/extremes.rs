@@ -10,7 +10,7 @@ pub struct WarmPlace {
 }
 
 impl WarmPlace {
-    /// The coldest and the hottest of some places; nothing where there is none.
+    /// Returns the coldest and the hottest of some places; `None` if there is none.
     pub fn extremes(places: impl Iterator<Item = Self> + Clone) -> Option<[Self; 2]> {
         let by = |a: &Self, b: &Self| a.temperature.total_cmp(&b.temperature);
         Some([places.clone().min_by(by)?, places.max_by(by)?])
@@ -18,7 +18,7 @@ impl WarmPlace {
 }
 
 impl DropletSph {
-    /// The coldest and the hottest particle; nothing before the first drop.
+    /// The coldest and the hottest particle; `None` before the first drop.
     pub fn extremes(&self, state: &[f64]) -> Option<[WarmPlace; 2]> {
         let cloud = self.cloud(state);
         let reference = self.reference_temperature();

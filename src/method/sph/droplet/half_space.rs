@@ -1,4 +1,4 @@
-//! Drops above a half space that nobody else computes.
+//! Drops above a half space that they model themselves.
 
 use super::DropletSph;
 use crate::method::sph::cloud::ledger_of;
@@ -8,9 +8,10 @@ use crate::port::WallExchange;
 use crate::runtime::allowance::Allowance;
 
 impl DropletSph {
-    /// Advances by `duration` [s] above a half space of the plan's effusivity, which had one temperature [K] at time
-    /// zero and has been warmed by the drops alone since; above a wall held at that temperature where the plan has no
-    /// effusivity. What the cells got meanwhile. A failure leaves the state as it was.
+    /// Advances by `duration` [s] above a half space of the plan's effusivity; above a wall of this
+    /// temperature if the plan has none. The half space was at this temperature [K] at time zero;
+    /// only the drops have heated it since. Returns what the cells received. A failure leaves the
+    /// state unchanged.
     pub fn advance_on_half_space(
         &self,
         state: &mut Vec<f64>,

@@ -24,17 +24,17 @@ pub struct DropletTotals {
     /// Heat content above the temperature of the first droplet, now and when released [J].
     pub heat: f64,
     pub heat_released: f64,
-    /// Given to the wall since time zero [J] and [N s].
+    /// Heat [J] and impulse [N s] transferred to the wall since time zero.
     pub heat_to_wall: f64,
     pub impulse_to_wall: [f64; 3],
     /// Impulse of gravity since time zero [N s].
     pub impulse_of_gravity: [f64; 3],
-    /// Diameter of the film that the body of fluid makes on the wall, see [`spread_diameter`] [m].
+    /// Diameter of the film that the body of fluid forms on the wall, see `spread::spread_diameter` [m].
     pub spread_diameter: f64,
-    /// Height of the body of fluid above the wall: of its highest particle [m].
+    /// Height of the highest particle of the body of fluid above the wall [m].
     pub height: f64,
-    /// Mass [kg] and number of particles, images left out, that have come off the body of fluid: in lumps
-    /// of less than a tenth of a drop's mass.
+    /// Mass [kg] and number of particles (images excluded) detached from the body of fluid, in
+    /// lumps of less than a tenth of a drop's mass.
     pub stray_mass: f64,
     pub stray_particles: f64,
     pub max_speed: f64,
@@ -43,15 +43,15 @@ pub struct DropletTotals {
     pub density_range: [f64; 2],
     /// Lowest and highest temperature [K].
     pub temperature_range: [f64; 2],
-    /// Time steps made since time zero, and particles there are, images left out.
+    /// Number of time steps since time zero, and of particles, images excluded.
     pub steps: f64,
     pub particles: f64,
-    /// Drops released so far, and drops asked for that wait.
+    /// Number of drops released so far, and of requested drops that wait.
     pub released: f64,
     pub waiting: f64,
 }
 
-/// Sums over the fluid.
+/// Computes the sums over the fluid.
 pub fn totals(
     plan: &DropletPlan,
     method: &Method,
@@ -108,7 +108,7 @@ pub fn totals(
             totals.stray_particles += 1.0;
         }
     }
-    // Without a wall there is nothing to spread on, however low particles fall.
+    // Without a wall there is nothing to spread on, even if particles fall low.
     if plan.wall.is_some() {
         let places = wetting_places(plan, cloud, &body);
         totals.spread_diameter = plan.spacing * spread_diameter(&places, Film::of(plan));
@@ -116,18 +116,18 @@ pub fn totals(
     totals
 }
 
-/// Whether each particle belongs to the body of fluid.
+/// Returns for each particle whether it belongs to the body of fluid.
 fn body(plan: &DropletPlan, ledger: &Ledger, cloud: &Cloud) -> Vec<bool> {
     let places: Vec<_> = cloud.position.iter().map(|x| x.map(|x| x * plan.support)).collect();
     let mass: f64 = cloud.mass.iter().sum();
     body_of_fluid(&places, &cloud.mass, mass / ledger.released.max(1.0))
 }
 
-/// Height over Δx below which a particle's middle is at the wall: that of its first layer, with as much
-/// again to move in.
+/// Height over Δx below which a particle counts as on the wall: twice that of the first layer,
+/// which leaves it room to move.
 const AT_WALL: f64 = 1.5;
 
-/// Places over Δx, round their middle, of all particles of the body that lie on the wall; images at
+/// Places over Δx, about their middle, of all particles of the body that touch the wall; images at
 /// mirrors included.
 fn wetting_places(plan: &DropletPlan, cloud: &Cloud, body: &[bool]) -> Vec<[f64; 2]> {
     let spacing = 1.0 / plan.support;
