@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use impinge::fmi::xml::model_description;
+use impinge::fmi::two::xml::model_description;
 use impinge::scene;
 use impinge::variables::Registry;
 
