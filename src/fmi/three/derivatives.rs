@@ -9,9 +9,10 @@ use crate::fmi::gate::arguments::{array, write};
 use crate::fmi::gate::gated;
 use crate::fmi::unit::Unit;
 
-/// Differentiates outputs along one direction: J·s for changes s of the knowns. With respect to inputs exact, with the unknowns of the bodies held:
-/// what outputs follow at once. In Initialization Mode parameters are known too; with respect to these
-/// to about 1e-10.
+/// Differentiates outputs along one direction: J·s for changes s of the knowns.
+///
+/// With respect to inputs exact, with the unknowns of the bodies held: what outputs follow at once. In
+/// Initialization Mode parameters are known too; with respect to these to about 1e-10.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
     instance: Handle,
@@ -31,8 +32,10 @@ pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
     })
 }
 
-/// Differentiates a weighted sum of outputs by each known: Jᵀ·s for weights s of the unknowns, under the same rules. The cost grows with the number of those
-/// elements of the knowns that some unknown follows at once.
+/// Differentiates a weighted sum of outputs by each known: Jᵀ·s for weights s of the unknowns.
+///
+/// The rules are those of directional derivatives. The cost grows with the number of those elements of the knowns
+/// that some unknown follows at once.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetAdjointDerivative(
     instance: Handle,

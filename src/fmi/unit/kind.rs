@@ -1,6 +1,6 @@
 //! Types of variables under both versions of the standard, and refusals of others.
 
-use crate::fmi::gate::answer::{Reference, Refusal};
+use crate::fmi::gate::answer::{Answer, Reference, Refusal};
 use crate::variables::Slot;
 
 /// Type of a variable.
@@ -46,7 +46,7 @@ pub fn wrong_type(name: &str, wanted: &str, found: &str) -> Refusal {
 }
 
 /// Looks a variable up among all that there are.
-pub fn look_up<T>(variables: &[T], reference: Reference) -> Result<&T, Refusal> {
+pub fn look_up<T>(variables: &[T], reference: Reference) -> Answer<&T> {
     variables.get(reference as usize).ok_or_else(|| {
         let last = variables.len().saturating_sub(1);
         Refusal::error(format!("value reference {reference} is unknown; there are 0 to {last}"))

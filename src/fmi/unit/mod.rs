@@ -1,4 +1,4 @@
-//! What an instance is and does, in safe Rust: its life from instantiation to the last step.
+//! An instance of either version in safe Rust: its life from instantiation to termination.
 
 use std::cell::OnceCell;
 use std::collections::BTreeSet;
@@ -77,8 +77,8 @@ pub struct Unit {
     said: BTreeSet<String>,
     /// Inputs at the beginning of the last step, where what they become next may tell of it; nothing after a jump back.
     told: Option<Vec<f64>>,
-    /// Whether the last step was no shorter than the meshes tell, and no input has been set otherwise since: a single short
-    /// one follows no jump then.
+    /// True if the last step was no shorter than the meshes resolve and no input has been set otherwise since: a
+    /// single short one follows no jump then.
     is_settled: bool,
     /// The files of fields, in a folder that is written by nobody else meanwhile.
     pub(super) series: Option<(FieldSeries, FolderLock)>,
