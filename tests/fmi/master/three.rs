@@ -1,13 +1,12 @@
-//! A small master of FMI 3.0.
+//! Calls of FMI 3.0 alone.
 
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::ptr;
 
-use impinge::fmi::guid;
-use impinge::scene;
-use impinge::variables::{ArrayRegistry, Causality, Content, Registry, Slot};
+use impinge::variables::{Causality, Content, Slot};
 
-use crate::master::{Folder, Handle, Message, Messages, OK, SCENE, Saved, call, library};
+use super::unit::Unit as UnitOf;
+use super::{Folder, Handle, Message, Messages, OK, Three, Version, call, free_instance, library};
 
 type LogMessage = unsafe extern "C" fn(*mut c_void, c_int, *const c_char, *const c_char);
 
@@ -95,12 +94,9 @@ impl Arguments {
     }
 }
 
+/// Frees an instance of FMI 3.0.
 pub fn free(handle: Handle) {
-    // SAFETY: the type is that of the header.
-    unsafe {
-        let free = library().get::<unsafe extern "C" fn(Handle)>("fmi3FreeInstance").unwrap();
-        free(handle);
-    }
+    free_instance("fmi3FreeInstance", handle);
 }
 
 /// What fmi3DoStep answers with besides its status.
@@ -110,75 +106,22 @@ pub struct Stepped {
     pub time: f64,
 }
 
-/// An instance of a scene, freed at the end.
-pub struct Unit {
-    pub handle: Handle,
-    pub messages: Box<Messages>,
-    pub registry: Registry,
-    pub arrays: ArrayRegistry,
-    _folder: Folder,
-}
-
-impl Drop for Unit {
-    fn drop(&mut self) {
-        free(self.handle);
-    }
-}
+/// An instance of FMI 3.0.
+pub type Unit = UnitOf<Three>;
 
 impl Unit {
-    pub fn of_scene(text: &str) -> Self {
-        Self::instantiated_with(text, |_| ())
-    }
-
     /// An instance of a scene with other arguments than usual.
     pub fn instantiated_with(text: &str, change: impl Fn(&mut Arguments)) -> Self {
-        let folder = Folder::with_scene("unit", text);
-        let messages = Box::<Messages>::default();
-        let scene = scene::parse(text, "scene.toml").unwrap();
-        let registry = Registry::of(&scene);
-        let arrays = ArrayRegistry::of(&scene);
-        let mut arguments = Arguments::good(&folder, &guid::guid(text, &registry));
-        change(&mut arguments);
-        let handle = arguments.instantiate(&messages);
-        assert!(!handle.is_null(), "{:?}", messages.take());
-        Self { handle, messages, registry, arrays, _folder: folder }
-    }
-
-    pub fn instantiated() -> Self {
-        Self::of_scene(SCENE)
-    }
-
-    pub fn initializing() -> Self {
-        let unit = Self::instantiated();
-        assert_eq!(unit.enter(0.0, None), OK);
-        unit
-    }
-
-    /// Ready for steps.
-    pub fn running() -> Self {
-        let unit = Self::initializing();
-        assert_eq!(unit.exit(), OK);
-        unit.messages.take();
-        unit
-    }
-
-    pub fn terminated() -> Self {
-        let unit = Self::running();
-        assert_eq!(unit.simple("fmi3Terminate"), OK);
-        unit
-    }
-
-    pub fn simple(&self, name: &str) -> c_int {
-        call!(name, self.handle => Handle)
+        Self::made(text, |folder, guid, messages| {
+            let mut arguments = Arguments::good(folder, guid);
+            change(&mut arguments);
+            arguments.instantiate(messages)
+        })
     }
 
     pub fn enter(&self, start: f64, stop: Option<f64>) -> c_int {
         call!("fmi3EnterInitializationMode", self.handle => Handle, false => bool, 0.0 => f64,
             start => f64, stop.is_some() => bool, stop.unwrap_or(0.0) => f64)
-    }
-
-    pub fn exit(&self) -> c_int {
-        self.simple("fmi3ExitInitializationMode")
     }
 
     pub fn step(&self, point: f64, step: f64) -> (c_int, Stepped) {
@@ -190,22 +133,13 @@ impl Unit {
         (status, Stepped { flags, time })
     }
 
-    pub fn reference(&self, name: &str) -> u32 {
-        self.arrays.find(name).unwrap_or_else(|| panic!("no variable {name}")) as u32
-    }
-
     pub fn references(&self, names: &[&str]) -> Vec<u32> {
         names.iter().map(|name| self.reference(name)).collect()
     }
 
     /// Number of elements of variables.
     pub fn size(&self, references: &[u32]) -> usize {
-        references.iter().map(|&r| self.arrays.variables[r as usize].size()).sum()
-    }
-
-    pub fn get_in(&self, references: &[u32], values: &mut [f64]) -> c_int {
-        call!("fmi3GetFloat64", self.handle => Handle, references.as_ptr() => *const u32,
-            references.len() => usize, values.as_mut_ptr() => *mut f64, values.len() => usize)
+        Three::size(self, references)
     }
 
     /// The elements of variables, which must be readable now.
@@ -219,17 +153,8 @@ impl Unit {
         self.get_all(&[self.reference(name)])
     }
 
-    pub fn set_all(&self, references: &[u32], values: &[f64]) -> c_int {
-        call!("fmi3SetFloat64", self.handle => Handle, references.as_ptr() => *const u32,
-            references.len() => usize, values.as_ptr() => *const f64, values.len() => usize)
-    }
-
     pub fn set(&self, name: &str, values: &[f64]) -> c_int {
         self.set_all(&[self.reference(name)], values)
-    }
-
-    pub fn time(&self) -> f64 {
-        self.get("time")[0]
     }
 
     /// Value references of all Float64 variables of one causality.
@@ -241,57 +166,6 @@ impl Unit {
                 && variable.causality(&self.registry) == causality
         };
         (0..self.arrays.variables.len() as u32).filter(fits).collect()
-    }
-
-    /// All Float64 values that can be read, as bits, so that equal means identical.
-    pub fn snapshot(&self) -> Vec<u64> {
-        let all = 0..self.arrays.variables.len() as u32;
-        let is_float = |reference: &u32| {
-            let variable = &self.arrays.variables[*reference as usize];
-            !matches!(variable.name.as_str(), "solver.threads" | "output.directory")
-        };
-        let references: Vec<u32> = all.filter(is_float).collect();
-        self.get_all(&references).into_iter().map(f64::to_bits).collect()
-    }
-
-    pub fn save(&self) -> Saved {
-        let mut state = ptr::null_mut();
-        let status = call!("fmi3GetFMUState", self.handle => Handle,
-            &raw mut state => *mut Saved);
-        assert_eq!(status, OK, "{:?}", self.messages.take());
-        state
-    }
-
-    pub fn restore(&self, state: Saved) -> c_int {
-        call!("fmi3SetFMUState", self.handle => Handle, state => Saved)
-    }
-
-    pub fn free_state(&self, state: &mut Saved) -> c_int {
-        call!("fmi3FreeFMUState", self.handle => Handle, state => *mut Saved)
-    }
-
-    /// The bytes of a saved state.
-    pub fn serialize(&self, state: Saved) -> Vec<u8> {
-        let mut size = 0_usize;
-        let status = call!("fmi3SerializedFMUStateSize", self.handle => Handle, state => Saved,
-            &raw mut size => *mut usize);
-        assert_eq!(status, OK, "{:?}", self.messages.take());
-        let mut bytes = vec![0; size];
-        let status = call!("fmi3SerializeFMUState", self.handle => Handle, state => Saved,
-            bytes.as_mut_ptr() => *mut u8, size => usize);
-        assert_eq!(status, OK, "{:?}", self.messages.take());
-        bytes
-    }
-
-    pub fn deserialize_in(&self, bytes: &[u8], state: &mut Saved) -> c_int {
-        call!("fmi3DeserializeFMUState", self.handle => Handle, bytes.as_ptr() => *const u8,
-            bytes.len() => usize, state => *mut Saved)
-    }
-
-    pub fn deserialize(&self, bytes: &[u8]) -> Saved {
-        let mut state = ptr::null_mut();
-        assert_eq!(self.deserialize_in(bytes, &mut state), OK, "{:?}", self.messages.take());
-        state
     }
 
     /// fmi3GetDirectionalDerivative or fmi3GetAdjointDerivative.
@@ -334,17 +208,6 @@ impl Unit {
             references.as_ptr() => *const u32, references.len() => usize,
             orders.as_ptr() => *const c_int, found.as_mut_ptr() => *mut f64,
             found.len() => usize)
-    }
-
-    /// The one message since the last look, of this status, with the fragments in its text.
-    #[track_caller]
-    pub fn expect_message(&self, status: c_int, fragments: &[&str]) {
-        let messages = self.messages.take();
-        let [message] = &messages[..] else { panic!("not one message: {messages:#?}") };
-        assert_eq!(message.status, status, "{message:?}");
-        for fragment in fragments {
-            assert!(message.text.contains(fragment), "no {fragment:?} in {:?}", message.text);
-        }
     }
 
     /// The names of the scalars that the elements of Float64 variables are under FMI 2.0.
