@@ -3,7 +3,7 @@
 use std::env::consts;
 
 use clap::ValueEnum;
-use impinge::fmi::{three, xml};
+use impinge::fmi::{three, two};
 use impinge::scene::Scene;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -24,7 +24,7 @@ impl Version {
 
     pub fn model_description(self, scene: &Scene, text: &str) -> String {
         match self {
-            Version::Two => xml::model_description(scene, text),
+            Version::Two => two::xml::model_description(scene, text),
             Version::Three => three::xml::model_description(scene, text),
         }
     }

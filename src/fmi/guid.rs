@@ -18,7 +18,7 @@ pub fn guid(scene_text: &str, registry: &Registry) -> String {
     add(scene_text.split(PACKED).next().unwrap_or_default());
     for variable in &registry.variables {
         add(&variable.name);
-        add(super::xml::causality(variable.causality()));
+        add(super::description::causality(variable.causality()));
     }
     let digits: String = hash.finalize()[..16].iter().map(|byte| format!("{byte:02x}")).collect();
     let [a, b, c, d, e] = [0..8, 8..12, 12..16, 16..20, 20..32].map(|range| &digits[range]);

@@ -1,34 +1,15 @@
-//! The FMI 2.0 C ABI, and what belongs to it: legality of calls, log, GUID and XML; in [`three`] that of
-//! FMI 3.0.
+//! The C ABI of units under FMI 2.0 and FMI 3.0, and the XML that belongs to it.
 //!
-//! A call comes in through one of the exported functions (`common`, `variables`, `step`, `states`,
-//! `derivatives`, `model_exchange`), passes the gate in [`instance`] (valid pointer, legal in this phase, panics
-//! caught, floating-point environment of our own) and is done by [`unit::Unit`], which is plain safe Rust. A refused call answers
-//! `fmi2Error` with one line in the log and changes nothing, the phase included, so a master may
-//! correct its arguments and call again.
+//! A call comes in through one of the exported functions of [`two`] or [`three`], whose [`table`] says when it is
+//! allowed. It passes the [`gate`] (valid pointer, legal in this phase, panics caught, floating-point environment
+//! of our own) and is done by [`unit::Unit`], which is plain safe Rust and the same for both. A refused call
+//! answers `fmi2Error` or `fmi3Error` with one line in the log and changes nothing, the phase included, so a
+//! master may correct its arguments and call again.
 
-mod adjoint;
-mod common;
-mod derivatives;
-mod float_environment;
-mod instance;
-mod legality;
-mod log;
-mod model_exchange;
-mod panics;
-mod rates;
-mod refused;
-mod saved;
-mod set_up;
-mod state_bytes;
-mod states;
-mod step;
-mod step_control;
-mod types;
+mod description;
+mod gate;
+mod table;
 mod unit;
-mod uri;
-mod values;
-mod variables;
 
 /// Program and version, as they stand in every library that serves units.
 pub const MARK: &str = concat!("impinge ", env!("CARGO_PKG_VERSION"));
@@ -36,4 +17,4 @@ pub const MARK: &str = concat!("impinge ", env!("CARGO_PKG_VERSION"));
 pub mod guid;
 pub mod terminals;
 pub mod three;
-pub mod xml;
+pub mod two;

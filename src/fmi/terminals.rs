@@ -6,10 +6,7 @@
 use std::collections::HashMap;
 use std::io;
 
-use quick_xml::Writer;
-use quick_xml::events::{BytesDecl, Event};
-
-use super::xml::{Attributes, Xml, leaf, parent};
+use super::description::{Attributes, Xml, document, leaf, parent};
 use crate::scene::{Field, Probe, Scene, Wall};
 use crate::variables::{ArrayRegistry, ArrayVariable, Causality, Registry};
 
@@ -97,11 +94,10 @@ impl Direction {
 
 /// The file for the members of a scene's unit.
 pub fn terminals_and_icons(scene: &Scene, members: &[Member]) -> String {
-    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
-    document(&mut xml, scene, members).expect("a vector takes whatever is written");
-    let mut text = String::from_utf8(xml.into_inner()).expect("made from strings");
-    text.push('\n');
-    text
+    let terminals = group(members);
+    document("fmiTerminalsAndIcons", &[("fmiVersion", "3.0".into())], |xml| {
+        contents(xml, scene, &terminals)
+    })
 }
 
 struct Terminal<'a> {
@@ -123,25 +119,21 @@ fn group(members: &[Member]) -> Vec<Terminal<'_>> {
     terminals
 }
 
-fn document(xml: &mut Xml, scene: &Scene, members: &[Member]) -> io::Result<()> {
-    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-    let terminals = group(members);
-    parent(xml, "fmiTerminalsAndIcons", &[("fmiVersion", "3.0".into())], |xml| {
-        parent(xml, "GraphicalRepresentation", &[], |xml| {
-            let whole = extent([-HALF[0], -HALF[1]], HALF);
-            let scale = [("suggestedScalingFactorTo_mm", format!("{MILLIMETRES:?}"))];
-            leaf(xml, "CoordinateSystem", &[&whole[..], &scale].concat())?;
-            leaf(xml, "Icon", &whole)
-        })?;
-        if terminals.is_empty() {
-            return Ok(());
-        }
-        let places = places(&terminals);
-        let described = descriptions(scene);
-        parent(xml, "Terminals", &[], |xml| {
-            let mut both = terminals.iter().zip(&places);
-            both.try_for_each(|(terminal, place)| element(xml, &described, terminal, place))
-        })
+fn contents(xml: &mut Xml, scene: &Scene, terminals: &[Terminal]) -> io::Result<()> {
+    parent(xml, "GraphicalRepresentation", &[], |xml| {
+        let whole = extent([-HALF[0], -HALF[1]], HALF);
+        let scale = [("suggestedScalingFactorTo_mm", format!("{MILLIMETRES:?}"))];
+        leaf(xml, "CoordinateSystem", &[&whole[..], &scale].concat())?;
+        leaf(xml, "Icon", &whole)
+    })?;
+    if terminals.is_empty() {
+        return Ok(());
+    }
+    let places = places(terminals);
+    let described = descriptions(scene);
+    parent(xml, "Terminals", &[], |xml| {
+        let mut both = terminals.iter().zip(&places);
+        both.try_for_each(|(terminal, place)| element(xml, &described, terminal, place))
     })
 }
 

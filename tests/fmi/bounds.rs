@@ -1,8 +1,8 @@
 //! Values of inputs and lengths of steps beyond those of scenes: refused with what is allowed, and nothing is changed.
 
 use crate::droplets::WALL;
+use crate::master::three::Unit as Unit3;
 use crate::master::{ERROR, Handle, OK, SCENE, Unit, call};
-use crate::three::master::Unit as Unit3;
 
 /// Scene, input, value, side.
 const BEYOND: [(&str, &str, f64, &str); 22] = [

@@ -50,7 +50,7 @@ fn every_declared_dependency_is_served_exactly_and_no_other() {
         let at = |by: f64| {
             assert_eq!(unit.set(name, value + by), OK);
             let mut values = vec![0.0; outputs.len()];
-            assert_eq!(unit.get_all(&outputs, &mut values), OK);
+            assert_eq!(unit.get_in(&outputs, &mut values), OK);
             values
         };
         let (above, below) = (at(step), at(-step));
@@ -121,7 +121,7 @@ fn every_parameter_is_known_in_initialization_mode() {
     assert_eq!(unit.directional_derivative(&[estimate], &[by], &[1.0]), [0.0]);
     let read = || {
         let mut values = vec![0.0; outputs.len()];
-        assert_eq!(unit.get_all(&outputs, &mut values), OK);
+        assert_eq!(unit.get_in(&outputs, &mut values), OK);
         values
     };
     let before = unit.snapshot();
@@ -205,7 +205,7 @@ fn all_outputs(unit: &Unit) -> (Vec<u32>, Vec<f64>, Vec<f64>) {
     let registry = registry();
     let outputs: Vec<u32> = registry.of_causality(Causality::Output).map(|i| i as u32).collect();
     let mut values = vec![0.0; outputs.len()];
-    assert_eq!(unit.get_all(&outputs, &mut values), OK);
+    assert_eq!(unit.get_in(&outputs, &mut values), OK);
     let mut rates = vec![f64::NAN; outputs.len()];
     let orders = vec![1; outputs.len()];
     let status = unit.output_derivatives_in(&outputs, &orders, &mut rates);

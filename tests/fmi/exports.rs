@@ -1,67 +1,39 @@
-//! All functions of FMI 2.0 are exported, and survive null pointers.
+//! All functions of both versions are exported, survive null pointers, and keep apart.
 
 use std::ffi::{CStr, c_char, c_int, c_void};
 use std::ptr::null_mut;
 
-use crate::master::{ERROR, Handle, call, free, library};
+use crate::functions::names;
+use crate::master::{
+    ERROR, Handle, Three, Two, UnitOf, Version, both_versions, call, free, library,
+};
 
-/// The functions that act on an instance, in the order of the standard's header.
-const ON_AN_INSTANCE: [&str; 40] = [
-    "fmi2SetDebugLogging",
-    "fmi2SetupExperiment",
-    "fmi2EnterInitializationMode",
-    "fmi2ExitInitializationMode",
-    "fmi2Terminate",
-    "fmi2Reset",
-    "fmi2GetReal",
-    "fmi2GetInteger",
-    "fmi2GetBoolean",
-    "fmi2GetString",
-    "fmi2SetReal",
-    "fmi2SetInteger",
-    "fmi2SetBoolean",
-    "fmi2SetString",
-    "fmi2GetFMUstate",
-    "fmi2SetFMUstate",
-    "fmi2FreeFMUstate",
-    "fmi2SerializedFMUstateSize",
-    "fmi2SerializeFMUstate",
-    "fmi2DeSerializeFMUstate",
-    "fmi2GetDirectionalDerivative",
-    "fmi2EnterEventMode",
-    "fmi2NewDiscreteStates",
-    "fmi2EnterContinuousTimeMode",
-    "fmi2CompletedIntegratorStep",
-    "fmi2SetTime",
-    "fmi2SetContinuousStates",
-    "fmi2GetDerivatives",
-    "fmi2GetEventIndicators",
-    "fmi2GetContinuousStates",
-    "fmi2GetNominalsOfContinuousStates",
-    "fmi2SetRealInputDerivatives",
-    "fmi2GetRealOutputDerivatives",
-    "fmi2DoStep",
-    "fmi2CancelStep",
-    "fmi2GetStatus",
-    "fmi2GetRealStatus",
-    "fmi2GetIntegerStatus",
-    "fmi2GetBooleanStatus",
-    "fmi2GetStringStatus",
-];
+both_versions! { no_instance_is_an_error_and_no_crash }
 
-#[test]
-fn all_44_functions_are_exported() {
-    let others = ["fmi2GetTypesPlatform", "fmi2GetVersion", "fmi2Instantiate", "fmi2FreeInstance"];
-    for name in ON_AN_INSTANCE.into_iter().chain(others) {
+#[track_caller]
+fn exported<V: Version>(count: usize) {
+    let names: Vec<&str> = names::<V>().into_iter().chain(V::OTHERS.iter().copied()).collect();
+    assert_eq!(names.len(), count);
+    for name in names {
         // SAFETY: the symbol is only looked up.
         unsafe { library().get::<*const c_void>(name) }.expect(name);
     }
 }
 
 #[test]
-fn version_and_platform_are_the_standards() {
-    for (name, expected) in [("fmi2GetVersion", c"2.0"), ("fmi2GetTypesPlatform", c"default")] {
-        // SAFETY: both take nothing and return a static string.
+fn all_44_functions_of_fmi_2_and_75_of_fmi_3_are_exported() {
+    exported::<Two>(44);
+    exported::<Three>(75);
+}
+
+#[test]
+fn versions_and_platform_are_the_standards() {
+    for (name, expected) in [
+        ("fmi2GetVersion", c"2.0"),
+        ("fmi2GetTypesPlatform", c"default"),
+        ("fmi3GetVersion", c"3.0"),
+    ] {
+        // SAFETY: all take nothing and return a static string.
         let text = unsafe {
             let function = library().get::<unsafe extern "C" fn() -> *const c_char>(name).unwrap();
             CStr::from_ptr(function())
@@ -71,14 +43,14 @@ fn version_and_platform_are_the_standards() {
 }
 
 /// With an instance of null no other argument is looked at, so zeros do for all of them.
-#[test]
-fn no_instance_is_an_error_and_no_crash() {
-    for name in ON_AN_INSTANCE {
+fn no_instance_is_an_error_and_no_crash<V: Version>() {
+    for name in names::<V>() {
         let status = call!(name, null_mut() => Handle, 0 => usize, 0 => usize, 0 => usize,
-            0 => usize, 0 => usize, 0 => usize);
+            0 => usize, 0 => usize, 0 => usize, 0 => usize, 0 => usize);
         assert_eq!(status, ERROR, "{name}");
     }
     free(null_mut());
+    crate::master::three::free(null_mut());
 }
 
 #[test]
@@ -93,4 +65,15 @@ fn a_pointer_to_something_else_is_an_error() {
     );
     free(pointer);
     assert_eq!(other, [0; 64]);
+}
+
+#[test]
+fn an_instance_of_one_version_is_none_of_the_other() {
+    let (two, three) = (UnitOf::<Two>::running(), UnitOf::<Three>::running());
+    assert_eq!(call!("fmi3Reset", two.handle => Handle), ERROR);
+    assert_eq!(call!("fmi2Reset", three.handle => Handle), ERROR);
+    crate::master::three::free(two.handle);
+    free(three.handle);
+    assert_eq!(two.get("plate.heat_in"), 0.0);
+    assert_eq!(three.get("plate.heat_in"), [0.0]);
 }

@@ -9,27 +9,85 @@ use impinge::variables::ArrayRegistry;
 
 use crate::master::{Folder, SCENE, library, own_guid, registry};
 
-/// The types of an interface, and the files that export functions, in the standard's order.
-const FMI2: [&str; 7] = [
-    "types.rs",
-    "common.rs",
-    "variables.rs",
-    "states.rs",
-    "derivatives.rs",
-    "step.rs",
-    "model_exchange.rs",
-];
-const FMI3: [&str; 9] = [
-    "three/types.rs",
-    "three/common.rs",
-    "three/variables.rs",
-    "three/absent.rs",
-    "three/dependencies.rs",
-    "three/states.rs",
-    "three/derivatives.rs",
-    "three/step.rs",
-    "three/other_modes.rs",
-];
+/// A version's folder, its name of an instance, and what its header is made of, in the standard's order: types and
+/// functions of files, and those that its table exports.
+struct Interface {
+    folder: &'static str,
+    instance: &'static str,
+    parts: &'static [Part],
+}
+
+#[derive(Clone, Copy)]
+enum Part {
+    File(&'static str),
+    /// Rows of the table in groups of this kind.
+    Rows(&'static str),
+}
+use Part::{File, Rows};
+
+const FMI2: Interface = Interface {
+    folder: "two",
+    instance: "component",
+    parts: &[
+        File("types.rs"),
+        File("life_cycle.rs"),
+        File("variables.rs"),
+        File("states.rs"),
+        File("derivatives.rs"),
+        File("step.rs"),
+        Rows("refused"),
+    ],
+};
+const FMI3: Interface = Interface {
+    folder: "three",
+    instance: "instance",
+    parts: &[
+        File("types.rs"),
+        File("life_cycle.rs"),
+        File("variables.rs"),
+        Rows("absent"),
+        File("dependencies.rs"),
+        File("states.rs"),
+        File("derivatives.rs"),
+        File("step.rs"),
+        Rows("refused"),
+    ],
+};
+
+impl Interface {
+    /// A file that cbindgen can read.
+    fn file(&self, part: Part) -> PathBuf {
+        let folder = root().join("src/fmi").join(self.folder);
+        match part {
+            File(name) => folder.join(name),
+            Rows(group) => {
+                let table = fs::read_to_string(folder.join("table.rs")).unwrap();
+                let name = format!("{}_{group}.rs", self.folder);
+                let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+                fs::write(&path, self.exported(&table, group)).unwrap();
+                path
+            }
+        }
+    }
+
+    /// The functions that a table exports, as its macro does: the instance is the first argument, a status the answer.
+    fn exported(&self, table: &str, group: &str) -> String {
+        let start = format!("#[{group}(");
+        let rows = table.split(&start).skip(1).flat_map(|group| {
+            let rows = group.split_once("{\n").unwrap().1.split_once("\n    }").unwrap().0;
+            rows.split_terminator(';')
+        });
+        let function = |row: &str| {
+            let (name, arguments) = row.split_once('(').unwrap();
+            let arguments = format!("{}: Handle, {arguments}", self.instance);
+            format!(
+                "#[unsafe(no_mangle)] pub unsafe extern \"C\" {}({arguments} -> Status {{}}\n",
+                name.trim()
+            )
+        };
+        rows.map(function).collect()
+    }
+}
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -41,11 +99,11 @@ fn the_checked_in_headers_are_what_cbindgen_makes() {
     check_header("impinge_fmi3.h", "cbindgen-fmi3.toml", &FMI3);
 }
 
-fn check_header(name: &str, settings: &str, files: &[&str]) {
+fn check_header(name: &str, settings: &str, interface: &Interface) {
     let settings = cbindgen::Config::from_file(root().join(settings)).unwrap();
     let mut builder = cbindgen::Builder::new().with_config(settings);
-    for file in files {
-        builder = builder.with_src(root().join("src/fmi").join(file));
+    for part in interface.parts {
+        builder = builder.with_src(interface.file(*part));
     }
     let mut text = Vec::new();
     builder.generate().unwrap().write(&mut text);

@@ -13,15 +13,18 @@ fn refused(change: impl FnOnce(&mut Arguments), fragments: &[&str]) {
     let mut arguments = Arguments::good(&folder);
     change(&mut arguments);
     assert!(arguments.instantiate(&messages).is_null());
-    let messages = messages.take();
-    let [message] = &messages[..] else { panic!("not one message: {messages:#?}") };
-    assert_eq!((message.status, message.category.as_str()), (ERROR, "logStatusError"));
-    for fragment in fragments {
-        assert!(message.text.contains(fragment), "no {fragment:?} in {:?}", message.text);
-    }
+    told(&messages, "fmi2Instantiate", fragments);
 }
 
-fn text(text: &str) -> Option<CString> {
+/// A function that makes instances has said why it made none, with the fragments.
+#[track_caller]
+pub fn told(messages: &Messages, function: &str, fragments: &[&str]) {
+    let message = messages.expect_one(ERROR, fragments);
+    assert_eq!(message.category, "logStatusError");
+    assert!(message.text.starts_with(function), "{}", message.text);
+}
+
+pub fn text(text: &str) -> Option<CString> {
     Some(CString::new(text).unwrap())
 }
 

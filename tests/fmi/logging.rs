@@ -364,7 +364,7 @@ fn outputs_beyond_numbers_are_errors() {
     let mut value = [7.0];
     let reference = unit.reference("plate.max_von_mises");
     unit.messages.take();
-    assert_eq!(unit.get_all(&[reference], &mut value), ERROR);
+    assert_eq!(unit.get_in(&[reference], &mut value), ERROR);
     unit.expect_message(
         ERROR,
         &["no value of plate.max_von_mises", "beyond what numbers can hold"],

@@ -3,7 +3,8 @@
 use std::fs;
 use std::path::Path;
 
-use impinge::fmi::xml::model_description;
+use impinge::fmi::three;
+use impinge::fmi::two::xml::model_description;
 use impinge::scene;
 use impinge::variables::Registry;
 
@@ -13,32 +14,45 @@ fn xml() -> String {
     model_description(&scene::parse(SCENE, "scene.toml").unwrap(), SCENE)
 }
 
+/// The description of each version, its last elements, and its name of the GUID.
+fn both() -> [(String, [&'static str; 2], &'static str); 2] {
+    let scene = scene::parse(SCENE, "scene.toml").unwrap();
+    [
+        (xml(), ["<Outputs>", "<InitialUnknowns>"], "guid"),
+        (
+            three::xml::model_description(&scene, SCENE),
+            ["<Output ", "<InitialUnknown "],
+            "instantiationToken",
+        ),
+    ]
+}
+
 /// The elements of the root in the order of the schema.
 #[test]
 fn elements_stand_in_the_order_of_the_schema() {
-    let xml = xml();
-    let places: Vec<usize> = [
-        "<fmiModelDescription ",
-        "<CoSimulation ",
-        "<UnitDefinitions>",
-        "<TypeDefinitions>",
-        "<LogCategories>",
-        "<DefaultExperiment ",
-        "<ModelVariables>",
-        "<ModelStructure>",
-        "<Outputs>",
-        "<InitialUnknowns>",
-    ]
-    .map(|element| xml.find(element).unwrap_or_else(|| panic!("no {element}")))
-    .into();
-    assert!(places.is_sorted(), "{places:?}");
+    for (xml, last, _) in both() {
+        let first = [
+            "<fmiModelDescription ",
+            "<CoSimulation ",
+            "<UnitDefinitions>",
+            "<TypeDefinitions>",
+            "<LogCategories>",
+            "<DefaultExperiment ",
+            "<ModelVariables>",
+            "<ModelStructure>",
+        ];
+        let place = |element: &str| xml.find(element).unwrap_or_else(|| panic!("no {element}"));
+        let places: Vec<usize> = first.into_iter().chain(last).map(place).collect();
+        assert!(places.is_sorted(), "{places:?}");
+    }
 }
 
 #[test]
 fn texts_are_escaped_and_the_guid_is_the_units() {
-    let xml = xml();
-    assert!(xml.contains("hot spot &amp; a 2 × 3 patch"));
-    assert!(xml.contains(&format!("guid=\"{}\"", own_guid())));
+    for (xml, _, guid) in both() {
+        assert!(xml.contains("hot spot &amp; a 2 × 3 patch"));
+        assert!(xml.contains(&format!("{guid}=\"{}\"", own_guid())));
+    }
 }
 
 #[test]

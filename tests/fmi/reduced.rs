@@ -12,8 +12,8 @@ use impinge::runtime::sealed::{Content, Format, Reader};
 use impinge::scene;
 use impinge::variables::Registry;
 
+use crate::master::three::Unit as Unit3;
 use crate::master::{Arguments, DISCARD, Folder, Handle, Messages, OK, Saved, call, free};
-use crate::three;
 
 const PLATE: &str = r#"
 name = "Stored"
@@ -218,7 +218,7 @@ fn with_and_without_its_reduction_a_unit_is_the_same_to_the_bit() {
     drop(unit);
     let folder = folder(Some(&bytes));
     let place = format!("{}/", folder.0.display());
-    let three = three::master::Unit::instantiated_with(PLATE, |arguments| {
+    let three = Unit3::instantiated_with(PLATE, |arguments| {
         arguments.resources = Some(CString::new(place.as_str()).unwrap());
     });
     assert_eq!((three.enter(0.0, None), three.exit()), (OK, OK));

@@ -118,7 +118,7 @@ fn a_footprint_off_its_face_is_refused_by_name_until_it_is_put_back() {
     assert_eq!(unit.step(1e-8, 1e-8), ERROR);
     unit.expect_message(ERROR, &["fmi2DoStep", "patch.x"]);
     let mut value = [7.0];
-    assert_eq!(unit.get_all(&[unit.reference("centre.temperature")], &mut value), ERROR);
+    assert_eq!(unit.get_in(&[unit.reference("centre.temperature")], &mut value), ERROR);
     unit.expect_message(ERROR, &["fmi2GetReal", "patch.x"]);
     assert_eq!((value, unit.time()), ([7.0], 1e-8));
     assert_eq!(unit.set("patch.x", 0.0), OK);

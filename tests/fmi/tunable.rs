@@ -1,6 +1,6 @@
 //! Inputs that nothing is connected to are tunable parameters.
 
-use impinge::fmi::xml::model_description;
+use impinge::fmi::two::xml::model_description;
 use impinge::scene;
 
 use crate::master::{ERROR, OK, SCENE, Unit};

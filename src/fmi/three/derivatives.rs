@@ -2,18 +2,17 @@
 //!
 //! Seeds and sensitivities run over the elements of arrays, as values do.
 
-use super::legality::Fmi3;
+use super::table::Fmi3;
 use super::types::{Float64, Handle, Int32, Reference};
-use crate::fmi::instance::{array, call, write};
-use crate::fmi::types::{Answer, Refusal, Status};
+use crate::fmi::gate::answer::{Answer, Refusal, Status};
+use crate::fmi::gate::arguments::{array, write};
+use crate::fmi::gate::gated;
 use crate::fmi::unit::Unit;
 
-/// J·s for changes s of the knowns. With respect to inputs exact, with the unknowns of the bodies held:
-/// what outputs follow at once. In Initialization Mode parameters are known too; with respect to these
-/// to about 1e-10.
+/// Differentiates outputs along one direction: J·s for changes s of the knowns.
 ///
-/// # Safety
-/// Pointers are null or as the standard asks.
+/// With respect to inputs exact, with the unknowns of the bodies held: what outputs follow at once. In
+/// Initialization Mode parameters are known too; with respect to these to about 1e-10.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
     instance: Handle,
@@ -26,21 +25,17 @@ pub unsafe extern "C" fn fmi3GetDirectionalDerivative(
     sensitivity: *mut Float64,
     sensitivity_count: usize,
 ) -> Status {
-    // SAFETY: by contract.
-    unsafe {
-        call(instance, Fmi3::GetDirectionalDerivative, |unit| {
-            let lists = [(unknowns, unknown_count), (knowns, known_count)];
-            let seed = (seed, seed_count);
-            differentiate(unit, lists, seed, (sensitivity, sensitivity_count), Way::Forwards)
-        })
-    }
+    gated!(instance, Fmi3::fmi3GetDirectionalDerivative, |unit| {
+        let lists = [(unknowns, unknown_count), (knowns, known_count)];
+        let seed = (seed, seed_count);
+        differentiate(unit, lists, seed, (sensitivity, sensitivity_count), Way::Forwards)
+    })
 }
 
-/// Jᵀ·s for weights s of the unknowns, under the same rules. The cost grows with the number of those
-/// elements of the knowns that some unknown follows at once.
+/// Differentiates a weighted sum of outputs by each known: Jᵀ·s for weights s of the unknowns.
 ///
-/// # Safety
-/// Pointers are null or as the standard asks.
+/// The rules are those of directional derivatives. The cost grows with the number of those elements of the knowns
+/// that some unknown follows at once.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetAdjointDerivative(
     instance: Handle,
@@ -53,14 +48,11 @@ pub unsafe extern "C" fn fmi3GetAdjointDerivative(
     sensitivity: *mut Float64,
     sensitivity_count: usize,
 ) -> Status {
-    // SAFETY: by contract.
-    unsafe {
-        call(instance, Fmi3::GetAdjointDerivative, |unit| {
-            let lists = [(unknowns, unknown_count), (knowns, known_count)];
-            let seed = (seed, seed_count);
-            differentiate(unit, lists, seed, (sensitivity, sensitivity_count), Way::Backwards)
-        })
-    }
+    gated!(instance, Fmi3::fmi3GetAdjointDerivative, |unit| {
+        let lists = [(unknowns, unknown_count), (knowns, known_count)];
+        let seed = (seed, seed_count);
+        differentiate(unit, lists, seed, (sensitivity, sensitivity_count), Way::Backwards)
+    })
 }
 
 /// J·s or Jᵀ·s.
@@ -102,10 +94,9 @@ unsafe fn differentiate(
     }
 }
 
-/// Exact, under the inputs that the last step held or that have been set since.
+/// Reads time derivatives of outputs.
 ///
-/// # Safety
-/// Pointers are null or as the standard asks.
+/// Exact, under the inputs that the last step held or that have been set since.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetOutputDerivatives(
     instance: Handle,
@@ -115,16 +106,13 @@ pub unsafe extern "C" fn fmi3GetOutputDerivatives(
     values: *mut Float64,
     value_count: usize,
 ) -> Status {
-    // SAFETY: by contract.
-    unsafe {
-        call(instance, Fmi3::GetOutputDerivatives, |unit| {
-            let references = array(value_references, value_reference_count, "valueReferences")?;
-            let orders = array(orders, value_reference_count, "orders")?;
-            let (outputs, orders) = with_orders(unit, references, orders)?;
-            check_count("nValues", value_count, ("variables", outputs.len()))?;
-            write(values, &unit.output_derivatives(&outputs, &orders)?, "values")
-        })
-    }
+    gated!(instance, Fmi3::fmi3GetOutputDerivatives, |unit| {
+        let references = array(value_references, value_reference_count, "valueReferences")?;
+        let orders = array(orders, value_reference_count, "orders")?;
+        let (outputs, orders) = with_orders(unit, references, orders)?;
+        check_count("nValues", value_count, ("variables", outputs.len()))?;
+        write(values, &unit.output_derivatives(&outputs, &orders)?, "values")
+    })
 }
 
 /// The elements of variables, each with the order that is asked of its variable.

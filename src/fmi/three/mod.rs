@@ -1,19 +1,15 @@
-//! The FMI 3.0 C ABI of the same units, and their XML: arrays instead of families of scalars.
+//! The C ABI of FMI 3.0 for the same units, and their XML: arrays instead of families of scalars.
 //!
-//! The functions exported here (`common`, `variables`, `absent`, `dependencies`, `states`, `derivatives`,
-//! `step`, `other_modes`) go through the gate of [`super::instance`] under a table of their own
-//! ([`legality`]) to the same [`super::unit::Unit`]; `values` lays its scalars out as arrays.
+//! [`table`] has a row for each function that acts on an instance; those with a body stand in the other files.
 
-mod absent;
-mod common;
+mod callbacks;
 mod dependencies;
 mod derivatives;
-mod legality;
-mod other_modes;
+mod life_cycle;
 mod states;
 mod step;
+pub(super) mod table;
 mod types;
-mod values;
 mod variables;
 
 pub mod xml;

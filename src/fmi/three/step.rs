@@ -1,21 +1,21 @@
 //! FMI functions of co-simulation, section 4.2 of the standard.
 
-use super::legality::Fmi3;
+use super::table::Fmi3;
 use super::types::{Boolean, FALSE, Float64, Handle};
-use crate::fmi::instance::{call, null, write};
-use crate::fmi::legality::Phase;
-use crate::fmi::types::Status;
+use crate::fmi::gate::answer::Status;
+use crate::fmi::gate::arguments::{null, write};
+use crate::fmi::gate::gated;
+use crate::fmi::table::Phase;
 use crate::fmi::unit::Unit;
 
+/// Advances the unit by a step.
+///
 /// Inputs are held over the step. It never calls for events or the end. It ends early, if it may, where it is too
 /// long for one call, or where the master asked for that in an intermediate update.
 ///
 /// A refused or discarded step leaves the unit as it was: the master may correct inputs or times and
 /// try again. No state is needed but the one that the master asks for, so
 /// `no_set_fmu_state_prior_to_current_point` changes nothing.
-///
-/// # Safety
-/// Pointers are null or as the standard asks.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3DoStep(
     instance: Handle,
@@ -32,29 +32,28 @@ pub unsafe extern "C" fn fmi3DoStep(
         (terminate_simulation, "terminateSimulation"),
         (early_return, "earlyReturn"),
     ];
-    // SAFETY: by contract.
-    unsafe {
-        call(instance, Fmi3::DoStep, |unit| {
-            if let Some((_, name)) = flags.iter().find(|(flag, _)| flag.is_null()) {
-                return Err(null(name));
-            }
-            if last_successful_time.is_null() {
-                return Err(null("lastSuccessfulTime"));
-            }
-            let answer = unit.step(current_communication_point, communication_step_size);
-            stay_in_step_mode(unit);
-            let end = current_communication_point + communication_step_size;
-            let is_early = answer.is_ok() && unit.time() < end;
-            for (flag, name) in flags {
-                write(flag, &[FALSE], name)?;
-            }
-            write(early_return, &[Boolean::from(is_early)], "earlyReturn")?;
-            write(last_successful_time, &[unit.time()], "lastSuccessfulTime")?;
-            answer
-        })
-    }
+    gated!(instance, Fmi3::fmi3DoStep, |unit| {
+        if let Some((_, name)) = flags.iter().find(|(flag, _)| flag.is_null()) {
+            return Err(null(name));
+        }
+        if last_successful_time.is_null() {
+            return Err(null("lastSuccessfulTime"));
+        }
+        let answer = unit.step(current_communication_point, communication_step_size);
+        stay_in_step_mode(unit);
+        let end = current_communication_point + communication_step_size;
+        let is_early = answer.is_ok() && unit.time() < end;
+        for (flag, name) in flags {
+            write(flag, &[FALSE], name)?;
+        }
+        write(early_return, &[Boolean::from(is_early)], "earlyReturn")?;
+        write(last_successful_time, &[unit.time()], "lastSuccessfulTime")?;
+        answer
+    })
 }
 
+/// Takes a unit whose step has failed back to Step Mode.
+///
 /// FMI 3.0 knows no failed steps: a unit that discards one is in the mode that it was in before.
 pub fn stay_in_step_mode(unit: &mut Unit) {
     if matches!(unit.phase, Phase::StepFailed | Phase::StepCanceled) {

@@ -5,7 +5,7 @@
 
 use std::ffi::{c_char, c_int, c_void};
 
-use crate::fmi::types::Status;
+use crate::fmi::gate::answer::Status;
 
 /// `fmi3Instance`.
 pub type Handle = *mut c_void;

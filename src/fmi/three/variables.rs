@@ -1,13 +1,12 @@
 //! FMI functions that get and set variables of the types in use.
 
-use super::legality::Fmi3;
+use super::table::Fmi3;
 use super::types::{Float64, Handle, Int32, Reference, Text};
-use crate::fmi::common::texts;
-use crate::fmi::instance::{array, call, write};
-use crate::fmi::types::Status;
+use crate::fmi::gate::answer::Status;
+use crate::fmi::gate::arguments::{array, texts, write, write_texts};
+use crate::fmi::gate::gated;
 
-/// # Safety
-/// Pointers are null or as the standard asks.
+/// Reads values of Float64 variables.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetFloat64(
     instance: Handle,
@@ -16,17 +15,13 @@ pub unsafe extern "C" fn fmi3GetFloat64(
     values: *mut Float64,
     value_count: usize,
 ) -> Status {
-    // SAFETY: by contract.
-    unsafe {
-        call(instance, Fmi3::GetFloat64, |unit| {
-            let references = array(value_references, value_reference_count, "valueReferences")?;
-            write(values, &unit.floats(references, value_count)?, "values")
-        })
-    }
+    gated!(instance, Fmi3::fmi3GetFloat64, |unit| {
+        let references = array(value_references, value_reference_count, "valueReferences")?;
+        write(values, &unit.floats(references, value_count)?, "values")
+    })
 }
 
-/// # Safety
-/// Pointers are null or as the standard asks.
+/// Reads values of Int32 variables.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetInt32(
     instance: Handle,
@@ -35,19 +30,13 @@ pub unsafe extern "C" fn fmi3GetInt32(
     values: *mut Int32,
     value_count: usize,
 ) -> Status {
-    // SAFETY: by contract.
-    unsafe {
-        call(instance, Fmi3::GetInt32, |unit| {
-            let references = array(value_references, value_reference_count, "valueReferences")?;
-            write(values, &unit.whole_numbers(references, value_count)?, "values")
-        })
-    }
+    gated!(instance, Fmi3::fmi3GetInt32, |unit| {
+        let references = array(value_references, value_reference_count, "valueReferences")?;
+        write(values, &unit.whole_numbers(references, value_count)?, "values")
+    })
 }
 
-/// The texts stay where they are until the next call on the instance.
-///
-/// # Safety
-/// Pointers are null or as the standard asks.
+/// Reads texts. They stay where they are until the next call on the instance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3GetString(
     instance: Handle,
@@ -56,19 +45,13 @@ pub unsafe extern "C" fn fmi3GetString(
     values: *mut Text,
     value_count: usize,
 ) -> Status {
-    // SAFETY: by contract.
-    unsafe {
-        call(instance, Fmi3::GetString, |unit| {
-            let references = array(value_references, value_reference_count, "valueReferences")?;
-            let found = unit.strings(references, value_count)?;
-            let pointers: Vec<Text> = found.iter().map(|text| text.as_ptr()).collect();
-            write(values, &pointers, "values")
-        })
-    }
+    gated!(instance, Fmi3::fmi3GetString, |unit| {
+        let references = array(value_references, value_reference_count, "valueReferences")?;
+        write_texts(values, unit.strings(references, value_count)?, "values")
+    })
 }
 
-/// # Safety
-/// Pointers are null or as the standard asks.
+/// Sets Float64 variables, all or none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3SetFloat64(
     instance: Handle,
@@ -77,17 +60,13 @@ pub unsafe extern "C" fn fmi3SetFloat64(
     values: *const Float64,
     value_count: usize,
 ) -> Status {
-    // SAFETY: by contract.
-    unsafe {
-        call(instance, Fmi3::SetFloat64, |unit| {
-            let references = array(value_references, value_reference_count, "valueReferences")?;
-            unit.set_floats(references, array(values, value_count, "values")?)
-        })
-    }
+    gated!(instance, Fmi3::fmi3SetFloat64, |unit| {
+        let references = array(value_references, value_reference_count, "valueReferences")?;
+        unit.set_floats(references, array(values, value_count, "values")?)
+    })
 }
 
-/// # Safety
-/// Pointers are null or as the standard asks.
+/// Sets Int32 variables, all or none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3SetInt32(
     instance: Handle,
@@ -96,17 +75,13 @@ pub unsafe extern "C" fn fmi3SetInt32(
     values: *const Int32,
     value_count: usize,
 ) -> Status {
-    // SAFETY: by contract.
-    unsafe {
-        call(instance, Fmi3::SetInt32, |unit| {
-            let references = array(value_references, value_reference_count, "valueReferences")?;
-            unit.set_whole_numbers(references, array(values, value_count, "values")?)
-        })
-    }
+    gated!(instance, Fmi3::fmi3SetInt32, |unit| {
+        let references = array(value_references, value_reference_count, "valueReferences")?;
+        unit.set_whole_numbers(references, array(values, value_count, "values")?)
+    })
 }
 
-/// # Safety
-/// Pointers are null or as the standard asks.
+/// Sets String variables, all or none.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3SetString(
     instance: Handle,
@@ -115,11 +90,8 @@ pub unsafe extern "C" fn fmi3SetString(
     values: *const Text,
     value_count: usize,
 ) -> Status {
-    // SAFETY: by contract.
-    unsafe {
-        call(instance, Fmi3::SetString, |unit| {
-            let references = array(value_references, value_reference_count, "valueReferences")?;
-            unit.set_strings(references, texts(values, value_count, "values")?)
-        })
-    }
+    gated!(instance, Fmi3::fmi3SetString, |unit| {
+        let references = array(value_references, value_reference_count, "valueReferences")?;
+        unit.set_strings(references, texts(values, value_count, "values")?)
+    })
 }

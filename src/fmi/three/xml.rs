@@ -3,15 +3,11 @@
 use std::collections::BTreeSet;
 use std::io;
 
-use quick_xml::Writer;
-use quick_xml::events::{BytesDecl, Event};
-
-use crate::fmi::guid::guid;
-use crate::fmi::rates::highest_output_derivative;
-use crate::fmi::xml::{
-    Attributes, Xml, causality, default_experiment, leaf, log_categories, number, parent, units,
-    variability as variability_of, whole_number,
+use crate::fmi::description::{
+    self, Attributes, Description, Xml, kind, kind_of, leaf, number, parent, type_attributes,
+    whole_number,
 };
+use crate::fmi::unit::highest_output_derivative;
 use crate::scene::{HeatMethod, Scene};
 use crate::variables::{
     ArrayRegistry, ArrayVariable, Causality, Content, Quantity, Registry, Value, Variable,
@@ -20,59 +16,34 @@ use crate::variables::{
 /// The modelDescription.xml of a checked scene; `scene_text` is what the unit carries. The
 /// instantiation token is the GUID of the same unit under FMI 2.0.
 pub fn model_description(scene: &Scene, scene_text: &str) -> String {
-    let registry = Registry::of(scene);
-    let token = guid(scene_text, &registry);
-    let unit = Description { scene, arrays: ArrayRegistry::of(scene), registry };
-    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
-    unit.document(&mut xml, token).expect("a vector takes whatever is written");
-    let mut text = String::from_utf8(xml.into_inner()).expect("made from strings");
-    text.push('\n');
-    text
+    let registry = &Registry::of(scene);
+    let unit = Arrays { scene, registry, arrays: ArrayRegistry::of(scene) };
+    description::model_description(&unit, scene, registry, scene_text)
 }
 
-/// What is described.
-struct Description<'a> {
+/// A unit whose variables are arrays where they can be.
+struct Arrays<'a> {
     scene: &'a Scene,
-    registry: Registry,
+    registry: &'a Registry,
     arrays: ArrayRegistry,
 }
 
-impl Description<'_> {
-    fn document(&self, xml: &mut Xml, token: String) -> io::Result<()> {
-        xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
-        let mut root: Attributes = vec![
-            ("fmiVersion", "3.0".into()),
-            ("modelName", self.scene.name.clone()),
-            ("instantiationToken", token),
-        ];
-        if !self.scene.description.is_empty() {
-            root.push(("description", self.scene.description.clone()));
-        }
-        root.extend([
-            ("license", env!("CARGO_PKG_LICENSE").into()),
-            ("generationTool", concat!("impinge ", env!("CARGO_PKG_VERSION")).into()),
-            ("variableNamingConvention", self.scene.naming.name().into()),
-        ]);
+impl Description for Arrays<'_> {
+    const VERSION: &'static str = "3.0";
+    const GUID: &'static str = "instantiationToken";
+    const MORE: &'static [(&'static str, &'static str)] = &[];
+
+    fn quantities(&self) -> BTreeSet<Quantity> {
         let variables = self.arrays.variables.iter();
-        let used: BTreeSet<Quantity> =
-            variables.filter_map(|variable| variable.quantity(&self.registry)).collect();
-        parent(xml, "fmiModelDescription", &root, |xml| {
-            self.co_simulation(xml)?;
-            parent(xml, "UnitDefinitions", &[], |xml| units(xml, &used))?;
-            parent(xml, "TypeDefinitions", &[], |xml| types(xml, &used))?;
-            parent(xml, "LogCategories", &[], log_categories)?;
-            default_experiment(xml, self.scene)?;
-            parent(xml, "ModelVariables", &[], |xml| self.variables(xml))?;
-            parent(xml, "ModelStructure", &[], |xml| self.structure(xml))
-        })
+        variables.filter_map(|variable| variable.quantity(self.registry)).collect()
     }
 
-    fn co_simulation(&self, xml: &mut Xml) -> io::Result<()> {
+    fn co_simulation(&self) -> Attributes {
         let has_droplets = self.scene.droplets().next().is_some();
         // Modes of heat take a step of any length in one, and inputs are held.
         let has_long_steps =
             has_droplets || self.scene.solids().any(|(_, solid)| solid.heat == HeatMethod::Sph);
-        let attributes: Attributes = vec![
+        vec![
             ("modelIdentifier", self.scene.name.clone()),
             ("needsExecutionTool", "false".into()),
             ("canBeInstantiatedOnlyOncePerProcess", "false".into()),
@@ -87,8 +58,12 @@ impl Description<'_> {
             ("mightReturnEarlyFromDoStep", has_long_steps.to_string()),
             ("canReturnEarlyAfterIntermediateUpdate", has_droplets.to_string()),
             ("hasEventMode", "false".into()),
-        ];
-        leaf(xml, "CoSimulation", &attributes)
+        ]
+    }
+
+    fn type_definition(&self, xml: &mut Xml, quantity: Quantity) -> io::Result<()> {
+        let name = [("name", quantity.type_name().to_owned())];
+        leaf(xml, "Float64Type", &[&name[..], &type_attributes(quantity)].concat())
     }
 
     fn variables(&self, xml: &mut Xml) -> io::Result<()> {
@@ -99,7 +74,7 @@ impl Description<'_> {
                 ("description", variable.description.clone()),
             ];
             attributes.extend(self.kind(variable));
-            if let Some(quantity) = variable.quantity(&self.registry) {
+            if let Some(quantity) = variable.quantity(self.registry) {
                 attributes.push(("declaredType", quantity.type_name().into()));
             }
             let (element, details) = match (&variable.content, self.elements(variable)) {
@@ -121,40 +96,12 @@ impl Description<'_> {
         })
     }
 
-    /// Causality, variability and how the variable is initialised.
-    fn kind(&self, variable: &ArrayVariable) -> Attributes {
-        let (causality, variability, initial) = match variable.causality(&self.registry) {
-            Some(Causality::Parameter) => {
-                let is_tunable = self.elements(variable)[0].is_tunable;
-                let variability = if is_tunable { "tunable" } else { "fixed" };
-                (causality(Causality::Parameter), variability, Some("exact"))
-            }
-            Some(Causality::Input) => {
-                let quantity = self.elements(variable).first().and_then(|element| element.quantity);
-                (causality(Causality::Input), variability_of(quantity), None)
-            }
-            Some(Causality::Output) => {
-                (causality(Causality::Output), "continuous", Some("calculated"))
-            }
-            None if variable.content == Content::Time => ("independent", "continuous", None),
-            None => ("local", "constant", Some("exact")),
-        };
-        let mut attributes: Attributes =
-            vec![("causality", causality.into()), ("variability", variability.into())];
-        attributes.extend(initial.map(|initial| ("initial", initial.to_owned())));
-        attributes
-    }
-
-    fn elements(&self, variable: &ArrayVariable) -> &[Variable] {
-        variable.elements(&self.registry)
-    }
-
     /// Outputs with the inputs that they follow at once. At initialisation an output may follow all
     /// parameters and inputs, which is what a list that is left out means.
     fn structure(&self, xml: &mut Xml) -> io::Result<()> {
-        let is_output = |v: &ArrayVariable| v.causality(&self.registry) == Some(Causality::Output);
+        let is_output = |v: &ArrayVariable| v.causality(self.registry) == Some(Causality::Output);
         let mut outputs = self.arrays.variables.iter().enumerate().filter(|(_, v)| is_output(v));
-        let dependencies = self.arrays.all_dependencies(self.scene, &self.registry);
+        let dependencies = self.arrays.all_dependencies(self.scene, self.registry);
         dependencies.iter().try_for_each(|(reference, inputs)| {
             let inputs: Vec<String> = inputs.iter().map(usize::to_string).collect();
             let attributes: Attributes = vec![
@@ -170,19 +117,23 @@ impl Description<'_> {
     }
 }
 
-fn types(xml: &mut Xml, used: &BTreeSet<Quantity>) -> io::Result<()> {
-    used.iter().try_for_each(|quantity| {
-        let mut attributes: Attributes = vec![
-            ("name", quantity.type_name().into()),
-            ("quantity", quantity.type_name().into()),
-            ("unit", quantity.unit().into()),
-        ];
-        if let Some(display) = quantity.display_unit() {
-            attributes.push(("displayUnit", display.name.into()));
+impl Arrays<'_> {
+    /// Causality, variability and the way of initialisation of a variable.
+    fn kind(&self, variable: &ArrayVariable) -> Attributes {
+        let first = self.elements(variable).first();
+        match variable.causality(self.registry) {
+            Some(causality) => {
+                let is_tunable = first.is_some_and(|element| element.is_tunable);
+                kind(causality, is_tunable, first.and_then(|element| element.quantity))
+            }
+            None if variable.content == Content::Time => kind_of("independent", "continuous", None),
+            None => kind_of("local", "constant", Some("exact")),
         }
-        attributes.push(("nominal", number(quantity.nominal())));
-        leaf(xml, "Float64Type", &attributes)
-    })
+    }
+
+    fn elements(&self, variable: &ArrayVariable) -> &[Variable] {
+        variable.elements(self.registry)
+    }
 }
 
 /// Element and attributes that tell type, bounds and start values; all elements have the same bounds.

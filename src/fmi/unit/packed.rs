@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::start_state;
 use crate::advice::{self, Warning};
-use crate::fmi::set_up::SetUpOnce;
+use crate::fmi::gate::set_up::SetUpOnce;
 use crate::fmi::{MARK, guid};
 use crate::math::product::look_up_caches;
 use crate::model::{Kept, KeptReduction, State, keep_record, keep_reduction};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::Unit;
 use crate::advice;
-use crate::fmi::types::Status;
+use crate::fmi::gate::answer::Status;
 use crate::output::OutputError;
 use crate::runtime::thread::aside;
 
@@ -34,7 +34,7 @@ impl Unit {
     }
 
     /// Forgets what the last step began with, as what comes is no answer to it.
-    pub(in super::super) fn forget_answers(&mut self) {
+    pub(in crate::fmi) fn forget_answers(&mut self) {
         self.told = None;
     }
 
@@ -85,7 +85,7 @@ impl Unit {
     }
 
     /// Warns of a subject unless there was a warning of it before.
-    pub(in super::super) fn warn_once_of(&mut self, subject: &str, message: &str) {
+    pub(in crate::fmi) fn warn_once_of(&mut self, subject: &str, message: &str) {
         if self.said.insert(subject.to_owned()) {
             self.log.send(Status::Warning, message);
         }
@@ -101,7 +101,7 @@ impl Unit {
     }
 
     /// The computation is fine, so files that cannot be written are no error. Each is told once.
-    pub(in super::super) fn warn_of_output(&mut self, error: &OutputError) -> Status {
+    pub(in crate::fmi) fn warn_of_output(&mut self, error: &OutputError) -> Status {
         let message = format!("output.directory {:?}: {error}", self.directory);
         self.warn_once(vec![message]);
         Status::Warning

@@ -7,6 +7,7 @@ use impinge::variables::Causality;
 
 use super::call::{Birth, Call, INSTANCES, Line, Nulls, PLACES, Place, Point, StateCall};
 use super::world::{Kind, World};
+use crate::functions::{EXCHANGE, STATUS};
 
 const PLAIN: [&str; 6] = [
     "fmi2EnterInitializationMode",
@@ -15,27 +16,6 @@ const PLAIN: [&str; 6] = [
     "fmi2Reset",
     "fmi2CancelStep",
     "fmi2EnterInitializationMode",
-];
-
-pub const EXCHANGE: [&str; 10] = [
-    "fmi2EnterEventMode",
-    "fmi2NewDiscreteStates",
-    "fmi2EnterContinuousTimeMode",
-    "fmi2CompletedIntegratorStep",
-    "fmi2SetTime",
-    "fmi2SetContinuousStates",
-    "fmi2GetDerivatives",
-    "fmi2GetEventIndicators",
-    "fmi2GetContinuousStates",
-    "fmi2GetNominalsOfContinuousStates",
-];
-
-const STATUS: [&str; 5] = [
-    "fmi2GetStatus",
-    "fmi2GetRealStatus",
-    "fmi2GetIntegerStatus",
-    "fmi2GetBooleanStatus",
-    "fmi2GetStringStatus",
 ];
 
 /// Values that programs trip over.

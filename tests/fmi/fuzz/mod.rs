@@ -27,6 +27,7 @@ use impinge::variables::Causality;
 use play::{Tally, play};
 use world::{Kind, World};
 
+use crate::functions::EXCHANGE;
 use crate::master::{ERROR, Handle, Messages, OK, free};
 
 const THREADS: u64 = 4;
@@ -138,7 +139,7 @@ fn assert_both_ways(world: &World, tally: &Tally) {
     let by_script = ["fmi2Instantiate", "fmi2DoStep", "fmi2GetReal", "fmi2SetReal"];
     assert!(by_script.iter().all(|name| tally.0.contains_key(name)), "{:?}", tally.0.keys());
     for (&name, &[done, refused]) in &tally.0 {
-        let exchange = generate::EXCHANGE.contains(&name);
+        let exchange = EXCHANGE.contains(&name);
         assert!(refused > 0 || name == "fmi2FreeInstance", "{name} was never refused");
         assert!(done > 0 || exchange || !offered(name), "{name} was never done");
     }

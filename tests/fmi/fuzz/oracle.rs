@@ -8,7 +8,7 @@ use impinge::variables::Causality;
 
 use super::call::{Call, INSTANCES, Nulls, PLACES, Place, Point, StateCall};
 use super::world::{Kind, World};
-use crate::life_cycle::allowed_phases;
+use crate::functions::allowed_phases;
 use crate::master::{DISCARD, ERROR, OK, WARNING};
 
 /// What a call should come to.

@@ -3,7 +3,7 @@
 use std::ffi::CString;
 
 use impinge::fmi::guid;
-use impinge::fmi::xml::model_description;
+use impinge::fmi::two::xml::model_description;
 use impinge::scene;
 use impinge::variables::{Causality, Registry, Value, Variable};
 

@@ -2,7 +2,7 @@
 
 use impinge::variables::{Causality, Content};
 
-use super::master::Unit;
+use crate::master::three::Unit;
 use crate::master::{self, ERROR, OK};
 
 /// Sets scalar after scalar what is set as arrays.
@@ -39,7 +39,7 @@ fn a_run_is_that_of_fmi_2_to_the_bit() {
         assert_eq!((two.step(time, step), three.step(time, step).0), (OK, OK));
         time += step;
         let mut expected = vec![0.0; scalars.len()];
-        assert_eq!(two.get_all(&scalars, &mut expected), OK);
+        assert_eq!(two.get_in(&scalars, &mut expected), OK);
         let found = three.get_all(&outputs);
         let bits = |values: &[f64]| values.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
         assert_eq!(bits(&found), bits(&expected));

@@ -4,7 +4,7 @@ use std::ffi::c_int;
 
 use impinge::variables::Causality;
 
-use super::master::Unit;
+use crate::master::three::Unit;
 use crate::master::{self, ERROR, Handle, OK, call};
 
 /// Numbers between −1 and 1 that follow no pattern.

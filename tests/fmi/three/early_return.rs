@@ -3,8 +3,8 @@
 use std::cell::RefCell;
 use std::ffi::c_void;
 
-use super::master::{Stepped, Unit};
 use crate::droplets::{PLATE, WALL};
+use crate::master::three::{Stepped, Unit};
 use crate::master::{DISCARD, ERROR, OK};
 
 /// A block whose heat particles conduct, so that the work of a step grows with its length.

@@ -10,9 +10,9 @@ use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 use fastrand::Rng;
 use impinge::variables::Causality;
 
-use super::life_cycle::functions;
-use super::master::Unit;
-use crate::master::{DISCARD, ERROR, Handle, OK, Saved, call};
+use crate::functions::names;
+use crate::master::three::Unit;
+use crate::master::{DISCARD, ERROR, Handle, OK, Saved, Three, call};
 
 /// Calls in a script, and scripts of the run that belongs to the tests.
 const LENGTH: usize = 150;
@@ -237,7 +237,7 @@ fn any(random: &mut Rng, unit: &Unit, states: usize) -> Call {
             Call::OutputDerivatives { references, order: random.i32(0..3), room }
         }
         _ => {
-            let names = functions();
+            let names = names::<Three>();
             Call::Empty(names[random.usize(..names.len())])
         }
     }

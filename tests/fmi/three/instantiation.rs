@@ -1,10 +1,11 @@
 //! fmi3Instantiate… tell precisely what is wrong.
 
-use std::ffi::{CString, c_char, c_void};
+use std::ffi::{c_char, c_void};
 use std::ptr::{from_ref, null};
 
-use super::master::{Arguments, free, listen};
-use crate::master::{ERROR, Folder, Handle, Messages, SCENE, library, own_guid};
+use crate::instantiation::{text, told};
+use crate::master::three::{Arguments, free, listen};
+use crate::master::{Folder, Handle, Messages, SCENE, library, own_guid};
 
 /// Instantiation with one argument changed fails with a message that holds the fragments, whether the
 /// master wants to log or not.
@@ -19,21 +20,6 @@ fn refused(change: impl Fn(&mut Arguments), fragments: &[&str]) {
         assert!(arguments.instantiate(&messages).is_null());
         told(&messages, "fmi3InstantiateCoSimulation", fragments);
     }
-}
-
-#[track_caller]
-fn told(messages: &Messages, function: &str, fragments: &[&str]) {
-    let messages = messages.take();
-    let [message] = &messages[..] else { panic!("not one message: {messages:#?}") };
-    assert_eq!((message.status, message.category.as_str()), (ERROR, "logStatusError"));
-    assert!(message.text.starts_with(function), "{}", message.text);
-    for fragment in fragments {
-        assert!(message.text.contains(fragment), "no {fragment:?} in {:?}", message.text);
-    }
-}
-
-fn text(text: &str) -> Option<CString> {
-    Some(CString::new(text).unwrap())
 }
 
 #[test]

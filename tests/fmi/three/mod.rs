@@ -1,13 +1,11 @@
-//! FMI 3.0: the same library driven through its other symbols.
+//! What FMI 3.0 has beside FMI 2.0, or in another way.
 
 mod arrays;
 mod derivatives;
 mod early_return;
-mod exports;
 mod fuzz;
 mod instantiation;
 mod life_cycle;
-pub mod master;
 mod model_description;
 mod refusals;
 mod states;

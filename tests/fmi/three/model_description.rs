@@ -3,8 +3,8 @@
 use impinge::fmi::three::xml::model_description;
 use impinge::scene;
 
-use super::master::Unit;
-use crate::master::{SCENE, own_guid};
+use crate::master::SCENE;
+use crate::master::three::Unit;
 
 fn xml() -> String {
     model_description(&scene::parse(SCENE, "scene.toml").unwrap(), SCENE)
@@ -27,29 +27,6 @@ fn only_units_whose_steps_can_be_too_long_may_return_early() {
             assert!(xml.contains(&format!("{flag}=\"{wanted}\"")), "{flag}: {wanted}");
         }
     }
-}
-
-/// The elements of the root in the order of the schema.
-#[test]
-fn elements_stand_in_the_order_of_the_schema() {
-    let xml = xml();
-    let places: Vec<usize> = [
-        "<fmiModelDescription ",
-        "<CoSimulation ",
-        "<UnitDefinitions>",
-        "<TypeDefinitions>",
-        "<LogCategories>",
-        "<DefaultExperiment ",
-        "<ModelVariables>",
-        "<ModelStructure>",
-        "<Output ",
-        "<InitialUnknown ",
-    ]
-    .map(|element| xml.find(element).unwrap_or_else(|| panic!("no {element}")))
-    .into();
-    assert!(places.is_sorted(), "{places:?}");
-    assert!(xml.contains(&format!("instantiationToken=\"{}\"", own_guid())));
-    assert!(xml.contains("hot spot &amp; a 2 × 3 patch"));
 }
 
 #[test]

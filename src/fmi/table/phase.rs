@@ -1,0 +1,46 @@
+//! Phases of an instance.
+
+/// Phase of an instance, a state of the co-simulation state machine.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Phase {
+    Instantiated,
+    InitializationMode,
+    StepComplete,
+    /// Seen only by calls that come while another call on the same instance runs.
+    StepInProgress,
+    StepFailed,
+    StepCanceled,
+    Terminated,
+    Error,
+    Fatal,
+}
+
+impl Phase {
+    /// All phases, each at its number in the bytes of saved states.
+    pub const ALL: [Phase; 9] = [
+        Phase::Instantiated,
+        Phase::InitializationMode,
+        Phase::StepComplete,
+        Phase::StepInProgress,
+        Phase::StepFailed,
+        Phase::StepCanceled,
+        Phase::Terminated,
+        Phase::Error,
+        Phase::Fatal,
+    ];
+
+    /// Returns true if an instance can be left in this phase and found in it again, and so saved.
+    pub fn lasts(self) -> bool {
+        !matches!(self, Phase::StepInProgress | Phase::Fatal)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn phases_are_listed_in_their_order() {
+        assert!(Phase::ALL.into_iter().enumerate().all(|(i, phase)| phase as usize == i));
+    }
+}

@@ -1,0 +1,29 @@
+//! Reasons of functions that only refuse.
+
+use crate::fmi::gate::answer::Refusal;
+
+/// Reason for which a function is never done.
+#[derive(Debug, Clone, Copy)]
+pub enum Reason {
+    ModelExchange,
+    NothingPending,
+    ScheduledExecution,
+    NoEvents,
+    NoClocks,
+    NoStructuralParameters,
+}
+
+impl From<Reason> for Refusal {
+    fn from(reason: Reason) -> Self {
+        Refusal::error(match reason {
+            Reason::ModelExchange => "belongs to model exchange; this unit is for co-simulation",
+            Reason::NothingPending => "no step is pending",
+            Reason::ScheduledExecution => {
+                "belongs to scheduled execution; this unit is for co-simulation"
+            }
+            Reason::NoEvents => "this unit has no Event Mode",
+            Reason::NoClocks => "this unit has no clocks",
+            Reason::NoStructuralParameters => "this unit has no structural parameters",
+        })
+    }
+}

@@ -1,0 +1,158 @@
+//! The functions of FMI 3.0 and which may be called when: FMI 3.0, sections 2.3 and 4.2, as one table.
+
+use super::types::{
+    Binary, Boolean, Clock, Float32, Float64, Int8, Int16, Int64, IntervalQualifier, UInt8, UInt16,
+    UInt32, UInt64,
+};
+use crate::fmi::gate::answer::{Reference, Refusal};
+use crate::fmi::table::{Phase, Version, table};
+use crate::fmi::unit::Unit;
+
+// One column a phase; x: allowed. Modes that a unit without events, clocks and structural parameters
+// never enters have none.
+table! {
+    Fmi3
+    //                                   Instantiated
+    //                                   |Initialization Mode
+    //                                   ||Step Mode
+    //                                   |||Terminated
+    //                                   ||||after an internal error
+    //                                   |||||after a fatal one
+    fmi3SetDebugLogging                 "xxxxx."
+    fmi3FreeInstance                    "xxxxx."
+    fmi3EnterInitializationMode         "x....."
+    fmi3ExitInitializationMode          ".x...."
+    fmi3Terminate                       "..x..."
+    fmi3Reset                           "xxxxx."
+    fmi3GetFloat64                      "xxxx.."
+    fmi3GetInt32                        "xxxx.."
+    fmi3GetString                       "xxxx.."
+    fmi3SetFloat64                      "xxx..."
+    fmi3SetInt32                        "xxx..."
+    fmi3SetString                       "xxx..."
+    fmi3GetNumberOfVariableDependencies "xxxx.."
+    fmi3GetVariableDependencies         "xxxx.."
+    fmi3GetFMUState                     "xxxx.."
+    fmi3SetFMUState                     "xxxxx."
+    fmi3FreeFMUState                    "xxxxx."
+    fmi3SerializedFMUStateSize          "xxxxx."
+    fmi3SerializeFMUState               "xxxxx."
+    fmi3DeserializeFMUState             "xxxxx."
+    fmi3GetDirectionalDerivative        ".xxx.."
+    fmi3GetAdjointDerivative            ".xxx.."
+    fmi3GetOutputDerivatives            "..xx.."
+    fmi3DoStep                          "..x..."
+
+    #[absent("xxxx..")] {
+        fn fmi3GetFloat32(value_references: *const Reference, value_reference_count: usize,
+            values: *mut Float32, value_count: usize);
+        fn fmi3GetInt8(value_references: *const Reference, value_reference_count: usize, values: *mut Int8,
+            value_count: usize);
+        fn fmi3GetUInt8(value_references: *const Reference, value_reference_count: usize, values: *mut UInt8,
+            value_count: usize);
+        fn fmi3GetInt16(value_references: *const Reference, value_reference_count: usize, values: *mut Int16,
+            value_count: usize);
+        fn fmi3GetUInt16(value_references: *const Reference, value_reference_count: usize,
+            values: *mut UInt16, value_count: usize);
+        fn fmi3GetUInt32(value_references: *const Reference, value_reference_count: usize,
+            values: *mut UInt32, value_count: usize);
+        fn fmi3GetInt64(value_references: *const Reference, value_reference_count: usize, values: *mut Int64,
+            value_count: usize);
+        fn fmi3GetUInt64(value_references: *const Reference, value_reference_count: usize,
+            values: *mut UInt64, value_count: usize);
+        fn fmi3GetBoolean(value_references: *const Reference, value_reference_count: usize,
+            values: *mut Boolean, value_count: usize);
+        fn fmi3GetBinary(value_references: *const Reference, value_reference_count: usize,
+            value_sizes: *mut usize, values: *mut Binary, value_count: usize);
+    }
+    #[absent("xxx...")] {
+        fn fmi3SetFloat32(value_references: *const Reference, value_reference_count: usize,
+            values: *const Float32, value_count: usize);
+        fn fmi3SetInt8(value_references: *const Reference, value_reference_count: usize, values: *const Int8,
+            value_count: usize);
+        fn fmi3SetUInt8(value_references: *const Reference, value_reference_count: usize,
+            values: *const UInt8, value_count: usize);
+        fn fmi3SetInt16(value_references: *const Reference, value_reference_count: usize,
+            values: *const Int16, value_count: usize);
+        fn fmi3SetUInt16(value_references: *const Reference, value_reference_count: usize,
+            values: *const UInt16, value_count: usize);
+        fn fmi3SetUInt32(value_references: *const Reference, value_reference_count: usize,
+            values: *const UInt32, value_count: usize);
+        fn fmi3SetInt64(value_references: *const Reference, value_reference_count: usize,
+            values: *const Int64, value_count: usize);
+        fn fmi3SetUInt64(value_references: *const Reference, value_reference_count: usize,
+            values: *const UInt64, value_count: usize);
+        fn fmi3SetBoolean(value_references: *const Reference, value_reference_count: usize,
+            values: *const Boolean, value_count: usize);
+        fn fmi3SetBinary(value_references: *const Reference, value_reference_count: usize,
+            value_sizes: *const usize, values: *const Binary, value_count: usize);
+    }
+
+    #[refused(NoEvents)] {
+        fn fmi3EnterEventMode();
+        fn fmi3EnterStepMode();
+        fn fmi3EvaluateDiscreteStates();
+        fn fmi3UpdateDiscreteStates(discrete_states_need_update: *mut Boolean,
+            terminate_simulation: *mut Boolean, nominals_of_continuous_states_changed: *mut Boolean,
+            values_of_continuous_states_changed: *mut Boolean, next_event_time_defined: *mut Boolean,
+            next_event_time: *mut Float64);
+    }
+    #[refused(NoStructuralParameters)] {
+        fn fmi3EnterConfigurationMode();
+        fn fmi3ExitConfigurationMode();
+    }
+    #[refused(NoClocks)] {
+        fn fmi3GetClock(value_references: *const Reference, value_reference_count: usize, values: *mut Clock);
+        fn fmi3SetClock(value_references: *const Reference, value_reference_count: usize,
+            values: *const Clock);
+        fn fmi3GetIntervalDecimal(value_references: *const Reference, value_reference_count: usize,
+            intervals: *mut Float64, qualifiers: *mut IntervalQualifier);
+        fn fmi3GetIntervalFraction(value_references: *const Reference, value_reference_count: usize,
+            counters: *mut UInt64, resolutions: *mut UInt64, qualifiers: *mut IntervalQualifier);
+        fn fmi3GetShiftDecimal(value_references: *const Reference, value_reference_count: usize,
+            shifts: *mut Float64);
+        fn fmi3GetShiftFraction(value_references: *const Reference, value_reference_count: usize,
+            counters: *mut UInt64, resolutions: *mut UInt64);
+        fn fmi3SetIntervalDecimal(value_references: *const Reference, value_reference_count: usize,
+            intervals: *const Float64);
+        fn fmi3SetIntervalFraction(value_references: *const Reference, value_reference_count: usize,
+            counters: *const UInt64, resolutions: *const UInt64);
+        fn fmi3SetShiftDecimal(value_references: *const Reference, value_reference_count: usize,
+            shifts: *const Float64);
+        fn fmi3SetShiftFraction(value_references: *const Reference, value_reference_count: usize,
+            counters: *const UInt64, resolutions: *const UInt64);
+    }
+    #[refused(ModelExchange)] {
+        fn fmi3EnterContinuousTimeMode();
+        fn fmi3CompletedIntegratorStep(no_set_fmustate_prior_to_current_point: Boolean,
+            enter_event_mode: *mut Boolean, terminate_simulation: *mut Boolean);
+        fn fmi3SetTime(time: Float64);
+        fn fmi3SetContinuousStates(continuous_states: *const Float64, continuous_state_count: usize);
+        fn fmi3GetContinuousStateDerivatives(derivatives: *mut Float64, continuous_state_count: usize);
+        fn fmi3GetEventIndicators(event_indicators: *mut Float64, event_indicator_count: usize);
+        fn fmi3GetContinuousStates(continuous_states: *mut Float64, continuous_state_count: usize);
+        fn fmi3GetNominalsOfContinuousStates(nominals: *mut Float64, continuous_state_count: usize);
+        fn fmi3GetNumberOfEventIndicators(event_indicator_count: *mut usize);
+        fn fmi3GetNumberOfContinuousStates(continuous_state_count: *mut usize);
+    }
+    #[refused(ScheduledExecution)] {
+        fn fmi3ActivateModelPartition(clock_reference: Reference, activation_time: Float64);
+    }
+}
+
+impl Version for Fmi3 {
+    const PHASES: &'static [(Phase, &'static str)] = &[
+        (Phase::Instantiated, "Instantiated"),
+        (Phase::InitializationMode, "Initialization Mode"),
+        (Phase::StepComplete, "Step Mode"),
+        (Phase::Terminated, "Terminated"),
+        (Phase::Error, "after an internal error"),
+        (Phase::Fatal, "after a fatal error"),
+    ];
+    const MARKER: u64 = 0x696d_7069_6e67_6533;
+    const REFERENCES: &'static str = "valueReferences";
+
+    fn of_another_type(unit: &Unit, reference: Reference, wanted: &str) -> Refusal {
+        unit.array_of_another_type(reference, wanted)
+    }
+}

@@ -1,0 +1,15 @@
+//! The C ABI of FMI 2.0, and its XML.
+//!
+//! [`table`] has a row for each function that acts on an instance; those with a body stand in the other files.
+
+mod derivatives;
+mod life_cycle;
+mod logger;
+mod states;
+mod step;
+pub(super) mod table;
+mod types;
+mod uri;
+mod variables;
+
+pub mod xml;

@@ -1,0 +1,192 @@
+//! The model of a unit, built when first needed, and what it takes to keep it true to the inputs.
+
+use std::sync::Arc;
+
+use super::Unit;
+use crate::fmi::gate::answer::{Answer, Refusal, Status};
+use crate::model::{BodyError, Cache, Model, ModelError, State, Tangent, to_be_recorded};
+use crate::runtime::address_space::{self, PRODUCTS, SPARE};
+use crate::runtime::available_memory;
+use crate::runtime::thread::{STACK, aside};
+use crate::scene::{self, Scene};
+use crate::variables::{Registry, Slot, Variable};
+
+/// A built model, and what follows from the present state.
+pub struct Run {
+    pub model: Arc<Model>,
+    pub cache: Cache,
+    /// Time derivative of the state, once asked for.
+    pub tangent: Option<Tangent>,
+    /// Whether the inputs have been checked together since they changed.
+    pub checked: bool,
+}
+
+impl Run {
+    /// A model of which nothing has been computed yet.
+    pub fn new(model: Arc<Model>) -> Self {
+        Self { model, cache: Cache::default(), tangent: None, checked: false }
+    }
+}
+
+impl Unit {
+    /// The model and the state, built when first needed, with inputs that make sense together.
+    pub fn run(&mut self) -> Answer<(&mut Run, &mut State)> {
+        let run = match self.run.take() {
+            Some(run) => run,
+            None => self.build()?,
+        };
+        let run = self.run.insert(run);
+        if !run.checked {
+            let checked = run.model.check_inputs(&self.state.inputs);
+            checked.map_err(|error| explain(&self.registry, error))?;
+            run.checked = true;
+        }
+        Ok((run, &mut self.state))
+    }
+
+    fn build(&mut self) -> Answer<Run> {
+        for note in self.to_be_recorded() {
+            self.log.send(Status::Ok, &note);
+        }
+        let model = match self.model_of(&self.scene) {
+            // What is kept may be the memory that is missing.
+            Err(_) if !self.kept.is_empty() => {
+                self.kept.clear();
+                self.model_of(&self.scene)?
+            }
+            other => other?,
+        };
+        self.kept.clear();
+        self.reductions.clear();
+        self.warn_of_scene();
+        for note in self.reduced_anew(&model) {
+            self.log.send(Status::Ok, &note);
+        }
+        for note in model.notes() {
+            self.log.send(Status::Ok, &note);
+        }
+        self.warn_once(model.tolerance_warnings());
+        // Meshes stay what they are, whatever parameters become.
+        self.scene.refinement.clone_from(&model.scene().refinement);
+        self.state.bodies = model.initial_state().bodies;
+        Ok(Run::new(model))
+    }
+
+    /// Solids whose stored reduction is not that of a model.
+    fn reduced_anew(&self, model: &Model) -> Vec<String> {
+        let anew = model.reductions().into_iter().filter_map(|(name, reduction)| {
+            let stored = self.stored.iter().find(|(body, _)| *body == name)?;
+            let note = format!(
+                "{name}: reduced anew, as the reduction that the unit has stored belongs to other parameters"
+            );
+            (stored.1 != reduction).then_some(note)
+        });
+        anew.collect()
+    }
+
+    /// What is computed before the first step, as neither this process nor the unit knows it.
+    fn to_be_recorded(&self) -> Vec<String> {
+        let scene = &self.scene;
+        if !scene.droplets().any(|(_, droplet)| droplet.is_replayed()) {
+            return Vec::new();
+        }
+        aside(|| match scene::check(scene) {
+            Ok(()) => to_be_recorded(scene),
+            Err(_) => Vec::new(),
+        })
+    }
+
+    /// Refuses to look at the state, or to copy it, where there is too little address space for that.
+    pub fn expect_room(&self) -> Answer<()> {
+        let room = |run: &Run| run.model.room(&self.state);
+        expect_room(self.run.as_ref().map_or(0, room))
+    }
+
+    /// The model of a scene with parameters.
+    pub fn model_of(&self, scene: &Scene) -> Answer<Arc<Model>> {
+        expect_room(STACK + PRODUCTS + SPARE)?;
+        let model = aside(|| {
+            scene::check(scene)?;
+            Model::shared(scene, scene.solver.threads, available_memory())
+        });
+        model.map_err(|error| explain(&self.registry, error))
+    }
+
+    /// Drops all that followed from other inputs.
+    pub fn forget_past_inputs(&mut self) {
+        self.is_settled = false;
+        self.forget_past_derivatives();
+        if let Some(run) = &mut self.run {
+            run.cache.expect_inputs();
+            run.checked = false;
+        }
+    }
+
+    /// Takes over a scene with other parameters; a model of the old ones is dropped.
+    pub fn set_scene(&mut self, scene: Scene) {
+        if scene == self.scene {
+            return;
+        }
+        self.drop_run();
+        self.state.bodies.clear();
+        self.state.peaks.clear();
+        self.scene = scene;
+        self.scene.forget_estimates();
+    }
+
+    /// Drops the model and what follows from the state, but for its stiffness and its reductions.
+    pub fn drop_run(&mut self) {
+        if let Some(run) = self.run.take() {
+            self.kept = run.model.stiffness();
+            self.reductions = run.model.reductions();
+        }
+    }
+
+    /// Drops the derivatives of inputs that the last step ended with, unless they were set since.
+    pub fn forget_past_derivatives(&mut self) {
+        if !self.has_set_derivatives {
+            self.state.derivatives.clear();
+        }
+        if let Some(run) = &mut self.run {
+            run.tangent = None;
+        }
+    }
+}
+
+/// Refuses what takes more address space than there is.
+pub fn expect_room(bytes: usize) -> Answer<()> {
+    address_space::expect(bytes).map_err(|error| Refusal::error(error.to_string()))
+}
+
+/// An error of the model in words that name the variable at fault.
+pub fn explain(registry: &Registry, error: ModelError) -> Refusal {
+    let message = error.to_string();
+    let (status, index) = match error {
+        ModelError::Body(error) => match error {
+            BodyError::Input { index, .. } => (Status::Error, Some(index)),
+            BodyError::Underway { index, .. } => (Status::Discard, Some(index)),
+            BodyError::Overflow { .. }
+            | BodyError::BelowAbsoluteZero { .. }
+            | BodyError::Unbalanced { .. }
+            | BodyError::Droplet { .. }
+            | BodyError::Contact { .. }
+            | BodyError::Reduction { .. }
+            | BodyError::Heat { .. }
+            | BodyError::Equilibrium { .. }
+            | BodyError::Uneven { .. }
+            | BodyError::NoRoom(_)
+            | BodyError::Halted { .. } => (Status::Discard, None),
+            BodyError::NotFinite(_)
+            | BodyError::Solver(_)
+            | BodyError::NoSuchReading
+            | BodyError::NoRate => (Status::Error, None),
+        },
+        _ => (Status::Error, None),
+    };
+    let is_at_fault = |v: &&Variable| index.is_some_and(|index| v.slot == Slot::Input(index));
+    let message = match registry.variables.iter().find(is_at_fault) {
+        Some(variable) => format!("{}: {message}", variable.name),
+        None => message,
+    };
+    Refusal { status, message }
+}

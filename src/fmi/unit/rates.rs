@@ -1,0 +1,249 @@
+//! Derivatives of inputs and outputs, in safe Rust.
+
+use std::sync::Arc;
+
+use super::Unit;
+use super::built::explain;
+use super::kind::Kind;
+use super::values::{aside_if, find};
+use crate::fmi::gate::answer::{Answer, Reference, Refusal, Status};
+use crate::fmi::table::Phase;
+use crate::inputs::InputPath;
+use crate::model::{BodyError, Cache, HIGHEST_INPUT_DERIVATIVE, ModelError, State, start_rates};
+use crate::scene::Scene;
+use crate::variables::{Output, Parameter, Registry, Slot, Variable};
+
+/// Highest order of output derivatives, as the XML declares it: the steps of particles have none.
+pub fn highest_output_derivative(scene: &Scene) -> usize {
+    if scene.droplets().next().is_some() { 0 } else { 1 }
+}
+
+/// What outputs may be differentiated by.
+pub(in crate::fmi) enum Known<'a> {
+    /// Place among the state's inputs.
+    Input(usize),
+    Parameter(&'a Parameter),
+}
+
+/// What changes.
+pub(in crate::fmi) enum Change<'a> {
+    /// All inputs, at these rates.
+    Inputs(Vec<f64>),
+    /// One of them at rate one.
+    Input(usize),
+    Parameter(&'a Parameter),
+}
+
+impl Unit {
+    /// Changes of outputs when inputs change by `changes`, and in initialization mode parameters too.
+    pub fn directional_derivative(
+        &mut self,
+        unknowns: &[Reference],
+        knowns: &[Reference],
+        changes: &[f64],
+    ) -> Answer<Vec<f64>> {
+        let registry = Arc::clone(&self.registry);
+        let outputs = outputs(&registry, unknowns)?;
+        let mut direction = vec![0.0; self.state.inputs.len()];
+        let (mut changed, mut weights) = (Vec::new(), vec![1.0]);
+        for ((known, name), &change) in self.knowns(&registry, knowns)?.into_iter().zip(changes) {
+            check_finite(name, change)?;
+            match known {
+                Known::Input(index) => direction[index] += change,
+                Known::Parameter(parameter) => {
+                    changed.push(Change::Parameter(parameter));
+                    weights.push(change);
+                }
+            }
+        }
+        changed.insert(0, Change::Inputs(direction));
+        let mut sum = vec![0.0; outputs.len()];
+        for (rates, weight) in self.rates(&outputs, &changed)?.iter().zip(weights) {
+            sum.iter_mut().zip(rates).for_each(|(s, rate)| *s += weight * rate);
+        }
+        Ok(sum)
+    }
+
+    /// The variables that outputs may be differentiated by now, with their names.
+    pub(in crate::fmi) fn knowns<'a>(
+        &self,
+        registry: &'a Registry,
+        references: &[Reference],
+    ) -> Answer<Vec<(Known<'a>, &'a str)>> {
+        let known = |variable: &'a Variable| {
+            let name = variable.name.as_str();
+            match &variable.slot {
+                Slot::Input(index) => Ok((Known::Input(*index), name)),
+                Slot::Parameter(parameter) if self.phase == Phase::InitializationMode => {
+                    Ok((Known::Parameter(parameter), name))
+                }
+                _ => Err(Refusal::error(format!("{name} is no input"))),
+            }
+        };
+        find(registry, references, Kind::Real)?.into_iter().map(known).collect()
+    }
+
+    /// How outputs follow each of these changes.
+    pub(in crate::fmi) fn rates(
+        &mut self,
+        outputs: &[&Output],
+        changes: &[Change],
+    ) -> Answer<Vec<Vec<f64>>> {
+        let registry = Arc::clone(&self.registry);
+        self.run()?;
+        self.expect_room()?;
+        let scene = self.scene.clone();
+        let (run, state) = self.run()?;
+        let (model, cache) = (Arc::clone(&run.model), &mut run.cache);
+        // Of a change nothing is solved yet, and for those of parameters models are built.
+        let is_deep = outputs.iter().any(|output| model.is_deep(state, &Cache::default(), output))
+            || changes.iter().any(|change| matches!(change, Change::Parameter(_)));
+        aside_if(is_deep, || {
+            let mut follow = |direction: &[f64]| -> Result<Vec<f64>, ModelError> {
+                let mut tangent = model.input_tangent(state, direction)?;
+                let rate = |out: &&Output| model.output_rate(state, cache, &mut tangent, out);
+                outputs.iter().map(rate).collect()
+            };
+            let mut rates = |change: &Change| match change {
+                Change::Inputs(direction) => follow(direction),
+                Change::Input(index) => {
+                    let mut direction = vec![0.0; state.inputs.len()];
+                    direction[*index] = 1.0;
+                    follow(&direction)
+                }
+                Change::Parameter(parameter) => {
+                    start_rates(&scene, &state.inputs, parameter, outputs)
+                }
+            };
+            let found: Result<Vec<Vec<f64>>, _> = changes.iter().map(&mut rates).collect();
+            found.map_err(|error| explain(&registry, error))
+        })
+    }
+
+    /// Sets time derivatives of inputs for the next step; all or none.
+    pub fn set_input_derivatives(
+        &mut self,
+        references: &[Reference],
+        orders: &[i32],
+        values: &[f64],
+    ) -> Answer {
+        let registry = Arc::clone(&self.registry);
+        let inputs = inputs(&registry, references)?;
+        for ((_, variable), (&order, &value)) in inputs.iter().zip(orders.iter().zip(values)) {
+            check_order(variable, order, HIGHEST_INPUT_DERIVATIVE)?;
+            if let Some(message) = variable.refusal_of_derivative(order, value) {
+                return Err(Refusal::error(message));
+            }
+        }
+        self.forget_past_derivatives();
+        self.has_set_derivatives = true;
+        for ((index, _), (&order, &value)) in inputs.iter().zip(orders.iter().zip(values)) {
+            let order = order as usize;
+            let count = self.state.inputs.len();
+            let derivatives = &mut self.state.derivatives;
+            derivatives.resize(derivatives.len().max(order), vec![0.0; count]);
+            derivatives[order - 1][*index] = value;
+        }
+        Ok(Status::Ok)
+    }
+
+    /// First time derivatives of outputs.
+    pub fn output_derivatives(
+        &mut self,
+        references: &[Reference],
+        orders: &[i32],
+    ) -> Answer<Vec<f64>> {
+        let registry = Arc::clone(&self.registry);
+        let outputs = outputs(&registry, references)?;
+        let highest = highest_output_derivative(&self.scene);
+        for (&reference, &order) in references.iter().zip(orders) {
+            let variable = &registry.variables[reference as usize];
+            check_order(variable, order, highest)?;
+        }
+        self.run()?;
+        self.expect_room()?;
+        let (run, state) = self.run()?;
+        let none = Cache::default();
+        let is_deep = outputs.iter().any(|out| run.model.is_deep(state, &none, out));
+        aside_if(is_deep, || {
+            let tangent = match &mut run.tangent {
+                Some(tangent) => tangent,
+                none => {
+                    let tangent = run.model.time_tangent(state, &mut run.cache);
+                    none.insert(tangent.map_err(|error| explain(&registry, error))?)
+                }
+            };
+            let rate = |output| run.model.output_rate(state, &mut run.cache, tangent, output);
+            let found: Result<Vec<f64>, _> = outputs.into_iter().map(rate).collect();
+            found.map_err(|error| explain(&registry, error))
+        })
+    }
+}
+
+/// Refuses a step of `dt` [s] over which an input leaves its bounds.
+pub(in crate::fmi) fn check_path(
+    registry: &Registry,
+    state: &State,
+    dt: f64,
+) -> Result<(), ModelError> {
+    let path = InputPath::new(&state.inputs, &state.derivatives);
+    if path.is_held() {
+        return Ok(());
+    }
+    for after in path.turns(dt).into_iter().chain([dt]) {
+        let inputs = path.at(0, after);
+        for variable in &registry.variables {
+            let Slot::Input(index) = variable.slot else { continue };
+            let value = inputs[index];
+            if let Some(why) = variable.objection(value) {
+                let message = format!("{value:?}: {why}");
+                return Err(BodyError::Underway { index, message, after }.into());
+            }
+        }
+    }
+    Ok(())
+}
+
+pub(in crate::fmi) fn outputs<'a>(
+    registry: &'a Registry,
+    references: &[Reference],
+) -> Answer<Vec<&'a Output>> {
+    let output = |variable: &'a Variable| match &variable.slot {
+        Slot::Output(output) => Ok(output),
+        _ => Err(Refusal::error(format!("{} is no output", variable.name))),
+    };
+    find(registry, references, Kind::Real)?.into_iter().map(output).collect()
+}
+
+/// Inputs with their places in a state.
+fn inputs<'a>(
+    registry: &'a Registry,
+    references: &[Reference],
+) -> Answer<Vec<(usize, &'a Variable)>> {
+    let input = |variable: &'a Variable| match variable.slot {
+        Slot::Input(index) if !variable.is_tunable => Ok((index, variable)),
+        _ => Err(Refusal::error(format!("{} is no input", variable.name))),
+    };
+    find(registry, references, Kind::Real)?.into_iter().map(input).collect()
+}
+
+fn check_order(variable: &Variable, order: i32, highest: usize) -> Answer<()> {
+    match order {
+        _ if highest == 0 => Err(Refusal::error(format!(
+            "no derivative of {}: this unit offers none of its outputs",
+            variable.name
+        ))),
+        _ if (1..=highest as i32).contains(&order) => Ok(()),
+        _ => Err(Refusal::error(format!(
+            "derivative of order {order} of {}; allowed: 1 to {highest}",
+            variable.name
+        ))),
+    }
+}
+
+pub(in crate::fmi) fn check_finite(name: &str, value: f64) -> Answer<()> {
+    match value.is_finite() {
+        true => Ok(()),
+        false => Err(Refusal::error(format!("{name} = {value}: must be finite"))),
+    }
+}

@@ -1,0 +1,91 @@
+//! Steps of a unit.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use super::Unit;
+use super::built::explain;
+use super::rates::check_path;
+use crate::fmi::gate::answer::{Answer, Refusal, Status};
+use crate::fmi::table::Phase;
+use crate::model::check_step_length;
+use crate::runtime::allowance::Halt;
+
+/// A time is taken for another one if they differ by less than this part of the step …
+const STEP_TOLERANCE: f64 = 1e-9;
+/// … plus this part of the times themselves, which masters sum up with rounding errors.
+const TIME_TOLERANCE: f64 = 1e-13;
+
+impl Unit {
+    /// Advances from `point` by `step` [s]. The time afterwards is their sum, so that it never
+    /// drifts from the master's. Inputs whose derivatives have been set follow them; afterwards they
+    /// are what they have become.
+    ///
+    /// A step that cannot be completed, though nothing was wrong when it began, is discarded; so is one
+    /// that another thread cancels. One that may end early then stands where it has come to.
+    pub fn step(&mut self, point: f64, step: f64) -> Answer {
+        self.check_step(point, step)?;
+        let registry = Arc::clone(&self.registry);
+        let has_set = self.has_set_derivatives;
+        let told = self.told.take();
+        let listens = self.listens_to_answers();
+        let (interrupt, control) = (self.interrupt.clone(), Rc::clone(&self.control));
+        let (run, state) = self.run()?;
+        let past = if has_set { None } else { Some(std::mem::take(&mut state.derivatives)) };
+        let on_answer = told.and_then(|before| run.model.warning_on_answer(state, &before));
+        let told = listens.then(|| state.inputs.clone());
+        let stepping = interrupt.begin();
+        let stepped = check_path(&registry, state, step).and_then(|()| {
+            control.advance((&*run.model, &mut run.cache), state, (point, step), &interrupt)
+        });
+        drop(stepping);
+        if let Err(error) = stepped {
+            let is_cancelled = error.halt() == Some(&Halt::Interrupted);
+            if let Some(past) = past {
+                state.derivatives = past;
+            }
+            let refusal = explain(&registry, error);
+            if refusal.status == Status::Discard {
+                self.phase = if is_cancelled { Phase::StepCanceled } else { Phase::StepFailed };
+            }
+            return Err(refusal);
+        }
+        run.tangent = None;
+        run.checked &= !has_set;
+        let warnings = run.model.warnings(state);
+        self.told = told;
+        self.warn_once(warnings);
+        self.warn_of_answer(on_answer);
+        self.warn_of_phases();
+        self.warn_of_length(step);
+        self.has_set_derivatives = false;
+        Ok(self.write_fields())
+    }
+
+    fn check_step(&self, point: f64, step: f64) -> Answer<()> {
+        if !(step.is_finite() && step > 0.0) {
+            return Err(Refusal::error(format!("step size {step:?} s is not positive and finite")));
+        }
+        check_step_length(step).map_err(|error| Refusal::error(error.to_string()))?;
+        let time = self.time();
+        // A step that is far too long may end early: what it asked for says nothing of how far it goes.
+        let usual = step.min(self.scene.step);
+        let tolerance = STEP_TOLERANCE * usual + TIME_TOLERANCE * time.abs();
+        if !point.is_finite() || (point - time).abs() > tolerance {
+            let message =
+                format!("communication point {point:?} s is not the unit's time {time:?} s");
+            return Err(Refusal::error(message));
+        }
+        let end = point + step;
+        if end <= point || end <= time {
+            let message = format!("step size {step:?} s is lost in rounding at {point:?} s");
+            return Err(Refusal::error(message));
+        }
+        match self.experiment.stop {
+            Some(stop) if end > stop + tolerance => Err(Refusal::error(format!(
+                "a step to {end:?} s goes beyond the stop time {stop:?} s"
+            ))),
+            _ => Ok(()),
+        }
+    }
+}
