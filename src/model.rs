@@ -43,7 +43,7 @@ pub use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, Interrupt};
 use crate::runtime::made_once::MadeOnce;
 use crate::runtime::thread::aside;
-use crate::scene::{FidelityLevel, Scene, Shape};
+use crate::scene::{self, FidelityLevel, Scene};
 use crate::variables::{Output, Registry, Slot};
 use memory::threads_that_fit;
 use schedule::Group;
@@ -322,7 +322,7 @@ impl Model {
 
     /// Whether a body's nodes are those of a meridian section.
     pub fn is_axisymmetric(&self, body: &str) -> bool {
-        self.scene.solid(body).is_some_and(|solid| matches!(solid.shape, Shape::Disc(_)))
+        self.scene.body.get(body).is_some_and(scene::Body::is_round)
     }
 
     /// Most threads that any body may use.

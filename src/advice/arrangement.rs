@@ -22,15 +22,14 @@ pub fn review(reviewer: &mut Reviewer) {
         }
     }
     for (i, coupling) in scene.coupling.iter().enumerate() {
-        let droplet = scene.droplet(&coupling.from);
-        if let Some(droplet) = droplet {
+        if let Some(droplet) = scene.drop_of(coupling) {
             let path = root.key("coupling").index(i);
             width(reviewer, &path, coupling, droplet);
             apart(reviewer, &path, i, (coupling, droplet));
         }
     }
     for (i, wall) in scene.wall.iter().enumerate() {
-        if let Some(droplet) = scene.droplet(&wall.under) {
+        if let Some(droplet) = scene.drop_above(wall) {
             resolved(reviewer, &root.key("wall").index(i).key("footprint"), wall, droplet);
         }
     }
@@ -78,12 +77,8 @@ fn arrives(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
 
 /// Warns of fine meshes and of drops that are wider than the plate.
 fn width(reviewer: &mut Reviewer, path: &Path, coupling: &Coupling, droplet: &Droplet) {
-    let Some((solid, shape)) =
-        coupling.solid().and_then(|name| Some((name, reviewer.scene.solid(name)?.shape)))
-    else {
-        return;
-    };
-    let half = lateral_extents(&shape).map(|extent| 0.5 * extent);
+    let Some((solid, below)) = reviewer.scene.solid_below(coupling) else { return };
+    let half = lateral_extents(&below.shape).map(|extent| 0.5 * extent);
     let room = half[0].min(half[1]);
     if coupling.radius.is_some_and(|radius| radius > room) {
         let message = format!(
@@ -116,7 +111,7 @@ fn apart(
 ) {
     let scene = reviewer.scene;
     for earlier in scene.coupling[..i].iter().filter(|earlier| earlier.to == coupling.to) {
-        let Some(other) = scene.droplet(&earlier.from) else { continue };
+        let Some(other) = scene.drop_of(earlier) else { continue };
         let reach = 0.5 * (droplet.spread_diameter() + other.spread_diameter());
         let meet = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < reach;
         if droplet.landings().any(|a| other.landings().any(|b| meet(a, b))) {
@@ -188,7 +183,7 @@ fn distance(spacing: f64, solid: &Solid) -> f64 {
 
 /// Warns of loads that are smaller than the distances of nodes that the scene asks for.
 fn seen(reviewer: &mut Reviewer, path: &Path, load: &Load) {
-    let Some(solid) = reviewer.scene.solid(load.body_and_face().0) else { return };
+    let Some(solid) = reviewer.scene.solid_under(load) else { return };
     if let (None, Footprint::Ring { inner, outer }) = (solid.mesh.spacing, load.footprint)
         && inner < Footprint::LEAST_HOLE * outer
     {

@@ -79,7 +79,7 @@ fn thin(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet))
 fn half_space(scene: &Scene, name: &str) -> Option<(f64, f64)> {
     scene.effusivity_below(name)?;
     let coupling = &scene.coupling[scene.coupling_from(name)?];
-    let strata = scene.solid(coupling.solid()?)?.strata();
+    let strata = scene.solid_below(coupling)?.1.strata();
     let top = strata.first()?.constants;
     let is_alike = |effusivity: f64| {
         let ratio = effusivity / top.effusivity();

@@ -20,7 +20,7 @@ pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<String
     let mut loads = scene.load.iter();
     let (load, axis) = loads.find_map(|load| Some((load, axis(load, name)?)))?;
     let body = load.body_and_face().0;
-    let solid = scene.solid(body)?;
+    let solid = scene.solid_under(load)?;
     let growth = solid.mesh.growth.unwrap_or(GROWTH);
     if growth == 1.0 || scene.couplings_to(body).next().is_some() {
         return None;
@@ -53,7 +53,7 @@ pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<String
 /// What to say of a radius [m] of fewer nodes than tell its middle, where nodes are as dense as anywhere.
 fn implausible_radius(scene: &Scene, load: &Load, (name, value): (&str, f64)) -> Option<String> {
     let body = load.body_and_face().0;
-    let apart = spacing(scene.solid(body)?, load) / along(scene, body);
+    let apart = spacing(scene.solid_under(load)?, load) / along(scene, body);
     (value < NODES_PER_RADIUS * apart).then(|| {
         format!(
             "{name} = {}: the mesh does not see a load this small: nodes are about {apart:.1e} m apart; did you mean \

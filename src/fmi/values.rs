@@ -48,7 +48,7 @@ impl Unit {
 
     /// Warns once of each output whose value tells less than it seems to.
     fn warn_of_values(&mut self, variables: &[&Variable], values: &[f64]) {
-        let Some(run) = self.run.as_ref().filter(|_| self.scene.droplets().next().is_some()) else {
+        let Some(run) = self.run.as_ref().filter(|_| self.scene.has_drops()) else {
             return;
         };
         let model = Arc::clone(&run.model);

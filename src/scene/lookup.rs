@@ -25,52 +25,10 @@ pub struct BodyInput {
     pub bounds: Bounds,
 }
 
-impl Body {
-    /// Uniform temperature at the beginning [K].
-    pub fn initial_temperature(&self) -> f64 {
-        match self {
-            Body::Solid(solid) => solid.initial_temperature,
-            Body::Droplet(droplet) => droplet.initial_temperature,
-            Body::Reservoir(reservoir) => reservoir.initial_temperature,
-        }
-    }
-
-    /// The same, to be changed.
-    pub fn initial_temperature_mut(&mut self) -> &mut f64 {
-        match self {
-            Body::Solid(solid) => &mut solid.initial_temperature,
-            Body::Droplet(droplet) => &mut droplet.initial_temperature,
-            Body::Reservoir(reservoir) => &mut reservoir.initial_temperature,
-        }
-    }
-
-    /// Inputs beside those of loads, faces and walls.
-    pub fn inputs(&self) -> Vec<BodyInput> {
-        match self {
-            Body::Solid(_) => Vec::new(),
-            Body::Droplet(droplet) => droplet.inputs(),
-            Body::Reservoir(reservoir) => reservoir.inputs(),
-        }
-    }
-
-    /// A body that has no extent, in words.
-    fn lump(&self) -> Option<String> {
-        match self {
-            Body::Solid(_) | Body::Droplet(_) => None,
-            Body::Reservoir(reservoir) => Some(reservoir.words()),
-        }
-    }
-}
-
 impl Scene {
     /// Forgets what outputs err by, which was estimated with other parameters.
     pub fn forget_estimates(&mut self) {
         self.refinement.values_mut().for_each(|mesh| mesh.estimated_error = None);
-    }
-
-    /// The bodies that have no extent, each in words.
-    pub fn lumps(&self) -> impl Iterator<Item = (&str, String)> {
-        self.body.iter().filter_map(|(name, body)| Some((name.as_str(), body.lump()?)))
     }
 
     /// The solid body of that name.
@@ -151,8 +109,7 @@ impl Scene {
             return matches!(self.wall[wall].footprint, Footprint::Rings { .. });
         }
         let below = self.coupling_from(droplet).and_then(|place| self.coupling[place].solid());
-        let solid = below.and_then(|name| self.solid(name));
-        solid.is_some_and(|solid| matches!(solid.shape, Shape::Disc(_)))
+        below.and_then(|name| self.body.get(name)).is_some_and(Body::is_round)
     }
 
     /// Tells each droplet what it stands on.
@@ -169,8 +126,7 @@ impl Scene {
     /// Whether axisymmetric drops stand on a box, which meets them on rings.
     pub fn meets_rings(&self, solid: &str) -> bool {
         let is_box = self.solid(solid).is_some_and(|solid| matches!(solid.shape, Shape::Box(_)));
-        let mut drops = self.couplings_to(solid).filter_map(|place| self.droplet(&place.from));
-        is_box && drops.any(Droplet::is_axisymmetric)
+        is_box && self.drops_on(solid).any(|(_, drop)| drop.is_axisymmetric())
     }
 
     /// The couplings that act on a solid.

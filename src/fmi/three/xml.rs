@@ -12,7 +12,7 @@ use crate::fmi::xml::{
     Attributes, Xml, causality, default_experiment, leaf, log_categories, number, parent, units,
     variability as variability_of, whole_number,
 };
-use crate::scene::{HeatMethod, Scene};
+use crate::scene::Scene;
 use crate::variables::{
     ArrayRegistry, ArrayVariable, Causality, Content, Quantity, Registry, Value, Variable,
 };
@@ -68,10 +68,9 @@ impl Description<'_> {
     }
 
     fn co_simulation(&self, xml: &mut Xml) -> io::Result<()> {
-        let has_droplets = self.scene.droplets().next().is_some();
+        let has_droplets = self.scene.has_drops();
         // Modes of heat take a step of any length in one, and inputs are held.
-        let has_long_steps =
-            has_droplets || self.scene.solids().any(|(_, solid)| solid.heat == HeatMethod::Sph);
+        let has_long_steps = self.scene.has_particles();
         let attributes: Attributes = vec![
             ("modelIdentifier", self.scene.name.clone()),
             ("needsExecutionTool", "false".into()),

@@ -17,9 +17,7 @@ impl Unit {
     /// Warns of what is known of drops and of what melts only as a run ends, where there is room to look.
     pub(super) fn warn_at_end(&mut self) {
         let Some(model) = self.run.as_ref().map(|run| Arc::clone(&run.model)) else { return };
-        let has_drops = self.scene.droplets().next().is_some();
-        let melts = self.scene.solids().any(|(_, solid)| solid.melts());
-        if !(has_drops || melts) || self.expect_room().is_err() {
+        if !(self.scene.has_drops() || self.scene.melts()) || self.expect_room().is_err() {
             return;
         }
         let state = &self.state;

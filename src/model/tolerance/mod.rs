@@ -40,13 +40,13 @@ pub struct Resolved {
 /// Chooses the meshes that a scene leaves open, such that they keep its tolerance.
 pub fn resolve(scene: &Scene) -> Resolved {
     let mut resolved = Resolved { scene: scene.clone(), choices: Vec::new() };
-    for (name, _) in scene.solids().filter(|(name, _)| is_chosen(scene, name)) {
-        let key = (scene.clone(), name.to_owned());
+    for name in scene.body.keys().filter(|name| is_chosen(scene, name)) {
+        let key = (scene.clone(), name.clone());
         let Ok(choice) = CHOICES.get_or_make(&key, || Ok::<_, Infallible>(choose(scene, name)));
         let [along, through] = choice.factors;
         let factors =
             MeshFactors { estimated_error: choice.error, ..MeshFactors::of([along, through]) };
-        resolved.scene.refinement.insert(name.to_owned(), factors);
+        resolved.scene.refinement.insert(name.clone(), factors);
         resolved.choices.push(choice);
     }
     resolved

@@ -8,7 +8,7 @@ use super::resolve;
 use super::twin::{Physics, Twin};
 use crate::body::{forecast, warnings_on_landing};
 use crate::quantity::{Quantity, percent};
-use crate::scene::{HeatMethod, MeshFactors, Scene, Shape, Solid, SolidLevel, Stratum};
+use crate::scene::{MeshFactors, Scene, Shape, Solid, SolidLevel, Stratum};
 use crate::variables::Registry;
 
 /// What the outputs of a body err by on its mesh.
@@ -37,7 +37,8 @@ impl BodyEstimate {
 /// A scene with all its meshes chosen, and what the outputs of each solid err by on these, in it too.
 pub fn estimates(scene: &Scene) -> (Scene, Vec<BodyEstimate>) {
     let mut resolved = resolve(scene).scene;
-    let estimates: Vec<_> = resolved.solids().map(|(name, _)| estimate(&resolved, name)).collect();
+    let estimates: Vec<_> =
+        resolved.with_fields().map(|(name, _)| estimate(&resolved, name)).collect();
     for one in &estimates {
         let own = MeshFactors::of([1.0; 2]);
         let factors = resolved.refinement.entry(one.body.clone()).or_insert(own);
@@ -49,7 +50,7 @@ pub fn estimates(scene: &Scene) -> (Scene, Vec<BodyEstimate>) {
 /// Estimates what the outputs of a solid err by, on the mesh that a scene has.
 pub fn estimate(scene: &Scene, name: &str) -> BodyEstimate {
     let mut found = BodyEstimate { body: name.to_owned(), outputs: Vec::new(), notes: Vec::new() };
-    if scene.solid(name).is_none_or(|solid| solid.heat == HeatMethod::Sph) {
+    if scene.meshed(name).is_none() {
         found.notes.push("no estimate: particles conduct the heat".to_owned());
         return found;
     }
@@ -108,7 +109,7 @@ fn of_physics(twin: &Twin, physics: Physics, found: &mut BodyEstimate) {
             return;
         }
     };
-    let may_flow = twin.scene().solids().any(|(_, solid)| solid.yields());
+    let may_flow = twin.solid().yields();
     if twin.has_history && may_flow && !trials.flows(levels) {
         found.notes.push(
             "nothing flows under the inputs that the estimate tries: once the body does, errors of stress are larger"
@@ -184,7 +185,7 @@ fn finest(scene: &Scene, name: &str, factors: [f64; 2]) -> [f64; 2] {
 pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
     let tolerance = scene.fidelity.tolerance;
     let warning = |estimate: &BodyEstimate| {
-        let solid = scene.solid(&estimate.body)?;
+        let solid = scene.meshed(&estimate.body)?;
         let is_open = open(solid) == [true; 2];
         let most = if is_open { OVER * tolerance } else { tolerance };
         let worst = estimate.worst().filter(|&worst| worst > most)?;
