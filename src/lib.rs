@@ -123,6 +123,8 @@ pub mod quantity;
 
 pub mod limits;
 
+pub mod warning;
+
 pub mod channel;
 
 pub mod laws;

@@ -112,7 +112,7 @@ fn errors(scene: &Scene) -> impl Iterator<Item = String> {
         let error = mesh.estimated_error?;
         let kept = if error > tolerance { "more than" } else { "within" };
         Some(format!(
-            "{name}: its mesh makes outputs err by about {error:.0e} of their ranges over the default experiment, {kept} \
+            "{name}: on its mesh errors of outputs are about {error:.0e} of their ranges over the default experiment, {kept} \
              the tolerance of {tolerance:e}."
         ))
     })

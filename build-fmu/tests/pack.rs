@@ -207,5 +207,5 @@ fn open_level_is_packed_with_its_choice() {
     let packed = place.shell("tight.toml -o tight.fmu --library lib.so");
     let said = String::from_utf8_lossy(&packed.stderr);
     assert!(packed.status.success(), "{said}");
-    assert!(said.contains("warning: plate: temperatures of a reduced model err"), "{said}");
+    assert!(said.contains("warning: plate: the bound of the error of temperatures"), "{said}");
 }

@@ -199,7 +199,8 @@ fn errors(estimates: &[BodyEstimate]) -> String {
             text.push_str(&table(heading, &rows));
         }
         if outputs.len() > MOST_ERRORS {
-            let _ = writeln!(text, "  {} outputs more err by less", outputs.len() - MOST_ERRORS);
+            let more = outputs.len() - MOST_ERRORS;
+            let _ = writeln!(text, "  {more} more outputs have smaller errors");
         }
         for note in &estimate.notes {
             let _ = writeln!(text, "  - {}: {note}", estimate.body);

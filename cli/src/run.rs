@@ -351,8 +351,8 @@ impl Running<'_> {
         let told = &self.warned_of_phases;
         let warnings = self.model.phase_warnings(&self.state, |subject| told.contains(subject));
         for warning in warnings {
-            super::print_message("warning", &warning.message);
-            self.warned_of_phases.insert(warning.subject);
+            super::print_message("warning", &warning);
+            self.warned_of_phases.insert(warning.subject().to_owned());
         }
     }
 

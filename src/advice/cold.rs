@@ -22,25 +22,11 @@ impl Scene {
     /// Returns true if something in the scene is no colder than what is plausible beside warm things.
     fn has_warm(&self) -> bool {
         let is_warm = |temperature: f64| temperature >= BESIDE_WARM;
-        let of_solids = self.solids().any(|(_, solid)| {
-            let on_faces = solid.faces.values().any(|face| {
-                let ambient = face.convection.map(|convection| convection.ambient);
-                let around = face.radiation.map(|radiation| radiation.ambient);
-                [face.temperature, ambient, around].into_iter().flatten().any(is_warm)
-            });
-            on_faces || solid.stress_free_temperature.is_some_and(is_warm)
-        });
         let of_walls = self.wall.iter().any(|wall| {
             let start = wall.start.temperature.as_ref();
             start.is_some_and(|values| values.numbers().any(is_warm))
         });
-        let of_bodies = self.body.values().any(|body| {
-            let around = match body {
-                Body::Reservoir(reservoir) => reservoir.ambient.is_some_and(is_warm),
-                _ => false,
-            };
-            around || is_warm(body.initial_temperature())
-        });
-        of_solids || of_walls || of_bodies
+        let mut of_bodies = self.body.values().flat_map(Body::temperatures);
+        of_walls || of_bodies.any(is_warm)
     }
 }

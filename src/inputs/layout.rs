@@ -1,7 +1,7 @@
 use std::ops::Range;
 
 use crate::channel::Channel;
-use crate::scene::{Body, CellShape, FaceName, Footprint, Load, Scene, Shape, Wall};
+use crate::scene::{Body, CellShape, FaceName, Footprint, Load, Scene, Wall};
 
 /// Where each input of a scene stands in [`crate::model::State::inputs`].
 #[derive(Debug, Clone, PartialEq)]
@@ -47,10 +47,8 @@ impl InputLayout {
     pub fn of(scene: &Scene) -> Self {
         let mut next = 0;
         let loads = scene.load.iter().map(|load| {
-            let round_body = matches!(
-                scene.solid(load.body_and_face().0),
-                Some(solid) if matches!(solid.shape, Shape::Disc(_))
-            );
+            let body = scene.body.get(load.body_and_face().0);
+            let round_body = body.is_some_and(Body::is_round);
             load_inputs(load, round_body, &mut next)
         });
         let loads = loads.collect();
@@ -111,8 +109,8 @@ fn body_inputs(scene: &Scene, next: &mut usize) -> Vec<(String, Range<usize>)> {
 
 fn face_inputs(scene: &Scene, next: &mut usize) -> Vec<FaceInput> {
     let mut inputs = Vec::new();
-    for (body, solid) in scene.solids() {
-        for (&face, condition) in &solid.faces {
+    for (name, body) in &scene.body {
+        for (face, condition) in body.faces() {
             let kind = if condition.temperature.is_some() {
                 FaceInputKind::Temperature
             } else if condition.convection.is_some() {
@@ -122,7 +120,7 @@ fn face_inputs(scene: &Scene, next: &mut usize) -> Vec<FaceInput> {
             } else {
                 continue;
             };
-            inputs.push(FaceInput { body: body.to_owned(), face, kind, index: *next });
+            inputs.push(FaceInput { body: name.to_owned(), face, kind, index: *next });
             *next += 1;
         }
     }

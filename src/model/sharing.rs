@@ -64,9 +64,7 @@ mod tests {
         let scene = parse(SCENE, "scene.toml").unwrap();
         let built = |edit: fn(&mut crate::laws::Material)| {
             let mut scene = scene.clone();
-            let Some(crate::scene::Body::Solid(solid)) = scene.body.get_mut("plate") else {
-                panic!()
-            };
+            let solid = scene.meshed_mut("plate").unwrap();
             solid.mesh.depth_spacing = Some(2e-5);
             edit(solid.material.as_mut().unwrap().material_mut());
             Model::build(&scene, 1).unwrap()

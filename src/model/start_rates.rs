@@ -36,14 +36,8 @@ pub fn start_rates(
     outputs: &[&Output],
 ) -> Result<Vec<f64>, ModelError> {
     let value = parameter.get(scene);
-    let reach = match parameter {
-        Parameter::ConvectionCoefficient { .. } | Parameter::ContactResistance { .. } => None,
-        Parameter::InitialTemperature { .. } => Some(value),
-        Parameter::Material { constant, .. } | Parameter::LayerMaterial { constant, .. } => {
-            reach_of(constant.start, constant.quantity, value)
-        }
-        Parameter::Droplet { constant, .. } => reach_of(constant.start, constant.quantity, value),
-    };
+    let constant = &parameter.constant;
+    let reach = reach_of(constant.at_start(), constant.quantity(), value);
     let mut rates = vec![0.0; outputs.len()];
     let Some(reach) = reach else { return Ok(rates) };
     let step = STEP * reach;

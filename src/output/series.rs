@@ -10,7 +10,7 @@ use quick_xml::events::{BytesDecl, Event};
 use super::{OutputError, vtk};
 use crate::body::Fields;
 use crate::model::{Cache, Model, State};
-use crate::scene::{Scene, Shape};
+use crate::scene::{Body, Drawn, Scene};
 
 /// The fields of all bodies as ParaView time series. For each time `BODY.pvd` lists one `BODY_NNNNNN.vtr` (the nodes of
 /// a box), `.vts` (those of a disc, revolved about its axis) or `.vtp` (the particles of a droplet).
@@ -42,15 +42,14 @@ impl FieldSeries {
 
     /// A series without times, with nothing written yet.
     fn of(directory: &Path, scene: &Scene) -> Self {
-        let solids = scene.solids().map(|(name, solid)| {
-            let kind = match solid.shape {
-                Shape::Box(_) => Kind::Grid,
-                Shape::Disc(_) => Kind::Revolved,
-            };
-            (name.to_owned(), kind)
-        });
-        let droplets = scene.droplets().map(|(name, _)| (name.to_owned(), Kind::Particles));
-        let bodies = solids.chain(droplets).collect();
+        let kind = |body: &Body| match body.drawn_as()? {
+            Drawn::Grid if body.is_round() => Some(Kind::Revolved),
+            Drawn::Grid => Some(Kind::Grid),
+            Drawn::Particles => Some(Kind::Particles),
+        };
+        let bodies = scene.bodies_by_kind().into_iter();
+        let bodies =
+            bodies.filter_map(|(name, body)| Some((name.to_owned(), kind(body)?))).collect();
         Self { directory: directory.to_owned(), bodies, times: Vec::new() }
     }
 

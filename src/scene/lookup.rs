@@ -25,52 +25,10 @@ pub struct BodyInput {
     pub bounds: Bounds,
 }
 
-impl Body {
-    /// Uniform temperature at the beginning [K].
-    pub fn initial_temperature(&self) -> f64 {
-        match self {
-            Body::Solid(solid) => solid.initial_temperature,
-            Body::Droplet(droplet) => droplet.initial_temperature,
-            Body::Reservoir(reservoir) => reservoir.initial_temperature,
-        }
-    }
-
-    /// Mutable access to it.
-    pub fn initial_temperature_mut(&mut self) -> &mut f64 {
-        match self {
-            Body::Solid(solid) => &mut solid.initial_temperature,
-            Body::Droplet(droplet) => &mut droplet.initial_temperature,
-            Body::Reservoir(reservoir) => &mut reservoir.initial_temperature,
-        }
-    }
-
-    /// Inputs besides those of loads, faces and walls.
-    pub fn inputs(&self) -> Vec<BodyInput> {
-        match self {
-            Body::Solid(_) => Vec::new(),
-            Body::Droplet(droplet) => droplet.inputs(),
-            Body::Reservoir(reservoir) => reservoir.inputs(),
-        }
-    }
-
-    /// Describes a body without extent.
-    fn lump(&self) -> Option<String> {
-        match self {
-            Body::Solid(_) | Body::Droplet(_) => None,
-            Body::Reservoir(reservoir) => Some(reservoir.words()),
-        }
-    }
-}
-
 impl Scene {
     /// Discards estimated errors, which belong to other parameters.
     pub fn forget_estimates(&mut self) {
         self.refinement.values_mut().for_each(|mesh| mesh.estimated_error = None);
-    }
-
-    /// The bodies without extent, with a description of each.
-    pub fn lumps(&self) -> impl Iterator<Item = (&str, String)> {
-        self.body.iter().filter_map(|(name, body)| Some((name.as_str(), body.lump()?)))
     }
 
     /// The solid body of that name.
@@ -152,8 +110,7 @@ impl Scene {
             return matches!(self.wall[wall].footprint, Footprint::Rings { .. });
         }
         let below = self.coupling_from(droplet).and_then(|place| self.coupling[place].solid());
-        let solid = below.and_then(|name| self.solid(name));
-        solid.is_some_and(|solid| matches!(solid.shape, Shape::Disc(_)))
+        below.and_then(|name| self.body.get(name)).is_some_and(Body::is_round)
     }
 
     /// Stores in each droplet the properties of the surface below it.
@@ -170,8 +127,7 @@ impl Scene {
     /// Returns true if axisymmetric drops stand on a box and exchange with it over rings.
     pub fn meets_rings(&self, solid: &str) -> bool {
         let is_box = self.solid(solid).is_some_and(|solid| matches!(solid.shape, Shape::Box(_)));
-        let mut drops = self.couplings_to(solid).filter_map(|place| self.droplet(&place.from));
-        is_box && drops.any(Droplet::is_axisymmetric)
+        is_box && self.drops_on(solid).any(|(_, drop)| drop.is_axisymmetric())
     }
 
     /// The couplings that act on a solid.

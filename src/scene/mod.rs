@@ -4,6 +4,7 @@
 
 mod cells;
 pub(crate) mod check;
+mod constants;
 mod decode;
 mod droplet;
 mod droplet_symmetry;
@@ -11,6 +12,7 @@ mod error;
 mod file;
 mod footprint;
 mod grid;
+mod kinds;
 mod load;
 pub(crate) mod locate;
 mod lookup;
@@ -30,6 +32,7 @@ use std::path::Path;
 
 pub use cells::Cells;
 pub use check::takes_newton;
+pub use constants::{Constant, DropletConstant, LayersOf, OfferedConstant};
 pub use droplet::{
     Arrival, Coupling, Droplet, DropletMethod, DropletSymmetry, Governing, Placement, Precision,
     ReleaseBy, Wall, WallStart, velocity,
@@ -38,6 +41,7 @@ pub use error::{Problem, SceneError};
 pub use file::{bytes_of, open_file};
 pub use footprint::Profile;
 pub use grid::{Grid, lateral_extents};
+pub use kinds::Drawn;
 pub use lookup::{BodyInput, Place};
 pub use materials::{MaterialChoice, Stratum};
 pub use recording::Recording;

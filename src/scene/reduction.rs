@@ -38,7 +38,7 @@ impl Scene {
             FidelityLevel::Reduced => self.solid(name).is_some(),
             FidelityLevel::Auto => match self.resolved.get(name) {
                 Some(resolved) => resolved.level == SolidLevel::Reduced,
-                None => self.solid(name).is_some_and(|solid| self.obstacle(name, solid).is_none()),
+                None => self.solid(name).is_some() && self.obstacle(name).is_none(),
             },
         }
     }
@@ -48,8 +48,19 @@ impl Scene {
         self.fidelity.level == FidelityLevel::Auto && !self.resolved.contains_key(name)
     }
 
+    /// Names of the bodies that are reduced models.
+    pub fn reduced_bodies(&self) -> impl Iterator<Item = &str> {
+        self.solids().map(|(name, _)| name).filter(|name| self.is_reduced(name))
+    }
+
+    /// Names of the bodies whose level is to be found.
+    pub fn open_levels(&self) -> impl Iterator<Item = &str> {
+        self.solids().map(|(name, _)| name).filter(|name| self.is_open_level(name))
+    }
+
     /// The first obstacle to the reduction of a solid.
-    pub fn obstacle(&self, name: &str, solid: &Solid) -> Option<Obstacle> {
+    pub fn obstacle(&self, name: &str) -> Option<Obstacle> {
+        let solid = self.solid(name)?;
         self.obstacle_of_kind(name, solid)
             .or_else(|| self.obstacle_of_neighbours(name))
             .or_else(|| self.obstacle_of_fields(name, solid))
@@ -156,7 +167,7 @@ impl Scene {
             let footprints: usize = footprints_along(load).into_iter().product();
             load.carries.len() * load.footprint.cell_count() * footprints
         };
-        let faces = self.solid(name).map_or(0, |solid| solid.faces.len());
+        let faces = self.body.get(name).map_or(0, |body| body.faces().count());
         self.loads_on(name).map(of_load).sum::<usize>() + faces
     }
 }

@@ -198,9 +198,7 @@ fn common_words(first: &str, last: &str, dimensions: &[usize]) -> String {
 /// cells.
 fn constants(scene: &Scene, list: &mut Vec<ArrayVariable>) {
     for field in &scene.field {
-        let (body, _) = field.body_and_place();
-        let Some(solid) = scene.solid(body) else { continue };
-        if let Sampling::Points(grid) = field.sampling(solid) {
+        if let Some(Sampling::Points(grid)) = scene.sampling(field) {
             coordinates(&field.name, &grid, list);
         }
     }

@@ -65,16 +65,13 @@ impl CellFamily {
                 None,
                 [0.0; 2],
             );
-            match scene.droplet(&wall.under) {
-                Some(droplet) if droplet.dimension == 2 => family.of_plane(),
-                _ => family,
-            }
+            if scene.body[&wall.under].is_plane() { family.of_plane() } else { family }
         });
         let fields = scene.field.iter().filter_map(|field| {
             let (body, _) = field.body_and_place();
             let on = field.on.as_deref().unwrap_or(body);
             let names = (field.name.as_str(), "field", on);
-            Some(match field.sampling(scene.solid(body)?) {
+            Some(match scene.sampling(field)? {
                 Sampling::Points(grid) => Self::of_grid(names, &grid),
                 Sampling::Cells(FieldCells { footprint, at, .. }) => {
                     Self::of_footprint(names, &footprint, None, at)

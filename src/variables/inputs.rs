@@ -1,12 +1,10 @@
 //! Variables that are inputs.
 
 use super::registry::{Slot, Value, Variable};
-use crate::inputs::{FaceInputKind, InputLayout, LoadInputs};
+use crate::inputs::{FaceInput, FaceInputKind, InputLayout, LoadInputs};
 use crate::limits::{self, Bounds};
 use crate::quantity::Quantity;
-use crate::scene::{
-    BodyInput, CellShape, CellValues, FaceName, Load, LoadRange, Role, Scene, Solid,
-};
+use crate::scene::{Body, BodyInput, CellShape, CellValues, Face, Load, LoadRange, Role, Scene};
 
 /// What comes from outside.
 pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
@@ -16,8 +14,10 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
         placement(load, places, list);
     }
     for input in &layout.faces {
-        let Some(solid) = scene.solid(&input.body) else { continue };
-        list.push(face_variable(&input.body, solid, input.face, input.kind, input.index));
+        let mut faces = scene.body[&input.body].faces();
+        if let Some((_, condition)) = faces.find(|(face, _)| *face == input.face) {
+            list.push(face_variable(input, condition));
+        }
     }
     walls(scene, &layout, list);
     for (name, range) in &layout.bodies {
@@ -108,16 +108,9 @@ pub(super) fn cell_start(start: Option<&CellValues>, cells: Option<CellShape>, c
     }
 }
 
-fn face_variable(
-    body: &str,
-    solid: &Solid,
-    face: FaceName,
-    kind: FaceInputKind,
-    index: usize,
-) -> Variable {
-    let condition = solid.faces[&face];
-    let name = face.as_str();
-    let (key, meaning, quantity, start) = match kind {
+fn face_variable(input: &FaceInput, condition: &Face) -> Variable {
+    let (body, name) = (&input.body, input.face.as_str());
+    let (key, meaning, quantity, start) = match input.kind {
         FaceInputKind::Temperature => {
             ("temperature", "prescribed temperature", Quantity::Temperature, condition.temperature)
         }
@@ -138,7 +131,7 @@ fn face_variable(
     Variable {
         name: format!("{body}.{name}.{key}"),
         description: format!("{meaning} at the {name} of {body}"),
-        slot: Slot::Input(index),
+        slot: Slot::Input(input.index),
         quantity: Some(quantity),
         start: start.map(Value::Real),
         bounds: limits.bounds(),
@@ -149,7 +142,7 @@ fn face_variable(
 /// Temperatures of the cells of walls.
 fn walls(scene: &Scene, layout: &InputLayout, list: &mut Vec<Variable>) {
     for (wall, range) in scene.wall.iter().zip(&layout.walls) {
-        let own = scene.droplet(&wall.under).map(|droplet| droplet.initial_temperature);
+        let own = scene.body.get(&wall.under).map(Body::initial_temperature);
         let shape = wall.footprint.cells();
         for (cell, (label, place)) in cell_labels(shape).into_iter().enumerate() {
             let given = wall.start.temperature.as_ref();

@@ -5,9 +5,7 @@
 mod arrays;
 mod cells;
 mod dependencies;
-mod droplet_constant;
 mod inputs;
-mod layers;
 mod outputs;
 mod parameter;
 mod parameters;
@@ -19,6 +17,5 @@ pub use crate::laws::MaterialConstant;
 pub use crate::quantity::{DisplayUnit, Quantity};
 pub use arrays::{ArrayRegistry, ArrayVariable, Content};
 pub use cells::CellFamily;
-pub use droplet_constant::DropletConstant;
-pub use parameter::{LayersOf, Parameter};
+pub use parameter::Parameter;
 pub use registry::{Causality, Output, Registry, Slot, Value, Variable};

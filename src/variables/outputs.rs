@@ -27,9 +27,11 @@ pub fn list(scene: &Scene, list: &mut Vec<Variable>) {
 
 /// The bodies: first those that have points.
 fn in_order(scene: &Scene) -> impl Iterator<Item = &str> {
-    let solids = scene.solids().map(|(name, _)| name);
-    let others = scene.body.keys().map(String::as_str).filter(|name| scene.solid(name).is_none());
-    solids.chain(others)
+    let of = |resolves: bool| {
+        let own = scene.body.iter().filter(move |(_, body)| body.resolves_fields() == resolves);
+        own.map(|(name, _)| name.as_str())
+    };
+    of(true).chain(of(false))
 }
 
 fn place(scene: &Scene, body: &str) -> usize {
@@ -79,8 +81,7 @@ fn of_field(scene: &Scene, field: usize, list: &mut Vec<Variable>) {
     let Field { name, gives, .. } = &scene.field[field];
     let (body_name, _) = scene.field[field].body_and_place();
     let body = place(scene, body_name);
-    let solid = scene.solid(body_name).expect("a checked field lies in a solid");
-    let sampling = scene.field[field].sampling(solid);
+    let sampling = scene.sampling(&scene.field[field]).expect("a checked field lies in a solid");
     for (quantity, PointQuantity { descriptor, .. }) in wanted(gives) {
         let Descriptor { key, words, quantity: measured, .. } = descriptor;
         for (place, (label, words_of_place)) in places(scene, field).into_iter().enumerate() {
@@ -132,7 +133,7 @@ fn of_body(scene: &Scene, name: &str, list: &mut Vec<Variable>) {
         let reading = Reading::Total(total);
         list.push(variable(format!("{name}.{key}"), description, quantity, (body, reading)));
     }
-    if scene.solid(name).is_some() {
+    if scene.body[name].resolves_fields() {
         let description = format!("{ERROR} ({name})");
         let name = format!("{name}.estimated_error");
         list.push(variable(name, description, Quantity::Ratio, (body, Reading::Error)));
@@ -170,7 +171,7 @@ fn of_peak(
 
 fn of_wall(scene: &Scene, wall: &Wall, list: &mut Vec<Variable>) {
     let body = place(scene, &wall.under);
-    let is_plane = scene.droplet(&wall.under).is_some_and(|droplet| droplet.dimension == 2);
+    let is_plane = scene.body[&wall.under].is_plane();
     let mean = "mean over the last step";
     let all = wall_quantities().iter().enumerate();
     for (quantity, kind) in all.filter(|(_, kind)| kind.is_offered(scene, wall)) {

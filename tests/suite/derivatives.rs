@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::common::{Trial, off};
 use impinge::closed_form::{Conductor, GaussianFlux};
 use impinge::model::start_rates;
-use impinge::scene;
+use impinge::scene::{self, Constant};
 use impinge::variables::{MaterialConstant, Output, Parameter};
 
 /// A block of soft numbers with every kind of thermal face, loads of every footprint and probes off
@@ -179,7 +179,8 @@ fn outputs_at_the_start_follow_constants_as_the_theory_says() {
         let by_heat: Vec<f64> = now.iter().zip(&by_tractions).map(|(a, b)| a - b).collect();
         let rates = |key| {
             let constant = MaterialConstant::named(key).unwrap();
-            let parameter = Parameter::Material { body: "block".into(), constant };
+            let parameter =
+                Parameter { body: "block".into(), constant: Constant::Material(constant) };
             let outputs: Vec<Output> = names.iter().map(|name| trial.output(name)).collect();
             let outputs: Vec<&Output> = outputs.iter().collect();
             start_rates(&scene, &trial.state.inputs, &parameter, &outputs).unwrap()

@@ -8,7 +8,7 @@ use crate::fmi::description::{
     whole_number,
 };
 use crate::fmi::unit::highest_output_derivative;
-use crate::scene::{HeatMethod, Scene};
+use crate::scene::Scene;
 use crate::variables::{
     ArrayRegistry, ArrayVariable, Causality, Content, Quantity, Registry, Value, Variable,
 };
@@ -39,10 +39,9 @@ impl Description for Arrays<'_> {
     }
 
     fn co_simulation(&self) -> Attributes {
-        let has_droplets = self.scene.droplets().next().is_some();
+        let has_droplets = self.scene.has_drops();
         // Modes of heat take a step of any length in one, and inputs are held.
-        let has_long_steps =
-            has_droplets || self.scene.solids().any(|(_, solid)| solid.heat == HeatMethod::Sph);
+        let has_long_steps = self.scene.has_particles();
         vec![
             ("modelIdentifier", self.scene.name.clone()),
             ("needsExecutionTool", "false".into()),

@@ -87,7 +87,7 @@ impl Unit {
     /// What is computed before the first step, as neither this process nor the unit knows it.
     fn to_be_recorded(&self) -> Vec<String> {
         let scene = &self.scene;
-        if !scene.droplets().any(|(_, droplet)| droplet.is_replayed()) {
+        if !scene.has_replayed_drops() {
             return Vec::new();
         }
         aside(|| match scene::check(scene) {

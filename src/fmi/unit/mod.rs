@@ -29,12 +29,13 @@ pub use step_control::{Ask, StepControl};
 use super::gate::answer::{Answer, Refusal, Status};
 use super::gate::log::Log;
 use super::table::{Function, Phase, Rule};
-use crate::advice::Warning;
+
 use crate::model::{Kept, KeptReduction, State, Stiffness, initial_inputs};
 use crate::output::{FieldSeries, FolderLock};
 use crate::runtime::allowance::Interrupt;
 use crate::scene::Scene;
 use crate::variables::{ArrayRegistry, Registry};
+use crate::warning::Warning;
 use built::{Run, explain};
 use saved::SavedStates;
 

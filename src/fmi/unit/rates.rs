@@ -15,7 +15,7 @@ use crate::variables::{Output, Parameter, Registry, Slot, Variable};
 
 /// Highest order of output derivatives, as the XML declares it: the steps of particles have none.
 pub fn highest_output_derivative(scene: &Scene) -> usize {
-    if scene.droplets().next().is_some() { 0 } else { 1 }
+    if scene.has_drops() { 0 } else { 1 }
 }
 
 /// What outputs may be differentiated by.

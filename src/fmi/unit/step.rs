@@ -32,7 +32,7 @@ impl Unit {
         let (interrupt, control) = (self.interrupt.clone(), Rc::clone(&self.control));
         let (run, state) = self.run()?;
         let past = if has_set { None } else { Some(std::mem::take(&mut state.derivatives)) };
-        let on_answer = told.and_then(|before| run.model.warning_on_answer(state, &before));
+        let on_response = told.and_then(|before| run.model.warning_on_response(state, &before));
         let told = listens.then(|| state.inputs.clone());
         let stepping = interrupt.begin();
         let stepped = check_path(&registry, state, step).and_then(|()| {
@@ -55,7 +55,7 @@ impl Unit {
         let warnings = run.model.warnings(state);
         self.told = told;
         self.warn_once(warnings);
-        self.warn_of_answer(on_answer);
+        self.warn_of_response(on_response);
         self.warn_of_phases();
         self.warn_of_length(step);
         self.has_set_derivatives = false;

@@ -10,7 +10,7 @@ use super::twin::{Physics, Twin};
 use crate::body::{BodyForecast, Reading, forecast};
 use crate::model::{ModelError, check_memory};
 use crate::quantity::Quantity;
-use crate::scene::{HeatMethod, Scene, Shape, Solid, takes_newton};
+use crate::scene::{Scene, Shape, Solid, takes_newton};
 use crate::variables::{Registry, Slot};
 
 /// Levels of fineness along the surface and through the thickness; each has √2 times as many elements as the one
@@ -77,13 +77,13 @@ pub fn open(solid: &Solid) -> [bool; 2] {
 
 /// Whether the mesh of a solid of a scene is chosen.
 pub fn is_chosen(scene: &Scene, name: &str) -> bool {
-    let is_open = |solid: &Solid| solid.heat != HeatMethod::Sph && open(solid) != [false; 2];
-    !scene.refinement.contains_key(name) && scene.solid(name).is_some_and(is_open)
+    let is_open = |solid: &Solid| open(solid) != [false; 2];
+    !scene.refinement.contains_key(name) && scene.meshed(name).is_some_and(is_open)
 }
 
 /// Chooses the mesh of a solid of a scene that leaves it open.
 pub fn choose(scene: &Scene, name: &str) -> Choice {
-    let Some(solid) = scene.solid(name) else { return Choice { factors: [1.0; 2], error: None } };
+    let Some(solid) = scene.meshed(name) else { return Choice { factors: [1.0; 2], error: None } };
     let open = open(solid);
     let tolerance = scene.fidelity.tolerance;
     let law = |order: f64| {
@@ -184,16 +184,16 @@ pub struct Trials<'a> {
 impl<'a> Trials<'a> {
     pub fn new(twin: &'a Twin, physics: Physics) -> Self {
         let is_mechanical = physics == Physics::Deformation;
-        let is_box = |solid: &Solid| matches!(solid.shape, Shape::Box(_));
-        let most_nodes = match (physics, twin.scene().solids().map(|(_, solid)| solid).next()) {
-            (Physics::Heat, Some(solid)) if is_layered_box(solid) => FEW * MOST_NODES,
-            (Physics::Heat, _) => MOST_NODES,
-            (_, Some(solid)) if is_layered_box(solid) => MOST_NODES_OF_LAYERS,
-            (_, Some(solid)) if is_box(solid) => MOST_NODES_OF_BOXES,
+        let solid = twin.solid();
+        let most_nodes = match physics {
+            Physics::Heat if is_layered_box(solid) => FEW * MOST_NODES,
+            Physics::Heat => MOST_NODES,
+            _ if is_layered_box(solid) => MOST_NODES_OF_LAYERS,
+            _ if matches!(solid.shape, Shape::Box(_)) => MOST_NODES_OF_BOXES,
             _ => MOST_NODES_OF_SECTIONS,
         };
         let most_nodes = match twin.has_history {
-            true => most_with_history(twin.scene()).min(most_nodes),
+            true => most_with_history(twin.solid()).min(most_nodes),
             false => most_nodes,
         };
         let mut watched = watched(twin.scene(), is_mechanical);
@@ -364,8 +364,7 @@ fn is_estimated(one: &Watched) -> bool {
 
 /// The largest plastic strain of a body with a history.
 fn flow_of(twin: &Twin) -> Option<Watched> {
-    let name =
-        twin.scene().solids().next().map(|(name, _)| format!("{name}.max_plastic_strain"))?;
+    let name = format!("{}.max_plastic_strain", twin.name());
     let variables = Registry::structured(twin.scene()).variables.into_iter();
     let found = variables.filter(|_| twin.has_history).find(|variable| variable.name == name)?;
     let Slot::Output(output) = found.slot else { return None };
@@ -377,10 +376,9 @@ fn nodes_of(bodies: &[BodyForecast]) -> f64 {
 }
 
 /// Most nodes of trials of a body whose stress depends on its history.
-fn most_with_history(scene: &Scene) -> f64 {
-    let creeps = scene.solids().any(|(_, solid)| {
-        solid.materials_of_layers().iter().any(|own| own.law.deformation().creeps())
-    });
+fn most_with_history(solid: &Solid) -> f64 {
+    let materials = solid.materials_of_layers();
+    let creeps = materials.iter().any(|own| own.law.deformation().creeps());
     MOST_NODES_WITH_HISTORY * if creeps { PART_OF_CREEP } else { 1.0 }
 }
 

@@ -20,9 +20,7 @@ pub struct Levels {
 /// else it is taken in full. Models that would take more memory than is `available` [B] are not tried.
 pub fn levels(scene: &Scene, available: f64) -> Levels {
     let mut found = Levels { scene: scene.clone(), notes: Vec::new(), kept: Vec::new() };
-    let open: Vec<&str> =
-        scene.solids().map(|(name, _)| name).filter(|name| scene.is_open_level(name)).collect();
-    for name in open {
+    for name in scene.open_levels() {
         let (level, note) = match obstacle((scene, available), name, &mut found.kept) {
             None => (SolidLevel::Reduced, format!("{name}: reduced, which keeps the tolerance")),
             Some(why) => (SolidLevel::Full, format!("{name}: full, as {why}")),
@@ -39,19 +37,18 @@ fn obstacle(
     name: &str,
     kept: &mut Vec<KeptReduction>,
 ) -> Option<String> {
-    let solid = scene.solid(name)?;
-    if let Some(obstacle) = scene.obstacle(name, solid) {
+    if let Some(obstacle) = scene.obstacle(name) {
         return Some(obstacle.message);
     }
     let model = match model(&alone(scene, name), available) {
         Ok(model) => model,
         Err(error) => return Some(error.to_string()),
     };
-    let beyond = model.bodies.iter().find_map(|body| body.beyond_tolerance());
+    let beyond = model.bodies.iter().find_map(|body| body.beyond_tolerance(""));
     if beyond.is_none() {
         kept.extend(model.reductions().into_iter().map(|(_, reduction)| reduction));
     }
-    beyond
+    beyond.map(|warning| warning.finding().to_string())
 }
 
 /// One solid of a scene, reduced, which nothing touches.
@@ -62,7 +59,7 @@ fn alone(scene: &Scene, name: &str) -> Scene {
 
 /// The model of a scene with solids that are reduced: only that tells their orders and bounds.
 pub fn reduced_model(scene: &Scene, available: f64) -> Result<Option<Model>, ModelError> {
-    let has_any = scene.solids().any(|(name, _)| scene.is_reduced(name));
+    let has_any = scene.reduced_bodies().next().is_some();
     has_any.then(|| model(scene, available)).transpose()
 }
 

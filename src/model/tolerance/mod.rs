@@ -40,23 +40,23 @@ pub struct Resolved {
 /// Chooses the meshes that a scene leaves open, such that they keep its tolerance.
 pub fn resolve(scene: &Scene) -> Resolved {
     let mut resolved = Resolved { scene: scene.clone(), choices: Vec::new() };
-    for (name, _) in scene.solids().filter(|(name, _)| is_chosen(scene, name)) {
-        let key = (scene.clone(), name.to_owned());
+    for name in scene.body.keys().filter(|name| is_chosen(scene, name)) {
+        let key = (scene.clone(), name.clone());
         let Ok(choice) = CHOICES.get_or_make(&key, || Ok::<_, Infallible>(choose(scene, name)));
         let [along, through] = choice.factors;
         let factors =
             MeshFactors { estimated_error: choice.error, ..MeshFactors::of([along, through]) };
-        resolved.scene.refinement.insert(name.to_owned(), factors);
+        resolved.scene.refinement.insert(name.clone(), factors);
         resolved.choices.push(choice);
     }
     resolved
 }
 
-/// What to say of a scene with more probes than are tried, before these trials.
+/// A note on a scene with more probes than are tried, before these trials.
 pub fn note_on_sample(scene: &Scene) -> Option<String> {
     let probes = scene.probe.len();
     (probes > MOST_PROBES).then(|| {
-        format!("of {probes} probes, {MOST_PROBES} a body tell which mesh it takes and what outputs err by")
+        format!("of {probes} probes, {MOST_PROBES} a body determine its mesh and the estimates of errors")
     })
 }
 

@@ -5,9 +5,8 @@ use super::sample::sample;
 use crate::body::fine_radius;
 use crate::laws::radiative_coefficient;
 use crate::scene::{
-    Body, Carries, CellValues, Convection, Coupling, Droplet, Face, FidelityLevel, Footprint,
-    Gives, Load, LoadRange, LoadStart, MaterialChoice, MeshFactors, PeakOf, Radiation, Role, Scene,
-    Solid, takes_newton,
+    Body, Carries, CellValues, Convection, Face, FidelityLevel, Footprint, Gives, Load, LoadRange,
+    LoadStart, MaterialChoice, MeshFactors, PeakOf, Radiation, Role, Scene, Solid, takes_newton,
 };
 
 /// What of a body is estimated.
@@ -44,7 +43,7 @@ pub const MOST_PROBES: usize = 256;
 impl Twin {
     /// Of a solid of a scene; nothing where there is nothing to be estimated.
     pub fn of(scene: &Scene, name: &str, physics: Physics) -> Option<Self> {
-        let solid = scene.solid(name)?;
+        let solid = scene.meshed(name)?;
         let is_mechanical = physics == Physics::Deformation;
         let reads = scene.gives_mechanics(name);
         let has_stress_peaks = solid.has_stress_peaks();
@@ -85,8 +84,8 @@ impl Twin {
             );
             if solid.melts() {
                 simplified.push(
-                    "fronts are left out, which go from node to node: temperatures behind one err by up to half of an \
-                     element over the depth that is molten"
+                    "fronts are left out, which go from node to node: the error of temperatures behind one is up to half \
+                     of an element over the depth that is molten"
                         .to_owned(),
                 );
             }
@@ -95,12 +94,12 @@ impl Twin {
         if has_drops {
             simplified.push(
                 "a disc as wide as the drop is expected to spread stands for it where it lands, and brings a heat that does \
-                 not depend on the mesh: what that of a drop does is not estimated"
+                 not depend on the mesh: the dependence of a drop's heat on it is not estimated"
                     .to_owned(),
             );
         }
         twin.solver.method = Default::default();
-        let Some(Body::Solid(solid)) = twin.body.get_mut(name) else { return None };
+        let solid = twin.meshed_mut(name)?;
         let has_history = is_mechanical && !solid.deforms_linearly();
         linearise(solid, has_history);
         solid.peaks.clear();
@@ -134,6 +133,16 @@ impl Twin {
         scene
     }
 
+    /// Name of the body.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The body itself.
+    pub fn solid(&self) -> &Solid {
+        self.scene.meshed(&self.name).expect("twins are made of bodies with a mesh")
+    }
+
     /// Without a mesh.
     pub fn scene(&self) -> &Scene {
         &self.scene
@@ -149,22 +158,20 @@ fn part_of_load(load: &Load, is_mechanical: bool) -> Option<Load> {
 
 /// What drops bring, as loads of their size where they land.
 fn drops(scene: &Scene, name: &str) -> impl Iterator<Item = Load> {
-    let below = scene.couplings_to(name);
-    below.filter_map(|coupling: &Coupling| {
-        let droplet: &Droplet = scene.droplet(&coupling.from)?;
+    let is_round = scene.body.get(name).is_some_and(Body::is_round);
+    scene.drops_on(name).map(move |(coupling, droplet)| {
         let reach = fine_radius(coupling, droplet, scene.stop_time);
         let spread = 0.5 * droplet.spread_diameter();
         let radius = spread.min(reach).max(0.5 * droplet.diameter);
         let [x, y] = droplet.landings().next().unwrap_or_default();
-        let is_box = matches!(scene.solid(name)?.shape, crate::scene::Shape::Box(_));
         let start = LoadStart {
-            x: is_box.then_some(x),
-            y: is_box.then_some(y),
+            x: (!is_round).then_some(x),
+            y: (!is_round).then_some(y),
             radius: Some(radius),
             heat_flux: Some(CellValues::Uniform(0.0)),
             ..LoadStart::default()
         };
-        Some(Load {
+        Load {
             name: coupling.from.clone(),
             on: coupling.to.clone(),
             footprint: Footprint::Disc { radius },
@@ -172,7 +179,7 @@ fn drops(scene: &Scene, name: &str) -> impl Iterator<Item = Load> {
             start,
             range: LoadRange { radius: Some([radius, reach.max(radius)]), ..LoadRange::default() },
             role: Role::default(),
-        })
+        }
     })
 }
 

@@ -25,9 +25,9 @@ pub fn check(checker: &mut Checker) {
             checker.require(is_auto, &path, message, "fidelity.level = \"auto\", or no such table");
         }
     }
-    for (name, solid) in checker.scene.solids() {
+    for (name, _) in checker.scene.solids() {
         let is_asked = !checker.scene.is_open_level(name) && checker.scene.is_reduced(name);
-        let Some(obstacle) = checker.scene.obstacle(name, solid).filter(|_| is_asked) else {
+        let Some(obstacle) = checker.scene.obstacle(name).filter(|_| is_asked) else {
             continue;
         };
         let path = match obstacle.at {

@@ -1,5 +1,6 @@
-//! Which constants of droplets units offer as parameters: a row for each.
+//! The constants of droplets: a row for each.
 
+use super::{Constant, OfferedConstant};
 use crate::laws::AtStart;
 use crate::quantity::Quantity;
 use crate::scene::Droplet;
@@ -9,7 +10,7 @@ use crate::scene::Droplet;
 pub struct DropletConstant {
     /// Key in the scene and last part of the variable's name.
     pub key: &'static str,
-    pub(super) description: &'static str,
+    pub description: &'static str,
     pub quantity: Quantity,
     pub start: AtStart,
     place: fn(&mut Droplet) -> &mut f64,
@@ -92,3 +93,23 @@ impl PartialEq for DropletConstant {
 }
 
 impl Eq for DropletConstant {}
+
+/// The constants of a droplet. Inputs set speed and temperature of drops on demand, and only particles have a speed of
+/// sound.
+pub fn offered(body: &str, droplet: &Droplet) -> Vec<OfferedConstant> {
+    let is_input = |key: &str| droplet.is_on_demand() && key == "impact_velocity";
+    let is_of_particles = |key: &str| !droplet.has_particles() && key == "sound_speed";
+    let is_offered = |key: &str| !is_input(key) && !is_of_particles(key);
+    let rows = DropletConstant::ALL.iter().filter(|constant| is_offered(constant.key));
+    let own = rows.map(|constant| OfferedConstant {
+        key: constant.key.to_owned(),
+        description: format!("{} of {body}", constant.description),
+        constant: Constant::Droplet(constant),
+    });
+    let temperature = (!droplet.is_on_demand()).then(|| OfferedConstant {
+        key: "initial_temperature".to_owned(),
+        description: format!("uniform temperature of {body} at the release"),
+        constant: Constant::InitialTemperature,
+    });
+    own.chain(temperature).collect()
+}

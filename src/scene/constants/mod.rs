@@ -1,0 +1,118 @@
+//! The constants of bodies that units offer as parameters: each kind lists its own and knows where they stand.
+
+mod droplet;
+mod solid;
+
+pub use droplet::DropletConstant;
+pub use solid::LayersOf;
+
+use super::types::{Body, FaceName, Scene};
+use crate::laws::{AtStart, MaterialConstant};
+use crate::limits::Bounds;
+use crate::quantity::Quantity;
+
+/// A number within a body that may be set until initialisation ends.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Constant {
+    InitialTemperature,
+    Material(&'static MaterialConstant),
+    /// Of the material of some layers.
+    LayerMaterial {
+        layers: LayersOf,
+        constant: &'static MaterialConstant,
+    },
+    /// Thermal resistance between a layer, counted from 0, and the one above.
+    ContactResistance {
+        layer: usize,
+    },
+    ConvectionCoefficient {
+        face: FaceName,
+    },
+    Droplet(&'static DropletConstant),
+}
+
+/// A constant as a unit names it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct OfferedConstant {
+    /// Name of the variable after that of the body and a point.
+    pub key: String,
+    pub description: String,
+    pub constant: Constant,
+}
+
+impl Constant {
+    pub fn quantity(&self) -> Quantity {
+        match self {
+            Self::InitialTemperature => Quantity::Temperature,
+            Self::Material(constant) | Self::LayerMaterial { constant, .. } => constant.quantity,
+            Self::ContactResistance { .. } => Quantity::ThermalResistance,
+            Self::ConvectionCoefficient { .. } => Quantity::HeatTransferCoefficient,
+            Self::Droplet(constant) => constant.quantity,
+        }
+    }
+
+    /// Declared least and largest value.
+    pub fn bounds(&self) -> Bounds {
+        match self {
+            Self::Material(constant) | Self::LayerMaterial { constant, .. } => constant.bounds,
+            _ => Bounds::from(0.0),
+        }
+    }
+
+    /// How outputs at time zero follow the constant.
+    pub fn at_start(&self) -> AtStart {
+        match self {
+            Self::InitialTemperature => AtStart::PoleAtZero,
+            Self::Material(constant) | Self::LayerMaterial { constant, .. } => constant.start,
+            Self::ContactResistance { .. } | Self::ConvectionCoefficient { .. } => AtStart::Never,
+            Self::Droplet(constant) => constant.start,
+        }
+    }
+}
+
+impl Body {
+    /// The constants that the body offers; `name` is that of the body.
+    pub fn constants(&self, name: &str) -> Vec<OfferedConstant> {
+        match self {
+            Body::Solid(solid) => solid::offered(name, solid),
+            Body::Droplet(droplet) => droplet::offered(name, droplet),
+            Body::Reservoir(_) => vec![OfferedConstant {
+                key: "initial_temperature".to_owned(),
+                description: format!("temperature of {name} at time zero"),
+                constant: Constant::InitialTemperature,
+            }],
+        }
+    }
+
+    /// Places of a constant of the body: one, or one in each of some layers.
+    ///
+    /// # Panics
+    /// If a body of this kind does not offer the constant.
+    pub fn places_of(&mut self, constant: &Constant) -> Vec<&mut f64> {
+        match (self, constant) {
+            (body, Constant::InitialTemperature) => vec![body.initial_temperature_mut()],
+            (Body::Solid(solid), constant) => solid::places(solid, constant),
+            (Body::Droplet(droplet), Constant::Droplet(constant)) => vec![constant.place(droplet)],
+            _ => panic!("a body offers the constants of its kind"),
+        }
+    }
+
+    /// Place among the kinds in the list of a unit's parameters.
+    fn rank(&self) -> u8 {
+        match self {
+            Body::Solid(_) => 0,
+            Body::Reservoir(_) => 1,
+            Body::Droplet(_) => 2,
+        }
+    }
+}
+
+impl Scene {
+    /// The bodies in the order in which a unit lists their parameters: by kind, then by name.
+    pub fn bodies_by_kind(&self) -> Vec<(&str, &Body)> {
+        let mut bodies: Vec<_> =
+            self.body.iter().map(|(name, body)| (name.as_str(), body)).collect();
+        bodies.sort_by_key(|(_, body)| body.rank());
+        bodies
+    }
+}

@@ -1,0 +1,189 @@
+//! Questions about bodies, answered for each kind: others ask these instead of which kind a body is.
+
+use super::droplet::{Coupling, Droplet, Wall};
+use super::lookup::BodyInput;
+use super::sampling::Sampling;
+use super::types::*;
+
+/// What fields of a body are given at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Drawn {
+    /// Nodes of a mesh.
+    Grid,
+    Particles,
+}
+
+impl Body {
+    /// Uniform temperature at the beginning [K].
+    pub fn initial_temperature(&self) -> f64 {
+        match self {
+            Body::Solid(solid) => solid.initial_temperature,
+            Body::Droplet(droplet) => droplet.initial_temperature,
+            Body::Reservoir(reservoir) => reservoir.initial_temperature,
+        }
+    }
+
+    /// The same, to be changed.
+    pub fn initial_temperature_mut(&mut self) -> &mut f64 {
+        match self {
+            Body::Solid(solid) => &mut solid.initial_temperature,
+            Body::Droplet(droplet) => &mut droplet.initial_temperature,
+            Body::Reservoir(reservoir) => &mut reservoir.initial_temperature,
+        }
+    }
+
+    /// Inputs beside those of loads, faces and walls.
+    pub fn inputs(&self) -> Vec<BodyInput> {
+        match self {
+            Body::Solid(_) => Vec::new(),
+            Body::Droplet(droplet) => droplet.inputs(),
+            Body::Reservoir(reservoir) => reservoir.inputs(),
+        }
+    }
+
+    /// A description of a body that has no extent.
+    pub(super) fn lump(&self) -> Option<String> {
+        match self {
+            Body::Solid(_) | Body::Droplet(_) => None,
+            Body::Reservoir(reservoir) => Some(reservoir.words()),
+        }
+    }
+
+    /// Returns true if probes and fields can read the body, whose outputs then have an estimate of their errors.
+    pub fn resolves_fields(&self) -> bool {
+        matches!(self, Body::Solid(_))
+    }
+
+    /// What pictures of the body's fields consist of; nothing if it has no extent.
+    pub fn drawn_as(&self) -> Option<Drawn> {
+        match self {
+            Body::Solid(_) => Some(Drawn::Grid),
+            Body::Droplet(_) => Some(Drawn::Particles),
+            Body::Reservoir(_) => None,
+        }
+    }
+
+    /// Returns true if the body's shape is round about z, so that a meridian section represents it.
+    pub fn is_round(&self) -> bool {
+        matches!(self, Body::Solid(solid) if matches!(solid.shape, Shape::Disc(_)))
+    }
+
+    /// Returns true if the model of the body is plane, per metre of depth.
+    pub fn is_plane(&self) -> bool {
+        matches!(self, Body::Droplet(droplet) if droplet.dimension == 2)
+    }
+
+    /// Conditions that the scene sets on faces of the body.
+    pub fn faces(&self) -> impl Iterator<Item = (FaceName, &Face)> {
+        let faces = match self {
+            Body::Solid(solid) => Some(&solid.faces),
+            _ => None,
+        };
+        faces.into_iter().flatten().map(|(&name, face)| (name, face))
+    }
+
+    /// All temperatures that the scene names for the body and its surroundings [K].
+    pub fn temperatures(&self) -> Vec<f64> {
+        let own = match self {
+            Body::Solid(solid) => solid.stress_free_temperature,
+            Body::Droplet(_) => None,
+            Body::Reservoir(reservoir) => reservoir.ambient,
+        };
+        let of_faces = self.faces().flat_map(|(_, face)| {
+            let ambient = face.convection.map(|convection| convection.ambient);
+            let around = face.radiation.map(|radiation| radiation.ambient);
+            [face.temperature, ambient, around].into_iter().flatten()
+        });
+        of_faces.chain(own).chain([self.initial_temperature()]).collect()
+    }
+
+    /// The solid whose heat finite elements conduct, on a mesh that can be refined.
+    fn meshed(&self) -> Option<&Solid> {
+        match self {
+            Body::Solid(solid) if solid.heat == HeatMethod::Fem => Some(solid),
+            _ => None,
+        }
+    }
+}
+
+impl Scene {
+    /// The body of that name if its mesh can be refined.
+    pub fn meshed(&self, name: &str) -> Option<&Solid> {
+        self.body.get(name)?.meshed()
+    }
+
+    /// The same, to be changed.
+    pub fn meshed_mut(&mut self, name: &str) -> Option<&mut Solid> {
+        match self.body.get_mut(name)? {
+            Body::Solid(solid) if solid.heat == HeatMethod::Fem => Some(solid),
+            _ => None,
+        }
+    }
+
+    /// The bodies that probes and fields can read.
+    pub fn with_fields(&self) -> impl Iterator<Item = (&str, &Body)> {
+        let own = self.body.iter().filter(|(_, body)| body.resolves_fields());
+        own.map(|(name, body)| (name.as_str(), body))
+    }
+
+    /// Returns true if drops fall in the scene.
+    pub fn has_drops(&self) -> bool {
+        self.droplets().next().is_some()
+    }
+
+    /// Returns true if part of the scene may melt.
+    pub fn melts(&self) -> bool {
+        self.solids().any(|(_, solid)| solid.melts())
+    }
+
+    /// Returns true if drops are repeated from records or closed forms.
+    pub fn has_replayed_drops(&self) -> bool {
+        self.droplets().any(|(_, droplet)| droplet.is_replayed())
+    }
+
+    /// Returns true if particles fill a body, which then takes inner steps, however long a step is.
+    pub fn has_particles(&self) -> bool {
+        let is_filled = |body: &Body| match body {
+            Body::Solid(solid) => solid.heat == HeatMethod::Sph,
+            Body::Droplet(_) => true,
+            Body::Reservoir(_) => false,
+        };
+        self.body.values().any(is_filled)
+    }
+
+    /// The bodies that have no extent, each with its description.
+    pub fn lumps(&self) -> impl Iterator<Item = (&str, String)> {
+        self.body.iter().filter_map(|(name, body)| Some((name.as_str(), body.lump()?)))
+    }
+
+    /// The drop that a coupling lets fall.
+    pub fn drop_of(&self, coupling: &Coupling) -> Option<&Droplet> {
+        self.droplet(&coupling.from)
+    }
+
+    /// The drop above a wall.
+    pub fn drop_above(&self, wall: &Wall) -> Option<&Droplet> {
+        self.droplet(&wall.under)
+    }
+
+    /// The drops that fall on a body.
+    pub fn drops_on(&self, name: &str) -> impl Iterator<Item = (&Coupling, &Droplet)> {
+        self.couplings_to(name).filter_map(|coupling| Some((coupling, self.drop_of(coupling)?)))
+    }
+
+    /// The solid that a coupling lets something act on, with its name.
+    pub fn solid_below<'a>(&'a self, coupling: &'a Coupling) -> Option<(&'a str, &'a Solid)> {
+        let name = coupling.solid()?;
+        Some((name, self.solid(name)?))
+    }
+
+    /// The solid that a load acts on.
+    pub fn solid_under(&self, load: &Load) -> Option<&Solid> {
+        self.solid(load.body_and_face().0)
+    }
+
+    /// The points or cells at which a field of a checked scene is sampled.
+    pub fn sampling(&self, field: &Field) -> Option<Sampling> {
+        Some(field.sampling(self.solid(field.body_and_place().0)?))
+    }
+}
