@@ -8,6 +8,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from PIL import Image  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
 ZERO_CELSIUS = 273.15  # K
@@ -82,9 +83,13 @@ def add_colour_bar(image, label: str):
 
 
 def save(figure, folder: Path, name: str) -> Path:
-    """Writes the picture and says where it is."""
+    """Writes the picture, of few colours and thus small, and says where it is."""
     path = folder / f"{name}.png"
     figure.savefig(path, dpi=110)
+    with Image.open(path) as image:
+        coverage = Image.Quantize.MAXCOVERAGE
+        few = image.convert("RGB").quantize(256, coverage, kmeans=3, dither=Image.Dither.NONE)
+    few.save(path, optimize=True)
     plt.close(figure)
     print(f"picture: {path}")
     return path

@@ -14,14 +14,15 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from statistics import median
 
-import table
-from boundary import crossings, deviations, search, silent
-from cases import MAPS
-from draw import draw
-from plan import Answer, Cell, Map
-
+# Of the folder of all benches, too.
 sys.path.append(str(Path(__file__).resolve().parents[1]))
-from surveys import parsed, parser  # noqa: E402 - of the folder of all benches
+
+import table  # noqa: E402
+from boundary import crossings, deviations, search, silent  # noqa: E402
+from cases import MAPS  # noqa: E402
+from draw import draw  # noqa: E402
+from plan import Answer, Cell, Map  # noqa: E402
+from surveys import parsed, parser  # noqa: E402
 
 
 def measure(name: str, x: float, y: float, is_search: bool) -> Cell:
