@@ -18,8 +18,8 @@ COLOURS = ["#20306b", "#b0303c", "#e08214", "#2a8a7f", "#7b7b7b"]
 CLOSED_FORM = {"color": "black", "linestyle": (0, (4, 3)), "linewidth": 1.2, "zorder": 5}
 
 
-def arguments(name: str, purpose: str, given: list[str] | None) -> argparse.Namespace:
-    """The options of an example: the unit and the folder of the pictures."""
+def arguments(name: str, purpose: str, given: list[str] | None, **more: dict) -> argparse.Namespace:
+    """The options of an example: the unit, the folder of the pictures, and `more` of its own."""
     parser = argparse.ArgumentParser(description=purpose)
     parser.add_argument(
         "--fmu", type=Path, default=ROOT / "out" / f"{name}.fmu", help="unit [default: %(default)s]"
@@ -27,6 +27,8 @@ def arguments(name: str, purpose: str, given: list[str] | None) -> argparse.Name
     parser.add_argument(
         "--out", type=Path, default=ROOT / "out" / name, help="folder [default: %(default)s]"
     )
+    for option, settings in more.items():
+        parser.add_argument(f"--{option}", **settings)
     options = parser.parse_args(given)
     if not options.fmu.is_file():
         parser.exit(
