@@ -67,12 +67,18 @@ def test_parameters_act_as_if_the_scene_said_them(pack):
     """All at once; each that were not taken would leave other bits than the scene that says it."""
     says = pack("plate", {was: f"{name} = {value}" for name, (was, value) in PARAMETERS.items()})
     values = {f"plate.{name}": value for name, (_, value) in PARAMETERS.items()}
-    steps = [STEP]
-    wanted = run(says, LOADS, steps=steps)
-    assert run(pack("plate"), LOADS, values, steps) == wanted
+    assert run(pack("plate"), LOADS, values) == run(says, LOADS)
+
+    def watched(parameters):
+        with Unit(pack("plate"), parameters) as unit:
+            unit.set(LOADS)
+            unit.step(STEP)
+            return unit.get(["centre.temperature", "centre.stress_xx"]).tolist()
+
+    all_set = watched(values)
     for name in values:
         others = {other: value for other, value in values.items() if other != name}
-        assert run(pack("plate"), LOADS, others, steps) != wanted, name
+        assert watched(others) != all_set, name
 
 
 def test_start_values_reach_the_unit_through_fmpy(pack):
