@@ -14,19 +14,13 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from problems.materials import INK, liquid
 
 ROOT = Path(__file__).resolve().parents[1]
 DIAMETER, SPEED, WARM, COLD = 1e-4, 20.0, 350.0, 300.0
 TIME = DIAMETER / SPEED
 # Drops start clear of the films of those before.
 ABOVE = 1.5 * DIAMETER
-INK = {
-    "density": 1000.0,
-    "viscosity": 4e-3,
-    "specific_heat": 4180.0,
-    "conductivity": 0.6,
-    "surface_tension": 0.05,
-}
 ALUMINA = "density = 3950.0, specific_heat = 900.0, conductivity = 10.0"
 # Effusivities of 1.5, 0.14 and 0.05 times that of mercury.
 INSULATORS = {
@@ -37,20 +31,14 @@ INSULATORS = {
 GRID, PATCHES = 40, 10
 
 
-def fluid(density, viscosity, specific_heat, conductivity, surface_tension):
-    return dict(
-        zip(INK, (density, viscosity, specific_heat, conductivity, surface_tension), strict=True)
-    )
-
-
 # At the drop's temperature; speeds keep Re and We within what drops of particles resolve.
 FLUIDS = {
-    "mercury": (fluid(13534.0, 1.53e-3, 139.0, 8.5, 0.485), 4.0),
-    "tin": (fluid(6970.0, 1.8e-3, 245.0, 31.0, 0.55), 5.0),
-    "water": (fluid(980.0, 4.0e-4, 4186.0, 0.66, 0.064), 10.0),
-    "ethanol": (fluid(760.0, 6.5e-4, 2700.0, 0.16, 0.019), 10.0),
-    "glycerol": (fluid(1240.0, 0.1, 2600.0, 0.29, 0.06), 20.0),
-    "wax": (fluid(800.0, 1.2e-2, 2200.0, 0.15, 0.025), 10.0),
+    "mercury": (liquid(13534.0, 1.53e-3, 139.0, 8.5, 0.485), 4.0),
+    "tin": (liquid(6970.0, 1.8e-3, 245.0, 31.0, 0.55), 5.0),
+    "water": (liquid(980.0, 4.0e-4, 4186.0, 0.66, 0.064), 10.0),
+    "ethanol": (liquid(760.0, 6.5e-4, 2700.0, 0.16, 0.019), 10.0),
+    "glycerol": (liquid(1240.0, 0.1, 2600.0, 0.29, 0.06), 20.0),
+    "wax": (liquid(800.0, 1.2e-2, 2200.0, 0.15, 0.025), 10.0),
 }
 
 

@@ -18,12 +18,13 @@ from pathlib import Path
 
 import numpy as np
 import scipy.sparse as sp
+from problems.materials import ALUMINA
 from pymor.models.iosys import LTIModel
 from pymor.reductors.bt import BTReductor
 
 ROOT = Path(__file__).resolve().parents[1]
 LENGTH, WIDTH, HEIGHT = 4e-3, 4e-3, 0.5e-3
-DENSITY, HEAT, CONDUCTIVITY = 3950.0, 900.0, 10.0
+DENSITY, HEAT, CONDUCTIVITY = ALUMINA.values()
 RADIUS, FLUX = 2e-4, 3e7
 POINTS = [(0.0, 0.0, 0.0), (1.5e-4, 1e-4, -1e-4)]
 

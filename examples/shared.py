@@ -8,6 +8,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
+from PIL import Image  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[1]
 ZERO_CELSIUS = 273.15  # K
@@ -17,8 +18,8 @@ COLOURS = ["#20306b", "#b0303c", "#e08214", "#2a8a7f", "#7b7b7b"]
 CLOSED_FORM = {"color": "black", "linestyle": (0, (4, 3)), "linewidth": 1.2, "zorder": 5}
 
 
-def arguments(name: str, purpose: str, given: list[str] | None) -> argparse.Namespace:
-    """The options of an example: the unit and the folder of the pictures."""
+def arguments(name: str, purpose: str, given: list[str] | None, **more: dict) -> argparse.Namespace:
+    """The options of an example: the unit, the folder of the pictures, and `more` of its own."""
     parser = argparse.ArgumentParser(description=purpose)
     parser.add_argument(
         "--fmu", type=Path, default=ROOT / "out" / f"{name}.fmu", help="unit [default: %(default)s]"
@@ -26,6 +27,8 @@ def arguments(name: str, purpose: str, given: list[str] | None) -> argparse.Name
     parser.add_argument(
         "--out", type=Path, default=ROOT / "out" / name, help="folder [default: %(default)s]"
     )
+    for option, settings in more.items():
+        parser.add_argument(f"--{option}", **settings)
     options = parser.parse_args(given)
     if not options.fmu.is_file():
         parser.exit(
@@ -82,9 +85,13 @@ def add_colour_bar(image, label: str):
 
 
 def save(figure, folder: Path, name: str) -> Path:
-    """Writes the picture and says where it is."""
+    """Writes the picture, of few colours and thus small, and says where it is."""
     path = folder / f"{name}.png"
     figure.savefig(path, dpi=110)
+    with Image.open(path) as image:
+        coverage = Image.Quantize.MAXCOVERAGE
+        few = image.convert("RGB").quantize(256, coverage, kmeans=3, dither=Image.Dither.NONE)
+    few.save(path, optimize=True)
     plt.close(figure)
     print(f"picture: {path}")
     return path

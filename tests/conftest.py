@@ -16,6 +16,50 @@ os.environ["PYTHONPATH"] = os.pathsep.join(
 )
 SCENES = ROOT / "tests/fmpy/scenes"
 EXAMPLES = sorted(ROOT.glob("examples/*/scene.toml"))
+EVERY_SCENE = [*EXAMPLES, *sorted(SCENES.glob("*.toml"))]
+
+# Examples that take long, on few nodes and particles: all variables are the same.
+COARSE = {
+    "alumina_plate": {
+        "spacing = 5e-6, depth_spacing = 0.05e-6, growth = 1.6": "spacing = 2e-5, "
+        "depth_spacing = 1e-6, growth = 2.0"
+    },
+    "coated_plate": {
+        "spacing = 100e-6, depth_spacing = 2e-6, growth = 1.5": "spacing = 2e-4, order = 1, "
+        "depth_spacing = 4e-6, growth = 2.0",
+        "spacing = 300e-6, depth_spacing = 2e-6, growth = 1.5": "spacing = 6e-4, order = 1, "
+        "depth_spacing = 4e-6, growth = 2.0",
+        "\nspacing = 125e-6": "\nspacing = 250e-6",
+    },
+    "droplet_impact": {
+        "\nspacing = 2.5e-6": "\nspacing = 6e-6",
+        "spacing = 7.5e-6, depth_spacing = 0.3e-6": "spacing = 20e-6, depth_spacing = 0.6e-6",
+    },
+    "moving_spot": {
+        "spacing = 40e-6, depth_spacing = 10e-6, growth = 1.4": "spacing = 1e-4, "
+        "depth_spacing = 2e-5, growth = 2.0"
+    },
+    "printed_line": {
+        "\nspacing = 3e-6": "\nspacing = 8e-6",
+        "spacing = 3e-5, depth_spacing = 5e-6": "spacing = 6e-5, depth_spacing = 1e-5",
+    },
+}
+# Fields of examples that have hundreds of points.
+GRIDS = {
+    "alumina_plate": {"grid = [24, 24]": "grid = [4, 2]"},
+    "droplet_impact": {"grid = [32, 32]": "grid = [4, 2]"},
+    "moving_spot": {"grid = [32, 20]": "grid = [4, 2]"},
+    "printed_line": {"grid = [48, 16]": "grid = [4, 2]"},
+    "printer_control": {"grid = [40, 12]": "grid = [4, 2]"},
+}
+
+
+def name_of(scene):
+    """Of an example its folder, of a small scene its file."""
+    return scene.parent.name if scene.name == "scene.toml" else scene.stem
+
+
+every_scene = pytest.mark.parametrize("scene", EVERY_SCENE, ids=name_of)
 
 
 @pytest.fixture(scope="session")
@@ -41,13 +85,13 @@ def pack(programs, units):
     """Makes a unit of a scene, given by the name of a small one or by its path, after some edits
     `{old: new}`, of version `fmi` of the standard; the same unit is made once."""
 
-    def pack(scene, edits=None, fmi=2):
+    def pack(scene, edits=None, fmi=2, *options):
         path = SCENES / f"{scene}.toml" if isinstance(scene, str) else scene
         text = path.read_text()
         for old, new in (edits or {}).items():
             assert text.count(old) == 1, f"`{old}` stands {text.count(old)} times in {path}"
             text = text.replace(old, new)
-        digest = hashlib.sha256(f"{fmi} {path} {text}".encode()).hexdigest()[:16]
+        digest = hashlib.sha256(f"{fmi} {options} {path} {text}".encode()).hexdigest()[:16]
         name = re.sub(r"\W", "_", path.stem)
         folder = units / f"{name}_{digest}"
         folder.mkdir(exist_ok=True)
@@ -57,10 +101,24 @@ def pack(programs, units):
             fcntl.flock(lock, fcntl.LOCK_EX)
             if not unit.is_file():
                 (folder / "scene.toml").write_text(text)
-                build(programs, folder / "scene.toml", unit, "--fmi", str(fmi))
+                build(programs, folder / "scene.toml", unit, "--fmi", str(fmi), *options)
         return unit
 
     return pack
+
+
+@pytest.fixture(scope="session")
+def pack_coarse(pack):
+    """Makes a unit of any scene, of an example on a coarse mesh: for tests of no values."""
+    return lambda scene, fmi=2: pack(scene, COARSE.get(name_of(scene)), fmi)
+
+
+@pytest.fixture(scope="session")
+def pack_small(pack):
+    """The same with fields of few points, each of which is a variable."""
+    return lambda scene, fmi=2: pack(
+        scene, COARSE.get(name_of(scene), {}) | GRIDS.get(name_of(scene), {}), fmi
+    )
 
 
 def build(programs, scene, unit, *options):

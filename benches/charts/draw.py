@@ -10,6 +10,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 from chart import Chart, Outcome
 from matplotlib.ticker import FuncFormatter, NullFormatter
+from pictures import save
 from table import error, key
 
 COLOURS = ["#20306b", "#b0303c", "#e08214", "#2a8a7f", "#7b7b7b", "#8e5ea2", "#3b8bc4", "#a0752d"]
@@ -154,29 +155,34 @@ def draw(chart: Chart, known: dict[tuple[str, str], Outcome], folder: Path):
             "axes.spines.top": False,
             "axes.spines.right": False,
             "legend.frameon": False,
-            "svg.hashsalt": chart.name,
         }
     )
     chart = replace(chart, methods=[m for m in chart.methods if not m.is_reference])
     can_ask = any(p.asked is not None for m in chart.methods for p in m.points)
     drawn = [quantity for quantity in chart.quantities if quantity.has_panel]
     panels, count = len(drawn), len(drawn) + can_ask
-    figure, axes = plt.subplots(1, count, figsize=(5.4 * count, 5.6), layout="constrained")
-    axes = [axes] if count == 1 else list(axes)
+    figure, axes = arranged(count)
     for place, quantity in enumerate(drawn):
         panel(axes[place], chart, quantity, known)
     if can_ask:
-        asked_over_found(axes[-1], chart, known)
+        asked_over_found(axes[panels], chart, known)
     lines = {line.get_label(): line for place in axes[:panels] for line in place.get_lines()}
     labels = [method.name for method in chart.methods if method.name in lines]
     figure.suptitle(chart.title, x=0.01, ha="left", fontsize=13)
-    figure.legend(
-        [lines[label] for label in labels],
-        labels,
-        loc="outside lower center",
-        ncols=min(5, len(labels)),
-        fontsize=9,
-    )
-    figure.savefig(folder / f"{chart.name}.png", dpi=130)
-    figure.savefig(folder / f"{chart.name}.svg", metadata={"Date": None})
+    handles = [lines[label] for label in labels]
+    if len(axes) > count:
+        axes[-1].axis("off")
+        axes[-1].legend(handles, labels, loc="center left", fontsize=10)
+    else:
+        figure.legend(handles, labels, loc="outside lower center", ncols=3, fontsize=9)
+    save(figure, folder / f"{chart.name}.png")
     plt.close(figure)
+
+
+def arranged(panels: int):
+    """Panels in rows of two, so that they can be read at the width of a page."""
+    rows = (panels + 1) // 2
+    columns = min(panels, 2)
+    size = 5.4 * columns, (5.6 if rows == 1 else 5.0 * rows)
+    figure, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False)
+    return figure, list(axes.flat)

@@ -7,14 +7,15 @@ stays unless its scene has changed or `--again` asks for it.
 import sys
 from pathlib import Path
 
-import table
-from cases import CHARTS
-from draw import draw
-from measure import measure
-from references import resolved
-
+# Of the folder of all benches, too.
 sys.path.append(str(Path(__file__).resolve().parents[1]))
-from surveys import parsed, parser  # noqa: E402 - of the folder of all benches
+
+import table  # noqa: E402
+from cases import CHARTS  # noqa: E402
+from draw import draw  # noqa: E402
+from measure import measure  # noqa: E402
+from references import resolved  # noqa: E402
+from surveys import parsed, parser  # noqa: E402
 
 
 def missing(folder: Path) -> list[str]:

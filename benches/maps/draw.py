@@ -12,6 +12,7 @@ from boundary import crossings, is_bad, silent
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.lines import Line2D
+from pictures import save
 from plan import Axis, Map
 from table import Known
 
@@ -169,7 +170,7 @@ def prepare(axes, of: Map) -> None:
 
 
 def draw(of: Map, known: Known, folder: Path) -> None:
-    plt.rcParams.update(STYLE | {"svg.hashsalt": of.name})
+    plt.rcParams.update(STYLE)
     figure, axes = plt.subplots(figsize=(7.4, 6.0), layout="constrained")
     mesh, ends = coloured(axes, of, known)
     prepare(axes, of)
@@ -177,6 +178,5 @@ def draw(of: Map, known: Known, folder: Path) -> None:
     figure.colorbar(mesh, ax=axes, label=f"{of.outcome} [{of.unit}]", shrink=0.9, extend=ends)
     if handles:
         figure.legend(handles=handles, loc="outside lower left", ncols=2, fontsize=8)
-    figure.savefig(folder / f"{of.name}.png", dpi=120)
-    figure.savefig(folder / f"{of.name}.svg", metadata={"Date": None})
+    save(figure, folder / f"{of.name}.png")
     plt.close(figure)

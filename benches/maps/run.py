@@ -1,8 +1,9 @@
 """Maps of where methods fail: measures what is not known yet, writes tables and pictures.
 
 A point is run in a process of its own; what is in a table stays unless its work has changed or
-`--again` asks for it. `limits.csv` holds how far each measured limit is from theory, and how many
-failures nothing was said of, `references.csv` what maps of impacts are judged by.
+`--again` asks for it. Pictures that no document shows go into `out/maps`. `limits.csv` holds how
+far each measured limit is from theory, and how many failures nothing was said of, `references.csv`
+what maps of impacts are judged by.
 """
 
 import csv
@@ -14,14 +15,15 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from statistics import median
 
-import table
-from boundary import crossings, deviations, search, silent
-from cases import MAPS
-from draw import draw
-from plan import Answer, Cell, Map
-
+# Of the folder of all benches, too.
 sys.path.append(str(Path(__file__).resolve().parents[1]))
-from surveys import parsed, parser  # noqa: E402 - of the folder of all benches
+
+import table  # noqa: E402
+from boundary import crossings, deviations, search, silent  # noqa: E402
+from cases import MAPS, SHOWN  # noqa: E402
+from draw import draw  # noqa: E402
+from plan import Answer, Cell, Map  # noqa: E402
+from surveys import ROOT, parsed, parser  # noqa: E402
 
 
 def measure(name: str, x: float, y: float, is_search: bool) -> Cell:
@@ -48,6 +50,8 @@ def line(message: str) -> str:
 
 
 LIMIT = 600.0  # s, for one cell
+UNSHOWN = ROOT / "out/maps"
+"""Where the pictures of maps go that no document shows."""
 
 
 def in_own_process(name: str, x: float, y: float, is_search: bool) -> Cell:
@@ -144,6 +148,7 @@ def main() -> None:
     made = parser(__doc__, "maps", MAPS)
     made.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parsed(made, MAPS, missing)
+    UNSHOWN.mkdir(parents=True, exist_ok=True)
     for name in options.names:
         surveyor = Surveyor(MAPS[name](), options.out / f"{name}.csv", options.jobs)
         if options.again:
@@ -151,7 +156,7 @@ def main() -> None:
         begin = time.perf_counter()
         if not options.draw:
             surveyor.complete()
-        draw(surveyor.of, surveyor.known, options.out)
+        draw(surveyor.of, surveyor.known, options.out if name in SHOWN else UNSHOWN)
         told = zip(HEADS, summary(surveyor.of, surveyor.known), strict=True)
         print("; ".join(f"{head} {value or '–'}" for head, value in told), end="")
         print(f" ({time.perf_counter() - begin:.0f} s)", flush=True)

@@ -16,7 +16,8 @@ from shared import plt  # noqa: E402
 
 NAME = "moving_spot"
 STOP, STEPS = 6e-3, 240  # s; a step moves the spot by a sixteenth of its radius
-READ_EVERY = 4  # steps; a stress costs a solve, and only when it is read
+FRAMES = 60  # of the moving picture; a stress costs a solve, and only when it is read
+FRAME_COUNTS = [count for count in range(8, STEPS + 1) if STEPS % count == 0]
 GRID, SIZE = (32, 20), (1.6, 1.0)  # points, mm: the field of the scene
 
 # Alumina, as in scene.toml
@@ -81,9 +82,10 @@ class Result:
     heat_balance: float  # relative
 
 
-def simulate(fmu: Path) -> Result:
+def simulate(fmu: Path, frames: int) -> Result:
     step_times = STOP * np.arange(1, STEPS + 1) / STEPS
-    times = step_times[READ_EVERY - 1 :: READ_EVERY]
+    read_every = STEPS // frames
+    times = step_times[read_every - 1 :: read_every]
     scalars = ["plate.max_temperature", "crossing.stress_xx", "plate.max_principal"]
     crossing, values, fields, von_mises = [], [], [], []
     with Unit(fmu) as unit:
@@ -93,7 +95,7 @@ def simulate(fmu: Path) -> Result:
             unit.set({"spot.x": x, "spot.y": y})
             unit.step_to(t)
             crossing.append(unit["crossing.temperature"])
-            if step % READ_EVERY == 0:
+            if step % read_every == 0:
                 values.append(unit.get(scalars))
                 fields.append(unit["surface.temperature"])
                 von_mises.append(unit["surface.von_mises"])
@@ -126,8 +128,9 @@ def points() -> list[np.ndarray]:
 def report(result: Result):
     rows = []
     eighth = len(result.times) // 8
+    read_every = STEPS // len(result.times)
     for i in range(eighth - 1, len(result.times), eighth):
-        step = (i + 1) * READ_EVERY - 1
+        step = (i + 1) * read_every - 1
         error = np.abs(result.fields[i] - result.exact_fields[i]).max()
         values = [result.crossing[step], result.exact_crossing[step], error, result.hottest[i]]
         values += [result.crossing_stress[i] / 1e6, result.highest_principal[i] / 1e6]
@@ -228,9 +231,11 @@ def animate(result: Result, folder: Path):
 
 
 def main(given: list[str] | None = None) -> Result:
-    options = shared.arguments(NAME, __doc__, given)
+    frames = {"type": int, "default": FRAMES, "choices": FRAME_COUNTS, "metavar": "N"}
+    frames["help"] = "of the moving picture, a divisor of 240, at least 8 [default: %(default)s]"
+    options = shared.arguments(NAME, __doc__, given, frames=frames)
     started = time.perf_counter()
-    result = simulate(options.fmu)
+    result = simulate(options.fmu, options.frames)
     print(f"{STEPS} steps in {time.perf_counter() - started:.1f} s")
     report(result)
     draw(result, options.out)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import EXAMPLES, SCENES
+from conftest import EXAMPLES, every_scene
 from fmpy import read_model_description
 from impinge import UnitError
 from impinge.unit import State
@@ -14,7 +14,6 @@ from master import Unit
 
 STEP = 1e-5
 LOADS = {"spot.heat_flux": 1e8, "spot.pressure": 25e6, "spot.shear_x": 1e6, "spot.x": 4e-5}
-ALL = [*EXAMPLES, *sorted(SCENES.glob("*.toml"))]
 
 
 def go_on(unit, steps=3):
@@ -28,9 +27,9 @@ def go_on(unit, steps=3):
     return np.array(rows)
 
 
-@pytest.mark.parametrize("scene", ALL, ids=lambda p: p.parent.name + "_" + p.stem)
-def test_every_unit_declares_all_capabilities(pack, scene):
-    offers = read_model_description(pack(scene)).coSimulation
+@every_scene
+def test_every_unit_declares_all_capabilities(pack_small, scene):
+    offers = read_model_description(pack_small(scene)).coSimulation
     droplets = 'kind = "droplet"' in scene.read_text()
     assert offers.canHandleVariableCommunicationStepSize
     assert offers.canGetAndSetFMUstate and offers.canSerializeFMUstate

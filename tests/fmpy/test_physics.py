@@ -216,7 +216,11 @@ def test_a_mirrored_load_mirrors_the_fields(pack, symmetry):
 @pytest.mark.parametrize("order", [1, 2])
 def test_symmetry_neglects_nothing(pack, order):
     """The coarse mesh of the whole body is the mirrored one of its quarter."""
-    edits = {"order = 1": f"order = {order}"}
+    quadratic = {
+        "spacing = 3e-5, depth_spacing = 3e-5, growth = 1.2, order = 1": "order = 2, "
+        "spacing = 6e-5, depth_spacing = 6e-5, growth = 1.2"
+    }
+    edits = quadratic if order == 2 else {}
     quarter = pack("plate", edits)
     whole = pack("plate", {**edits, 'symmetry = "auto"': 'symmetry = "none"'})
     a, b = (linear(run(file, {**SPOT, **ASIDE}, steps=[5e-5])) for file in (quarter, whole))

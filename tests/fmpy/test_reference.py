@@ -7,18 +7,15 @@ from zipfile import ZipFile
 
 import numpy as np
 import pytest
-from conftest import SCENES, build
 from master import Unit
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 LS = "{http://fmi-standard.org/fmi-ls-manifest}"
 
 
-@pytest.fixture(scope="module", params=["plate", "rings", "tiles", "drop"])
-def unit(request, programs, tmp_path_factory):
-    file = tmp_path_factory.mktemp(request.param) / "unit.fmu"
-    build(programs, SCENES / f"{request.param}.toml", file, "--reference")
-    return file
+@pytest.fixture(params=["plate", "rings", "tiles", "drop"])
+def unit(request, pack):
+    return pack(request.param, None, 2, "--reference")
 
 
 def table(text):

@@ -50,9 +50,9 @@ OTHERS = re.compile(r"body\.1st: |the key `yield_stress`")
 
 
 @pytest.fixture(scope="module")
-def validator():
+def validator(programs):
     printed = subprocess.run(
-        [ROOT / "target/release/impinge", "schema"], capture_output=True, check=True, text=True
+        [programs / "impinge", "schema"], capture_output=True, check=True, text=True
     ).stdout
     assert printed == (ROOT / "docs/scene.schema.json").read_text()
     schema = json.loads(printed)

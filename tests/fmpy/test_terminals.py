@@ -7,20 +7,19 @@ from zipfile import ZipFile
 
 import fmpy
 import pytest
-from conftest import EXAMPLES, SCENES
+from conftest import every_scene
 from fmpy import read_model_description
 from lxml import etree
 from PIL import Image
 
-ALL = [*EXAMPLES, *sorted(SCENES.glob("*.toml"))]
 SCHEMA = Path(fmpy.__file__).parent / "schema/fmi3/fmi3TerminalsAndIcons.xsd"
 FOLDER = "terminalsAndIcons"
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
-@pytest.mark.parametrize("scene", ALL, ids=lambda p: p.parent.name + "_" + p.stem)
-def test_terminals_are_valid_and_hold_every_input_and_output_once(pack, scene, fmi):
-    file = pack(scene, fmi=fmi)
+@every_scene
+def test_terminals_are_valid_and_hold_every_input_and_output_once(pack_small, scene, fmi):
+    file = pack_small(scene, fmi)
     with ZipFile(file) as archive:
         document = etree.fromstring(archive.read(f"{FOLDER}/terminalsAndIcons.xml"))
         icons = {Path(n).stem for n in archive.namelist() if n.startswith(FOLDER)}

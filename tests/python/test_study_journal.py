@@ -27,11 +27,18 @@ def study_of(unit, outputs=("y",), levels=LEVELS):
     return Study(unit, {"u": levels}, outputs=outputs, stop=1.0, step=0.5)
 
 
+@pytest.fixture(scope="module")
+def finished(unit, tmp_path_factory):
+    """A folder in which the study has run, and its table."""
+    folder = tmp_path_factory.mktemp("finished") / "f"
+    return folder, study_of(unit).run(1, folder=folder)
+
+
 @pytest.fixture
-def folder(unit, tmp_path):
-    """A folder in which the study has run, and what it came to."""
-    table = study_of(unit).run(1, folder=tmp_path / "f")
-    return tmp_path / "f", table
+def folder(finished, tmp_path):
+    """A copy of that folder, to damage, and the table."""
+    original, table = finished
+    return shutil.copytree(original, tmp_path / "f"), table
 
 
 def lines(folder):

@@ -202,7 +202,7 @@ def test_cells_tell_where_they_are_and_how_large(pack):
 
 def test_scenes_are_built_once_for_each_content(pack, folder, tmp_path):
     scene = tmp_path / "scene.toml"
-    text = (pack("plate").parent / "scene.toml").read_text()
+    text = (pack("drop").parent / "scene.toml").read_text()
     scene.write_text(text)
     first = build(scene)
     stamp = first.stat().st_mtime_ns
@@ -211,9 +211,9 @@ def test_scenes_are_built_once_for_each_content(pack, folder, tmp_path):
         assert unit.package is other.package
     assert build(scene).stat().st_mtime_ns == stamp
     assert build(scene, fmi=3) != first
-    scene.write_text(text.replace("conductivity = 10.0", "conductivity = 11.0"))
+    scene.write_text(text.replace("conductivity = 0.6", "conductivity = 0.7"))
     assert build(scene) != first
-    scene.write_text(text.replace("conductivity = 10.0", "conductivty = 11.0"))
+    scene.write_text(text.replace("conductivity = 0.6", "conductivty = 0.7"))
     with pytest.raises(UnitError, match="conductivty"):
         build(scene)
     with pytest.raises(UnitError, match="no such file"):

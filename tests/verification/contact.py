@@ -9,6 +9,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "benches"))
+from pictures import save  # noqa: E402
+
 KINDS = {
     0: ("layers taken to be even", "0.5", "x", "--"),
     1: ("with the thin layer", "C0", "o", "-"),
@@ -68,7 +71,7 @@ def main(tables: Path, picture: Path):
         panel.grid(alpha=0.3)
         panel.legend(fontsize=8)
     picture.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(picture, dpi=100)
+    save(figure, picture)
     print(picture)
 
 

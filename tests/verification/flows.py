@@ -9,6 +9,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "benches"))
+from pictures import save  # noqa: E402
+
 DECAY = 0.16 * np.pi**2  # Rate of the kinetic energy [1/s].
 
 
@@ -118,7 +121,7 @@ def main(tables: Path, folder: Path):
         return np.genfromtxt(tables / f"{name}.csv", delimiter=",", names=True)
 
     def keep(figure, name):
-        figure.savefig(folder / f"{name}.png", dpi=110)
+        save(figure, folder / f"{name}.png")
         print(folder / f"{name}.png")
 
     folder.mkdir(parents=True, exist_ok=True)

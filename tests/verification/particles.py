@@ -9,6 +9,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "benches"))
+from pictures import save  # noqa: E402
+
 MARKS = {"corrected": ("C0", "o"), "plain": ("C3", "s"), "finite elements": ("0.4", "^")}
 
 
@@ -81,7 +84,7 @@ def main(tables: Path, picture: Path):
         panel.grid(alpha=0.3)
         panel.legend(fontsize=8)
     picture.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(picture, dpi=110)
+    save(figure, picture)
     print(picture)
 
 

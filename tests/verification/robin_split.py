@@ -22,11 +22,12 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests/python")]
+sys.path[:0] = [str(ROOT / "python"), str(ROOT / "tests/python"), str(ROOT / "benches")]
 from impinge import Master, Unit  # noqa: E402
 from impinge.master import Graded  # noqa: E402
 from impinge.unit import build  # noqa: E402
 from linear_unit import make  # noqa: E402
+from pictures import save  # noqa: E402
 
 COEFFICIENT, AMBIENT, COLD = 1e5, 373.15, 293.15  # W/(m² K), K, K
 STOP = 64e-3  # s
@@ -232,7 +233,7 @@ def draw(found, path):
     )
     figure.legend(*both[0].get_legend_handles_labels(), loc="outside right center", frameon=False)
     path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=110)
+    save(figure, path)
     print(f"picture: {path}")
 
 

@@ -10,6 +10,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import NullFormatter
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "benches"))
+from pictures import save  # noqa: E402
+
 REYNOLDS = 500.0
 COARSE, FINE = 24, 48  # Particles over the diameter.
 NAMES = {
@@ -136,7 +139,7 @@ def main(tables: Path, folder: Path):
     points = shapes(rows.flat[:5], read("spread_shape"))
     lower.colorbar(points, ax=rows, label="speed over U")
     lower.suptitle(f"Widest shapes from the side, D/Δx = {FINE}")
-    figure.savefig(folder / "spread.png", dpi=110)
+    save(figure, folder / "spread.png")
     print(folder / "spread.png")
 
 

@@ -10,6 +10,9 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
+sys.path.append(str(Path(__file__).resolve().parents[2] / "benches"))
+from pictures import save  # noqa: E402
+
 LABELS = {"lattice": "from a lattice", "noise": "from blue noise"}
 
 
@@ -47,7 +50,7 @@ def main(tables, pictures):
     both[1][0].set_ylabel("core pressure over 2σ/R,\nmean of a tenth of a period")
     figure.legend(*axes[1].get_legend_handles_labels(), loc="outside lower center", ncols=4)
     pictures.mkdir(parents=True, exist_ok=True)
-    figure.savefig(pictures / "tension.png", dpi=100)
+    save(figure, pictures / "tension.png")
 
 
 if __name__ == "__main__":

@@ -5,15 +5,21 @@ they take NumPy alone. `reduced_unit.py` and `reduced_pymor.py` reduce the same 
 """
 
 import math
+import sys
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from scipy.linalg import eigh
 
+sys.path.append(str(Path(__file__).resolve().parents[2]))
+from problems.half_spaces import disc_flux_rise  # noqa: E402 - of the folder of all benches
+from problems.materials import ALUMINA  # noqa: E402
+
 RADIUS, HALF, THICKNESS = 50e-6, 500e-6, 200e-6  # m: of the spot, of the disc
 SPACING = RADIUS / 6  # of nodes
-DENSITY, HEAT, CONDUCTIVITY, COOLING = 3950.0, 900.0, 10.0, 1e4
-START, FLUX = 293.15, 5e7  # K, W/m²
+COOLING = 1e4
+FLUX = 5e7  # W/m²
 STOP, STEPS, HELD = 1e-3, 2000, 50
 LEVELS = np.random.default_rng(7).random(STEPS // HELD)
 """Parts of the flux, each for so many steps."""
@@ -52,7 +58,7 @@ def operators() -> Operators:
     ring, across = along(radii, lambda r: 2.0 * math.pi * r)
     line, down = along(depths, lambda z: 1.0)
     top, bottom = np.eye(len(depths))[[0, -1]]
-    conductance = CONDUCTIVITY * (np.kron(across, line) + np.kron(ring, down))
+    conductance = ALUMINA["conductivity"] * (np.kron(across, line) + np.kron(ring, down))
     conductance += COOLING * np.kron(ring, np.outer(bottom, bottom))
     inside = radii[: round(RADIUS / SPACING) + 1]
     spot = np.zeros(len(radii))
@@ -61,9 +67,8 @@ def operators() -> Operators:
         np.kron(np.isclose(radii, r, atol=1e-9), np.isclose(depths, z, atol=1e-9))
         for r, z in POINTS.values()
     ]
-    return Operators(
-        DENSITY * HEAT * np.kron(ring, line), conductance, np.kron(spot, top), np.array(rows, float)
-    )
+    capacity = ALUMINA["density"] * ALUMINA["specific_heat"] * np.kron(ring, line)
+    return Operators(capacity, conductance, np.kron(spot, top), np.array(rows, float))
 
 
 def exact() -> np.ndarray:
@@ -81,13 +86,8 @@ def exact() -> np.ndarray:
 
 
 def answer(time: float) -> float:
-    """Rise of the spot's centre on a half space under the whole flux [K].
-
-    `2q√(at)/k [1/√π − ierfc(R/(2√(at)))]` (Carslaw & Jaeger 1959, § 10.5)."""
-    reach = 2.0 * math.sqrt(CONDUCTIVITY / (DENSITY * HEAT) * time)
-    x = RADIUS / reach
-    tail = math.exp(-x * x) / math.sqrt(math.pi) - x * math.erfc(x)
-    return FLUX * reach / CONDUCTIVITY * (1.0 / math.sqrt(math.pi) - tail)
+    """Rise of the spot's centre on a half space under the whole flux [K]."""
+    return disc_flux_rise(FLUX, RADIUS, 0.0, time, ALUMINA)
 
 
 def half_space() -> float:

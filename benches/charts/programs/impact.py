@@ -10,9 +10,12 @@ import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-sys.path.append(str(Path(__file__).resolve().parents[1]))
+# The folders of charts and of all benches.
+sys.path += [str(folder) for folder in Path(__file__).resolve().parents[1:3]]
 
-from measure import pack, peak_memory  # noqa: E402 - of the folder of charts
+from measure import pack, peak_memory  # noqa: E402
+from problems.drops import droplet, wall  # noqa: E402
+from problems.materials import liquid  # noqa: E402
 
 DIAMETER, SPEED, DENSITY = 2e-3, 1.0, 1000.0  # m, m/s, kg/m³
 TIME = DIAMETER / SPEED
@@ -28,34 +31,16 @@ BACK = 0.1
 
 
 def scene(asked: dict) -> dict:
-    fluid = {
-        "density": DENSITY,
-        "viscosity": DENSITY * SPEED * DIAMETER / asked["reynolds"],
-        "surface_tension": DENSITY * SPEED**2 * DIAMETER / asked["weber"],
-        "specific_heat": 4000.0,
-        "conductivity": 0.0,
-    }
-    drop = {
-        "kind": "droplet",
-        "diameter": DIAMETER,
-        "impact_velocity": SPEED,
-        "initial_temperature": 293.15,
-        "spacing": DIAMETER / asked["across"],
-        "fluid": fluid,
-    }
+    viscosity = DENSITY * SPEED * DIAMETER / asked["reynolds"]
+    tension = DENSITY * SPEED**2 * DIAMETER / asked["weber"]
+    fluid = liquid(DENSITY, viscosity, 4000.0, 0.0, tension)
+    drop = droplet(DIAMETER, SPEED, 293.15, fluid, spacing=DIAMETER / asked["across"])
     return {
         "name": "Impact",
         "stop_time": UNTIL[asked["of"]] * TIME,
         "step": STEP[asked["of"]] * TIME,
         "body": {"drop": drop | asked.get("body", {})},
-        "wall": [
-            {
-                "name": "wall",
-                "under": "drop",
-                "footprint": {"rings": {"count": 1, "radius": 5.0 * DIAMETER}},
-                "start": {"temperature": 293.15},
-            }
-        ],
+        "wall": [wall(1, 5.0 * DIAMETER, 293.15)],
         "solver": {"threads": 1},
     }
 

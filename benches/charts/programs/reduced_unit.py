@@ -9,9 +9,10 @@ import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import disc_section as disc
+import disc_section as disc  # puts the folder of all benches on the path
 import numpy as np
 from impinge import Unit
+from problems import plates
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 from measure import pack, peak_memory  # noqa: E402
@@ -19,31 +20,16 @@ from measure import pack, peak_memory  # noqa: E402
 
 def scene(fidelity: dict, mesh: dict | None) -> dict:
     plate = {
-        "kind": "solid",
         "shape": {"disc": {"radius": disc.HALF, "thickness": disc.THICKNESS}},
-        "material": {
-            "model": "thermoelastic",
-            "density": disc.DENSITY,
-            "specific_heat": disc.HEAT,
-            "conductivity": disc.CONDUCTIVITY,
-        },
-        "initial_temperature": disc.START,
-        "faces": {"bottom": {"convection": {"coefficient": disc.COOLING, "ambient": disc.START}}},
+        "faces": {"bottom": {"convection": {"coefficient": disc.COOLING, "ambient": plates.START}}},
     }
     plate |= {"mesh": mesh} if mesh else {}
-    spot = {
-        "name": "spot",
-        "on": "plate.top",
-        "footprint": {"disc": {"radius": disc.RADIUS}},
-        "carries": ["heat_flux"],
-        "start": {"heat_flux": disc.FLUX},
-    }
+    spot = plates.load(plates.disc(disc.RADIUS), "heat_flux", disc.FLUX)
     probes = [
-        {"name": name, "in": "plate", "at": [r, 0.0, -z], "gives": ["temperature"]}
-        for name, (r, z) in disc.POINTS.items()
+        plates.probe(name, [r, 0.0, -z], "temperature") for name, (r, z) in disc.POINTS.items()
     ]
-    general = {"name": "Flicker", "stop_time": disc.STOP, "step": disc.STOP / disc.STEPS}
-    return general | {"body": {"plate": plate}, "load": [spot], "probe": probes} | fidelity
+    step = disc.STOP / disc.STEPS
+    return plates.scene(plate, disc.STOP, step, "Flicker", load=[spot], probe=probes) | fidelity
 
 
 def drive(file: Path, names: list[str]) -> tuple[np.ndarray, dict]:
@@ -71,7 +57,7 @@ def main() -> None:
         file, packing = pack(told, Path(folder))
         rows, spent = drive(file, names + ["plate.error_bound_temperature"] * is_reduced)
         size = file.stat().st_size
-    values = disc.values(rows[:, : len(names)] - disc.START)
+    values = disc.values(rows[:, : len(names)] - plates.START)
     if is_reduced:
         values[disc.BOUND] = float(rows[-1, -1])
     if not asked["mesh"]:

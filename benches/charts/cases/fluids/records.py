@@ -7,8 +7,10 @@ What is repeated is measured by the drop of particles as fine, a point of the sa
 from math import pi
 
 from chart import Chart, Measured, Method, Point, Quantity, UnitRun
+from problems.drops import droplet, on_plate
+from problems.materials import ALUMINA, INK, thermoelastic
 
-DIAMETER, SPEED, DENSITY = 1e-4, 20.0, 1000.0  # m, m/s, kg/m³
+DIAMETER, SPEED, DENSITY = 1e-4, 20.0, INK["density"]  # m, m/s, kg/m³
 TIME = DIAMETER / SPEED
 STOP, STEPS = 4.0, 40
 """End over D/U, and communication steps."""
@@ -19,12 +21,7 @@ FINEST, ACROSS = 40, 20
 PLATE = {
     "kind": "solid",
     "shape": {"box": [8e-4, 5e-4, 1e-4]},
-    "material": {
-        "model": "thermoelastic",
-        "density": 3950.0,
-        "specific_heat": 900.0,
-        "conductivity": 10.0,
-    },
+    "material": thermoelastic(ALUMINA),
     "initial_temperature": 300.0,
     "mesh": {"spacing": 1e-5, "depth_spacing": 1e-6, "growth": 1.4, "order": 1},
 }
@@ -32,29 +29,14 @@ PLATE = {
 
 def scene(method: str, **body) -> dict:
     """A drop of ink, Re 500 and We 800, of 350 K on a plate of alumina of 300 K."""
-    fluid = {
-        "density": DENSITY,
-        "viscosity": 4e-3,
-        "specific_heat": 4180.0,
-        "conductivity": 0.6,
-        "surface_tension": 0.05,
-    }
-    drop = {
-        "kind": "droplet",
-        "method": method,
-        "diameter": DIAMETER,
-        "impact_velocity": SPEED,
-        "initial_temperature": 350.0,
-        "fluid": fluid,
-    }
-    coupling = {"from": "drop", "to": "plate.top", "traction": False, "radius": 1.6e-4}
+    drop = droplet(DIAMETER, SPEED, 350.0, INK, method=method)
     return {
         "name": "Drop",
         "stop_time": STOP * TIME,
         "step": STOP * TIME / STEPS,
         "solver": {"threads": 1},
         "body": {"drop": drop | body, "plate": PLATE},
-        "coupling": [coupling],
+        "coupling": [on_plate(1.6e-4)],
     }
 
 

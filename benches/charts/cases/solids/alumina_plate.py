@@ -3,10 +3,11 @@
 import sys
 import tomllib
 from importlib.util import module_from_spec, spec_from_file_location
-from math import erfc, exp, pi, sqrt
 from pathlib import Path
 
 from chart import Chart, Measured, Method, Point, ProgramRun, Quantity
+from problems.half_spaces import disc_flux_rise
+from problems.materials import thermal
 
 FOLDER = Path(__file__).resolve().parents[4] / "examples/alumina_plate"
 
@@ -52,18 +53,12 @@ WIDTH, _, THICKNESS = SCENE["body"]["plate"]["shape"]["box"]
 BOX, DISC = "NGSolve, box", "NGSolve, disc"
 
 
-def ierfc(x: float) -> float:
-    return exp(-x * x) / sqrt(pi) - x * erfc(x)
-
-
 def warmed() -> float:
-    """Rise of the centre at the end [K]: a jump of flux on a disc of a half space adds
-    `2q√(at)/k [1/√π − ierfc(R/(2√(at)))]` (Carslaw & Jaeger 1959, § 10.5)."""
+    """Rise of the centre at the end [K], a sum over jumps of the flux."""
+    alumina = thermal(IMPACT.DENSITY, IMPACT.SPECIFIC_HEAT, IMPACT.CONDUCTIVITY)
     rise, begin, before = 0.0, 0.0, 0.0
     for end, flux, _ in LOADS:
-        reach = 2.0 * sqrt(IMPACT.DIFFUSIVITY * (ENDS[-1] - begin))
-        answer = reach / IMPACT.CONDUCTIVITY * (ierfc(0.0) - ierfc(IMPACT.RADIUS / reach))
-        rise += (flux - before) * answer
+        rise += disc_flux_rise(flux - before, IMPACT.RADIUS, 0.0, ENDS[-1] - begin, alumina)
         begin, before = end, flux
     return rise
 

@@ -6,9 +6,10 @@ Both are so deep that heat comes to the end of neither.
 import math
 
 from chart import Chart, Method, Point, ProgramRun, Quantity, UnitRun
+from problems.half_spaces import face_at_contact, heat_through_contact
+from problems.materials import ALUMINA, COPPER, effusivity, thermoelastic
+from problems.plates import probe
 
-ALUMINA = {"density": 3950.0, "specific_heat": 900.0, "conductivity": 10.0}
-COPPER = {"density": 8960.0, "specific_heat": 385.0, "conductivity": 400.0}
 HOT, COLD, CONDUCTANCE, STOP, WIDE = 500.0, 300.0, 1e5, 1e-2, 0.5e-3
 DEEP = 5.0
 """Depth of a body over √(at): what comes back from its end is 1e-12 of the whole."""
@@ -17,35 +18,22 @@ OUTPUTS = {FACE: "face.temperature", HEAT: "bed.heat_in"}
 INTERVAL = STOP / 100
 
 
-def effusivity(material: dict) -> float:
-    return math.sqrt(math.prod(material.values()))
-
-
 def depth(material: dict) -> float:
     """√(at) [m]"""
     return material["conductivity"] / effusivity(material) * math.sqrt(STOP)
 
 
 def closed_form() -> dict[str, float]:
-    """Of half spaces (Carslaw & Jaeger 1959, § 2.7).
-
-    `q = h ΔT exp(b²t) erfc(b√t)`, `b = h (1/e₁ + 1/e₂)`; its integral over time is
-    `h ΔT/b² (exp(b²t) erfc(b√t) − 1 + 2b√(t/π))`."""
-    hot, cold = effusivity(ALUMINA), effusivity(COPPER)
-    rate = CONDUCTANCE * (1.0 / hot + 1.0 / cold)
-    reach = rate * math.sqrt(STOP)
-    falls = math.exp(reach**2) * math.erfc(reach)
-    moved = (HOT - COLD) * (1.0 - falls) / (hot + cold)
-    passed = falls - 1.0 + 2.0 * reach / math.sqrt(math.pi)
-    passed *= CONDUCTANCE * (HOT - COLD) / rate**2
-    return {FACE: HOT - cold * moved, HEAT: passed * math.pi * WIDE**2}
+    face = face_at_contact(CONDUCTANCE, HOT, COLD, STOP, ALUMINA, COPPER)
+    passed = heat_through_contact(CONDUCTANCE, HOT - COLD, STOP, ALUMINA, COPPER)
+    return {FACE: face, HEAT: passed * math.pi * WIDE**2}
 
 
 def body(material: dict, temperature: float, mesh: dict | None) -> dict:
     told = {
         "kind": "solid",
         "shape": {"disc": {"radius": WIDE, "thickness": DEEP * depth(material)}},
-        "material": {"model": "thermoelastic"} | material,
+        "material": thermoelastic(material),
         "initial_temperature": temperature,
     }
     return told | ({"mesh": mesh} if mesh else {})
@@ -57,8 +45,8 @@ def scene(meshes: tuple = (None, None), interval: float = INTERVAL, **more) -> d
     contact = {"from": "bed.top", "to": "plate.bottom"}
     contact |= {"conductance": CONDUCTANCE, "interval": interval}
     general = {"name": "SetDown", "stop_time": STOP, "step": STOP / 10}
-    probe = {"name": "face", "in": "plate", "at": at, "gives": ["temperature"]}
-    return general | {"body": bodies, "coupling": [contact], "probe": [probe]} | more
+    face = probe("face", at, "temperature")
+    return general | {"body": bodies, "coupling": [contact], "probe": [face]} | more
 
 
 def equal(parts: float, order: int) -> tuple:

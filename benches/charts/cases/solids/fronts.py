@@ -4,18 +4,14 @@ import cmath
 import math
 
 from chart import Chart, Method, Point, Quantity, UnitRun
+from problems import plates
+from problems.materials import ALUMINA, STEEL, diffusivity, thermal, thermoelastic
+from problems.plates import START, probe
 
 FLUX, STOP, STEPS, WIDE = 1e6, 1e-3, 10, 0.1e-3  # W/m², s, 1, m
-START = 293.15
-ALUMINA = {"density": 3950.0, "specific_heat": 900.0, "conductivity": 10.0}
-STEEL = {"density": 7900.0, "specific_heat": 500.0, "conductivity": 15.0}
-POLYMER = {"density": 1200.0, "specific_heat": 1200.0, "conductivity": 0.2}
+POLYMER = thermal(1200.0, 1200.0, 0.2)
 FILM, BASE, RESISTANCE = 10e-6, 190e-6, 5e-6  # m, m, m² K/W
 TOP, INTERFACE = "temperature of the top", "temperature below the interface"
-
-
-def solid(**keys) -> dict:
-    return {"model": "thermoelastic"} | keys
 
 
 def layered_image(s: complex) -> tuple[complex, complex]:
@@ -54,17 +50,20 @@ def layers_scene(**more) -> dict:
         "kind": "solid",
         "shape": {"box": [WIDE, WIDE, FILM + BASE]},
         "layers": [
-            {"material": solid(**POLYMER), "thickness": FILM},
-            {"material": solid(**ALUMINA), "thickness": BASE, "contact_resistance": RESISTANCE},
+            {"material": thermoelastic(POLYMER), "thickness": FILM},
+            {
+                "material": thermoelastic(ALUMINA),
+                "thickness": BASE,
+                "contact_resistance": RESISTANCE,
+            },
         ],
         "initial_temperature": START,
         "faces": {"top": {"flux": FLUX}},
     } | more.pop("body", {})
     at_interface = [0.0, 0.0, -FILM]
     probes = [
-        {"name": "top", "in": "plate", "at": [0.0, 0.0, 0.0], "gives": ["temperature"]},
-        {"name": "film", "in": "plate", "at": at_interface, "gives": ["temperature"]}
-        | {"side": "below"},
+        probe("top", [0.0, 0.0, 0.0], "temperature"),
+        probe("film", at_interface, "temperature", side="below"),
     ]
     general = {"name": "Layers", "stop_time": STOP, "step": STOP / STEPS}
     return general | {"body": {"plate": plate}, "probe": probes} | more
@@ -108,21 +107,18 @@ def front() -> float:
         middle = 0.5 * (low + high)
         grown = math.sqrt(math.pi) * middle * math.exp(middle**2) * math.erf(middle)
         low, high = (middle, high) if grown < stefan else (low, middle)
-    diffusivity = STEEL["conductivity"] / (STEEL["density"] * STEEL["specific_heat"])
-    return 2.0 * low * math.sqrt(diffusivity * MELTING_STOP)
+    return 2.0 * low * math.sqrt(diffusivity(STEEL) * MELTING_STOP)
 
 
 def melting_scene(**more) -> dict:
     melts = {"solidus": MELTING, "liquidus": MELTING, "latent_heat": LATENT}
     plate = {
-        "kind": "solid",
         "shape": {"box": [WIDE, WIDE, DEEP]},
-        "material": solid(**STEEL, melting=melts),
+        "material": thermoelastic(STEEL, {"melting": melts}),
         "initial_temperature": MELTING,
         "faces": {"top": {"temperature": HOT}},
     } | more.pop("body", {})
-    general = {"name": "Melting", "stop_time": MELTING_STOP, "step": MELTING_STOP / STEPS}
-    return general | {"body": {"plate": plate}} | more
+    return plates.scene(plate, MELTING_STOP, MELTING_STOP / STEPS, "Melting") | more
 
 
 def melting() -> Chart:

@@ -1,53 +1,37 @@
 """A pressed disc on a block: how stressed is what lies on its axis?"""
 
 from chart import Chart, Method, Point, ProgramRun, Quantity, UnitRun
+from problems import plates
+from problems.half_spaces import pressed_disc_stress
+from problems.materials import ALUMINA, ELASTIC_ALUMINA, thermoelastic
+from problems.plates import disc, load, probe
 
-RADIUS, DEPTH, PRESSURE, POISSON, YOUNG = 50e-6, 40e-6, 25e6, 0.3, 300e9
+RADIUS, DEPTH, PRESSURE, POISSON = 50e-6, 40e-6, 25e6, 0.3
+YOUNG = ELASTIC_ALUMINA["young"]
 FAR = 100.0 * RADIUS
 """The block's radius and depth: what a half space has beyond is worth 1e-4 of the pressure."""
 AXIAL, SIDE = "axial stress", "side stress"
 OUTPUTS = {AXIAL: "below.stress_zz", SIDE: "below.stress_xx"}
 STOP = 1e-6
-MATERIAL = {
-    "model": "thermoelastic",
-    "density": 3950.0,
-    "specific_heat": 900.0,
-    "conductivity": 10.0,
-    "young": YOUNG,
-    "poisson": POISSON,
-    "expansion": 8.1e-6,
-}
+MATERIAL = thermoelastic(ALUMINA, ELASTIC_ALUMINA, {"poisson": POISSON})
 
 
 def love() -> dict[str, float]:
-    """Stress on the axis of a half space [Pa].
-
-    `σ_zz = −p (1 − c³)`, `σ_rr = −p/2 [1 + 2ν − 2(1 + ν) c + c³]`, `c = z/√(R² + z²)`: Love
-    (1929), Phil. Trans. R. Soc. A 228, 377–420, doi 10.1098/rsta.1929.0009."""
-    c = DEPTH / (DEPTH**2 + RADIUS**2) ** 0.5
-    side = 1.0 + 2.0 * POISSON - 2.0 * (1.0 + POISSON) * c + c**3
-    return {AXIAL: -PRESSURE * (1.0 - c**3), SIDE: -0.5 * PRESSURE * side}
+    """Stress on the axis of a half space [Pa]."""
+    axial, side = pressed_disc_stress(PRESSURE, RADIUS, DEPTH, POISSON)
+    return {AXIAL: axial, SIDE: side}
 
 
 def scene(**more) -> dict:
     plate = {
-        "kind": "solid",
         "shape": {"disc": {"radius": FAR, "thickness": FAR}},
         "material": MATERIAL,
-        "initial_temperature": 293.15,
         "faces": {"bottom": {"roller": True}, "sides": {"roller": True}},
     }
     plate |= more.pop("body", {})
-    press = {
-        "name": "press",
-        "on": "plate.top",
-        "footprint": {"disc": {"radius": RADIUS}},
-        "carries": ["pressure"],
-        "start": {"pressure": PRESSURE},
-    }
-    probe = {"name": "below", "in": "plate", "at": [0.0, 0.0, -DEPTH], "gives": ["stress"]}
-    general = {"name": "Press", "stop_time": STOP, "step": STOP}
-    return general | {"body": {"plate": plate}, "load": [press], "probe": [probe]} | more
+    press = load(disc(RADIUS), "pressure", PRESSURE, "press")
+    below = probe("below", [0.0, 0.0, -DEPTH], "stress")
+    return plates.scene(plate, STOP, STOP, "Press", load=[press], probe=[below]) | more
 
 
 def asked() -> list[Point]:

@@ -4,64 +4,34 @@ The same question to every level of model: closed form, reduced unit, column, me
 quarter, whole box, elements and particles at equal distances.
 """
 
-from math import erfc, exp, pi, sqrt
-
 from chart import Chart, Formula, Measured, Method, Point, ProgramRun, Quantity, UnitRun
+from problems import plates
+from problems.half_spaces import disc_flux_rise
+from problems.materials import ALUMINA, ELASTIC_ALUMINA, thermoelastic
+from problems.plates import CENTRE, START, disc, load, probe
 
 FLUX, RADIUS, STOP, STEPS = 5e8, 50e-6, 10e-6, 10  # W/m², m, s
 HALF, THICKNESS, DEPTH = 0.25e-3, 0.25e-3, 5e-6  # m
-CONDUCTIVITY, DENSITY, CAPACITY = 10.0, 3950.0, 900.0
-MATERIAL = {
-    "model": "thermoelastic",
-    "density": DENSITY,
-    "specific_heat": CAPACITY,
-    "conductivity": CONDUCTIVITY,
-    "young": 300e9,
-    "poisson": 0.21,
-    "expansion": 8.1e-6,
-}
-START = 293.15  # K
+MATERIAL = thermoelastic(ALUMINA, ELASTIC_ALUMINA)
 TEMPERATURE, STRESS = "temperature of the centre", "von Mises stress 5 µm below"
 BOX_REFERENCE, DISC_REFERENCE = "NGSolve, box", "NGSolve, disc"
 OUTPUTS = {TEMPERATURE: "centre.temperature", STRESS: "below.von_mises"}
 TOLERANCES = (1e-1, 3e-2, 1e-2, 3e-3, 1e-3)
 
 
-def ierfc(x: float) -> float:
-    return exp(-x * x) / sqrt(pi) - x * erfc(x)
-
-
 def closed_form() -> dict[str, float]:
-    """The axis of a disc of flux on a half space (Carslaw & Jaeger 1959, § 10.5)."""
-    reach = 2.0 * sqrt(CONDUCTIVITY / (DENSITY * CAPACITY) * STOP)
-    rise = FLUX * reach / CONDUCTIVITY * (ierfc(0.0) - ierfc(RADIUS / reach))
-    return {TEMPERATURE: START + rise}
+    return {TEMPERATURE: START + disc_flux_rise(FLUX, RADIUS, 0.0, STOP, ALUMINA)}
 
 
 def scene(shape: dict, mesh: dict | None = None, **more) -> dict:
     """A plate under the spot; its sides do not move."""
-    plate = {
-        "kind": "solid",
-        "shape": shape,
-        "material": MATERIAL,
-        "initial_temperature": START,
-        "faces": {"sides": {"clamped": True}},
-    }
+    plate = {"shape": shape, "material": MATERIAL, "faces": {"sides": {"clamped": True}}}
     plate |= {"mesh": mesh} if mesh else {}
     plate |= more.pop("body", {})
-    load = {
-        "name": "spot",
-        "on": "plate.top",
-        "footprint": {"disc": {"radius": RADIUS}},
-        "carries": ["heat_flux"],
-        "start": {"heat_flux": FLUX},
-    }
-    probes = [
-        {"name": "centre", "in": "plate", "at": [0.0, 0.0, 0.0], "gives": ["temperature"]},
-        {"name": "below", "in": "plate", "at": [0.0, 0.0, -DEPTH], "gives": ["von_mises"]},
-    ]
-    general = {"name": "Spot", "stop_time": STOP, "step": STOP / STEPS}
-    return general | {"body": {"plate": plate}, "load": [load], "probe": probes} | more
+    spot = load(disc(RADIUS), "heat_flux", FLUX)
+    probes = [CENTRE, probe("below", [0.0, 0.0, -DEPTH], "von_mises")]
+    told = plates.scene(plate, STOP, STOP / STEPS, "Spot", load=[spot], probe=probes)
+    return told | more
 
 
 BOX = {"box": [2 * HALF, 2 * HALF, THICKNESS]}
@@ -130,11 +100,9 @@ CASE = {
     "spot": RADIUS,
     "half": HALF,
     "thickness": THICKNESS,
-    "capacity": DENSITY * CAPACITY,
-    "conductivity": CONDUCTIVITY,
-    "young": MATERIAL["young"],
-    "poisson": MATERIAL["poisson"],
-    "expansion": MATERIAL["expansion"],
+    "capacity": ALUMINA["density"] * ALUMINA["specific_heat"],
+    "conductivity": ALUMINA["conductivity"],
+    **ELASTIC_ALUMINA,
     "initial": START,
     "is_clamped": True,
 }

@@ -6,8 +6,11 @@ Each depth goes a bilinear way by itself, so the closed forms of temperature and
 import math
 
 from chart import Chart, Method, Point, ProgramRun, Quantity
+from problems import plates
+from problems.half_spaces import ierfc
+from problems.materials import STEEL, diffusivity
+from problems.plates import probe
 
-STEEL = {"density": 7900.0, "specific_heat": 500.0, "conductivity": 15.0}
 YOUNG, POISSON, EXPANSION, YIELD, HARDENING = 210e9, 0.3, 12e-6, 250e6, 2e9
 MATERIAL = {
     "model": "elastoplastic",
@@ -17,7 +20,7 @@ MATERIAL = {
     "yield_stress": YIELD,
     "isotropic_hardening": HARDENING,
 }
-FLUX, STOP, THICKNESS, WIDE, DEPTH, START = 1.5e7, 40e-3, 1e-3, 0.5e-3, 0.25e-3, 293.15
+FLUX, STOP, THICKNESS, WIDE, DEPTH = 1.5e7, 40e-3, 1e-3, 0.5e-3, 0.25e-3
 """The flux is there for half the time."""
 FACE, INSIDE = "stress left at the face", "stress left in a quarter of the depth"
 OUTPUTS = {FACE: "face.stress_xx", INSIDE: "inside.stress_xx"}
@@ -31,13 +34,10 @@ def rise(depth: float, time: float) -> float:
     `2q√(at)/k Σ ierfc(x/(2√(at)))` over the images of the face in the insulated back."""
     if time <= 0.0:
         return 0.0
-    diffusivity = STEEL["conductivity"] / (STEEL["density"] * STEEL["specific_heat"])
-    reach = 2.0 * math.sqrt(diffusivity * time)
+    reach = 2.0 * math.sqrt(diffusivity(STEEL) * time)
     mirrored = 2.0 * THICKNESS - depth
     places = [2.0 * n * THICKNESS + side for n in range(5) for side in (depth, mirrored)]
-    total = 0.0
-    for x in (place / reach for place in places):
-        total += math.exp(-x * x) / math.sqrt(math.pi) - x * math.erfc(x)
+    total = sum(ierfc(place / reach) for place in places)
     return FLUX * reach / STEEL["conductivity"] * total
 
 
@@ -76,19 +76,16 @@ def left_over(depth: float) -> float:
 
 def scene(steps: int, mesh: dict | None, **more) -> dict:
     plate = {
-        "kind": "solid",
         "shape": {"disc": {"radius": WIDE, "thickness": THICKNESS}},
         "material": MATERIAL | STEEL,
-        "initial_temperature": START,
         "faces": {"top": {"flux": FLUX}} | {s: {"roller": True} for s in ("bottom", "sides")},
     }
     plate |= {"mesh": mesh} if mesh else {}
     probes = [
-        {"name": name, "in": "plate", "at": [0.0, 0.0, -depth], "gives": ["stress"]}
+        probe(name, [0.0, 0.0, -depth], "stress")
         for name, depth in (("face", 0.0), ("inside", DEPTH))
     ]
-    general = {"name": "Pulse", "stop_time": STOP, "step": STOP / steps}
-    return general | {"body": {"plate": plate}, "probe": probes} | more
+    return plates.scene(plate, STOP, STOP / steps, "Pulse", probe=probes) | more
 
 
 def run(steps: int, mesh: dict | None, **more) -> ProgramRun:

@@ -5,19 +5,14 @@ does heat balance, and are all values finite?
 from math import isfinite, nan
 
 from plan import Answer, Axis, Map, Work
+from problems.drops import droplet, wall
+from problems.materials import ALUMINA, ELASTIC_ALUMINA, liquid, thermoelastic
+from problems.plates import CENTRE
 from unit_run import run_unit, unit_work
 
 STEPS = [1e-12, 1e-9, 1e-7, 1e-6, 1e-5, 1e-3, 1.0, 1e3]
 COUNT = 12
-MATERIAL = {
-    "model": "thermoelastic",
-    "density": 3950.0,
-    "specific_heat": 900.0,
-    "conductivity": 10.0,
-    "young": 300e9,
-    "poisson": 0.21,
-    "expansion": 8.1e-6,
-}
+MATERIAL = thermoelastic(ALUMINA, ELASTIC_ALUMINA)
 PLATE = {
     "kind": "solid",
     "shape": {"disc": {"radius": 1e-3, "thickness": 0.3e-3}},
@@ -31,35 +26,15 @@ SPOT = {
     "footprint": {"disc": {"radius": 2e-4}},
     "carries": ["heat_flux"],
 }
-PROBE = {"name": "centre", "in": "plate", "at": [0.0, 0.0, 0.0], "gives": ["temperature"]}
 COARSE = {"mesh": {"spacing": 5e-5, "depth_spacing": 5e-5, "growth": 1.2}}
-DROP = {
-    "kind": "droplet",
-    "diameter": 1e-4,
-    "impact_velocity": 5.0,
-    "initial_temperature": 350.0,
-    "spacing": 1e-5,
-    "symmetry": "axisymmetric",
-    "fluid": {
-        "density": 1000.0,
-        "viscosity": 1e-3,
-        "specific_heat": 4180.0,
-        "conductivity": 0.6,
-        "surface_tension": 0.072,
-    },
-}
-WALL = {
-    "name": "wall",
-    "under": "drop",
-    "footprint": {"rings": {"count": 1, "radius": 3e-4}},
-    "start": {"temperature": 300.0},
-}
+DROP = droplet(1e-4, 5.0, 350.0, liquid(1000.0, 1e-3), spacing=1e-5, symmetry="axisymmetric")
+WALL = wall(1, 3e-4, 300.0)
 CHUCK = {"kind": "reservoir", "heat_capacity": 1e-3, "initial_temperature": 300.0}
 LOSS = {"conductance": 1e-2, "ambient": 300.0}
 
 
 def heated(**more) -> dict:
-    return {"body": {"plate": PLATE | more}, "load": [SPOT], "probe": [PROBE]}
+    return {"body": {"plate": PLATE | more}, "load": [SPOT], "probe": [CENTRE]}
 
 
 MELTING = {"melting": {"solidus": 320.0, "liquidus": 325.0, "latent_heat": 1e5}}

@@ -9,6 +9,9 @@ from functools import partial
 from statistics import mean
 
 from plan import Answer, Axis, Map
+from problems.drops import droplet, on_plate
+from problems.materials import ALUMINA, COPPER, STEEL, diffusivity, liquid, thermal, thermoelastic
+from problems.plates import CENTRE
 from unit_run import equal_steps, run_unit, unit_work
 
 DIAMETER, SPEED = 1e-4, 15.0
@@ -20,16 +23,6 @@ BAD, BAD_OF_FILMS = 0.1, 0.3
 HEAT, TEMPERATURE = "plate.heat_in", "centre.temperature"
 
 
-def liquid(density, viscosity, specific_heat, conductivity, surface_tension) -> dict:
-    return {
-        "density": density,
-        "viscosity": viscosity,
-        "specific_heat": specific_heat,
-        "conductivity": conductivity,
-        "surface_tension": surface_tension,
-    }
-
-
 LIQUIDS = {
     "mercury": liquid(13534.0, 1.53e-3, 139.0, 8.5, 0.485),
     "tin": liquid(6980.0, 1.85e-3, 240.0, 30.0, 0.55),
@@ -39,43 +32,28 @@ LIQUIDS = {
     "glycerol": liquid(1260.0, 0.1, 2500.0, 0.285, 0.06),
 }
 SOLIDS = {
-    "aerogel": (120.0, 1000.0, 0.015),
-    "PMMA": (1190.0, 1470.0, 0.19),
-    "glass": (2500.0, 800.0, 1.0),
-    "alumina": (3950.0, 900.0, 10.0),
-    "steel": (7900.0, 500.0, 15.0),
-    "copper": (8960.0, 385.0, 400.0),
+    "aerogel": thermal(120.0, 1000.0, 0.015),
+    "PMMA": thermal(1190.0, 1470.0, 0.19),
+    "glass": thermal(2500.0, 800.0, 1.0),
+    "alumina": ALUMINA,
+    "steel": STEEL,
+    "copper": COPPER,
 }
-"""Density, specific heat and conductivity."""
 
 
 def scene(fluid: str, solid: str, across: float, tolerance: float) -> dict:
-    density, specific_heat, conductivity = SOLIDS[solid]
     time = STOP * DIAMETER / SPEED
-    diffusivity = conductivity / (density * specific_heat)
-    drop = {
-        "kind": "droplet",
-        "diameter": DIAMETER,
-        "impact_velocity": SPEED,
-        "initial_temperature": HOT,
-        "symmetry": "axisymmetric",
-        "spacing": DIAMETER / across,
-        "fluid": LIQUIDS[fluid],
-    }
+    rings = {"symmetry": "axisymmetric", "spacing": DIAMETER / across}
+    drop = droplet(DIAMETER, SPEED, HOT, LIQUIDS[fluid], **rings)
     plate = {
         "kind": "solid",
         "shape": {"disc": {"radius": 5e-4, "thickness": 2e-4}},
-        "material": {
-            "model": "thermoelastic",
-            "density": density,
-            "specific_heat": specific_heat,
-            "conductivity": conductivity,
-        },
+        "material": thermoelastic(SOLIDS[solid]),
         "initial_temperature": COLD,
         # As deep as heat goes in a step.
         "mesh": {
             "spacing": 4e-6,
-            "depth_spacing": min(0.5 * (diffusivity * time / STEPS) ** 0.5, 1e-5),
+            "depth_spacing": min(0.5 * (diffusivity(SOLIDS[solid]) * time / STEPS) ** 0.5, 1e-5),
             "growth": 1.4,
         },
     }
@@ -84,10 +62,8 @@ def scene(fluid: str, solid: str, across: float, tolerance: float) -> dict:
         "stop_time": time,
         "step": time / STEPS,
         "body": {"drop": drop, "plate": plate},
-        "coupling": [{"from": "drop", "to": "plate.top", "radius": 1.8e-4, "traction": False}],
-        "probe": [
-            {"name": "centre", "in": "plate", "at": [0.0, 0.0, 0.0], "gives": ["temperature"]}
-        ],
+        "coupling": [on_plate(1.8e-4)],
+        "probe": [CENTRE],
         "solver": {"threads": 1},
         "fidelity": {"tolerance": tolerance},
     }

@@ -3,6 +3,8 @@ how far apart, in place and in time, do they have to be?
 """
 
 from plan import Answer, Axis, Map, Work
+from problems.drops import droplet, on_plate
+from problems.materials import ALUMINA, INK, thermoelastic
 from unit_run import equal_steps, run_unit, unit_work
 
 DIAMETER, SPEED, ACROSS = 1e-4, 20.0, 8
@@ -11,44 +13,29 @@ HOT, COLD = 350.0, 300.0
 STEPS = 10
 DISTANCES = [0.0, 1.1, 1.5, 2.2, 3.0]
 DELAYS = [0.0, 2.0, 4.0]
-FLUID = {
-    "density": 1000.0,
-    "viscosity": 4e-3,
-    "specific_heat": 4180.0,
-    "conductivity": 0.6,
-    "surface_tension": 0.05,
-}
-ALUMINA = {
-    "model": "thermoelastic",
-    "density": 3950.0,
-    "specific_heat": 900.0,
-    "conductivity": 10.0,
-}
 
 
 def work(distance: float, delay: float) -> Work:
     """Drops start clear of the film of those before, and 4 D/U after the second has been let go."""
     half = 0.5 * distance * DIAMETER
     stop = (delay + 5.5) * TIME
-    drop = {
-        "kind": "droplet",
-        "diameter": DIAMETER,
-        "impact_velocity": SPEED,
-        "initial_temperature": HOT,
-        "spacing": DIAMETER / ACROSS,
-        "height": 1.5 * DIAMETER,
-        "symmetry": "none",
-        "fluid": FLUID,
-        "arrivals": [{"time": 0.0, "x": -half}, {"time": delay * TIME, "x": half}],
-    }
+    drop = droplet(
+        DIAMETER,
+        SPEED,
+        HOT,
+        INK,
+        spacing=DIAMETER / ACROSS,
+        height=1.5 * DIAMETER,
+        symmetry="none",
+        arrivals=[{"time": 0.0, "x": -half}, {"time": delay * TIME, "x": half}],
+    )
     plate = {
         "kind": "solid",
         "shape": {"box": [9e-4, 5e-4, 1e-4]},
-        "material": ALUMINA,
+        "material": thermoelastic(ALUMINA),
         "initial_temperature": COLD,
         "mesh": {"spacing": 2e-5, "depth_spacing": 2e-6, "growth": 1.5, "order": 1},
     }
-    join = {"from": "drop", "to": "plate.top", "traction": False, "radius": 1.6e-4}
     scene = {
         "name": "Drops",
         "stop_time": stop,
@@ -56,7 +43,7 @@ def work(distance: float, delay: float) -> Work:
         "solver": {"threads": 1},
         "fidelity": {"tolerance": 0.3},
         "body": {"drop": drop, "plate": plate},
-        "coupling": [join],
+        "coupling": [on_plate(1.6e-4)],
     }
     return {"scene": scene, "stop": stop}
 

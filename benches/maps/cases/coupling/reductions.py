@@ -5,6 +5,7 @@ it off by no more than it says?
 from math import nan
 
 from plan import Answer, Axis, Map, Work
+from problems.plates import CENTRE, load, probe, scene
 from unit_run import run_unit, unit_work
 
 TOLERANCES = [1e-1, 1e-2, 1e-3, 1e-4]
@@ -17,38 +18,15 @@ def work(tolerance: float, period: float) -> Work:
     """The default experiment is a step of the flux up to `STOP`; here it is on for half a period
     and off for the other, in 24 steps of a quarter of that."""
     plate = {
-        "kind": "solid",
         "shape": {"disc": {"radius": 1e-3, "thickness": 0.3e-3}},
-        "material": {
-            "model": "thermoelastic",
-            "density": 3950.0,
-            "specific_heat": 900.0,
-            "conductivity": 10.0,
-        },
         "initial_temperature": START,
         "mesh": {"spacing": 4e-5, "depth_spacing": 1e-5, "growth": 1.2},
         "faces": {"bottom": {"convection": {"coefficient": 1e4, "ambient": START}}},
     }
-    load = {
-        "name": "spot",
-        "on": "plate.top",
-        "footprint": {"gaussian": {"radius": 2e-4}},
-        "carries": ["heat_flux"],
-        "start": {"heat_flux": FLUX},
-    }
-    probes = [
-        {"name": "centre", "in": "plate", "at": [0.0, 0.0, 0.0], "gives": ["temperature"]},
-        {"name": "beside", "in": "plate", "at": [3e-4, 0.0, -1e-4], "gives": ["temperature"]},
-    ]
-    scene = {
-        "name": "Spot",
-        "stop_time": STOP,
-        "step": STOP / 10,
-        "body": {"plate": plate},
-        "load": [load],
-        "probe": probes,
-    }
-    return {"scene": scene, "tolerance": tolerance, "period": period}
+    spot = load({"gaussian": {"radius": 2e-4}}, "heat_flux", FLUX)
+    probes = [CENTRE, probe("beside", [3e-4, 0.0, -1e-4], "temperature")]
+    told = scene(plate, STOP, STOP / 10, "Spot", load=[spot], probe=probes)
+    return {"scene": told, "tolerance": tolerance, "period": period}
 
 
 def run(of: Work) -> Answer:

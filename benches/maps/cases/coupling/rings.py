@@ -13,21 +13,18 @@ from impinge import Master, Unit
 from impinge.errors import UnitError
 from impinge.master import MasterError
 from plan import Answer, Axis, Map, Work
+from problems.drops import droplet, on_plate, wall
+from problems.materials import effusivity, liquid, thermal, thermoelastic
+from problems.plates import CENTRE
 from unit_run import equal_steps, run_unit, unit_work
 
 DIAMETER, SPEED = 1e-4, 20.0
 STOP, STEPS, REACH = 3e-6, 60, 2e-4
 HOT, COLD = 373.15, 293.15
-SOLID = {"density": 1200.0, "specific_heat": 1500.0, "conductivity": 0.2}
+SOLID = thermal(1200.0, 1500.0, 0.2)
 WIDTHS = [1.0, 1.5, 2.0, 3.0, 5.0]
 ACROSS = [8.0, 12.0, 16.0]
-FLUID = {
-    "density": 1000.0,
-    "viscosity": 1e-3,
-    "specific_heat": 4000.0,
-    "conductivity": 0.6,
-    "surface_tension": 0.059,
-}
+FLUID = liquid(1000.0, 1e-3, 4000.0, surface_tension=0.059)
 
 
 def work(width: float, across: float) -> Work:
@@ -35,42 +32,29 @@ def work(width: float, across: float) -> Work:
     spacing = DIAMETER / across
     general = {"name": "Halves", "stop_time": STOP, "step": STOP / STEPS}
     general["fidelity"] = {"tolerance": 0.9}
-    drop = {
-        "kind": "droplet",
-        "diameter": DIAMETER,
-        "impact_velocity": SPEED,
-        "initial_temperature": HOT,
-        "symmetry": "axisymmetric",
-        "spacing": spacing,
-        "fluid": FLUID,
-    }
+    drop = droplet(DIAMETER, SPEED, HOT, FLUID, symmetry="axisymmetric", spacing=spacing)
     plate = {
         "kind": "solid",
         "shape": {"disc": {"radius": 3e-4, "thickness": 5e-5}},
-        "material": {"model": "thermoelastic"} | SOLID,
+        "material": thermoelastic(SOLID),
         "initial_temperature": COLD,
         "mesh": {"spacing": 3e-6, "depth_spacing": 5e-7, "growth": 1.3, "order": 1},
     }
     count = max(2, round(REACH / (width * spacing)))
-    rings = {"rings": {"count": count, "radius": count * width * spacing}}
-    product = SOLID["density"] * SOLID["specific_heat"] * SOLID["conductivity"]
-    wall = {
-        "name": "wall",
-        "under": "drop",
-        "footprint": rings,
-        "effusivity": product**0.5,
-        "start": {"temperature": COLD},
-    }
+    wide = wall(count, count * width * spacing, COLD, effusivity=effusivity(SOLID))
+    rings = wide["footprint"]
     load = {"name": "rings", "on": "plate.top", "footprint": rings, "carries": ["heat_flux"]}
     face = {"name": "face", "on": "plate.top", "footprint": rings, "gives": ["temperature"]}
-    probe = {"name": "centre", "in": "plate", "at": [0.0, 0.0, 0.0], "gives": ["temperature"]}
-    join = {"from": "drop", "to": "plate.top", "radius": 1.2e-4, "traction": False}
     return {
         "whole": general
-        | {"body": {"drop": drop, "plate": plate}, "coupling": [join], "probe": [probe]},
-        "drop": general | {"body": {"drop": drop}, "wall": [wall]},
+        | {
+            "body": {"drop": drop, "plate": plate},
+            "coupling": [on_plate(1.2e-4)],
+            "probe": [CENTRE],
+        },
+        "drop": general | {"body": {"drop": drop}, "wall": [wide]},
         "plate": general
-        | {"body": {"plate": plate}, "load": [load], "field": [face], "probe": [probe]},
+        | {"body": {"plate": plate}, "load": [load], "field": [face], "probe": [CENTRE]},
     }
 
 

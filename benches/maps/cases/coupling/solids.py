@@ -1,38 +1,34 @@
 """Two thick solids of different temperature that touch through a conductance: how short do
 exchanges have to be for the heat that passes?
 
-Half spaces of effusivities e₁, e₂ whose faces pass `q = h ΔT` (H. S. Carslaw, J. C. Jaeger 1959,
-§ 2.7, for both): with `H = h (1/e₁ + 1/e₂)`, `q = h ΔT e^(H²t) erfc(H√t)` and
-`Q = h ΔT/H² (e^(H²t) erfc(H√t) − 1 + 2H√(t/π))`.
+Settings are those of half spaces of effusivities e₁, e₂, `H√t = h (1/e₁ + 1/e₂) √t`.
 """
 
-from math import pi, sqrt
+from math import sqrt
 
 from plan import Answer, Axis, Map, Work
-from scipy.special import erfcx
+from problems.half_spaces import heat_through_contact, reciprocal_effusivities
+from problems.materials import ALUMINA as UPPER
+from problems.materials import thermal, thermoelastic
 from unit_run import run_unit, unit_work
 
 HOT, COLD = 400.0, 300.0
 STOP = 1e-3  # s
 SIDE, THICKNESS = 1e-3, 2e-3  # m, ten times as deep as heat goes
-LOWER = {"density": 8000.0, "specific_heat": 500.0, "conductivity": 15.0}
-UPPER = {"density": 3950.0, "specific_heat": 900.0, "conductivity": 10.0}
+LOWER = thermal(8000.0, 500.0, 15.0)
 BIOT = [1e-2, 1e-1, 0.3, 1.0, 3.0, 1e1, 1e2, 1e5]
 EXCHANGES = [1, 2, 3, 5, 10, 20, 40]
 
 
-def effusivity(material: dict) -> float:
-    return sqrt(material["density"] * material["specific_heat"] * material["conductivity"])
-
-
-RECIPROCAL = 1 / effusivity(LOWER) + 1 / effusivity(UPPER)
+def conductance(biot: float) -> float:
+    return biot / reciprocal_effusivities(LOWER, UPPER) / sqrt(STOP)
 
 
 def body(material: dict, temperature: float) -> dict:
     return {
         "kind": "solid",
         "shape": {"box": [SIDE, SIDE, THICKNESS]},
-        "material": {"model": "thermoelastic"} | material,
+        "material": thermoelastic(material),
         "initial_temperature": temperature,
         "mesh": {"spacing": SIDE / 2, "depth_spacing": 2e-6, "growth": 1.3},
     }
@@ -49,7 +45,7 @@ def work(biot: float, exchanges: float) -> Work:
             {
                 "from": "lower.top",
                 "to": "upper.bottom",
-                "conductance": biot / RECIPROCAL / sqrt(STOP),
+                "conductance": conductance(biot),
                 "interval": STOP / exchanges,
             }
         ],
@@ -59,10 +55,7 @@ def work(biot: float, exchanges: float) -> Work:
 
 def error(answer: Answer, biot: float, exchanges: float) -> float:
     """Of the heat that has passed, relative."""
-    conductance = biot / RECIPROCAL / sqrt(STOP)
-    rate = biot / sqrt(STOP)
-    shape = erfcx(biot) - 1 + 2 * biot / sqrt(pi)
-    heat = conductance * (HOT - COLD) / rate**2 * shape * SIDE**2
+    heat = heat_through_contact(conductance(biot), HOT - COLD, STOP, LOWER, UPPER) * SIDE**2
     return abs(answer.values["lower.heat_in"][-1] / heat - 1)
 
 

@@ -2,21 +2,18 @@
 
 from math import sqrt
 
+from problems.drops import droplet, wall
+from problems.materials import liquid
 from unit_run import equal_steps, unit_work
 
 HOT, COLD = 350.0, 293.15  # K
 DENSITY, TENSION, DIAMETER = 1000.0, 0.072, 1e-4
 
 
-def liquid(ohnesorge: float) -> dict:
+def viscous(ohnesorge: float) -> dict:
     """As dense as water and of its tension, as viscous as `Oh = µ/√(ρσD)` says."""
-    return {
-        "density": DENSITY,
-        "viscosity": ohnesorge * sqrt(DENSITY * TENSION * DIAMETER),
-        "specific_heat": 4180.0,
-        "conductivity": 0.6,
-        "surface_tension": TENSION,
-    }
+    viscosity = ohnesorge * sqrt(DENSITY * TENSION * DIAMETER)
+    return liquid(DENSITY, viscosity, surface_tension=TENSION)
 
 
 def speed_of(weber: float) -> float:
@@ -39,28 +36,15 @@ def impact(
 ) -> dict:
     """Until so many D/U have passed."""
     spacing = diameter / across
-    drop = {
-        "kind": "droplet",
-        "diameter": diameter,
-        "impact_velocity": speed,
-        "initial_temperature": HOT,
-        "spacing": spacing,
-        "fluid": fluid,
-    }
-    rings = {"count": max(1, int(0.5 * reach * across / 2.0)), "radius": 0.5 * reach * diameter}
-    wall = {
-        "name": "wall",
-        "under": "drop",
-        "footprint": {"rings": rings},
-        "start": {"temperature": COLD},
-    }
+    drop = droplet(diameter, speed, HOT, fluid, spacing=spacing)
+    rings = wall(max(1, int(0.5 * reach * across / 2.0)), 0.5 * reach * diameter, COLD)
     time = stop * diameter / speed
     return {
         "name": "Impact",
         "stop_time": time,
         "step": time / 20.0,
         "body": {"drop": drop | body},
-        "wall": [wall],
+        "wall": [rings],
         "solver": {"threads": 1},
     }
 

@@ -13,9 +13,9 @@ from cases.fluids.drops import (
     impact,
     impact_work,
     largest_spread,
-    liquid,
     ohnesorge_of,
     speed_of,
+    viscous,
 )
 
 QUANTITIES = ["impulse_z", "spread_diameter", "height", "heat"]
@@ -23,7 +23,7 @@ LABELS = ["impulse", "spread", "height", "heat"]
 
 
 def case(weber: float, reynolds: float, across: float, stop: float, **body) -> dict:
-    fluid = liquid(ohnesorge_of(weber, reynolds)) | body.pop("fluid", {})
+    fluid = viscous(ohnesorge_of(weber, reynolds)) | body.pop("fluid", {})
     return impact(across, speed_of(weber), fluid, stop, **body)
 
 

@@ -4,9 +4,12 @@ import math
 from collections.abc import Callable
 
 from plan import Answer, Axis, Map, Work
+from problems.half_spaces import disc_flux_rise
+from problems.materials import ALUMINA
+from problems.plates import START, load, probe, scene
 from unit_run import equal_steps, run_unit, unit_work
 
-from cases.solids.plates import DIFFUSIVITY, START, disc_flux_rise, load, probe, scene
+from cases.solids.plates import DIFFUSIVITY
 
 SPACING, HALF, FLUX = 10e-6, 0.2e-3, 1e7  # m, m, W/m²
 OFFSETS = [0.0, 0.1, 0.25, 0.5, 0.75, 1.0]
@@ -35,7 +38,7 @@ def of_small(answer: Answer, size: float, _: float) -> float:
     """The larger of the errors of the centre's rise and of the heat that entered."""
     radius = size * SPACING
     stop = radius**2 / DIFFUSIVITY
-    rise = disc_flux_rise(FLUX, radius, 0.0, stop)
+    rise = disc_flux_rise(FLUX, radius, 0.0, stop, ALUMINA)
     found = answer.values["centre.temperature"][-1] - START
     heat = answer.values["plate.heat_in"][-1] / (math.pi * radius**2 * FLUX * stop)
     return max(abs(found / rise - 1.0), abs(heat - 1.0))
@@ -120,7 +123,7 @@ def moved(place: float, growth: float) -> Work:
 
 
 def of_moved(answer: Answer, *_) -> float:
-    rise = disc_flux_rise(FLUX, RADIUS, 0.0, RADIUS**2 / DIFFUSIVITY)
+    rise = disc_flux_rise(FLUX, RADIUS, 0.0, RADIUS**2 / DIFFUSIVITY, ALUMINA)
     return abs(answer.values["centre.temperature"][-1] - START - rise) / rise
 
 

@@ -3,15 +3,16 @@
 import math
 
 from plan import Answer, Axis, Boundary, Map, Work
+from problems.materials import ALUMINA, ELASTIC_ALUMINA, thermoelastic
+from problems.plates import probe, scene
 from scipy.optimize import brentq
 from unit_run import equal_steps, run_unit, unit_work
 
-from cases.solids.plates import ALUMINA, ELASTIC, geometric, probe, scene
+from cases.solids.plates import DIFFUSIVITY, geometric
 
 MELTING, LATENT, DEEP = 1000.0, 2.0e5, 1e-3  # K, J/kg, m
 WIDE = 0.2e-3
-CAPACITY, CONDUCTIVITY = ALUMINA["specific_heat"], ALUMINA["conductivity"]
-DIFFUSIVITY = CONDUCTIVITY / (ALUMINA["density"] * CAPACITY)
+CAPACITY = ALUMINA["specific_heat"]
 FRONT = 0.3e-3
 """How deep the front is to come [m]."""
 COLD = 100.0  # K below melting
@@ -38,7 +39,7 @@ def melted(stefan: float, part: float) -> Work:
     thickness = max(DEEP, 6.0 * math.sqrt(DIFFUSIVITY * stop))
     body = {
         "shape": {"box": [WIDE, WIDE, thickness]},
-        "material": ALUMINA | {"melting": melting},
+        "material": thermoelastic(ALUMINA, {"melting": melting}),
         "initial_temperature": MELTING - COLD,
         "faces": {"top": {"temperature": surface}},
     }
@@ -78,7 +79,7 @@ def pressed(hardening: float):
         rollers = dict.fromkeys(("bottom", "left", "front"), {"roller": True})
         body = {
             "shape": {"box": [SIDE] * 3},
-            "material": ALUMINA | ELASTIC | law,
+            "material": ALUMINA | ELASTIC_ALUMINA | law,
             "mesh": {"spacing": SIDE / 4.0, "growth": 1.0},
             "faces": rollers,
         }
@@ -107,7 +108,7 @@ def pressed(hardening: float):
 def shortening(over: float, hardening: float) -> float:
     """`ε = σ/E + (σ − σ_y)/H`: Hill (1950), The Mathematical Theory of Plasticity, § II [m]."""
     plastic = max(over - 1.0, 0.0) * YIELD / hardening if hardening else 0.0
-    return SIDE * (over * YIELD / ELASTIC["young"] + plastic)
+    return SIDE * (over * YIELD / ELASTIC_ALUMINA["young"] + plastic)
 
 
 def of_yield(hardening: float):

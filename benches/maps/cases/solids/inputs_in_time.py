@@ -6,10 +6,12 @@ from functools import cache
 
 import numpy as np
 from plan import Answer, Axis, Boundary, Map, Work
+from problems.materials import ALUMINA
+from problems.plates import START, probe, scene
 from scipy.optimize import brentq
 from unit_run import equal_steps, run_unit, unit_work
 
-from cases.solids.plates import ALUMINA, DIFFUSIVITY, START, probe, scene
+from cases.solids.plates import DIFFUSIVITY
 
 THICKNESS, FLUX, CYCLES = 0.2e-3, 1e6, 2.0  # m, W/m², 1
 RATE = DIFFUSIVITY / THICKNESS**2  # 1/s

@@ -1,9 +1,10 @@
 """Elements that hardly change their volume, and thin plates of few elements."""
 
 from plan import Answer, Axis, Map, Work
+from problems.half_spaces import pressed_disc_stress
+from problems.materials import ALUMINA, ELASTIC_ALUMINA, thermoelastic
+from problems.plates import load, probe, scene
 from unit_run import equal_steps, run_unit, unit_work
-
-from cases.solids.plates import ALUMINA, ELASTIC, load, probe, scene
 
 RADIUS, PRESSURE, STOP = 50e-6, 25e6, 1e-6  # m, Pa, s
 WIDE = 12.0 * RADIUS
@@ -20,9 +21,10 @@ def pressed(order: int):
     """A disc of pressure on a block twelve radii deep, stress read on its axis."""
 
     def work(compressibility: float, nodes: float) -> Work:
+        soft = {"poisson": poisson(compressibility)}
         body = {
             "shape": {"disc": {"radius": WIDE, "thickness": WIDE}},
-            "material": ALUMINA | ELASTIC | {"poisson": poisson(compressibility)},
+            "material": thermoelastic(ALUMINA, ELASTIC_ALUMINA, soft),
             "mesh": {"spacing": RADIUS / nodes, "growth": 1.3, "order": order},
             "faces": {"bottom": {"roller": True}, "sides": {"roller": True}},
         }
@@ -39,19 +41,8 @@ def pressed(order: int):
     return work
 
 
-def love(poisson_ratio: float) -> tuple[float, float]:
-    """Axial and side stress on the axis below a pressed disc of a half space [Pa].
-
-    `σ_zz = −p (1 − c³)`, `σ_rr = −p/2 [1 + 2ν − 2(1 + ν) c + c³]`, `c = z/√(R² + z²)`: Love
-    (1929), Phil. Trans. R. Soc. A 228, 377–420, doi 10.1098/rsta.1929.0009."""
-    c = DEPTH / (DEPTH**2 + RADIUS**2) ** 0.5
-    axial = -PRESSURE * (1.0 - c**3)
-    bracket = 1.0 + 2.0 * poisson_ratio - 2.0 * (1.0 + poisson_ratio) * c + c**3
-    return axial, -0.5 * PRESSURE * bracket
-
-
 def of_pressure(answer: Answer, compressibility: float, _: float) -> float:
-    wanted = love(poisson(compressibility))
+    wanted = pressed_disc_stress(PRESSURE, RADIUS, DEPTH, poisson(compressibility))
     found = (answer.values[f"below.stress_{way}"][-1] for way in ("zz", "xx"))
     return max(abs(a - b) for a, b in zip(found, wanted, strict=True)) / PRESSURE
 
@@ -90,7 +81,7 @@ def plate(order: int):
         thickness = SPAN / slenderness
         body = {
             "shape": {"disc": {"radius": SPAN, "thickness": thickness}},
-            "material": ALUMINA | ELASTIC | {"poisson": POISSON},
+            "material": thermoelastic(ALUMINA, ELASTIC_ALUMINA, {"poisson": POISSON}),
             "mesh": {
                 "spacing": SPAN / (elements * order),
                 "depth_spacing": thickness / (2.0 * order),
@@ -114,7 +105,7 @@ def plate(order: int):
 def of_plate(answer: Answer, slenderness: float, _: float) -> float:
     """Against `w = p R⁴/64D + p R²/(4κGh)`: Mindlin (1951), doi 10.1115/1.4010217."""
     thickness, pressure = SPAN / slenderness, BENDING / slenderness**3
-    young = ELASTIC["young"]
+    young = ELASTIC_ALUMINA["young"]
     rigidity = young * thickness**3 / (12.0 * (1.0 - POISSON**2))
     shear = young / (2.0 * (1.0 + POISSON))
     wanted = pressure * SPAN**4 / (64.0 * rigidity)

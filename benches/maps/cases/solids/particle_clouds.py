@@ -3,10 +3,13 @@
 from dataclasses import replace
 
 from plan import Answer, Axis, Map, Work
+from problems.half_spaces import disc_flux_rise
+from problems.materials import ALUMINA
+from problems.plates import START, load, probe, scene
 from unit_run import equal_steps, run_unit, unit_work
 
 from cases.solids.built import printed
-from cases.solids.plates import DIFFUSIVITY, START, disc_flux_rise, load, probe, scene
+from cases.solids.plates import DIFFUSIVITY
 
 CLOUDS = 60
 DISORDERS = [0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.5]
@@ -117,7 +120,7 @@ def graded(growth: float, support: float) -> Work:
 
 
 def error(answer: Answer, *_) -> float:
-    rise = disc_flux_rise(FLUX, RADIUS, 0.0, STOP)
+    rise = disc_flux_rise(FLUX, RADIUS, 0.0, STOP, ALUMINA)
     return abs(answer.values["centre.temperature"][-1] - START - rise) / rise
 
 

@@ -5,10 +5,11 @@ import math
 
 import numpy as np
 from plan import Answer, Axis, Boundary, Map, Work
+from problems.plates import START, probe, scene
 from unit_run import equal_steps, run_unit, unit_work
 
 from cases.solids.built import printed
-from cases.solids.plates import DIFFUSIVITY, START, probe, scene, slab_surface_rise
+from cases.solids.plates import DIFFUSIVITY, slab_surface_rise
 
 SIDE, COUNT = 8, 600
 """Particles along an edge of the cube, and Euler steps."""

@@ -1,9 +1,10 @@
 """Heat that has not gone as far as an element: what elements and particles do meanwhile."""
 
 from plan import Answer, Axis, Map, Work
+from problems.plates import START, probe, scene
 from unit_run import run_unit, unit_work
 
-from cases.solids.plates import DIFFUSIVITY, START, probe, scene
+from cases.solids.plates import DIFFUSIVITY
 
 SPACING, LAYERS, WARMER, FLUX = 10e-6, 16, 100.0, 1e7  # m, 1, K, W/m²
 KINDS = [

@@ -1,0 +1,1 @@
+"""Cases of charts and maps: materials, scenes with parameters, and closed forms."""
