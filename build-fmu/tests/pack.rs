@@ -185,7 +185,7 @@ fn open_level_is_packed_with_its_choice() {
     let aerogel = "density = 100.0, specific_heat = 1000.0, conductivity = 0.015";
     for (constants, level, reason) in [
         (copper, "reduced", "plate: reduced, which keeps the tolerance"),
-        (aerogel, "full", "plate: full, as temperatures of a reduced model err"),
+        (aerogel, "full", "plate: full, as the bound of the error of temp"),
     ] {
         fs::write(place.path("open.toml"), leveled(constants, "auto")).unwrap();
         let packed = place.shell("open.toml -o open.fmu --library lib.so");

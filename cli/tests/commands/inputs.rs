@@ -107,7 +107,7 @@ fn run_notes_values_kept_before_and_after_its_table() {
     for (rows, words) in [
         (
             "1,5e7\n",
-            "before the first row at 1e0 s, whose values hold throughout (are these seconds?)",
+            "before the first row at 1e0 s, whose values hold throughout; check that the times",
         ),
         ("0,5e7\n2e-7,6e7\n", "the values of the last row hold from 2e-7 s to 1e-6 s"),
     ] {
