@@ -18,6 +18,8 @@ pub mod quantity;
 
 pub mod limits;
 
+pub mod warning;
+
 pub mod channel;
 
 pub mod material;

@@ -6,7 +6,6 @@ mod joints;
 mod memory;
 mod parts;
 mod peaks;
-mod phases;
 mod reader;
 mod schedule;
 mod sharing;
@@ -16,12 +15,12 @@ mod step_length;
 mod tangent;
 mod timeline;
 pub mod tolerance;
+mod warnings;
 
 pub use cache::Cache;
 pub use error::ModelError;
 pub use memory::check_memory;
 pub use peaks::Peak;
-pub use phases::PhaseWarning;
 pub use reader::Reader;
 pub use start_rates::start_rates;
 pub use step_length::check_step_length;
@@ -30,7 +29,7 @@ pub use timeline::Timeline;
 
 use std::sync::Arc;
 
-use crate::body::{Assembly, Body, Fields, Joint, Link, Reading, Readings};
+use crate::body::{Assembly, Body, Fields, Joint, Link, Readings};
 pub use crate::body::{
     BodyError, BodyForecast, DropletForecast, Forecast, Kept, KeptReduction, ParticleForecast,
     forecast, keep_record, keep_reduction, notes_on_walls, records, to_be_recorded,
@@ -43,7 +42,7 @@ pub use crate::method::sph::ParticleFields;
 use crate::runtime::allowance::{Allowance, Interrupt};
 use crate::runtime::made_once::MadeOnce;
 use crate::runtime::thread::aside;
-use crate::scene::{self, FidelityLevel, Scene};
+use crate::scene::{self, Scene};
 use crate::variables::{Output, Registry, Slot};
 use memory::threads_that_fit;
 use schedule::Group;
@@ -353,33 +352,6 @@ impl Model {
         })
     }
 
-    /// Warns of bodies whose outputs are known to err by more than the tolerance: a sentence each.
-    pub fn tolerance_warnings(&self) -> Vec<String> {
-        let wanted = self.scene.fidelity.tolerance;
-        let over = self.scene.refinement.iter().filter_map(|(name, mesh)| {
-            let error = mesh.estimated_error.filter(|&error| error > wanted)?;
-            Some(format!(
-                "{name}: outputs err by about {} of their ranges, more than the tolerance of {}; `impinge check` tells \
-                 which, and what would keep it",
-                tolerance::percent(error),
-                tolerance::percent(wanted)
-            ))
-        });
-        over.chain(self.reduction_warnings()).collect()
-    }
-
-    /// Warns of reduced bodies whose bound does not keep the tolerance: a sentence each.
-    pub fn reduction_warnings(&self) -> impl Iterator<Item = String> {
-        self.bodies.iter().filter_map(|body| {
-            let beyond = body.beyond_tolerance()?;
-            let remedy = match self.scene.fidelity.level {
-                FidelityLevel::Auto => "packed with these parameters, it takes the full model",
-                _ => "`fidelity.level = \"full\"` keeps it, and \"auto\" takes that where it must",
-            };
-            Some(format!("{}: {beyond}; {remedy}", body.name()))
-        })
-    }
-
     /// Of each reduced body its name and what it was reduced to; others that need the same find it as long as this is
     /// held.
     pub fn reductions(&self) -> Vec<(String, KeptReduction)> {
@@ -392,76 +364,12 @@ impl Model {
         self.bodies.iter().flat_map(|body| body.notes()).collect()
     }
 
-    /// What a user should know of a state at once: a sentence each.
-    pub fn warnings(&self, state: &State) -> Vec<String> {
-        let bodies = self.bodies.iter().zip(&state.bodies);
-        bodies.filter_map(|(body, unknowns)| body.warning(unknowns)).collect()
-    }
-
-    /// Of a step of `dt` [s] that is much shorter than those that the meshes were chosen for: what is told just after a
-    /// jump is wrong.
-    pub fn warning_on_step(&self, dt: f64) -> Option<String> {
-        let asked = self.scene.step;
-        // What is left over of a run is as short as rounding.
-        if dt >= SHORT * asked || dt < ROUNDING * asked {
-            return None;
-        }
-        let body = self.bodies.iter().find(|body| dt < SHORT * body.resolved_from())?;
-        Some(format!(
-            "{}: a step of {dt:.1e} s is shorter than the {:.1e} s after which its mesh tells heated surfaces: until then \
-             their rises are too low and heat of prescribed temperatures and of droplets is too high, by several times at \
-             first; a scene whose `step` ({asked:e} s) is as short has a mesh for it",
-            body.name(),
-            body.resolved_from()
-        ))
-    }
-
-    /// What inputs tell since the last step, in answer to it, that does not go with how it was computed; `before` are
-    /// those of its beginning.
-    pub fn warning_on_answer(&self, state: &State, before: &[f64]) -> Option<String> {
-        let mut bodies = self.bodies.iter().zip(&state.bodies);
-        bodies.find_map(|(body, unknowns)| body.warning_on_answer(unknowns, before, &state.inputs))
-    }
-
-    /// What a user should know of an output's value.
-    pub fn warning_on_value(&self, output: &Output, value: f64) -> Option<String> {
-        self.bodies[output.body].warning_on_value(&output.reading, value)
-    }
-
-    /// The same of all values of whole bodies in a state: a sentence each.
-    pub fn warnings_on_values(
-        &self,
-        state: &State,
-        cache: &mut Cache,
-    ) -> Result<Vec<String>, ModelError> {
-        let mut found = Vec::new();
-        let mut reader = self.reader(state, cache)?;
-        for variable in Registry::of(&self.scene).variables {
-            let Slot::Output(output) = &variable.slot else { continue };
-            if matches!(output.reading, Reading::Total(_)) {
-                let value = reader.value(output)?;
-                found.extend(self.warning_on_value(output, value));
-            }
-        }
-        Ok(found)
-    }
-
-    /// What a user should know of the state at the end of a run: a sentence each.
-    pub fn closing_warnings(&self, state: &State) -> Vec<String> {
-        let bodies = self.bodies.iter().zip(&state.bodies);
-        bodies.flat_map(|(body, unknowns)| body.closing_warnings(unknowns)).collect()
-    }
-
     fn place(&self, body: &str) -> usize {
         let known = self.bodies.iter().position(|b| b.name() == body);
         known.expect("asked for by the name of a body of the scene")
     }
 }
 
-/// Part of the time that a mesh resolves, and of the step that it was chosen for, below which a step is too short.
-const SHORT: f64 = 0.5;
-/// Part of the scene's step that rounding leaves over.
-const ROUNDING: f64 = 1e-9;
 /// What stands for an error that is not estimated.
 const NO_ESTIMATE: f64 = -1.0;
 

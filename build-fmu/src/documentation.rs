@@ -105,14 +105,14 @@ fn modelled(scene: &Scene, reductions: &[String]) -> String {
     )
 }
 
-/// What outputs err by, body by body, as far as it is known.
+/// Known errors of outputs, body by body.
 fn errors(scene: &Scene) -> impl Iterator<Item = String> {
     let tolerance = scene.fidelity.tolerance;
     scene.refinement.iter().filter_map(move |(name, mesh)| {
         let error = mesh.estimated_error?;
         let kept = if error > tolerance { "more than" } else { "within" };
         Some(format!(
-            "{name}: its mesh makes outputs err by about {error:.0e} of their ranges over the default experiment, {kept} \
+            "{name}: on its mesh errors of outputs are about {error:.0e} of their ranges over the default experiment, {kept} \
              the tolerance of {tolerance:e}."
         ))
     })

@@ -185,7 +185,7 @@ fn a_level_that_is_left_open_is_packed_with_its_answer() {
     let aerogel = "density = 100.0, specific_heat = 1000.0, conductivity = 0.015";
     for (constants, level, reason) in [
         (copper, "reduced", "plate: reduced, which keeps the tolerance"),
-        (aerogel, "full", "plate: full, as temperatures of a reduced model err"),
+        (aerogel, "full", "plate: full, as the bound of the error of temp"),
     ] {
         fs::write(place.path("open.toml"), leveled(constants, "auto")).unwrap();
         let packed = place.shell("open.toml -o open.fmu --library lib.so");
@@ -207,5 +207,5 @@ fn a_level_that_is_left_open_is_packed_with_its_answer() {
     let packed = place.shell("tight.toml -o tight.fmu --library lib.so");
     let said = String::from_utf8_lossy(&packed.stderr);
     assert!(packed.status.success(), "{said}");
-    assert!(said.contains("warning: plate: temperatures of a reduced model err"), "{said}");
+    assert!(said.contains("warning: plate: the bound of the error of temperatures"), "{said}");
 }

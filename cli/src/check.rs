@@ -184,7 +184,7 @@ fn notes(scene: &Scene, preparation: &Preparation) -> String {
 /// Most outputs of a body whose errors are listed.
 const MOST_ERRORS: usize = 12;
 
-/// What outputs err by, the largest errors first, and what estimates leave out.
+/// Errors of outputs, the largest first, and what estimates leave out.
 fn errors(estimates: &[BodyEstimate]) -> String {
     let mut text = String::new();
     for estimate in estimates {
@@ -199,7 +199,8 @@ fn errors(estimates: &[BodyEstimate]) -> String {
             text.push_str(&table(heading, &rows));
         }
         if outputs.len() > MOST_ERRORS {
-            let _ = writeln!(text, "  {} outputs more err by less", outputs.len() - MOST_ERRORS);
+            let more = outputs.len() - MOST_ERRORS;
+            let _ = writeln!(text, "  {more} more outputs have smaller errors");
         }
         for note in &estimate.notes {
             let _ = writeln!(text, "  - {}: {note}", estimate.body);

@@ -9,6 +9,7 @@ use impinge::model::State;
 use impinge::runtime::available_memory;
 use impinge::scene::{self, Scene};
 use impinge::variables::{Quantity, Registry, Slot, Variable};
+use impinge::warning;
 
 use super::set::{self, InputValue, SetError};
 
@@ -133,11 +134,9 @@ impl InputTable {
         let (first, last) = (*self.times.first()?, *self.times.last()?);
         let file = path.display();
         if first >= stop {
-            let message = format!(
-                "{file}: the run ends at {stop:e} s, before the first row at {first:e} s, whose values hold throughout \
-                 (are these seconds?)"
-            );
-            return Some(("warning", message));
+            let [stop, first] = [stop, first].map(|time| format!("{time:e}"));
+            let warning = warning::run_ends_before_rows(stop, first).at(file.to_string());
+            return Some(("warning", warning.to_string()));
         }
         if first > 0.0 {
             let message = format!(

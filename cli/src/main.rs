@@ -18,7 +18,7 @@ use std::io::{self, Write};
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
-use impinge::advice::Warning;
+use impinge::warning::Warning;
 
 use error::CliError;
 

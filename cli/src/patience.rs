@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
-use impinge::advice::{self, Warning};
+use impinge::advice;
 use impinge::model::forecast;
 use impinge::scene::{self, Scene};
+use impinge::warning::Warning;
 
 use super::CliError;
 use super::units::lasting;

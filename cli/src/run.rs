@@ -350,8 +350,8 @@ impl Running<'_> {
         let told = &self.told_of_phases;
         let warnings = self.model.phase_warnings(&self.state, |subject| told.contains(subject));
         for warning in warnings {
-            super::print_message("warning", &warning.message);
-            self.told_of_phases.insert(warning.subject);
+            super::print_message("warning", &warning);
+            self.told_of_phases.insert(warning.subject().to_owned());
         }
     }
 

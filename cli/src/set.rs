@@ -5,6 +5,7 @@ use std::str::FromStr;
 use impinge::limits::Bounds;
 use impinge::scene::Scene;
 use impinge::variables::{Causality, Registry, Slot, Value, Variable};
+use impinge::warning::Warning;
 
 /// A value for a variable, as given on the command line.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -79,7 +80,7 @@ pub fn apply(scene: &mut Scene, assignments: &[Assignment]) -> Result<Vec<InputV
 }
 
 /// Warnings of implausible values of inputs, one per array.
-pub fn implausible(scene: &Scene, inputs: &[InputValue]) -> Vec<String> {
+pub fn implausible(scene: &Scene, inputs: &[InputValue]) -> Vec<Warning> {
     let registry = Registry::of(scene);
     let mut warned = BTreeSet::new();
     let mut warnings = Vec::new();

@@ -4,6 +4,7 @@ use impinge::body::{PeakPart, Reading};
 use impinge::model::{Cache, Model, ModelError, State};
 use impinge::scene::Scene;
 use impinge::variables::{Output, Quantity, Registry, Slot, Variable};
+use impinge::warning::{self, Warning};
 
 use super::table::table;
 use super::units::{decimal, engineering, kelvin};
@@ -46,16 +47,13 @@ impl Balance {
         }
     }
 
-    /// What to say if the heat does not add up.
-    pub fn warning(&self) -> Option<String> {
+    /// Warns if the heat does not add up.
+    pub fn warning(&self) -> Option<Warning> {
         let residual = self.residual();
         let is_balanced = residual <= self.expected;
         (!is_balanced).then(|| {
-            format!(
-                "{}: heat in differs from heat stored and lost by {residual:.1e} of the largest \
-                 of them (expected at most {:e})",
-                self.body, self.expected
-            )
+            let (residual, expected) = (format!("{residual:.1e}"), format!("{:e}", self.expected));
+            warning::heat_unbalanced(residual, expected).at(&self.body)
         })
     }
 
@@ -226,7 +224,7 @@ mod tests {
     #[test]
     fn missing_heat_is_reported_against_the_largest_amount() {
         assert_eq!(balance(1.0, -4.0, 4.5).residual(), 0.5 / 4.5);
-        assert!(balance(1.0, 0.9, 0.0).warning().unwrap().contains("plate"));
+        assert!(balance(1.0, 0.9, 0.0).warning().unwrap().to_string().contains("plate"));
         assert!(balance(f64::NAN, 1.0, 0.0).warning().is_some());
     }
 }

@@ -7,6 +7,7 @@ use crate::scene::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::{Coupling, Droplet, Wall};
 use crate::scene::{Footprint, Load, Mesh, Solid};
+use crate::warning;
 
 /// Fewest distances of nodes over the radius of a spot or half the size of tiles.
 pub const NODES_PER_RADIUS: f64 = 2.0;
@@ -46,11 +47,7 @@ fn caught(reviewer: &mut Reviewer, path: &Path, name: &str) {
     }
     let mut solids = scene.solids().map(|(solid, _)| solid);
     if let Some(solid) = solids.find(|solid| scene.couplings_to(solid).next().is_none()) {
-        let message = format!(
-            "the droplet falls through `{solid}`: nothing joins them; did you mean `[[coupling]]` with \
-             from = \"{name}\", to = \"{solid}.top\"?"
-        );
-        reviewer.warn(path, message);
+        reviewer.warn(path, warning::droplet_meets_no_wall(solid, name));
     }
 }
 
@@ -63,16 +60,16 @@ fn arrives(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     if down <= stop * (1.0 + 1e-9) || (arrival.time < stop && droplet.gap() <= droplet.spacing) {
         return;
     }
-    let (key, why) = match (down.is_finite(), droplet.height) {
-        (false, _) => {
-            ("impact_velocity", "without speed and gravity it never comes down".to_owned())
-        }
-        (true, Some(_)) => ("height", format!("it comes down at {} s", number(down))),
-        (true, None) => ("arrivals", format!("it comes down at {} s", number(down))),
+    let finding = match down.is_finite() {
+        true => warning::drop_arrives_late(number(stop), number(down)),
+        false => warning::drop_never_arrives(number(stop)),
     };
-    let message =
-        format!("the drop does not arrive before the stop time of {} s: {why}", number(stop));
-    reviewer.warn(&path.key(key), message);
+    let key = match (down.is_finite(), droplet.height) {
+        (false, _) => "impact_velocity",
+        (true, Some(_)) => "height",
+        (true, None) => "arrivals",
+    };
+    reviewer.warn(&path.key(key), finding);
 }
 
 /// Warns of fine meshes and of drops that are wider than the plate.
@@ -81,11 +78,8 @@ fn width(reviewer: &mut Reviewer, path: &Path, coupling: &Coupling, droplet: &Dr
     let half = lateral_extents(&below.shape).map(|extent| 0.5 * extent);
     let room = half[0].min(half[1]);
     if coupling.radius.is_some_and(|radius| radius > room) {
-        let message = format!(
-            "the fine mesh is wider than `{solid}`, whose edge is {} m from the centre",
-            number(room)
-        );
-        reviewer.warn(&path.key("radius"), message);
+        let finding = warning::fine_mesh_wider_than_solid(solid, number(room));
+        reviewer.warn(&path.key("radius"), finding);
     }
     let reach = 0.5 * droplet.spread_diameter();
     let beyond = droplet.landings().any(|place| {
@@ -93,12 +87,8 @@ fn width(reviewer: &mut Reviewer, path: &Path, coupling: &Coupling, droplet: &Dr
         x + reach > half[0] || y + reach > half[1]
     });
     if beyond {
-        let message = format!(
-            "the drop is expected to spread over {} m, beyond the edge of `{solid}`: heat and force of \
-             what lies beyond do not enter the solid but are counted apart",
-            number(2.0 * reach)
-        );
-        reviewer.warn(&path.key("from"), message);
+        let finding = warning::drop_spreads_beyond_edge(number(2.0 * reach), solid);
+        reviewer.warn(&path.key("from"), finding);
     }
 }
 
@@ -115,12 +105,8 @@ fn apart(
         let reach = 0.5 * (droplet.spread_diameter() + other.spread_diameter());
         let meet = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) < reach;
         if droplet.landings().any(|a| other.landings().any(|b| meet(a, b))) {
-            let message = format!(
-                "`{}` and `{}` are expected to spread over each other, and droplets of two bodies do not see \
-                 each other: did you mean `arrivals` of one?",
-                earlier.from, coupling.from
-            );
-            reviewer.warn(&path.key("from"), message);
+            let finding = warning::droplets_of_two_bodies_meet(&earlier.from, &coupling.from);
+            reviewer.warn(&path.key("from"), finding);
         }
     }
 }
@@ -143,30 +129,19 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, wall: &Wall, droplet: &Droplet
     let narrowest = widths.iter().copied().fold(f64::INFINITY, f64::min);
     let widest = widths.into_iter().fold(0.0, f64::max);
     if !fits(droplet.spacing, narrowest) {
-        let message = format!(
-            "cells of {} m are narrower than the film can resolve: particles of `{}` are {} m apart, so that fluxes of \
-             single cells differ by chance; did you mean cells of {} m or more?",
-            number(narrowest),
-            wall.under,
-            number(droplet.spacing),
-            number(2.0 * droplet.spacing)
-        );
-        reviewer.warn(&path.key(key).key("count"), message);
+        let (spacing, wide) = (number(droplet.spacing), number(2.0 * droplet.spacing));
+        let narrowest = number(narrowest);
+        let finding = warning::cells_narrower_than_particles(narrowest, &wall.under, spacing, wide);
+        reviewer.warn(&path.key(key).key("count"), finding);
     }
     let effusivity = droplet.fluid.effusivity();
     if droplet.has_particles()
         && wall.effusivity.is_some_and(|solid| solid < effusivity)
         && widest > WIDEST_ON_POOR * droplet.spacing * (1.0 + 1e-9)
     {
-        let message = format!(
-            "cells of {} m are too wide for a solid that conducts less than the fluid, whose temperature differs within \
-             them: its middle is off by more than 10 % of its rise; did you mean cells of {} m, the distance of particles \
-             of `{}`?",
-            number(widest),
-            number(droplet.spacing),
-            wall.under
-        );
-        reviewer.warn(&path.key(key).key("count"), message);
+        let (widest, spacing) = (number(widest), number(droplet.spacing));
+        let finding = warning::cells_too_wide_on_poor_conductor(widest, spacing, &wall.under);
+        reviewer.warn(&path.key(key).key("count"), finding);
     }
 }
 
@@ -187,12 +162,8 @@ fn seen(reviewer: &mut Reviewer, path: &Path, load: &Load) {
     if let (None, Footprint::Ring { inner, outer }) = (solid.mesh.spacing, load.footprint)
         && inner < Footprint::LEAST_HOLE * outer
     {
-        let message = format!(
-            "a mesh that is chosen does not see a hole this small; did you mean a disc, or a `mesh.spacing` of {} m \
-             or less?",
-            number(inner / NODES_PER_RADIUS)
-        );
-        reviewer.warn(&path.at("footprint.ring.inner"), message);
+        let finding = warning::hole_of_ring_unresolved(number(inner / NODES_PER_RADIUS));
+        reviewer.warn(&path.at("footprint.ring.inner"), finding);
     }
     let Some(spacing) = solid.mesh.spacing.map(|spacing| distance(spacing, solid)) else { return };
     let footprint = &load.footprint;
@@ -203,12 +174,7 @@ fn seen(reviewer: &mut Reviewer, path: &Path, load: &Load) {
     };
     let size = footprint.half_width(radius);
     if size < NODES_PER_RADIUS * spacing {
-        let message = format!(
-            "the mesh does not see a load this small: nodes are {} m apart; did you mean a \
-             `mesh.spacing` of {} m or less?",
-            number(spacing),
-            number(0.2 * size)
-        );
-        reviewer.warn(&path.at(&key), message);
+        let finding = warning::load_unresolved(number(spacing), number(0.2 * size));
+        reviewer.warn(&path.at(&key), finding);
     }
 }

@@ -3,6 +3,7 @@
 use super::{Path, Reviewer, number};
 use crate::closed_form::DropImpact;
 use crate::scene::{Droplet, DropletMethod, Scene};
+use crate::warning;
 
 pub fn review(reviewer: &mut Reviewer) {
     let scene = reviewer.scene;
@@ -41,14 +42,8 @@ fn stacked(reviewer: &mut Reviewer, (name, droplet): (&str, &Droplet)) {
     };
     let Some(at) = (0..arrivals.len()).find(|&n| films(n) as f64 > MEASURED_FILMS) else { return };
     let path = Path::default().key("body").key(name).key("arrivals");
-    let message = format!(
-        "the drop at {} s is expected to come down on {} films that still give heat: more than {MEASURED_FILMS} on one place \
-         were not compared with particles; temperatures stay between those of drops and wall, but are not known to be right; \
-         `method = \"sph\"` computes every drop, at what `check` says it costs",
-        number(arrivals[at].time),
-        films(at) - 1
-    );
-    reviewer.warn(&path, message);
+    let (time, films) = (number(arrivals[at].time), films(at) - 1);
+    reviewer.warn(&path, warning::drops_stack(time, films, MEASURED_FILMS));
 }
 
 /// Effusivities of layers of which the one may be taken for the other.
@@ -67,12 +62,8 @@ fn thin(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet))
     if depth <= thickness {
         return;
     }
-    let message = format!(
-        "temperatures and heat are expected to be off, temperatures up to beyond the drop's own: a drop of this method cools as \
-         on a half space of what it lands on, which is {thickness:.1e} m thick, and heat goes {depth:.1e} m deep while it \
-         does; did you mean `sph`?"
-    );
-    reviewer.warn(path, message);
+    let (thickness, depth) = (format!("{thickness:.1e}"), format!("{depth:.1e}"));
+    reviewer.warn(path, warning::layer_thinner_than_heat_penetrates(thickness, depth));
 }
 
 /// Thickness [m] to which what lies below a droplet is much like its top, and the diffusivity of that [m²/s].
@@ -119,13 +110,8 @@ fn depleted(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
     if fourier < COOLED {
         return;
     }
-    let message = format!(
-        "the temperature under the middle of the drop is expected to be too low, by a fifth to nine tenths, and heat by up to \
-         a third, as this film has cooled through while the drop still comes down (a(D/U)/δ² = {} of what is in contact, \
-         right below {COOLED}); did you mean `sph`?",
-        number((100.0 * fourier).round() / 100.0)
-    );
-    reviewer.warn(path, message);
+    let fourier = number((100.0 * fourier).round() / 100.0);
+    reviewer.warn(path, warning::film_cools_through(fourier, COOLED));
 }
 
 /// Effusivity of what lies below over that of the fluid below which heat follows the wetted area: mercury on polymers.
@@ -137,9 +123,7 @@ fn insulated(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Drop
     if droplet.fluid.conductivity == 0.0 || below >= INSULATES * droplet.fluid.effusivity() {
         return;
     }
-    let message = "heat is expected to be too low by a tenth to a half, as on what conducts less than a seventh of the fluid it \
-                   follows the wetted area, which correlations tell to no better; did you mean `sph`?";
-    reviewer.warn(path, message.to_owned());
+    reviewer.warn(path, warning::film_on_insulator());
 }
 
 /// Reynolds number below which drops rest on a flat that is much smaller than the fitted footprint.
@@ -155,8 +139,5 @@ fn unfitted(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
         true => "its footprint and heat are expected to be too large, heat by two to nine times",
         false => "the errors of its footprint and heat are not known",
     };
-    let message = format!(
-        "{error}, as this method was not fitted on such a drop: {outside}; did you mean `sph`?"
-    );
-    reviewer.warn(path, message);
+    reviewer.warn(path, warning::film_not_fitted(error, outside));
 }

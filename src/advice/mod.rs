@@ -1,5 +1,5 @@
-//! Whether what a scene says is plausible: values in wrong units, sizes that do not go together, parts
-//! that were forgotten. Nothing here is refused; each finding is a [`Warning`].
+//! Tests that find what is implausible in a scene: values in wrong units, sizes that contradict each other, forgotten
+//! parts. Nothing here is refused; the texts are the rules of `warning`.
 
 mod arrangement;
 mod cold;
@@ -11,50 +11,22 @@ mod relations;
 mod resolution;
 mod values;
 
-use std::fmt;
-
 use crate::limits::number;
 use crate::limits::plausible::{self, BESIDE_WARM, CRYOGENIC, Cold, Range};
 use crate::scene::locate::{Path, Source};
 use crate::scene::schema::Schema;
-use crate::scene::{self, Problem, Scene, SceneError};
+use crate::scene::{self, Scene, SceneError};
+use crate::warning::{self, Finding, Warning};
 
 pub use films::MEASURED_FILMS;
 pub use moved::implausible_place;
 pub use resolution::{HeatError, Resolution};
 
-/// Something that a scene says, and that is hardly meant.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Warning {
-    problem: Problem,
-}
-
-impl fmt::Display for Warning {
-    /// `FILE:LINE: KEY = VALUE: why (did you mean …?)`
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.problem.write_place(f)?;
-        write!(f, " {}", self.problem.message)
-    }
-}
-
-impl Warning {
-    /// What the warning is about, wherever in a file it stands.
-    pub fn subject(&self) -> String {
-        format!("{}: {}", self.problem.path, self.problem.message)
-    }
-
-    /// The same of a scene that has no lines of its own.
-    fn without_line(mut self) -> Self {
-        self.problem.line = None;
-        self
-    }
-}
-
 /// Reads and checks a scene's text, and warns of what is implausible in it.
 pub fn parse_with_warnings(text: &str, file: &str) -> Result<(Scene, Vec<Warning>), SceneError> {
     let (source, schema) = (Source::parse(text, file)?, Schema::of_scenes());
     let scene = scene::parse_located(&source, &schema)?;
-    let found = found(&scene, &source, &schema);
+    let found = found(&scene, (&source, true), &schema);
     Ok((scene, found))
 }
 
@@ -62,13 +34,12 @@ pub fn parse_with_warnings(text: &str, file: &str) -> Result<(Scene, Vec<Warning
 pub fn warnings(scene: &Scene) -> Vec<Warning> {
     let Ok(text) = toml::to_string(scene) else { return Vec::new() };
     let Ok(source) = Source::parse(&text, scene::CHANGED) else { return Vec::new() };
-    let found = found(scene, &source, &Schema::of_scenes());
-    found.into_iter().map(Warning::without_line).collect()
+    found(scene, (&source, false), &Schema::of_scenes())
 }
 
-/// Everything in a checked scene that is hardly meant, in the order of the lines.
-fn found(scene: &Scene, source: &Source, schema: &Schema) -> Vec<Warning> {
-    let mut reviewer = Reviewer { scene, source, found: Vec::new() };
+/// Warnings of a checked scene in the order of its lines; `names_lines` if the source is the user's file.
+fn found(scene: &Scene, (source, names_lines): (&Source, bool), schema: &Schema) -> Vec<Warning> {
+    let mut reviewer = Reviewer { scene, source, names_lines, found: Vec::new() };
     let cold = scene.cold();
     values::review(&mut reviewer, schema, cold);
     phases::review(&mut reviewer, cold);
@@ -76,46 +47,62 @@ fn found(scene: &Scene, source: &Source, schema: &Schema) -> Vec<Warning> {
     arrangement::review(&mut reviewer);
     particles::review(&mut reviewer);
     films::review(&mut reviewer);
-    reviewer.found.sort_by_key(|warning| warning.problem.line);
-    reviewer.found
+    reviewer.found.sort_by_key(|(line, _)| *line);
+    reviewer.found.into_iter().map(|(_, warning)| warning).collect()
 }
 
 /// Collects the warnings about a scene.
 struct Reviewer<'a> {
     scene: &'a Scene,
     source: &'a Source<'a>,
-    found: Vec<Warning>,
+    names_lines: bool,
+    /// With the line of each.
+    found: Vec<(Option<usize>, Warning)>,
 }
 
 impl Reviewer<'_> {
-    fn warn(&mut self, path: &Path, message: String) {
-        let problem = self.source.problem(path, message, String::new());
-        self.found.push(Warning { problem });
+    fn warn(&mut self, path: &Path, finding: Finding) {
+        let mut problem = self.source.problem(path, String::new(), String::new());
+        let line = problem.line;
+        problem.line = line.filter(|_| self.names_lines);
+        let subject = format!("{}: {finding}", problem.path);
+        self.found.push((line, finding.at(problem.place()).of_subject(subject)));
     }
 }
 
-/// What to say of a value outside of its plausible range.
-fn implausible(range: &Range, value: f64) -> Option<String> {
+/// The finding of a value outside of its plausible range.
+fn implausible(range: &Range, value: f64) -> Option<Finding> {
     if range.holds(value) {
         return None;
     }
     let Range { what, unit, lowest, highest, .. } = range;
     let (low, high) = (number(*lowest), number(*highest));
-    let mut message = format!("{what} is plausible from {low} to {high} {unit}");
-    let is_cold = *unit == "K" && value < *lowest;
-    if is_cold {
+    let meant = range.meant(value);
+    if *unit == "K" && value < *lowest {
         let beside = if *lowest == BESIDE_WARM { " beside warmer ones" } else { "" };
-        message += &format!("{beside}, and {} K is {}", number(value), celsius(value));
+        let (high, permit) = (format!("{high} K{beside}"), value >= CRYOGENIC);
+        let (value, celsius) = (number(value), celsius(value));
+        return Some(match meant {
+            Some((meant, unit)) => {
+                let meant = format!("{} ({value} {unit})", number(meant));
+                let permit = if permit { COLD_ON_PURPOSE } else { "" };
+                warning::celsius(what, low, high, &value, celsius, meant, permit)
+            }
+            None if permit => warning::cold_value(what, low, high, value, celsius),
+            None => warning::implausible_value(what, low, high, ""),
+        });
     }
-    if let Some((meant, unit)) = range.meant(value) {
-        let (meant, value) = (number(meant), number(value));
-        message += &format!("; did you mean {meant} ({value} {unit})?");
-    }
-    if is_cold && value >= CRYOGENIC {
-        message += " `cryogenic = true` says that a scene is meant to be this cold";
-    }
-    Some(message)
+    Some(match meant {
+        Some((meant, unit_of_value)) => {
+            let given = format!("{} {unit_of_value}", number(value));
+            warning::wrong_unit(what, low, high, unit, number(meant), given)
+        }
+        None => warning::implausible_value(what, low, high, unit),
+    })
 }
+
+/// The way out for scenes that are cold.
+const COLD_ON_PURPOSE: &str = " If the scene is meant to be this cold, set `cryogenic = true`";
 
 /// 0 °C [K].
 const CELSIUS: f64 = 273.15;
@@ -136,13 +123,13 @@ pub enum Measure {
     Traction,
 }
 
-/// `NAME = VALUE: why (did you mean …?)` of a value that is hardly meant for an input of a unit of the scene.
+/// The warning of a value that is hardly meant for an input of a unit of the scene.
 pub fn implausible_input(
     scene: &Scene,
     name: &str,
     measure: Measure,
     value: f64,
-) -> Option<String> {
+) -> Option<Warning> {
     let range = match measure {
         Measure::Temperature => &plausible::TEMPERATURE,
         Measure::Ambient => &plausible::AMBIENT,
@@ -160,5 +147,10 @@ pub fn implausible_input(
         _ => range.lowest,
     };
     let why = implausible(&Range { lowest, ..range.clone() }, value);
-    why.map(|why| format!("{name} = {}: {why}", number(value)))
+    why.map(|why| why.at(place_of_input(name, value)))
+}
+
+/// `NAME = VALUE`
+fn place_of_input(name: &str, value: f64) -> String {
+    format!("{name} = {}", number(value))
 }

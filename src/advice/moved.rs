@@ -1,19 +1,21 @@
 //! Footprints that an input moves to where the mesh does not see them, or makes too small for it.
 
 use super::arrangement::NODES_PER_RADIUS;
+use super::place_of_input;
 use crate::limits::number;
 use crate::scene::lateral_extents;
 use crate::scene::{Load, Mesh, MeshFactors, Scene, Solid};
+use crate::warning::{self, Warning};
 
 /// Growth of elements away from loads, where the scene names none.
 const GROWTH: f64 = 1.2;
 /// Nodes over the least feature of a load, where the scene names no spacing.
 const NODES_PER_FEATURE: f64 = 10.0;
 
-/// What to say of a value [m] of the input `LOAD.x` or `LOAD.y` that puts the footprint where nodes are too far apart.
+/// The warning of a value [m] of the input `LOAD.x` or `LOAD.y` that puts the footprint where nodes are too far apart.
 ///
 /// Certain rather than complete: nodes stand as densely as all loads of the body and its symmetry let them.
-pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<String> {
+pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<Warning> {
     if let Some(load) = scene.load.iter().find(|load| is_radius(load, name)) {
         return implausible_radius(scene, load, (name, value));
     }
@@ -28,7 +30,7 @@ pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<String
     let on_body = || scene.load.iter().filter(|other| other.body_and_face().0 == body);
     let way = on_body().map(|other| way_from(other, axis, value)).fold(f64::INFINITY, f64::min);
     if way == 0.0 {
-        // Where the mesh is as fine as anywhere, `check` tells of a load too small for it.
+        // Where the mesh is as fine as anywhere, `check` warns of a load too small for it.
         return None;
     }
     let finest = on_body().map(|other| spacing(solid, other)).fold(f64::INFINITY, f64::min);
@@ -40,28 +42,20 @@ pub fn implausible_place(scene: &Scene, name: &str, value: f64) -> Option<String
     let size = load.footprint.half_width(load.start.radius);
     let key = ["x", "y"][axis];
     (size < NODES_PER_RADIUS * apart).then(|| {
-        format!(
-            "{name} = {}: the mesh does not see a load this small here: nodes are about {:.1e} m apart, as it is fine \
-             where loads start; did you mean `range = {{ {key} = […] }}` for `{}`, or `mesh.growth = 1`?",
-            number(value),
-            apart,
-            load.name
-        )
+        let apart = format!("{apart:.1e}");
+        let finding = warning::load_moved_off_fine_mesh(apart, key, &load.name);
+        finding.at(place_of_input(name, value))
     })
 }
 
-/// What to say of a radius [m] of fewer nodes than tell its middle, where nodes are as dense as anywhere.
-fn implausible_radius(scene: &Scene, load: &Load, (name, value): (&str, f64)) -> Option<String> {
+/// The warning of a radius [m] across which too few nodes lie, where nodes are as dense as anywhere.
+fn implausible_radius(scene: &Scene, load: &Load, (name, value): (&str, f64)) -> Option<Warning> {
     let body = load.body_and_face().0;
     let apart = spacing(scene.solid_under(load)?, load) / along(scene, body);
     (value < NODES_PER_RADIUS * apart).then(|| {
-        format!(
-            "{name} = {}: the mesh does not see a load this small: nodes are about {apart:.1e} m apart; did you mean \
-             `range = {{ radius = […] }}` for `{}`, or a `mesh.spacing` of {} m or less?",
-            number(value),
-            load.name,
-            number(value / NODES_PER_RADIUS)
-        )
+        let (apart, spacing) = (format!("{apart:.1e}"), number(value / NODES_PER_RADIUS));
+        let finding = warning::load_shrunk_below_mesh(apart, &load.name, spacing);
+        finding.at(place_of_input(name, value))
     })
 }
 

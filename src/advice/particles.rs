@@ -6,6 +6,7 @@ use crate::kernel::Kernel;
 use crate::limits::number;
 use crate::scene::Droplet;
 use crate::scene::locate::Path;
+use crate::warning::{self, Finding};
 
 /// Distances of particles over the thickness of a film below which it breaks up too soon, and what is proposed instead.
 const THINNEST: f64 = 1.5;
@@ -50,12 +51,8 @@ fn pairs(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     if droplet.support <= widest {
         return;
     }
-    let message = format!(
-        "under pressure, particles of the {spline} spline form pairs beyond a support of {widest} distances ({} here), \
-         and tell as little as half as many; did you mean `kernel = \"wendland_c2\"`, or `support = {widest}`?",
-        number(droplet.support)
-    );
-    reviewer.warn(&path.key("kernel"), message);
+    let finding = warning::kernel_forms_pairs(spline, widest, number(droplet.support));
+    reviewer.warn(&path.key("kernel"), finding);
 }
 
 /// Warns of density diffusion too weak to damp waves of pressure.
@@ -63,11 +60,8 @@ fn ringing(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     if droplet.density_diffusion >= LEAST_DIFFUSION {
         return;
     }
-    let message = format!(
-        "with so little density diffusion pressures ring: heat and heights of films are off by 10 % to 30 %; did you \
-         mean {USUAL_DIFFUSION}?"
-    );
-    reviewer.warn(&path.key("density_diffusion"), message);
+    let finding = warning::density_diffusion_too_weak(USUAL_DIFFUSION);
+    reviewer.warn(&path.key("density_diffusion"), finding);
 }
 
 /// Warns of particles that line up along streams, as nothing moves them apart.
@@ -76,9 +70,7 @@ fn streams(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     if droplet.shifts() || !free.shifts() {
         return;
     }
-    let message = "where inertia rules, particles that are not shifted line up along streams: velocities are off by 5 % \
-                   to 20 % at any `spacing`; did you mean to leave `shifting` out?";
-    reviewer.warn(&path.key("shifting"), message.to_owned());
+    reviewer.warn(&path.key("shifting"), warning::particles_line_up());
 }
 
 /// Warns of a drop of next to no particles.
@@ -87,11 +79,8 @@ fn coarse(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     if across >= FEWEST {
         return;
     }
-    let message = format!(
-        "{across:.1} particles across a drop tell its heat to a third or a half; did you mean a `spacing` of {} m or less?",
-        number(rounded(droplet.diameter / SOME))
-    );
-    reviewer.warn(path, message);
+    let (across, spacing) = (format!("{across:.1}"), number(rounded(droplet.diameter / SOME)));
+    reviewer.warn(path, warning::drop_of_few_particles(across, spacing));
 }
 
 /// Warns of a film that gets too thin for its particles by the stop time, or of particles too wide for the layers of
@@ -99,17 +88,18 @@ fn coarse(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
 fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Droplet)) {
     let Some(resolution) = Resolution::of(reviewer.scene, (name, droplet)) else { return };
     let heat = resolution.heat().filter(|_| droplet.fluid.conductivity > 0.0);
-    if let Some(message) = thin(&resolution, droplet, heat.as_ref()) {
-        reviewer.warn(path, message);
+    if let Some(finding) = thin(&resolution, droplet, heat.as_ref()) {
+        reviewer.warn(path, finding);
         return;
     }
     if let Some(across) = resolution.across_for_middle()
         && reviewer.scene.coupling_from(name).is_some()
     {
-        reviewer.warn(path, too_hot(droplet, across));
+        let spacing = number(rounded(droplet.diameter / across));
+        reviewer.warn(path, warning::middle_too_hot(spacing));
     }
-    if let Some(message) = wetted(&resolution, droplet) {
-        reviewer.warn(path, message);
+    if let Some(finding) = wetted(&resolution, droplet) {
+        reviewer.warn(path, finding);
     }
     let tolerated = reviewer.scene.fidelity.tolerance.max(LEAST_TOLD);
     let Some(heat) = heat else { return };
@@ -117,87 +107,53 @@ fn resolved(reviewer: &mut Reviewer, path: &Path, (name, droplet): (&str, &Dropl
     if size <= tolerated {
         return;
     }
-    let spacing = match resolution.across_for_heat(tolerated) {
+    let remedy = match resolution.across_for_heat(tolerated) {
         Some(across) => format!(
             "did you mean a `spacing` of {} m or less?",
             number(rounded(droplet.diameter / across))
         ),
         None => "no `spacing` is known to keep it".to_owned(),
     };
-    reviewer.warn(path, off(&resolution, &heat, tolerated) + &spacing);
+    reviewer.warn(path, off(&resolution, &heat, tolerated, remedy));
 }
 
-/// Describes the expected error of heat and its cause, or the interval that covers it outside of the fitted ranges.
-fn off(resolution: &Resolution, heat: &HeatError, tolerated: f64) -> String {
+/// The expected error of heat and its cause, or the interval that covers it outside of the fitted ranges.
+fn off(resolution: &Resolution, heat: &HeatError, tolerated: f64, remedy: String) -> Finding {
     if let Some(outside) = &heat.outside {
-        return format!(
-            "heat may be off by up to {} either way: the law of its error was not fitted on this drop, {outside}; ",
-            percent(heat.half)
-        );
+        return warning::heat_error_not_fitted(percent(heat.half), outside, remedy);
     }
-    let [film, sheared] = resolution.layers();
-    format!(
-        "heat is expected to be off by {}, more than {}: {} particles lie across the film at last, {} across its layer of \
-         shear √(νD/U) and {} across that of heat √(aD/U); ",
-        percents(heat),
-        percent(tolerated),
-        digits(film),
-        digits(sheared),
-        digits(resolution.thermal_layers().unwrap_or(0.0))
-    )
+    let [film, sheared] = resolution.layers().map(digits);
+    let warmed = digits(resolution.thermal_layers().unwrap_or(0.0));
+    let (error, tolerated) = (percents(heat), percent(tolerated));
+    warning::heat_beyond_tolerance(error, tolerated, film, sheared, warmed, remedy)
 }
 
-/// What to say of a film on a poor conductor whose wetted area so few particles do not tell.
-fn wetted(resolution: &Resolution, droplet: &Droplet) -> Option<String> {
+/// A film on a poor conductor whose wetted area so few particles do not resolve.
+fn wetted(resolution: &Resolution, droplet: &Droplet) -> Option<Finding> {
     if droplet.fluid.conductivity == 0.0 {
         return None;
     }
-    let (error, cause, across) = match (resolution.across_for_film(), resolution.across_for_area())
-    {
-        (Some(whole), told) => (
-            "is expected to be too low by a twentieth to a half",
-            "the film breaks up",
-            told.unwrap_or(whole),
-        ),
-        (None, Some(told)) => (
-            "may be off by a tenth to a third, either way",
-            "so few particles do not tell it",
-            told,
-        ),
-        (None, None) => return None,
-    };
-    Some(format!(
-        "heat {error}, as on what conducts less than the fluid it follows the wetted area, and {cause}: {} \
-         particles lie across its layer of shear √(νD/U); did you mean a `spacing` of {} m or less?",
-        digits(resolution.layers()[1]),
-        number(rounded(droplet.diameter / across))
-    ))
+    let layers = digits(resolution.layers()[1]);
+    let spacing = |across: f64| number(rounded(droplet.diameter / across));
+    match (resolution.across_for_film(), resolution.across_for_area()) {
+        (Some(whole), area) => {
+            Some(warning::film_breaks_up(layers, spacing(area.unwrap_or(whole))))
+        }
+        (None, Some(area)) => Some(warning::wetted_area_unresolved(layers, spacing(area))),
+        (None, None) => None,
+    }
 }
 
-/// What to say of particles that are wider than the layer through which a drop warms the middle of what it hits.
-fn too_hot(droplet: &Droplet, across: f64) -> String {
-    format!(
-        "the temperature under the middle of the drop rises too high, by a tenth to a third with 20 particles across, as its \
-         thermal layer √(aD/U) is thinner than three quarters of a particle; did you mean a `spacing` of {} m or less?",
-        number(rounded(droplet.diameter / across))
-    )
-}
-
-/// What to say of a film that gets too thin for its particles.
-fn thin(resolution: &Resolution, droplet: &Droplet, heat: Option<&HeatError>) -> Option<String> {
+/// A film that gets too thin for its particles.
+fn thin(resolution: &Resolution, droplet: &Droplet, heat: Option<&HeatError>) -> Option<Finding> {
     let [film, _] = resolution.layers();
     if film >= THINNEST {
         return None;
     }
-    let of_heat = heat.map_or(String::new(), |heat| format!("heat by {}, ", percents(heat)));
-    Some(format!(
-        "the film is expected to get {} distances of particles thin by the stop time: below {THINNEST} its spread is \
-         off by a tenth to a half, its height by more, {of_heat}means of force, which are highest before, by {}; did you mean a \
-         `spacing` of {} m or less?",
-        below(film, THINNEST),
-        percent(resolution.force()),
-        number(rounded(resolution.thickness() * droplet.diameter / THICK))
-    ))
+    let of_heat = heat.map_or(String::new(), |heat| format!("{} for heat, ", percents(heat)));
+    let spacing = number(rounded(resolution.thickness() * droplet.diameter / THICK));
+    let (film, force) = (below(film, THINNEST), percent(resolution.force()));
+    Some(warning::film_thinner_than_particles(film, THINNEST, of_heat, force, spacing))
 }
 
 /// A number below a bound, with as many digits as tell it from that, up to three.

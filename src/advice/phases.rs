@@ -4,6 +4,7 @@ use super::{CELSIUS, Reviewer, celsius, number};
 use crate::limits::plausible::{BESIDE_WARM, Cold};
 use crate::scene::Droplet;
 use crate::scene::locate::Path;
+use crate::warning;
 
 pub fn review(reviewer: &mut Reviewer, cold: Cold) {
     for (name, droplet) in reviewer.scene.droplets() {
@@ -18,18 +19,11 @@ fn freezing(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet, cold: Cold)
     let start = droplet.initial_temperature;
     let Some(point) = droplet.fluid.freezes_at else { return };
     if start < point {
-        let start = number(start);
-        let message = format!("drops of {start} K are frozen, and the model takes them for liquid");
-        reviewer.warn(path, message);
+        reviewer.warn(path, warning::drop_starts_frozen(number(start)));
     } else if cold != Cold::Meant && point < BESIDE_WARM && point + CELSIUS < start {
-        let message = format!(
-            "{} K is {}; did you mean {} ({} °C)? `cryogenic = true` says that a scene is meant to be this cold",
-            number(point),
-            celsius(point),
-            number(point + CELSIUS),
-            number(point)
-        );
-        reviewer.warn(path, message);
+        let meant = number(point + CELSIUS);
+        let finding = warning::freezing_point_in_celsius(number(point), celsius(point), meant);
+        reviewer.warn(path, finding);
     }
 }
 
@@ -38,12 +32,9 @@ fn boiling(reviewer: &mut Reviewer, path: &Path, droplet: &Droplet) {
     let start = droplet.initial_temperature;
     let Some(point) = droplet.fluid.boils_at.filter(|&point| point < start) else { return };
     let meant = point + CELSIUS;
-    let meant = match point < BESIDE_WARM && start < meant {
-        true => format!("; did you mean {} ({} °C)?", number(meant), number(point)),
-        false => String::new(),
+    let remedy = match point < BESIDE_WARM && start < meant {
+        true => format!("did you mean {} ({} °C)?", number(meant), number(point)),
+        false => "lower `initial_temperature` below `boils_at`".to_owned(),
     };
-    let start = number(start);
-    let message =
-        format!("drops of {start} K boil at once, and the model takes them for liquid{meant}");
-    reviewer.warn(path, message);
+    reviewer.warn(path, warning::drop_starts_boiling(number(start), remedy));
 }

@@ -10,6 +10,7 @@ use crate::scene::Fluid;
 use crate::scene::lateral_extents;
 use crate::scene::locate::Path;
 use crate::scene::{CellValues, FaceName, HeatMethod, Mesh, Solid};
+use crate::warning;
 
 /// Foams and aerogels are lighter [kg/m³] and conduct less [W/(m K)] than this.
 const LIGHT: f64 = 30.0;
@@ -60,21 +61,15 @@ fn solid(reviewer: &mut Reviewer, path: &Path, law: &Constants) {
     }
     if law.density < LIGHT && law.conductivity > LIGHT_CONDUCTS {
         let (meant, given) = (number(1e3 * law.density), number(law.density));
-        let message = format!(
-            "no solid this light conducts {} W/(m K); did you mean {meant} ({given} g/cm³)?",
-            number(law.conductivity)
-        );
-        reviewer.warn(&path.key("density"), message);
+        let conductivity = number(law.conductivity);
+        let finding = warning::light_solid_conducts(conductivity, meant, given);
+        reviewer.warn(&path.key("density"), finding);
     } else if let Some(young) = law.young.filter(|&young| plausible::YOUNG.holds(young)) {
         let sound = (young / law.density).sqrt();
         if sound > FASTEST_SOUND {
-            let message = format!(
-                "with the density of {} kg/m³ sound would travel at √(E/ρ) = {} m/s, faster than in \
-                 diamond",
-                number(law.density),
-                number(sound.round())
-            );
-            reviewer.warn(&path.key("young"), message);
+            let (density, sound) = (number(law.density), number(sound.round()));
+            let finding = warning::sound_faster_than_in_diamond(density, sound);
+            reviewer.warn(&path.key("young"), finding);
         }
     }
 }
@@ -90,9 +85,8 @@ fn fluid(reviewer: &mut Reviewer, path: &Path, fluid: &Fluid) {
     };
     if viscosity >= THIN && plausible::VISCOSITY.holds(viscosity) {
         let (meant, given) = (number(1e-3 * viscosity), number(viscosity));
-        let message =
-            format!("no liquid that {kind} is this viscous; did you mean {meant} ({given} mPa s)?");
-        reviewer.warn(&path.key("viscosity"), message);
+        let finding = warning::thin_liquid_too_viscous(kind, meant, given);
+        reviewer.warn(&path.key("viscosity"), finding);
     }
 }
 
@@ -104,14 +98,9 @@ fn particles(reviewer: &mut Reviewer, path: &Path, solid: &Solid) {
     let depth = (diffusivity * reviewer.scene.stop_time).sqrt();
     if apart > COARSEST_PARTICLES * depth {
         let key = if depth_spacing.is_some() { "depth_spacing" } else { "spacing" };
-        let message = format!(
-            "by the stop time heat goes √(at) = {} m deep, and particles are {} m apart: rises of heated faces are \
-             wrong by tens of per cent; did you mean a `mesh.depth_spacing` of {} m or less?",
-            rounded(depth),
-            number(apart),
-            rounded(FINE_PARTICLES * depth)
-        );
-        reviewer.warn(&path.key("mesh").key(key), message);
+        let fine = rounded(FINE_PARTICLES * depth);
+        let finding = warning::heat_particles_too_coarse(rounded(depth), number(apart), fine);
+        reviewer.warn(&path.key("mesh").key(key), finding);
     }
 }
 
@@ -126,11 +115,8 @@ fn slender(reviewer: &mut Reviewer, path: &Path, (name, solid): (&str, &Solid)) 
     if is_flat || ratio < MOST_SLENDER || !reviewer.scene.gives_mechanics(name) {
         return;
     }
-    let message = format!(
-        "the body is {ratio:.0e} times as wide as thick: displacements and stresses of its bending lose their digits \
-         in rounding; up to {MOST_SLENDER:.0e} they keep some, and a bottom on a `roller` does not bend"
-    );
-    reviewer.warn(&path.key("shape"), message);
+    let (ratio, most) = (format!("{ratio:.0e}"), format!("{MOST_SLENDER:.0e}"));
+    reviewer.warn(&path.key("shape"), warning::plate_too_slender(ratio, most));
 }
 
 /// In two digits.
@@ -172,12 +158,9 @@ fn flux_of(reviewer: &mut Reviewer, path: &Path, (flux, radius): (f64, f64), sol
     }
     let about = number((rise.abs() / 10.0).round() * 10.0);
     if rise > HOTTEST_RISE {
-        reviewer.warn(path, format!("this would heat the surface by {about} K by the stop time"));
+        reviewer.warn(path, warning::flux_overheats_surface(about));
     } else if rise < -solid.initial_temperature {
-        let message = format!(
-            "this would cool the surface by {about} K by the stop time, below absolute zero"
-        );
-        reviewer.warn(path, message);
+        reviewer.warn(path, warning::flux_undercools_surface(about));
     }
 }
 

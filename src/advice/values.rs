@@ -13,14 +13,14 @@ pub fn review(reviewer: &mut Reviewer, schema: &Schema, cold: Cold) {
         if limits.is_usual(value) || is_said {
             return;
         }
-        let Some(message) = limits.plausible(cold).and_then(|range| implausible(&range, value))
+        let Some(finding) = limits.plausible(cold).and_then(|range| implausible(&range, value))
         else {
             return;
         };
         let path = place.path();
         if !copies.iter().any(|copy| path.is_within(copy)) {
             warned_list = place.list();
-            reviewer.warn(&path, message);
+            reviewer.warn(&path, finding);
         }
     });
 }

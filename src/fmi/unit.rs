@@ -18,7 +18,6 @@ use super::rates::check_path;
 use super::saved::SavedStates;
 use super::step_control::StepControl;
 use super::types::{Answer, Refusal, Status};
-use crate::advice::Warning;
 use crate::model::{
     BodyError, Cache, Kept, KeptReduction, Model, ModelError, State, Stiffness, Tangent,
     check_step_length, initial_inputs, to_be_recorded,
@@ -30,6 +29,7 @@ use crate::runtime::available_memory;
 use crate::runtime::thread::{STACK, aside};
 use crate::scene::{self, Scene};
 use crate::variables::{ArrayRegistry, Registry, Slot, Variable};
+use crate::warning::Warning;
 
 /// A time is taken for another one if they differ by less than this part of the step …
 const STEP_TOLERANCE: f64 = 1e-9;
@@ -232,7 +232,7 @@ impl Unit {
         let (interrupt, control) = (self.interrupt.clone(), Rc::clone(&self.control));
         let (run, state) = self.run()?;
         let past = if has_set { None } else { Some(std::mem::take(&mut state.derivatives)) };
-        let on_answer = told.and_then(|before| run.model.warning_on_answer(state, &before));
+        let on_answer = told.and_then(|before| run.model.warning_on_response(state, &before));
         let told = listens.then(|| state.inputs.clone());
         let stepping = interrupt.begin();
         let stepped = check_path(&registry, state, step).and_then(|()| {
@@ -255,7 +255,7 @@ impl Unit {
         let warnings = run.model.warnings(state);
         self.told = told;
         self.warn_once(warnings);
-        self.warn_of_answer(on_answer);
+        self.warn_of_response(on_answer);
         self.warn_of_phases();
         self.warn_of_length(step);
         self.has_set_derivatives = false;

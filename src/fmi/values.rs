@@ -55,9 +55,7 @@ impl Unit {
         for (variable, &value) in variables.iter().zip(values) {
             let warning =
                 output_of(variable).and_then(|output| model.warning_on_value(output, value));
-            if let Some(message) = warning {
-                self.warn_once_of(&variable.name, &message);
-            }
+            self.warn_once(warning.map(|warning| warning.of_subject(&variable.name)));
         }
     }
 
@@ -149,9 +147,9 @@ impl Unit {
     /// Warns once of each input, and of one element of an array, that a value is implausible.
     fn warn_of_implausible(&mut self, variables: &[&Variable], values: &[f64]) {
         for (variable, &value) in variables.iter().zip(values) {
-            if let Some(message) = variable.implausible(&self.scene, value) {
-                self.warn_once_of(&format!("input {}", variable.family()), &message);
-            }
+            let warning = variable.implausible(&self.scene, value);
+            let subject = format!("input {}", variable.family());
+            self.warn_once(warning.map(|warning| warning.of_subject(subject)));
         }
     }
 

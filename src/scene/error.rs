@@ -21,27 +21,24 @@ pub struct Problem {
 }
 
 impl Problem {
-    /// `FILE:LINE: KEY = VALUE:`, as far as these are known.
-    pub(crate) fn write_place(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:", self.file)?;
-        if let Some(line) = self.line {
-            write!(f, "{line}:")?;
-        }
-        match (self.path.is_empty(), self.value.is_empty()) {
-            (true, true) => {}
-            (true, false) => write!(f, " `{}`:", self.value)?,
-            (false, true) => write!(f, " {}:", self.path)?,
-            (false, false) => write!(f, " {} = {}:", self.path, self.value)?,
-        }
-        Ok(())
+    /// `FILE:LINE: KEY = VALUE`, without the parts that are not known.
+    pub(crate) fn place(&self) -> String {
+        let line = self.line.map_or(String::new(), |line| format!(":{line}"));
+        let subject = match (self.path.is_empty(), self.value.is_empty()) {
+            (true, true) => String::new(),
+            (true, false) => format!(": `{}`", self.value),
+            (false, true) => format!(": {}", self.path),
+            (false, false) => format!(": {} = {}", self.path, self.value),
+        };
+        format!("{}{line}{subject}", self.file)
     }
 }
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.write_place(f)?;
         // Names come from the scene as they stand there.
-        write!(f, " {}; allowed: {}", printable(&self.message), printable(&self.allowed))
+        let place = self.place();
+        write!(f, "{place}: {}; allowed: {}", printable(&self.message), printable(&self.allowed))
     }
 }
 

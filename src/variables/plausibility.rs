@@ -3,10 +3,11 @@
 use super::{Quantity, Slot, Variable};
 use crate::advice::{Measure, implausible_input, implausible_place};
 use crate::scene::Scene;
+use crate::warning::Warning;
 
 impl Variable {
     /// The warning of a value that is implausible for an input, in the words that a scene's constants get.
-    pub fn implausible(&self, scene: &Scene, value: f64) -> Option<String> {
+    pub fn implausible(&self, scene: &Scene, value: f64) -> Option<Warning> {
         let Slot::Input(_) = self.slot else { return None };
         let measure = match self.quantity? {
             Quantity::Temperature if self.name.ends_with("ambient") => Measure::Ambient,

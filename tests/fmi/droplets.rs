@@ -112,7 +112,7 @@ fn a_held_wall_that_answers_is_told_of_with_its_effusivity() {
 #[test]
 fn heights_of_a_few_particles_are_told_of_once() {
     let unit = started(WALL);
-    let heard = || unit.messages.take().into_iter().filter(|m| m.text.contains("drop.height is"));
+    let heard = || unit.messages.take().into_iter().filter(|m| m.text.starts_with("drop.height: "));
     assert!(unit.get("drop.height") > 3e-5 && heard().count() == 0);
     // Long after both drops have come down.
     assert_eq!(unit.step(0.0, 6e-6), OK, "{:?}", unit.messages.take());

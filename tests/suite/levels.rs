@@ -44,7 +44,7 @@ fn auto_is_reduced_where_the_bound_keeps_the_tolerance_and_full_elsewhere() {
     let cases = [
         (COPPER, 1e-4, SolidLevel::Reduced, "plate: reduced, which keeps the tolerance"),
         (AEROGEL, 1e-2, SolidLevel::Reduced, "plate: reduced, which keeps the tolerance"),
-        (AEROGEL, 1e-4, SolidLevel::Full, "plate: full, as temperatures of a reduced model err"),
+        (AEROGEL, 1e-4, SolidLevel::Full, "plate: full, as the bound of the error of temp"),
     ];
     for (constants, tolerance, wanted, words) in cases {
         let text = text(constants, "auto", tolerance);
@@ -79,16 +79,18 @@ fn auto_says_what_stands_against_a_reduced_model() {
 #[test]
 fn reduced_solids_that_cannot_keep_the_tolerance_are_warned_of() {
     let model = Model::build(&parsed(&text(AEROGEL, "reduced", 1e-4)), 1).unwrap();
-    let warnings: Vec<String> = model.reduction_warnings().collect();
+    let warnings: Vec<String> = model.reduction_warnings().map(|one| one.to_string()).collect();
     let [warning] = &warnings[..] else { panic!("{warnings:?}") };
-    for words in
-        ["plate: temperatures", "by its bound", "tolerance of 1e-4", "fidelity.level = \"full\""]
-    {
+    for words in [
+        "plate: the bound of the error of temperatures",
+        "tolerance of 1e-4",
+        "fidelity.level = \"full\"",
+    ] {
         assert!(warning.contains(words), "{warning}");
     }
     // The bound that is told is that of the outputs themselves.
     let told: f64 =
-        warning.split("up to ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
+        warning.split(" model is ").nth(1).unwrap().split(' ').next().unwrap().parse().unwrap();
     assert!(told > 1e-4 && told < 1e-2, "{told}");
     let fine = Model::build(&parsed(&text(COPPER, "reduced", 1e-4)), 1).unwrap();
     assert_eq!(fine.reduction_warnings().count(), 0);

@@ -215,7 +215,8 @@ fn particles_that_are_not_to_be_trusted_warn() {
         let shape = "disc = { radius = 1.0, thickness = 1.0 }";
         let mut trial = Trial::new(&block(shape, &mesh, sph, "", &spot));
         trial.step(0.1);
-        trial.model.warnings(&trial.state)
+        let found = trial.model.warnings(&trial.state);
+        found.iter().map(ToString::to_string).collect::<Vec<_>>()
     };
     assert_eq!(warned(1.1, ""), [""; 0]);
     let few = warned(1.0, "support = 1.2");

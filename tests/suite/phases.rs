@@ -52,8 +52,8 @@ fn run(trial: &mut Trial) -> Vec<(f64, Vec<String>)> {
         trial.step(1e-6);
         let found =
             trial.model.phase_warnings(&trial.state, |subject| said.borrow().contains(subject));
-        let messages = found.iter().map(|warning| warning.message.clone()).collect();
-        said.borrow_mut().extend(found.into_iter().map(|warning| warning.subject));
+        let messages = found.iter().map(|warning| warning.to_string()).collect();
+        said.borrow_mut().extend(found.iter().map(|warning| warning.subject().to_owned()));
         steps.push((trial.state.time, messages));
     }
     steps
@@ -130,7 +130,7 @@ fn warnings_follow_from_a_state_that_is_restored() {
     (0..3).for_each(|_| trial.step(1e-6));
     trial.restart(&half);
     assert_eq!(trial.model.phase_warnings(&trial.state, |_| false), said);
-    assert!(trial.model.phase_warnings(&half, |subject| subject == said[0].subject).is_empty());
+    assert!(trial.model.phase_warnings(&half, |subject| subject == said[0].subject()).is_empty());
 }
 
 #[test]

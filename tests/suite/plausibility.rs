@@ -4,8 +4,9 @@
 mod cold;
 mod of_drops;
 
-use impinge::advice::{Warning, implausible_place, parse_with_warnings};
+use impinge::advice::{implausible_place, parse_with_warnings};
 use impinge::scene::parse;
+use impinge::warning::Warning;
 
 fn warnings(text: &str) -> Vec<String> {
     let (_, found) =
@@ -210,8 +211,8 @@ fn a_warning_names_file_line_key_value_range_and_what_was_meant() {
         warnings(&text),
         [
             "scene.toml:8: body.plate.initial_temperature = 20.0: a temperature is plausible from 250 \
-          to 6000 K beside warmer ones, and 20 K is −253.15 °C; did you mean 293.15 (20 °C)? `cryogenic = true` says that \
-          a scene is meant to be this cold"
+          to 6000 K beside warmer ones, and 20 K is −253.15 °C; did you mean 293.15 (20 °C)? If the \
+          scene is meant to be this cold, set `cryogenic = true`"
         ]
     );
 }
@@ -322,7 +323,7 @@ fn particles_farther_apart_than_heat_goes_are_warned_of() {
 fn a_load_that_an_input_moves_off_the_fine_mesh_is_warned_of() {
     let told = |text: &str, x: f64| {
         let scene = parse(text, "scene.toml").unwrap_or_else(|e| panic!("{e}"));
-        implausible_place(&scene, "spot.x", x)
+        implausible_place(&scene, "spot.x", x).map(|warning| warning.to_string())
     };
     let text = edited(&plate(ALUMINA), "disc = { radius = 30e-6 }", "disc = { radius = 10e-6 }");
     let text = edited(&text, "spacing = 5e-6", "spacing = 2e-6");
@@ -347,7 +348,7 @@ fn a_load_that_an_input_makes_too_small_is_warned_of() {
         edited(&plate(ALUMINA), "disc = { radius = 30e-6 }", "gaussian = { radius = 30e-6 }");
     let told = |text: &str, radius: f64| {
         let scene = parse(text, "scene.toml").unwrap_or_else(|e| panic!("{e}"));
-        implausible_place(&scene, "spot.radius", radius)
+        implausible_place(&scene, "spot.radius", radius).map(|warning| warning.to_string())
     };
     for seen in [60e-6, 30e-6, 10e-6] {
         assert_eq!(told(&text, seen), None, "{seen}");

@@ -1,8 +1,20 @@
-//! What a body tells its user.
+//! Notes and warnings of a body for its user.
 
 use crate::body::Reading;
 use crate::body::droplet::Watch;
 use crate::method::sph::WarmPlace;
+use crate::warning::Warning;
+
+/// Occasion on which a body in a state is asked for warnings.
+#[derive(Debug, Clone, Copy)]
+pub enum Occasion<'a> {
+    /// A step was taken; the tests are quick.
+    Step,
+    /// Inputs were set in response to the last step: those at its beginning, and those now.
+    Response { before: &'a [f64], now: &'a [f64] },
+    /// A run ends.
+    End,
+}
 
 /// Words for users, and what they follow from; a body that has none says nothing.
 pub trait Advice {
@@ -11,19 +23,24 @@ pub trait Advice {
         Vec::new()
     }
 
-    /// What of its own making errs by more than the scene's tolerance, in words.
-    fn beyond_tolerance(&self) -> Option<String> {
+    /// What may be wrong with a state.
+    fn warnings(&self, _state: &[f64], _occasion: Occasion) -> Vec<Warning> {
+        Vec::new()
+    }
+
+    /// What may be wrong with a value that is read.
+    fn warning_on_value(&self, _reading: &Reading, _value: f64) -> Option<Warning> {
         None
     }
 
-    /// From when on after a jump of what acts the temperatures of heated faces can be told [s].
+    /// Warns of a bound of errors by the body itself that exceeds the scene's tolerance, with a remedy.
+    fn beyond_tolerance(&self, _remedy: &str) -> Option<Warning> {
+        None
+    }
+
+    /// Time after a jump of what acts from which on the mesh resolves the temperatures of heated faces [s].
     fn resolved_from(&self) -> f64 {
         0.0
-    }
-
-    /// What a user should know of a state, quickly found.
-    fn warning(&self, _state: &[f64]) -> Option<String> {
-        None
     }
 
     /// Points at which a fluid of the body would freeze or boil.
@@ -34,21 +51,5 @@ pub trait Advice {
     /// The coldest and the hottest place of a fluid in a state; nothing where there is none.
     fn warm_places(&self, _state: &[f64]) -> Option<[WarmPlace; 2]> {
         None
-    }
-
-    /// What inputs tell since the last step, in answer to it, that does not go with how it was computed: those of its
-    /// beginning, and those that there are now.
-    fn warning_on_answer(&self, _state: &[f64], _before: &[f64], _now: &[f64]) -> Option<String> {
-        None
-    }
-
-    /// What a user should know of a value that is read.
-    fn warning_on_value(&self, _reading: &Reading, _value: f64) -> Option<String> {
-        None
-    }
-
-    /// What a user should know of the state at the end of a run: a sentence each.
-    fn closing_warnings(&self, _state: &[f64]) -> Vec<String> {
-        Vec::new()
     }
 }

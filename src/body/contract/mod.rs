@@ -10,7 +10,7 @@ mod resources;
 
 use std::any::Any;
 
-pub use advice::Advice;
+pub use advice::{Advice, Occasion};
 pub use conductor::Conductor;
 pub use giver::{Given, Giver};
 pub use linear::Linear;

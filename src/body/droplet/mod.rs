@@ -9,24 +9,25 @@ mod reader;
 mod replay;
 mod totals;
 mod wall;
+mod warnings;
 mod watch;
 
 pub use forecast::DropletForecast;
-pub use notes::{notes, notes_on_walls, warnings_on_landing};
+pub use notes::{notes, notes_on_walls};
 pub use plan::{fine_radius, plan_of, refinements};
 pub use replay::{Kept, ReplayBody, forget_unused_records, keep_record, records, to_be_recorded};
 pub use wall::{WallQuantity, wall_quantities};
+pub use warnings::warnings_on_landing;
 pub use watch::Watch;
 
-use std::f64::consts::PI;
 use std::ops::Range;
 
 use super::{
     Acts, Body, BodyError, Descriptor, Fields, Given, Link, Memo, Reading, Received, link,
 };
-use crate::body::{Advice, Giver, Maxima, Resources};
+use crate::body::{Giver, Maxima, Resources};
 use crate::inputs::{InputLayout, InputPath};
-use crate::method::sph::{DropletSph, Failure, ParticleFields, UNKNOWNS, WarmPlace};
+use crate::method::sph::{DropletSph, Failure, ParticleFields, UNKNOWNS};
 use crate::port::{Domain, Surface, WallCells, WallExchange};
 use crate::runtime::allowance::{Allowance, cost};
 use crate::scene::{Droplet, Scene};
@@ -35,6 +36,7 @@ use demand::DropInputs;
 use memo::DropletMemo;
 use plan::cells_of;
 use reader::DropletReader;
+use warnings::STRAY_SHARE;
 
 /// Drops of a fluid and what lies below them.
 pub struct DropletBody {
@@ -60,37 +62,6 @@ struct Rest {
     /// √(kρc) [W √s/(m² K)]
     effusivity: f64,
 }
-
-/// What a cell of a wall that was held over a step is told to be after it.
-struct Answer {
-    /// Above what it was held at [K].
-    rise: f64,
-    /// Of the fluid before contact above that [K].
-    range: f64,
-    /// √(kρc) of a half space that the heat of the step, as a flux that is held, warms by that rise [W √s/(m² K)].
-    effusivity: f64,
-}
-
-impl Answer {
-    fn share(&self) -> f64 {
-        self.rise / self.range
-    }
-
-    /// By how much of the range it is beyond the contact of two half spaces, of which the fluid's effusivity is given;
-    /// NaN where the rise is not by heat of the fluid.
-    fn beyond(&self, fluid: f64) -> f64 {
-        let Self { effusivity, .. } = *self;
-        let is_warmed = effusivity.is_finite() && effusivity > 0.0;
-        if is_warmed { self.share() - fluid / (fluid + effusivity) } else { f64::NAN }
-    }
-}
-
-/// By how much of the difference of temperatures a wall may be told to have gone beyond that of contact: less is made
-/// good by what comes later, as on alumina under water (0.12 beyond; highest rise right to 4 %, that of marble, 0.4
-/// beyond, 38 % too high).
-const BEYOND_CONTACT: f64 = 0.2;
-/// Distances of particles below which the height of a film tells how they happen to stand.
-const FEW_LAYERS: f64 = 3.0;
 
 /// What a droplet exchanges heat and momentum with.
 enum Below {
@@ -364,58 +335,6 @@ impl Giver for DropletBody {
 
 impl Maxima for DropletBody {}
 
-impl Advice for DropletBody {
-    fn notes(&self) -> Vec<String> {
-        self.notes.iter().map(|note| format!("{}: {note}", self.name)).collect()
-    }
-
-    fn warning(&self, state: &[f64]) -> Option<String> {
-        self.overflows(state).then(|| notes::on_overflow(&self.name))
-    }
-
-    fn watch(&self) -> Option<&Watch> {
-        Some(&self.watch)
-    }
-
-    fn warm_places(&self, state: &[f64]) -> Option<[WarmPlace; 2]> {
-        self.droplet.extremes(state)
-    }
-
-    fn warning_on_answer(&self, state: &[f64], before: &[f64], now: &[f64]) -> Option<String> {
-        let Below::Wall(wall) = &self.below else { return None };
-        if self.droplet.plan().wall.as_ref().is_none_or(|wall| wall.effusivity.is_some()) {
-            return None;
-        }
-        let exchange = self.droplet.exchange(state);
-        let answer = |(cell, input): (usize, usize)| {
-            let heat = exchange.heat.get(cell)? / wall.areas.get(cell)?;
-            let rise = now[input] - before[input];
-            let answer = Answer {
-                rise,
-                range: self.rest.temperature - before[input],
-                effusivity: 2.0 * heat / (rise * (PI * exchange.duration).sqrt()),
-            };
-            (answer.beyond(self.rest.effusivity) > BEYOND_CONTACT).then_some(answer)
-        };
-        let worst = wall.inputs.clone().enumerate().filter_map(answer);
-        let worst = worst.max_by(|a, b| a.share().total_cmp(&b.share()))?;
-        Some(notes::on_held_wall(&self.name, [worst.rise, worst.range], worst.effusivity))
-    }
-
-    fn warning_on_value(&self, reading: &Reading, value: f64) -> Option<String> {
-        let Reading::Total(place) = *reading else { return None };
-        let layers = value / self.droplet.plan().spacing;
-        let is_film = !matches!(self.below, Below::Nothing) && layers > 0.0 && layers < FEW_LAYERS;
-        (totals::is_height(place) && is_film).then(|| notes::on_height(&self.name, layers))
-    }
-
-    fn closing_warnings(&self, state: &[f64]) -> Vec<String> {
-        let totals = self.droplet.totals(state);
-        let part = totals.stray_mass / totals.mass;
-        (part > STRAY_SHARE).then(|| notes::on_stray_mass(&self.name, part)).into_iter().collect()
-    }
-}
-
 impl Resources for DropletBody {
     fn foresee(&self, state: &[f64], dt: f64, allowance: &Allowance) -> Result<(), BodyError> {
         let particles = self.droplet.particles_in(state);
@@ -446,6 +365,3 @@ impl Resources for DropletBody {
         true
     }
 }
-
-/// Share of the fluid that may come off before a warning.
-const STRAY_SHARE: f64 = 0.05;

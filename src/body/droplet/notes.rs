@@ -1,9 +1,9 @@
-//! What a user should know of a droplet before it runs.
+//! Notes on a droplet before it runs: what was chosen or left out.
 
 use super::plan::fine_radius;
 use super::watch;
 use crate::advice::{HeatError, Resolution};
-use crate::scene::{Coupling, Droplet, Governing, Scene, Wall};
+use crate::scene::{Droplet, Governing, Scene, Wall};
 
 /// What was chosen or left out, and why: a sentence each.
 pub fn notes(scene: &Scene, name: &str, droplet: &Droplet) -> Vec<String> {
@@ -72,24 +72,6 @@ pub fn notes_on_walls(scene: &Scene) -> Vec<String> {
     scene.wall.iter().filter_map(note).collect()
 }
 
-/// What drops may get wrong on the solids of a scene without anything else telling: a sentence each.
-pub fn warnings_on_landing(scene: &Scene) -> Vec<String> {
-    let warning = |coupling: &Coupling| {
-        let droplet = scene.droplet(&coupling.from)?;
-        let is_unknown = droplet.is_on_demand() && coupling.radius.is_none();
-        is_unknown.then(|| {
-            format!(
-                "{}: inputs may let drops fall anywhere on `{}`, whose mesh is fine out to {:.1e} m from its middle alone: \
-                 beyond, rises of temperature are too low by far; `radius` of the coupling sets how far it is fine",
-                coupling.from,
-                coupling.to,
-                fine_radius(coupling, droplet, scene.stop_time)
-            )
-        })
-    };
-    scene.coupling.iter().filter_map(warning).collect()
-}
-
 /// What drops that inputs release wait for, and what is said of them ahead.
 fn note_on_demand(scene: &Scene, name: &str, droplet: &Droplet) -> String {
     let fine = match scene.coupling_from(name).map(|index| &scene.coupling[index]) {
@@ -129,7 +111,7 @@ fn note_on_first_blow(droplet: &Droplet) -> String {
     )
 }
 
-/// What so many particles over the diameter err by, as measured.
+/// Measured errors of so many particles over the diameter.
 fn note_on_resolution(resolution: &Resolution, tolerance: f64) -> String {
     let across = resolution.across();
     let [low, high] = resolution.spread().map(|error| 100.0 * error);
@@ -137,17 +119,18 @@ fn note_on_resolution(resolution: &Resolution, tolerance: f64) -> String {
     let [film, sheared] = resolution.layers();
     let of_heat = match (resolution.heat(), resolution.thermal_layers()) {
         (Some(HeatError { half, outside: Some(outside), .. }), Some(_)) => {
-            format!(", heat by the stop time by up to {:.0} % either way, as {outside}", 100.0 * half)
+            let half = 100.0 * half;
+            format!(", up to {half:.0} % either way for heat by the stop time, as {outside}")
         }
         (Some(HeatError { expected, half, .. }), Some(warmed)) => format!(
-            ", heat by the stop time by {:+.0} ± {:.0} % ({film:.2} particles lie across the film at last, {sheared:.2} \
-             across its layer of shear √(νD/U), {warmed:.2} across that of heat √(aD/U))",
+            ", {:+.0} ± {:.0} % for heat by the stop time ({film:.2} particles lie across the film at last, \
+             {sheared:.2} across its layer of shear √(νD/U), {warmed:.2} across that of heat √(aD/U))",
             100.0 * expected,
             100.0 * half
         ),
         (_, Some(_)) if !resolution.conducts() => {
-            ", heat as the wetted area, as what lies below conducts less than the fluid (by a tenth to a fifth at D/Δx 20, \
-             by a half where films break up)"
+            ", for heat that of the wetted area, as what lies below conducts less than the fluid (a tenth to a fifth at \
+             D/Δx 20, a half where films break up)"
                 .to_owned()
         }
         _ => String::new(),
@@ -156,8 +139,8 @@ fn note_on_resolution(resolution: &Resolution, tolerance: f64) -> String {
     let of_spread = of_spread.map_or(String::new(), |outside| format!(", {outside}"));
     if let Some(outside) = resolution.outside_of_force() {
         return format!(
-            "at D/Δx {across:.0} the largest spread errs by about {low:.1} to {high:.1} % (by far more where the film gets \
-             thinner than two particles{of_spread}){of_heat}; means of force over {WINDOW} D/U err by an amount that is not \
+            "at D/Δx {across:.0} errors are about {low:.1} to {high:.1} % for the largest spread (far more where the film \
+             gets thinner than two particles{of_spread}){of_heat}; the error of means of force over {WINDOW} D/U is not \
              known, {outside}"
         );
     }
@@ -168,8 +151,8 @@ fn note_on_resolution(resolution: &Resolution, tolerance: f64) -> String {
         None => format!("no D/Δx is known to keep a tolerance of {tolerance:e} of force"),
     };
     format!(
-        "at D/Δx {across:.0} the largest spread errs by about {low:.1} to {high:.1} % (by far more where the film gets thinner \
-         than two particles{of_spread}), means of force over {WINDOW} D/U by about {:.0} %{of_heat}; {wanted}",
+        "at D/Δx {across:.0} errors are about {low:.1} to {high:.1} % for the largest spread (far more where the film gets \
+         thinner than two particles{of_spread}), about {:.0} % for means of force over {WINDOW} D/U{of_heat}; {wanted}",
         100.0 * resolution.force()
     )
 }
@@ -205,15 +188,6 @@ fn note_on_held_wall(wall: &Wall, droplet: &Droplet) -> Option<String> {
     })
 }
 
-/// Of a wall that follows from the heat of a step that was computed without its answer.
-pub fn on_held_wall(name: &str, [rise, range]: [f64; 2], effusivity: f64) -> String {
-    format!(
-        "{name}: the wall was told to be {rise:.3e} K warmer after a step that took it as held, of {range:.3e} K that the \
-         fluid was above it: what lies below answers to its heat, and is too warm at first contact in steps of any length; \
-         `effusivity = {effusivity:.2e}` of the wall, about, mends it"
-    )
-}
-
 /// The speed of sound that was chosen, or what one that the scene asks for costs.
 fn note_on_sound(droplet: &Droplet) -> Option<String> {
     let (sound, (governing, speed)) = (droplet.sound_speed(), droplet.governing_speed());
@@ -245,32 +219,4 @@ fn note_on_sound(droplet: &Droplet) -> Option<String> {
              compressed by about {compressed:.1} %, by 1 % at ten times"
         ),
     })
-}
-
-/// Of fluid beyond the edge of the body below.
-pub fn on_overflow(name: &str) -> String {
-    format!(
-        "{name}: fluid lies beyond the edge of the solid; it gives no heat there, and its force, which \
-         does not act on the solid, is counted apart as force_outside"
-    )
-}
-
-/// Of a part of the fluid that has come off.
-pub fn on_stray_mass(name: &str, part: f64) -> String {
-    format!(
-        "{name}: {:.0} % of the fluid have come off in small lumps (stray_mass): films thinner than some two \
-         particles break up, those of a smaller `spacing` later",
-        100.0 * part
-    )
-}
-
-/// Of the height of a film of so many distances of particles: medians and ninth deciles of errors beside 56 particles over
-/// the diameter, of liquids from mercury to glycerol.
-pub fn on_height(name: &str, layers: f64) -> String {
-    let [usual, large] = if layers < 2.0 { [20, 50] } else { [15, 40] };
-    format!(
-        "{name}.height is {layers:.1} distances of particles, and tells how these happen to stand: off by some {usual} % of \
-         it, often by {large} %; below 10 % from 6 distances on, which takes a `spacing` {:.1} times as small",
-        6.0 / layers
-    )
 }

@@ -2,6 +2,7 @@
 
 use crate::method::sph::WarmPlace;
 use crate::scene::{Fluid, Scene};
+use crate::warning::{self, Warning};
 
 /// A change of phase that the model leaves out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,25 +43,21 @@ impl Watch {
         change: PhaseChange,
         [coldest, hottest]: [WarmPlace; 2],
         time: f64,
-    ) -> Option<String> {
+    ) -> Option<Warning> {
         let (_, point) = self.points.iter().find(|(other, _)| *other == change)?;
-        let (is_beyond, extreme, words) = match change {
-            PhaseChange::Freezing => {
-                (coldest.temperature < *point, coldest, ["below", "freezes", "freezes_at"])
-            }
-            PhaseChange::Boiling => {
-                (hottest.temperature > *point, hottest, ["above", "boils", "boils_at"])
-            }
+        let (is_beyond, extreme) = match change {
+            PhaseChange::Freezing => (coldest.temperature < *point, coldest),
+            PhaseChange::Boiling => (hottest.temperature > *point, hottest),
         };
-        let [side, verb, key] = words;
-        let WarmPlace { temperature, place: [x, y, z] } = extreme;
+        let WarmPlace { temperature, place } = extreme;
+        let [x, y, z] = place.map(|along| format!("{along:.2e}"));
+        let (time, temperature) = (format!("{time:.3e}"), format!("{temperature:.1}"));
         is_beyond.then(|| {
-            format!(
-                "{}: at {time:.3e} s the fluid is at {temperature:.1} K at x = {x:.2e}, y = {y:.2e}, z = {z:.2e} m, {side} \
-                 the {point} K at which it {verb} (`{key}`): the model keeps it liquid, so spread, heat and forces of \
-                 what {verb} are not to be relied on from here on",
-                self.name
-            )
+            let finding = match change {
+                PhaseChange::Freezing => warning::fluid_freezes(time, temperature, x, y, z, point),
+                PhaseChange::Boiling => warning::fluid_boils(time, temperature, x, y, z, point),
+            };
+            finding.at(&self.name).of_subject(self.subject(change))
         })
     }
 }

@@ -31,6 +31,7 @@ use crate::method::reduced::ReducedSystem;
 use crate::runtime::allowance::Allowance;
 use crate::scene::{Scene, Solid, footprints_along};
 use crate::state::{Field, Layout, Per};
+use crate::warning::Warning;
 use build::Full;
 use drives::Drives;
 use totals::{Total, total};
@@ -403,8 +404,8 @@ impl Advice for ReducedBody {
         self.resolved_from
     }
 
-    fn beyond_tolerance(&self) -> Option<String> {
-        self.kind_beyond_tolerance()
+    fn beyond_tolerance(&self, remedy: &str) -> Option<Warning> {
+        Some(self.finding_beyond_tolerance(remedy)?.at(&self.name))
     }
 }
 

@@ -1,7 +1,8 @@
-//! What a reduced solid says of itself: its order, its bounds, and whether they keep the tolerance.
+//! Notes on a reduced solid: its order, its bounds, and whether they keep the tolerance.
 
 use super::ReducedBody;
 use super::values::Kind;
+use crate::warning::{self, Finding};
 
 /// Kinds of values in words, and what they are measured in.
 const KINDS: [(Kind, &str, &str); 4] = [
@@ -26,13 +27,13 @@ impl ReducedBody {
             notes.push(if start.iter().all(|&size| size == 0.0) {
                 let part = self.relative_bound(kind);
                 format!(
-                    "{}: {words} err by at most {part:.1e} of their range under each input alone, by the reduction",
+                    "{}: by the reduction, errors of {words} are at most {part:.1e} of their range under each input alone",
                     self.name
                 )
             } else {
                 format!(
-                    "{}: {words} err by at most {bound:.2e} {unit} under inputs no larger than at the start, by the \
-                     reduction",
+                    "{}: by the reduction, errors of {words} are at most {bound:.2e} {unit} under inputs no larger than \
+                     at the start",
                     self.name
                 )
             });
@@ -40,8 +41,8 @@ impl ReducedBody {
         notes
     }
 
-    /// The kind of values whose bound is furthest beyond the tolerance, in words; nothing where all keep it.
-    pub(super) fn kind_beyond_tolerance(&self) -> Option<String> {
+    /// Warns of the kind of values whose bound is furthest beyond the tolerance, with a remedy.
+    pub(super) fn finding_beyond_tolerance(&self, remedy: &str) -> Option<Finding> {
         let errors = self.kinds.iter().zip(&self.reduction.errors);
         let (kind, error) = errors.max_by(|a, b| a.1.total_cmp(b.1))?;
         // What is within is so by no less than rounding.
@@ -49,12 +50,8 @@ impl ReducedBody {
             return None;
         }
         let (_, words, _) = KINDS.into_iter().find(|own| own.0 == *kind)?;
-        Some(format!(
-            "{words} of a reduced model err by up to {error:.1e} of their range by its bound, more than the tolerance of \
-             {:e}, under start values or under one unit of an input that starts at rest (none whose `role` is \
-             `parameter`)",
-            self.tolerance
-        ))
+        let (error, tolerance) = (format!("{error:.1e}"), format!("{:e}", self.tolerance));
+        Some(warning::reduction_beyond_tolerance(words, error, tolerance, remedy))
     }
 
     /// The largest bound of values of a kind over the largest of their answers to the same drive up to the end of the

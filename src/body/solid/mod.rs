@@ -2,7 +2,6 @@
 
 mod acceptance;
 mod advance;
-mod doubts;
 mod forecast;
 mod front;
 mod linear;
@@ -16,6 +15,7 @@ mod port;
 mod reader;
 mod rows;
 mod totals;
+mod warnings;
 mod yielding;
 
 pub(super) use advance::PARTS_OF_A_FOOTPRINT;
@@ -34,13 +34,14 @@ use super::{
     Acts, Body, BodyError, Conductor, Direct, Extreme, Fields, Given, Linear, Memo, Reading,
     Received,
 };
-use crate::body::{Advice, Giver, Maxima, Resources};
+use crate::body::{Advice, Giver, Maxima, Occasion, Resources};
 use crate::coupling::FaceMeans;
 use crate::inputs::InputLayout;
 use crate::method::fem::{ElasticProblem, HeatFailure, Mesh, Plan, SolidFem, heat_mesh};
 use crate::runtime::allowance::Allowance;
 use crate::scene::{FaceName, PeakOf, Scene, Shape, Solid};
 use crate::state::Layout;
+use crate::warning::Warning;
 use memo::SolidMemo;
 use port::Port;
 use reader::SolidReader;
@@ -315,12 +316,13 @@ impl Advice for SolidBody {
         notes.map(|note| format!("{}: {note}", self.name)).collect()
     }
 
-    fn warning(&self, state: &[f64]) -> Option<String> {
-        doubts::of_particles(self, state)
-    }
-
-    fn closing_warnings(&self, state: &[f64]) -> Vec<String> {
-        doubts::of_fronts(self, state).into_iter().collect()
+    fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
+        let found = match occasion {
+            Occasion::Step => warnings::of_particles(self, state),
+            Occasion::Response { .. } => None,
+            Occasion::End => warnings::of_fronts(self, state),
+        };
+        found.map(|finding| finding.at(&self.name)).into_iter().collect()
     }
 }
 

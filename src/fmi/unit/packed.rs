@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::start_state;
-use crate::advice::{self, Warning};
+use crate::advice;
 use crate::fmi::set_up::SetUpOnce;
 use crate::fmi::{MARK, guid};
 use crate::math::product::look_up_caches;
@@ -14,6 +14,7 @@ use crate::runtime::address_space::{self, PRODUCTS, SPARE};
 use crate::runtime::thread::{STACK, aside};
 use crate::scene::{self, Scene};
 use crate::variables::Registry;
+use crate::warning::Warning;
 
 /// Contents of a unit's resources, with what follows from them.
 pub struct Packed {

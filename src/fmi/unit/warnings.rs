@@ -7,10 +7,11 @@ use crate::advice;
 use crate::fmi::types::Status;
 use crate::output::OutputError;
 use crate::runtime::thread::aside;
+use crate::warning::Warning;
 
-/// The subject of warnings of steps that are too short.
+/// The subject of warnings of steps that are too short, of which one is enough.
 const SHORT_STEPS: &str = "short steps";
-/// The subject of warnings of walls that are held and answer all the same.
+/// The same of walls that are held and respond all the same.
 const HELD_WALL: &str = "held wall";
 
 impl Unit {
@@ -43,11 +44,7 @@ impl Unit {
             true => aside(|| advice::warnings(&self.scene)),
             false => self.warnings.clone(),
         };
-        for warning in warnings {
-            if self.said.insert(warning.subject()) {
-                self.log.send(Status::Warning, &warning.to_string());
-            }
-        }
+        self.warn_once(warnings);
     }
 
     /// Warns once of each fluid that is beyond a point at which it freezes or boils, where there is room to look.
@@ -58,16 +55,12 @@ impl Unit {
         }
         let (state, said) = (&self.state, &self.said);
         let warnings = aside(|| model.phase_warnings(state, |subject| said.contains(subject)));
-        for warning in warnings {
-            self.warn_once_of(&warning.subject, &warning.message);
-        }
+        self.warn_once(warnings);
     }
 
-    /// Warns of an input that was told, in answer to a step, what does not go with how that was computed.
-    pub(super) fn warn_of_answer(&mut self, message: Option<String>) {
-        if let Some(message) = message {
-            self.warn_once_of(HELD_WALL, &message);
-        }
+    /// Warns of an input that was set in response to a step and contradicts how that was computed.
+    pub(super) fn warn_of_response(&mut self, warning: Option<Warning>) {
+        self.warn_once(warning.map(|warning| warning.of_subject(HELD_WALL)));
     }
 
     /// Warns of a step that is too short for a mesh [s], if it may follow a jump.
@@ -75,25 +68,17 @@ impl Unit {
         if self.said.contains(SHORT_STEPS) {
             return;
         }
-        let message = self.run.as_ref().and_then(|run| run.model.warning_on_step(step));
-        let was_settled = std::mem::replace(&mut self.is_settled, message.is_none());
-        if let Some(message) = message.filter(|_| !was_settled) {
-            self.warn_once_of(SHORT_STEPS, &message);
-        }
+        let warning = self.run.as_ref().and_then(|run| run.model.warning_on_step(step));
+        let was_settled = std::mem::replace(&mut self.is_settled, warning.is_none());
+        let warning = warning.filter(|_| !was_settled);
+        self.warn_once(warning.map(|warning| warning.of_subject(SHORT_STEPS)));
     }
 
-    /// Warns of a subject unless there was a warning of it before.
-    pub(in super::super) fn warn_once_of(&mut self, subject: &str, message: &str) {
-        if self.said.insert(subject.to_owned()) {
-            self.log.send(Status::Warning, message);
-        }
-    }
-
-    pub(super) fn warn_once(&mut self, messages: Vec<String>) {
-        for message in messages {
-            if !self.said.contains(&message) {
-                self.log.send(Status::Warning, &message);
-                self.said.insert(message);
+    /// Sends warnings whose subjects were not warned of before.
+    pub(in super::super) fn warn_once(&mut self, warnings: impl IntoIterator<Item = Warning>) {
+        for warning in warnings {
+            if self.said.insert(warning.subject().to_owned()) {
+                self.log.send(Status::Warning, &warning.to_string());
             }
         }
     }
@@ -101,7 +86,9 @@ impl Unit {
     /// The computation is fine, so files that cannot be written are no error. Each is told once.
     pub(in super::super) fn warn_of_output(&mut self, error: &OutputError) -> Status {
         let message = format!("output.directory {:?}: {error}", self.directory);
-        self.warn_once(vec![message]);
+        if self.said.insert(message.clone()) {
+            self.log.send(Status::Warning, &message);
+        }
         Status::Warning
     }
 }

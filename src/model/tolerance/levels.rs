@@ -44,11 +44,11 @@ fn obstacle(
         Ok(model) => model,
         Err(error) => return Some(error.to_string()),
     };
-    let beyond = model.bodies.iter().find_map(|body| body.beyond_tolerance());
+    let beyond = model.bodies.iter().find_map(|body| body.beyond_tolerance(""));
     if beyond.is_none() {
         kept.extend(model.reductions().into_iter().map(|(_, reduction)| reduction));
     }
-    beyond
+    beyond.map(|warning| warning.finding().to_string())
 }
 
 /// One solid of a scene, reduced, which nothing touches.

@@ -52,11 +52,11 @@ pub fn resolve(scene: &Scene) -> Resolved {
     resolved
 }
 
-/// What to say of a scene with more probes than are tried, before these trials.
+/// A note on a scene with more probes than are tried, before these trials.
 pub fn note_on_sample(scene: &Scene) -> Option<String> {
     let probes = scene.probe.len();
     (probes > MOST_PROBES).then(|| {
-        format!("of {probes} probes, {MOST_PROBES} a body tell which mesh it takes and what outputs err by")
+        format!("of {probes} probes, {MOST_PROBES} a body determine its mesh and the estimates of errors")
     })
 }
 

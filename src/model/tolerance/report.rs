@@ -10,6 +10,7 @@ use crate::body::{forecast, warnings_on_landing};
 use crate::quantity::{Quantity, percent};
 use crate::scene::{MeshFactors, Scene, Shape, Solid, SolidLevel, Stratum};
 use crate::variables::Registry;
+use crate::warning::{self, Warning};
 
 /// What the outputs of a body err by on its mesh.
 #[derive(Debug, Clone, PartialEq)]
@@ -181,48 +182,48 @@ fn finest(scene: &Scene, name: &str, factors: [f64; 2]) -> [f64; 2] {
 }
 
 /// Warns of bodies whose mesh does not keep the tolerance of a scene, with the spacing that would, and of drops that may
-/// land where the mesh below is coarse or give what they should not.
-pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<String> {
+/// land where the mesh below is coarse.
+pub fn warnings(scene: &Scene, estimates: &[BodyEstimate]) -> Vec<Warning> {
+    let of_meshes = estimates.iter().filter_map(|estimate| beyond_tolerance(scene, estimate));
+    of_meshes.chain(warnings_on_landing(scene)).collect()
+}
+
+fn beyond_tolerance(scene: &Scene, estimate: &BodyEstimate) -> Option<Warning> {
     let tolerance = scene.fidelity.tolerance;
-    let warning = |estimate: &BodyEstimate| {
-        let solid = scene.meshed(&estimate.body)?;
-        let is_open = open(solid) == [true; 2];
-        let most = if is_open { OVER * tolerance } else { tolerance };
-        let worst = estimate.worst().filter(|&worst| worst > most)?;
-        let name = &estimate.body;
-        let output = estimate.outputs.iter().max_by(|a, b| a.total().total_cmp(&b.total()))?;
-        let how_much = match worst {
-            beyond if beyond > 1.0 => "its whole range or more".to_owned(),
-            _ => format!("{} of its range at most", percent(worst)),
-        };
-        let over = format!(
-            "{name}: {} errs by about {how_much}, more than the tolerance of {}",
-            output.name,
-            percent(tolerance)
-        );
-        if locks(solid) && is_mechanical(scene, &output.name) {
-            return Some(format!(
-                "{over}; linear elements lock at this `poisson`: `mesh.order = 2` would keep it"
-            ));
-        }
-        let keys = &solid.mesh;
-        if is_open {
-            return Some(format!("{over}; {}", finer_factors(scene, estimate)));
-        }
-        let Some([along, through]) = finer_mesh(scene, estimate) else {
-            return Some(format!(
-                "{over}, and by far: without `mesh.spacing` and `mesh.depth_spacing` the mesh follows from the tolerance"
-            ));
-        };
-        let [spacing, depth] = finest(scene, name, [along, through]);
-        let growth = keys.growth.unwrap_or(GROWTH);
-        let growth = 1.0 + (growth - 1.0) / along.max(through);
-        Some(format!(
-            "{over}; about `mesh.spacing = {spacing:.1e}`, `mesh.depth_spacing = {depth:.1e}`, `mesh.growth = {growth:.3}` \
-             would keep it"
-        ))
+    let solid = scene.meshed(&estimate.body)?;
+    let is_open = open(solid) == [true; 2];
+    let most = if is_open { OVER * tolerance } else { tolerance };
+    let worst = estimate.worst().filter(|&worst| worst > most)?;
+    let name = &estimate.body;
+    let output = estimate.outputs.iter().max_by(|a, b| a.total().total_cmp(&b.total()))?;
+    let error = match worst {
+        beyond if beyond > 1.0 => "its whole range or more".to_owned(),
+        _ => format!("{} of its range at most", percent(worst)),
     };
-    estimates.iter().filter_map(warning).chain(warnings_on_landing(scene)).collect()
+    let (output, wanted) = (&output.name, percent(tolerance));
+    if locks(solid) && is_mechanical(scene, output) {
+        return Some(warning::mesh_locks(output, error, wanted).at(name));
+    }
+    let remedy = match is_open {
+        true => finer_factors(scene, estimate),
+        false => finer_spacing(scene, estimate, solid),
+    };
+    Some(warning::mesh_beyond_tolerance(output, error, wanted, remedy).at(name))
+}
+
+/// Keys of a mesh that would keep the tolerance.
+fn finer_spacing(scene: &Scene, estimate: &BodyEstimate, solid: &Solid) -> String {
+    let Some([along, through]) = finer_mesh(scene, estimate) else {
+        return "leave out `mesh.spacing` and `mesh.depth_spacing`, which are far from keeping it: the mesh then follows \
+                from the tolerance"
+            .to_owned();
+    };
+    let [spacing, depth] = finest(scene, &estimate.body, [along, through]);
+    let growth = solid.mesh.growth.unwrap_or(GROWTH);
+    let growth = 1.0 + (growth - 1.0) / along.max(through);
+    format!(
+        "about `mesh.spacing = {spacing:.1e}`, `mesh.depth_spacing = {depth:.1e}`, `mesh.growth = {growth:.3}` would keep it"
+    )
 }
 
 /// Estimate over the tolerance from which on a mesh that was chosen is warned of: what is found is less than half of what
@@ -254,9 +255,9 @@ fn finer_factors(scene: &Scene, estimate: &BodyEstimate) -> String {
     let [along, through] = scene.refinement.get(name).map_or([1.0; 2], MeshFactors::factors);
     let more = by_order(estimate, scene.fidelity.tolerance);
     let is_near = more[0].max(more[1]) <= FARTHEST;
-    // So far from the tolerance errors fall as they please: a mesh a little finer tells more.
+    // So far from the tolerance no law of errors holds: a mesh a little finer shows more.
     let next = more.map(|factor| if is_near { factor } else { factor.min(NEXT) });
-    let promise = if is_near { "would keep it" } else { "would tell which mesh keeps it" };
+    let promise = if is_near { "would keep it" } else { "would show which mesh keeps it" };
     format!(
         "its mesh has along = {along:.2}, through = {through:.2}, and finer ones are not tried here: about \
          `[refinement.{name}]` with along = {:.2}, through = {:.2} {promise}",

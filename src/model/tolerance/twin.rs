@@ -84,8 +84,8 @@ impl Twin {
             );
             if solid.melts() {
                 simplified.push(
-                    "fronts are left out, which go from node to node: temperatures behind one err by up to half of an \
-                     element over the depth that is molten"
+                    "fronts are left out, which go from node to node: the error of temperatures behind one is up to half \
+                     of an element over the depth that is molten"
                         .to_owned(),
                 );
             }
@@ -94,7 +94,7 @@ impl Twin {
         if has_drops {
             simplified.push(
                 "a disc as wide as the drop is expected to spread stands for it where it lands, and brings a heat that does \
-                 not depend on the mesh: what that of a drop does is not estimated"
+                 not depend on the mesh: the dependence of a drop's heat on it is not estimated"
                     .to_owned(),
             );
         }

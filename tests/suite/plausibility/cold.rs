@@ -120,7 +120,8 @@ fn values_of_inputs_in_celsius_are_warned_of() {
             let registry = Registry::of(&scene);
             for name in &names {
                 let variable = &registry.variables[registry.find(name).unwrap()];
-                let told = |value: f64| variable.implausible(&scene, value);
+                let told =
+                    |value: f64| variable.implausible(&scene, value).map(|one| one.to_string());
                 for value in [20.0, 60.0, 90.0, 150.0, 199.0, 249.0] {
                     let wanted = format!("did you mean {} ({value} °C)?", value + 273.15);
                     let is_told = told(value).is_some_and(|said| said.contains(&wanted));

@@ -242,7 +242,7 @@ fn particles_too_wide_for_the_layers_of_a_drop_on_a_solid_are_warned_of() {
              gives = [\"temperature\"]\n"
         );
         let said = warnings(&text);
-        ["under the middle of the drop", "the film breaks up", "do not tell it"]
+        ["under the middle of the drop", "the film breaks up", "do not resolve"]
             .map(|words| said.iter().any(|one| one.contains(words)))
     };
     assert_eq!(said(wax, 1.0, 20.0), [true, false, false]);

@@ -17,7 +17,7 @@ use crate::advice::MEASURED_FILMS;
 use crate::body::{
     Acts, Body, BodyError, Fields, Given, Link, Memo, Reading, Received, wall_quantities,
 };
-use crate::body::{Advice, Giver, Maxima, Resources};
+use crate::body::{Advice, Giver, Maxima, Occasion, Resources};
 use crate::inputs::{InputLayout, InputPath};
 use crate::method::record::{Falling, Replay, ReplayPlan, ReplayTotals};
 use crate::method::sph::{Failure, ParticleFields, WarmPlace};
@@ -25,6 +25,7 @@ use crate::port::{Domain, Surface, WallCells, WallExchange};
 use crate::runtime::allowance::Allowance;
 use crate::scene::{Arrival, Droplet, Scene, lateral_extents};
 use crate::state::Layout;
+use crate::warning::{self, Finding, Warning};
 
 /// Drops and what lies below them.
 pub struct ReplayBody {
@@ -274,18 +275,30 @@ impl Advice for ReplayBody {
         self.replay.extremes(state, self.contact_share)
     }
 
-    fn warning(&self, state: &[f64]) -> Option<String> {
-        let films = self.replay.most_films(state);
-        (films > MEASURED_FILMS).then(|| notes::on_stacks(&self.name))
+    fn warnings(&self, state: &[f64], occasion: Occasion) -> Vec<Warning> {
+        let found = match occasion {
+            Occasion::Step => {
+                let films = self.replay.most_films(state);
+                let is_beyond = films > MEASURED_FILMS;
+                is_beyond.then(|| warning::films_stack(MEASURED_FILMS)).into_iter().collect()
+            }
+            Occasion::Response { .. } => Vec::new(),
+            Occasion::End => self.findings_at_end(state),
+        };
+        found.into_iter().map(|finding| finding.at(&self.name)).collect()
     }
+}
 
-    fn closing_warnings(&self, state: &[f64]) -> Vec<String> {
+impl ReplayBody {
+    /// Drops that came down on others, and fluid that came off while the drop was recorded.
+    fn findings_at_end(&self, state: &[f64]) -> Vec<Finding> {
         let ReplayTotals { overlapping, released, .. } = self.totals(state);
         let on_others =
-            (overlapping > 0.0).then(|| notes::on_overlap(&self.name, overlapping, released));
+            (overlapping > 0.0).then(|| warning::drops_overlapped(overlapping, released));
         let part = self.replay.course().largest_stray();
         let strays = part > STRAY_SHARE && released > 0.0;
-        let on_strays = strays.then(|| notes::on_stray_mass(&self.name, part));
+        let share = format!("{:.0}", 100.0 * part);
+        let on_strays = strays.then(|| warning::fluid_came_off_in_record(share));
         on_others.into_iter().chain(on_strays).collect()
     }
 }

@@ -1,6 +1,5 @@
-//! What a user should know of drops that are replayed.
+//! Notes on drops that are replayed.
 
-use crate::advice::MEASURED_FILMS;
 use crate::body::droplet::watch;
 use crate::method::record::Course;
 use crate::scene::{Droplet, DropletMethod, Scene};
@@ -9,8 +8,8 @@ use crate::scene::{Droplet, DropletMethod, Scene};
 pub fn notes(scene: &Scene, (name, droplet): (&str, &Droplet)) -> Vec<String> {
     let what = match droplet.method {
         DropletMethod::Film => {
-            "closed forms of a film that spreads and cools stand for every drop: heat is right to about a fifth, on what hardly \
-             conducts to a half (docs/fidelity.md)"
+            "closed forms of a film that spreads and cools represent every drop: heat is accurate to about a fifth, on poor \
+             conductors to a half (docs/fidelity.md)"
                 .to_owned()
         }
         _ => format!(
@@ -79,31 +78,5 @@ pub fn on_course(course: &Course, droplet: &Droplet) -> String {
         course.rings(),
         course.radius(),
         course.duration(speed)
-    )
-}
-
-/// Of a part of the fluid that came off as the drop was recorded.
-pub fn on_stray_mass(name: &str, part: f64) -> String {
-    format!(
-        "{name}: {:.0} % of the fluid had come off in small lumps by the end of the record: films thinner than some two \
-         particles break up, those of a smaller `spacing` later",
-        100.0 * part
-    )
-}
-
-/// Of drops that came down on others.
-pub fn on_overlap(name: &str, overlapping: f64, released: f64) -> String {
-    format!(
-        "{name}: {overlapping} of {released} drops came down on the film of another that was still giving heat or force \
-         (overlapping): they give heat as one drop of all volumes would, and force as if alone"
-    )
-}
-
-/// Of more films on one place than were ever measured.
-pub fn on_stacks(name: &str) -> String {
-    format!(
-        "{name}: more than {MEASURED_FILMS} films that still give heat stand on one place: heat and temperatures there stay \
-         between those of drops and wall, but are not known to be right (docs/fidelity.md); `method = \"sph\"` computes \
-         every drop, at what `check` says it costs"
     )
 }

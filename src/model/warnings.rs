@@ -1,0 +1,115 @@
+//! Warnings of a model: of its meshes and reductions, of steps, states and values, and of runs that end.
+
+use super::{Cache, Model, ModelError, State, tolerance};
+use crate::body::{Occasion, Reading};
+use crate::scene::FidelityLevel;
+use crate::variables::{Output, Registry, Slot};
+use crate::warning::{self, Warning};
+
+/// Part of the time that a mesh resolves, and of the step that it was chosen for, below which a step is too short.
+const SHORT: f64 = 0.5;
+/// Part of the scene's step that rounding leaves over.
+const ROUNDING: f64 = 1e-9;
+
+impl Model {
+    /// Warns of bodies whose outputs have known errors beyond the tolerance.
+    pub fn tolerance_warnings(&self) -> Vec<Warning> {
+        let wanted = self.scene.fidelity.tolerance;
+        let over = self.scene.refinement.iter().filter_map(|(name, mesh)| {
+            let error = mesh.estimated_error.filter(|&error| error > wanted)?;
+            let [error, wanted] = [error, wanted].map(tolerance::percent);
+            Some(warning::outputs_beyond_tolerance(error, wanted).at(name))
+        });
+        over.chain(self.reduction_warnings()).collect()
+    }
+
+    /// Warns of reduced bodies whose bound does not keep the tolerance.
+    pub fn reduction_warnings(&self) -> impl Iterator<Item = Warning> {
+        let remedy = match self.scene.fidelity.level {
+            FidelityLevel::Auto => "packed with these parameters, it takes the full model",
+            _ => "`fidelity.level = \"full\"` keeps it, and \"auto\" takes that where it must",
+        };
+        self.bodies.iter().filter_map(move |body| body.beyond_tolerance(remedy))
+    }
+
+    /// Warns of a state after a step; the tests are quick.
+    pub fn warnings(&self, state: &State) -> Vec<Warning> {
+        self.warnings_on(state, Occasion::Step)
+    }
+
+    /// Warns of inputs that were set in response to the last step and contradict how it was computed; `before` are those
+    /// at its beginning.
+    pub fn warning_on_response(&self, state: &State, before: &[f64]) -> Option<Warning> {
+        let occasion = Occasion::Response { before, now: &state.inputs };
+        self.warnings_on(state, occasion).into_iter().next()
+    }
+
+    /// Warns of the state at the end of a run.
+    pub fn closing_warnings(&self, state: &State) -> Vec<Warning> {
+        self.warnings_on(state, Occasion::End)
+    }
+
+    fn warnings_on(&self, state: &State, occasion: Occasion) -> Vec<Warning> {
+        let bodies = self.bodies.iter().zip(&state.bodies);
+        bodies.flat_map(|(body, unknowns)| body.warnings(unknowns, occasion)).collect()
+    }
+
+    /// Warns of a step of `dt` [s] that is much shorter than those that the meshes were chosen for.
+    pub fn warning_on_step(&self, dt: f64) -> Option<Warning> {
+        let asked = self.scene.step;
+        // What is left over of a run is as short as rounding.
+        if dt >= SHORT * asked || dt < ROUNDING * asked {
+            return None;
+        }
+        let body = self.bodies.iter().find(|body| dt < SHORT * body.resolved_from())?;
+        let [step, resolved] = [dt, body.resolved_from()].map(|time| format!("{time:.1e}"));
+        let finding =
+            warning::step_shorter_than_mesh_resolves(step, resolved, format!("{asked:e}"));
+        Some(finding.at(body.name()))
+    }
+
+    /// Warns of an output's value.
+    pub fn warning_on_value(&self, output: &Output, value: f64) -> Option<Warning> {
+        self.bodies[output.body].warning_on_value(&output.reading, value)
+    }
+
+    /// Warns of all values of whole bodies in a state.
+    pub fn warnings_on_values(
+        &self,
+        state: &State,
+        cache: &mut Cache,
+    ) -> Result<Vec<Warning>, ModelError> {
+        let mut found = Vec::new();
+        let mut reader = self.reader(state, cache)?;
+        for variable in Registry::of(&self.scene).variables {
+            let Slot::Output(output) = &variable.slot else { continue };
+            if matches!(output.reading, Reading::Total(_)) {
+                let value = reader.value(output)?;
+                found.extend(self.warning_on_value(output, value));
+            }
+        }
+        Ok(found)
+    }
+
+    /// Warns of fluids in a state beyond the points at which they freeze or boil, but for subjects that have been said.
+    pub fn phase_warnings(&self, state: &State, is_said: impl Fn(&str) -> bool) -> Vec<Warning> {
+        let mut found = Vec::new();
+        for (body, unknowns) in self.bodies.iter().zip(&state.bodies) {
+            let Some(watch) = body.watch() else { continue };
+            let is_open = |change: &_| !is_said(&watch.subject(*change));
+            let wanted: Vec<_> = watch.changes().filter(is_open).collect();
+            if wanted.is_empty() {
+                continue;
+            }
+            let Some(places) = body.warm_places(unknowns) else { continue };
+            let warning = |change| watch.warning(change, places, state.time);
+            found.extend(wanted.into_iter().filter_map(warning));
+        }
+        found
+    }
+
+    /// Returns true if a fluid has points to be watched.
+    pub fn watches_phases(&self) -> bool {
+        self.bodies.iter().any(|body| body.watch().is_some_and(|watch| watch.changes().count() > 0))
+    }
+}

@@ -1,0 +1,90 @@
+//! Rules on drops of a scene: their fluid, their particles, and films of closed forms.
+
+use super::rule::rules;
+
+rules! {
+    Check drop_starts_frozen(start)
+    "drops of {start} K are frozen, and the model treats them as liquid";
+    "raise `initial_temperature` above `freezes_at`"
+
+    Check freezing_point_in_celsius(point, celsius, meant)
+    "{point} K is {celsius}";
+    "did you mean {meant} ({point} °C)? If the scene is meant to be this cold, set `cryogenic = true`"
+
+    Check drop_starts_boiling(start, higher_point_or_colder_drop)
+    "drops of {start} K boil at once, and the model treats them as liquid"; "{higher_point_or_colder_drop}"
+
+    Check kernel_forms_pairs(spline, widest, support)
+    "under pressure, particles of the {spline} spline form pairs beyond a support of {widest} distances ({support} \
+     here), and resolve as little as half as many";
+    "did you mean `kernel = \"wendland_c2\"`, or `support = {widest}`?"
+
+    Check density_diffusion_too_weak(usual)
+    "with so little density diffusion pressures ring: errors of heat and film heights are 10 % to 30 %";
+    "did you mean {usual}?"
+
+    Check particles_line_up()
+    "where inertia dominates, particles without shifting line up along streams: errors of velocities are 5 % to 20 % \
+     at any `spacing`"; "did you mean to leave `shifting` out?"
+
+    Check drop_of_few_particles(across, spacing)
+    "{across} particles across a drop resolve its heat to a third or a half only";
+    "did you mean a `spacing` of {spacing} m or less?"
+
+    Check film_thinner_than_particles(film, thinnest, heat, force, spacing)
+    "the film is expected to get {film} distances of particles thin by the stop time: below {thinnest} errors are a \
+     tenth to a half for its spread, more for its height, {heat}{force} for means of force, which are highest \
+     before";
+    "did you mean a `spacing` of {spacing} m or less?"
+
+    Check middle_too_hot(spacing)
+    "the temperature under the middle of the drop rises too high, by a tenth to a third with 20 particles across, as \
+     its thermal layer √(aD/U) is thinner than three quarters of a particle";
+    "did you mean a `spacing` of {spacing} m or less?"
+
+    Check film_breaks_up(layers, spacing)
+    "heat is expected to be too low by a twentieth to a half: on what conducts less than the fluid it is \
+     proportional to the wetted area, and the film breaks up, with {layers} particles across its layer of shear \
+     √(νD/U)";
+    "did you mean a `spacing` of {spacing} m or less?"
+
+    Check wetted_area_unresolved(layers, spacing)
+    "heat may be off by a tenth to a third, either way: on what conducts less than the fluid it is proportional to \
+     the wetted area, which {layers} particles across its layer of shear √(νD/U) do not resolve";
+    "did you mean a `spacing` of {spacing} m or less?"
+
+    Check heat_beyond_tolerance(error, tolerated, film, sheared, warmed, finer_spacing)
+    "heat is expected to be off by {error}, more than {tolerated}: {film} particles lie across the film at last, \
+     {sheared} across its layer of shear √(νD/U) and {warmed} across that of heat √(aD/U)"; "{finer_spacing}"
+
+    Check heat_error_not_fitted(error, outside, finer_spacing)
+    "heat may be off by up to {error} either way: the law of its error was not fitted on this drop, {outside}";
+    "{finer_spacing}"
+
+    Check drops_stack(time, films, measured)
+    "the drop at {time} s is expected to come down on {films} films that still transfer heat: more than {measured} \
+     on one place were not compared with particles. Temperatures stay between those of drops and wall, but their \
+     accuracy is not known"; "`method = \"sph\"` computes every drop, at the cost that `check` reports"
+
+    Check layer_thinner_than_heat_penetrates(thickness, depth)
+    "temperatures and heat are expected to be off, temperatures up to beyond the drop's own: a drop of this method \
+     cools as on a half space of what it lands on, which is {thickness} m thick, and heat penetrates {depth} m \
+     meanwhile";
+    "did you mean `sph`?"
+
+    Check film_cools_through(fourier, usual)
+    "the temperature under the middle of the drop is expected to be too low, by a fifth to nine tenths, and heat by \
+     up to a third, as this film has cooled through while the drop still comes down (a(D/U)/δ² = {fourier} of what \
+     is in contact; films are accurate below {usual})"; "did you mean `sph`?"
+
+    Check film_on_insulator()
+    "heat is expected to be too low by a tenth to a half: on what conducts less than a seventh of the fluid it is \
+     proportional to the wetted area, which correlations predict no better"; "did you mean `sph`?"
+
+    Check film_not_fitted(error, outside)
+    "{error}, as this method was not fitted on such a drop: {outside}"; "did you mean `sph`?"
+
+    Build drops_may_miss_fine_mesh(solid, radius)
+    "inputs may let drops fall anywhere on `{solid}`, whose mesh is fine out to {radius} m from its middle only: \
+     beyond, temperature rises are far too low"; "set the `radius` of the coupling to where drops may fall"
+}

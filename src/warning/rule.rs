@@ -1,0 +1,122 @@
+//! A rule, what it finds, and how that reads.
+
+use std::fmt;
+
+/// Occasion on which a rule is applied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum When {
+    /// When a scene is read, before anything is built.
+    Check,
+    /// When meshes are chosen and bodies are built.
+    Build,
+    /// When an input is set or a step is taken.
+    Step,
+    /// When an output is read.
+    Read,
+    /// When a run ends.
+    End,
+}
+
+impl When {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Check => "check",
+            Self::Build => "build",
+            Self::Step => "step",
+            Self::Read => "read",
+            Self::End => "end",
+        }
+    }
+}
+
+/// A row of the table.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rule {
+    /// Stable name.
+    pub id: &'static str,
+    pub when: When,
+    /// What is wrong, and what to do: formats, whose values stand in braces.
+    pub message: &'static str,
+    pub remedy: &'static str,
+}
+
+/// What a rule found, at a place that is still to be named.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    pub id: &'static str,
+    pub message: String,
+    /// Empty if there is no remedy.
+    pub remedy: String,
+}
+
+impl Finding {
+    /// The warning of a body, a variable or a file.
+    pub fn at(self, place: impl Into<String>) -> Warning {
+        let place = place.into();
+        Warning { subject: format!("{place}: {self}"), place, finding: self }
+    }
+}
+
+impl fmt::Display for Finding {
+    /// `what is wrong; remedy`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { message, remedy, .. } = self;
+        if remedy.is_empty() { write!(f, "{message}") } else { write!(f, "{message}; {remedy}") }
+    }
+}
+
+/// What may be wrong, and where.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Warning {
+    subject: String,
+    place: String,
+    finding: Finding,
+}
+
+impl Warning {
+    /// The same of a subject of its own: of each, hosts are warned once.
+    pub fn of_subject(self, subject: impl Into<String>) -> Self {
+        Self { subject: subject.into(), ..self }
+    }
+
+    /// Key by which hosts know whether they were warned: the text, or something that no number of it changes.
+    pub fn subject(&self) -> &str {
+        &self.subject
+    }
+
+    /// What is wrong, and what to do, without the place.
+    pub fn finding(&self) -> &Finding {
+        &self.finding
+    }
+}
+
+impl fmt::Display for Warning {
+    /// `place: what is wrong; remedy`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.place, self.finding)
+    }
+}
+
+/// Makes a table of rules, and of each row a function that takes its values and returns the finding.
+macro_rules! rules {
+    ($($when:ident $id:ident($($value:ident),*) $message:literal; $remedy:literal)*) => {
+        /// The rules of this file.
+        pub(super) const TABLE: &[$crate::warning::Rule] = &[$($crate::warning::Rule {
+            id: stringify!($id),
+            when: $crate::warning::When::$when,
+            message: $message,
+            remedy: $remedy,
+        }),*];
+        $(
+            pub fn $id($($value: impl std::fmt::Display),*) -> $crate::warning::Finding {
+                $crate::warning::Finding {
+                    id: stringify!($id),
+                    message: format!($message),
+                    remedy: format!($remedy),
+                }
+            }
+        )*
+    };
+}
+
+pub(super) use rules;

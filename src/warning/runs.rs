@@ -1,0 +1,92 @@
+//! Rules on meshes, steps and states: what only a built or running model shows.
+
+use super::rule::rules;
+
+rules! {
+    Build mesh_locks(output, error, tolerance)
+    "the error of {output} is about {error}, more than the tolerance of {tolerance}: linear elements lock at this \
+     `poisson`"; "`mesh.order = 2` would keep the tolerance"
+
+    Build mesh_beyond_tolerance(output, error, tolerance, finer_mesh)
+    "the error of {output} is about {error}, more than the tolerance of {tolerance}"; "{finer_mesh}"
+
+    Build outputs_beyond_tolerance(error, tolerance)
+    "errors of outputs are about {error} of their ranges, more than the tolerance of {tolerance}";
+    "`impinge check` reports which outputs these are, and what would keep the tolerance"
+
+    Build reduction_beyond_tolerance(values, error, tolerance, full_level)
+    "the bound of the error of {values} of the reduced model is {error} of their range, more than the tolerance of \
+     {tolerance}, under start values or under one unit of an input that starts at rest (none whose `role` is \
+     `parameter`)"; "{full_level}"
+
+    Step step_shorter_than_mesh_resolves(step, resolved, asked)
+    "a step of {step} s is shorter than the {resolved} s from which on the mesh resolves heated surfaces: before, \
+     their temperature rises are too low and heat from prescribed temperatures and droplets is too high, at first \
+     several times";
+    "a scene whose `step` ({asked} s) is as short has a mesh for it"
+
+    Step held_wall_answers(rise, range, effusivity)
+    "the wall was set {rise} K warmer after a step that held it, {range} K below the fluid: what lies below responds \
+     to the heat, and is too warm at first contact whatever the step";
+    "set `effusivity = {effusivity}` of the wall, about"
+
+    Step fluid_freezes(time, temperature, x, y, z, point)
+    "at {time} s the fluid is at {temperature} K at x = {x}, y = {y}, z = {z} m, below the {point} K at which it \
+     freezes (`freezes_at`): the model keeps it liquid";
+    "do not rely on spread, heat and forces of what freezes from here on"
+
+    Step fluid_boils(time, temperature, x, y, z, point)
+    "at {time} s the fluid is at {temperature} K at x = {x}, y = {y}, z = {z} m, above the {point} K at which it \
+     boils (`boils_at`): the model keeps it liquid";
+    "do not rely on spread, heat and forces of what boils from here on"
+
+    Step fluid_beyond_edge()
+    "fluid lies beyond the edge of the solid: it transfers no heat there, and its force, which does not act on the \
+     solid, is counted apart as `force_outside`"; "enlarge the solid if its edge is not meant to be hit"
+
+    Step particles_lack_neighbours(fallback, particles, support)
+    "{fallback} of {particles} particles conduct by the plain operator, as they have too few neighbours for the \
+     corrected one: temperatures are wrong by tens of per cent, or grow without end";
+    "set an `sph.support` of {support} or more"
+
+    Step particles_lose_heat(part, most)
+    "particles have made or lost {part} % of the heat, more than {most} %, as their distances grow too fast \
+     (`heat_drift`)"; "set a `mesh.growth` nearer 1, or `heat = \"fem\"`"
+
+    Step films_stack(most)
+    "more than {most} films that still transfer heat lie on one place: heat and temperatures there stay between \
+     those of drops and wall, but their accuracy is not known (docs/fidelity.md)";
+    "`method = \"sph\"` computes every drop, at the cost that `check` reports"
+
+    Read film_height_unresolved(layers, usual, large, finer)
+    "the film is {layers} distances of particles high, and its height depends on how these happen to stand: the \
+     error is some {usual} %, often {large} %";
+    "a `spacing` {finer} times as small has errors below 10 %, from 6 distances on"
+
+    End fluid_comes_off(part)
+    "{part} % of the fluid have come off in small lumps (`stray_mass`): films thinner than some two particles break \
+     up";
+    "a smaller `spacing` delays it"
+
+    End fluid_came_off_in_record(part)
+    "{part} % of the fluid had come off in small lumps by the end of the record: films thinner than some two \
+     particles break up"; "a smaller `spacing` delays it"
+
+    End drops_overlapped(overlapping, released)
+    "{overlapping} of {released} drops came down on the film of another that still transferred heat or force \
+     (`overlapping`): they transfer heat as one drop of all volumes would, and force as if alone";
+    "`method = \"sph\"` computes every drop"
+
+    End front_scatters(volume, error, tolerance, finer_mesh_or_tolerance)
+    "the error of {volume} is up to about {error} of its value, and that of temperatures behind the front up to as \
+     much of their rise above melting, as the front advances from node to node; the tolerance is {tolerance}";
+    "{finer_mesh_or_tolerance}"
+
+    End heat_unbalanced(residual, expected)
+    "heat in differs from heat stored and lost by {residual} of the largest of them (expected at most {expected})";
+    "report the scene: this is an error of the program"
+
+    Check run_ends_before_rows(stop, first)
+    "the run ends at {stop} s, before the first row at {first} s, whose values hold throughout";
+    "check that the times are in seconds"
+}

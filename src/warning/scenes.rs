@@ -1,0 +1,93 @@
+//! Rules on numbers, solids, loads and the arrangement of a scene.
+
+use super::rule::rules;
+
+rules! {
+    Check implausible_value(what, low, high, unit)
+    "{what} is plausible from {low} to {high} {unit}"; "check the unit of the value"
+
+    Check wrong_unit(what, low, high, unit, meant, given)
+    "{what} is plausible from {low} to {high} {unit}"; "did you mean {meant} ({given})?"
+
+    Check celsius(what, low, high, value, celsius, meant, permit)
+    "{what} is plausible from {low} to {high}, and {value} K is {celsius}"; "did you mean {meant}?{permit}"
+
+    Check cold_value(what, low, high, value, celsius)
+    "{what} is plausible from {low} to {high}, and {value} K is {celsius}";
+    "set `cryogenic = true` if the scene is meant to be this cold"
+
+    Check light_solid_conducts(conductivity, meant, given)
+    "no solid this light conducts {conductivity} W/(m K)"; "did you mean {meant} ({given} g/cm³)?"
+
+    Check sound_faster_than_in_diamond(density, sound)
+    "with the density of {density} kg/m³ sound would travel at √(E/ρ) = {sound} m/s, faster than in diamond";
+    "check the units of both constants"
+
+    Check thin_liquid_too_viscous(kind, meant, given)
+    "no liquid that {kind} is this viscous"; "did you mean {meant} ({given} mPa s)?"
+
+    Check heat_particles_too_coarse(depth, apart, fine)
+    "by the stop time heat penetrates √(at) = {depth} m, and particles are {apart} m apart: temperature rises of \
+     heated faces are wrong by tens of per cent"; "set a `mesh.depth_spacing` of {fine} m or less"
+
+    Check plate_too_slender(ratio, most)
+    "the body is {ratio} times as wide as thick: rounding consumes the digits of displacements and stresses of its \
+     bending, some of which remain up to a ratio of {most}";
+    "shorten the body, or put a `roller` on the bottom, which keeps it from bending"
+
+    Check flux_overheats_surface(rise)
+    "this flux would heat the surface by {rise} K by the stop time"; "check the flux and the stop time"
+
+    Check flux_undercools_surface(drop)
+    "this flux would cool the surface by {drop} K by the stop time, below absolute zero";
+    "check the flux and the stop time"
+
+    Check droplet_meets_no_wall(solid, drop)
+    "the droplet falls through `{solid}`: nothing joins them";
+    "did you mean `[[coupling]]` with from = \"{drop}\", to = \"{solid}.top\"?"
+
+    Check drop_arrives_late(stop, time)
+    "the drop does not arrive before the stop time of {stop} s: it comes down at {time} s";
+    "extend `stop_time`, or release the drop closer to the wall or earlier"
+
+    Check drop_never_arrives(stop)
+    "the drop does not arrive before the stop time of {stop} s: without speed and gravity it never comes down";
+    "set `impact_velocity` or `gravity`"
+
+    Check fine_mesh_wider_than_solid(solid, room)
+    "the fine mesh is wider than `{solid}`, whose edge is {room} m from the centre";
+    "set a `radius` of {room} m or less"
+
+    Check drop_spreads_beyond_edge(spread, solid)
+    "the drop is expected to spread over {spread} m, beyond the edge of `{solid}`: heat and force beyond the edge do \
+     not enter the solid but are counted apart"; "enlarge the solid if its edge is not meant to be hit"
+
+    Check droplets_of_two_bodies_meet(one, other)
+    "`{one}` and `{other}` are expected to spread over each other, and droplets of two bodies do not interact";
+    "did you mean `arrivals` of one body?"
+
+    Check cells_narrower_than_particles(width, drop, spacing, wide)
+    "cells of {width} m are narrower than the film can resolve: particles of `{drop}` are {spacing} m apart, so that \
+     fluxes of single cells scatter by chance"; "did you mean cells of {wide} m or more?"
+
+    Check cells_too_wide_on_poor_conductor(width, spacing, drop)
+    "cells of {width} m are too wide for a solid that conducts less than the fluid, whose temperature varies within \
+     a cell: at the middle the error exceeds 10 % of the temperature rise";
+    "did you mean cells of {spacing} m, the distance of particles of `{drop}`?"
+
+    Check hole_of_ring_unresolved(spacing)
+    "a mesh that the program chooses does not resolve a hole this small";
+    "did you mean a disc, or a `mesh.spacing` of {spacing} m or less?"
+
+    Check load_unresolved(apart, spacing)
+    "the mesh does not resolve a load this small: nodes are {apart} m apart";
+    "did you mean a `mesh.spacing` of {spacing} m or less?"
+
+    Step load_moved_off_fine_mesh(apart, key, load)
+    "the mesh does not resolve a load this small here: nodes are about {apart} m apart, as the mesh is fine where \
+     loads start"; "did you mean `range = {{ {key} = […] }}` for `{load}`, or `mesh.growth = 1`?"
+
+    Step load_shrunk_below_mesh(apart, load, spacing)
+    "the mesh does not resolve a load this small: nodes are about {apart} m apart";
+    "did you mean `range = {{ radius = […] }}` for `{load}`, or a `mesh.spacing` of {spacing} m or less?"
+}
