@@ -53,6 +53,7 @@ mod solid;
 mod tension;
 mod tolerance;
 mod walls;
+mod warning_reference;
 mod yield_estimates;
 mod yield_readings;
 mod yielding;
