@@ -238,7 +238,7 @@ LAW = {"d": -4e3, "e": 4e3 * 350.0}
 
 def plate_and_law(pack, folder, **more):
     """The patch of tiles as one, under q = h (T∞ − T) of the temperature at a point."""
-    plate = pack("tiles", {"count = [2, 3]": "count = [1, 1]"})
+    plate = pack("tiles", {"count = [2, 3]": "count = [1, 1]", "spacing = 4e-5": "spacing = 2e-5"})
     return {"plate": plate, "law": make(folder, "law", **LAW, **more)}
 
 
@@ -392,7 +392,7 @@ def test_families_connect_whole_and_inputs_follow_functions(pack, folder):
     def flux(time):
         return 1e6 if time < 5e-5 else 3e6 + 1e10 * (time - 5e-5)
 
-    plate = pack("tiles", {"count = [2, 3]": "count = [1, 1]"})
+    plate = pack("tiles", {"count = [2, 3]": "count = [1, 1]", "spacing = 4e-5": "spacing = 2e-5"})
     options = {"inputs": {"plate.patch.heat_flux": flux}, "jumps": [5e-5], "step": 2e-5}
     with Master({"plate": plate}, outputs=["plate.block.heat_in"], **options) as master:
         heat = float(master.run(1e-4)["plate.block.heat_in"][-1])
@@ -403,7 +403,7 @@ def test_families_connect_whole_and_inputs_follow_functions(pack, folder):
 
 def test_whole_numbers_do_not_keep_others_from_following_paths(pack):
     """The place of the load is set as if it were a whole number; its flux is a ramp."""
-    plate = pack("tiles", {"count = [2, 3]": "count = [1, 1]"})
+    plate = pack("tiles", {"count = [2, 3]": "count = [1, 1]", "spacing = 4e-5": "spacing = 2e-5"})
     inputs = {"p.patch.heat_flux": lambda time: 1e12 * time, "p.patch.x": 1e-5}
     with Master({"p": plate}, inputs=inputs, step=2e-5, outputs=["p.block.heat_in"]) as master:
         (participant,) = master.participants.values()
