@@ -11,7 +11,7 @@ RELEASE := target/release
 PY_FILES := $(wildcard python build-fmu/*.py tests/conftest.py tests/fmpy tests/python tests/verification benches examples)
 
 .DEFAULT_GOAL := help
-.PHONY: help demo units examples test rust-test python-test fuzz verify bench charts maps bench-droplet bench-reduced build clean
+.PHONY: help demo units examples test rust-test python-test pytest fuzz verify bench charts maps bench-droplet bench-reduced build clean
 
 help: ## say what there is
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## /  make \1\t/' | expand -t 20
@@ -29,7 +29,9 @@ units: build ## pack every example that is one unit into out/
 examples: units $(VENV)/ready ## run every example
 	@set -e; for name in $(EXAMPLES); do echo "== $$name"; $(BIN)/python examples/$$name/run.py; done
 
-test: rust-test python-test ## everything that is fast
+# Once all is built, tests in Python fill the cores while the compiler of further Rust tests leaves them idle.
+test: build $(VENV)/ready ## everything that is fast
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target rust-test pytest
 
 # All test programs but that of `make verify`.
 FOLDERS := $(notdir $(patsubst %/main.rs,%,$(wildcard tests/*/main.rs cli/tests/*/main.rs)))
@@ -46,9 +48,13 @@ rust-test:
 	cargo test --release --package impinge --package closed-form --package fmu-lint --lib --config profile.release.package.impinge.opt-level=1
 
 python-test: build $(VENV)/ready
+	@$(MAKE) --no-print-directory pytest
+
+# Once all is built and installed.
+pytest:
 	$(BIN)/ruff check $(PY_FILES)
 	$(BIN)/ruff format --check $(PY_FILES)
-	$(BIN)/python -m pytest tests/fmpy tests/python --numprocesses auto --maxprocesses 4 --dist worksteal
+	IMPINGE_BIN=$(RELEASE) $(BIN)/python -m pytest tests/fmpy tests/python --numprocesses auto --maxprocesses 4 --dist worksteal
 
 SECONDS ?= 600
 

@@ -88,6 +88,9 @@ fn all_heat_that_leaves_the_drop_enters_the_plate() {
         assert!(given > 1e-9, "{shape} {symmetry}: {given} J");
         assert!(off(taken, given) < 1e-12, "{shape} {symmetry}: {given} J become {taken} J");
         assert!(off(-trial.get("drop.heat_stored"), given) < 1e-6);
+        // Of 4180 J/(kg K), from 350 K.
+        let cooled = given / (trial.get("drop.mass") * 4180.0);
+        assert!(off(350.0 - trial.get("drop.mean_temperature"), cooled) < 1e-6);
         assert!(trial.heat_residual("plate") < 1e-9);
     }
 }

@@ -23,6 +23,7 @@ impl DropletReader<'_> {
                 max_pressure: 0.0,
                 density_range: [1.0; 2],
                 temperature_range: [body.rest.temperature; 2],
+                mean_temperature: body.rest.temperature,
                 ..totals
             }
         })

@@ -36,7 +36,7 @@ enum Read {
     Reader(fn(&mut DropletReader) -> f64),
 }
 
-const TOTALS: [Total; 30] = [
+const TOTALS: [Total; 31] = [
     of_all(
         "height",
         "height of the body of fluid above the wall, without strays",
@@ -99,6 +99,9 @@ const TOTALS: [Total; 30] = [
         Quantity::Temperature,
         |totals| totals.temperature_range[1],
     ),
+    of_all("mean_temperature", "mean temperature by mass", Quantity::Temperature, |totals| {
+        totals.mean_temperature
+    }),
     of_reader(
         "particles",
         "number of particles, images at mirrors included",

@@ -24,8 +24,6 @@ const VECTORS: f64 = 65.0;
 const STEP: usize = 0;
 const COUNT: usize = 1;
 const INITIAL: usize = 2;
-const BROUGHT_IN: usize = 3;
-const LOST: usize = 4;
 const EXTRA: usize = 5;
 
 /// The nonlinear heat problem of a body: everything known before time starts.
@@ -139,8 +137,7 @@ impl EnthalpyHeat {
             let is_cut = taken == length && length < wanted && outcome.error <= 0.5;
             extra[STEP] = if is_cut { next.max(wanted) } else { next };
             extra[COUNT] += 1.0;
-            extra[BROUGHT_IN] += self.body.copies * outcome.brought_in;
-            extra[LOST] += self.body.copies * outcome.lost;
+            outcome.passed.times(self.body.copies).add_to(&mut extra);
             contents = outcome.contents;
         }
         let nodes = self.nodes();
@@ -210,8 +207,7 @@ impl EnthalpyHeat {
 
     /// Heat that has passed since time zero [J]; what prescribed temperatures take is lost.
     pub fn totals(&self, state: &[f64]) -> HeatTotals {
-        let extra = &state[self.nodes()..];
-        HeatTotals { brought_in: extra[BROUGHT_IN], lost: extra[LOST] }
+        HeatTotals::read(state)
     }
 
     /// Inner steps made since time zero.

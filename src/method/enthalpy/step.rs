@@ -8,6 +8,7 @@
 use super::body::{Body, Drive, Flow};
 use super::setup::Loads;
 use super::stage::{Stage, Unsolved};
+use crate::method::heat_totals::HeatTotals;
 use crate::runtime::allowance::Allowance;
 
 /// γ: root of `γ³ − 3γ² + 3γ/2 − 1/6`.
@@ -39,8 +40,7 @@ const WEIGHTS: [[f64; STAGES]; STAGES] = [
 pub struct Outcome {
     pub contents: Vec<f64>,
     /// Heat that came in and went out meanwhile, of the mesh [J].
-    pub brought_in: f64,
-    pub lost: f64,
+    pub passed: HeatTotals,
     /// Estimate of the error over the tolerance.
     pub error: f64,
 }
@@ -127,7 +127,11 @@ impl Step<'_> {
             // Not `max` alone, which passes over what is no number.
             error = if off.is_nan() { f64::INFINITY } else { error.max(off.abs()) };
         }
-        Outcome { contents: end, brought_in, lost, error: error / self.tolerance }
+        Outcome {
+            contents: end,
+            passed: HeatTotals { brought_in, lost },
+            error: error / self.tolerance,
+        }
     }
 }
 

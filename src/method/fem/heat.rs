@@ -97,11 +97,9 @@ impl<D: DepthModes> HeatProblem<D> {
         let content = field("content", "amplitude of a mode of heat [K m^(3/2)]", Per::Mode);
         let value =
             field("face_value", "flux [W/m²] or rise of temperature [K] of a face", Per::Face);
-        let brought_in = field("brought_in", "heat brought in since time zero [J]", Per::Body);
-        let lost = field("lost", "heat lost since time zero [J]", Per::Body);
         let modes = self.classes.iter().map(|class| self.len(class));
         let layout = modes.fold(Layout::default(), |all, modes| all.with(content, modes));
-        layout.with(value, self.faces.len()).with(brought_in, 1).with(lost, 1)
+        HeatTotals::at_end_of(layout.with(value, self.faces.len()))
     }
 
     /// Advances `state` by `dt` [s] under loads that are polynomials in time, at most quadratic: one
@@ -140,17 +138,13 @@ impl<D: DepthModes> HeatProblem<D> {
                 value_change: end.iter().zip(&*tail).map(|(a, b)| a - b).collect(),
                 values,
             };
-            let HeatTotals { brought_in, lost } = self.passed(class, &passage);
-            let count = end.len();
-            tail[..count].copy_from_slice(&end);
-            tail[count] += brought_in;
-            tail[count + 1] += lost;
+            tail[..end.len()].copy_from_slice(&end);
+            self.passed(class, &passage).add_to(tail);
         }
     }
 
     pub fn totals(&self, state: &[f64]) -> HeatTotals {
-        let n = state.len();
-        HeatTotals { brought_in: state[n - 2], lost: state[n - 1] }
+        HeatTotals::read(state)
     }
 
     fn prescribed(&self) -> impl Iterator<Item = usize> + '_ {

@@ -64,13 +64,12 @@ impl NonlinearHeat {
         let body = |name, words| Field { name, words, per: Per::Body, width: 1 };
         let words = "enthalpy per volume above that of the solid at time zero [J/m³]";
         let enthalpy = Field { name: "enthalpy", words, per: Per::Node, width: 1 };
-        Layout::default()
+        let layout = Layout::default()
             .with(enthalpy, self.heat.nodes())
             .with(body("inner_step", "length of the next inner step [s]"), 1)
             .with(body("inner_steps", "inner steps made since time zero"), 1)
-            .with(body("initial_heat", "heat at time zero above the reference [J]"), 1)
-            .with(body("brought_in", "heat brought in since time zero [J]"), 1)
-            .with(body("lost", "heat lost since time zero [J]"), 1)
+            .with(body("initial_heat", "heat at time zero above the reference [J]"), 1);
+        HeatTotals::at_end_of(layout)
     }
 
     pub fn initial_state(&self) -> Vec<f64> {

@@ -122,13 +122,11 @@ impl ParticleHeat {
 
     /// The fields of a state: temperatures of each class, then totals.
     pub fn layout(&self) -> Layout {
-        let body = |name, words| Field { name, words, per: Per::Body, width: 1 };
         let words = "temperature above the initial one [K]";
         let rise = Field { name: "rise", words, per: Per::Particle, width: 1 };
         let classes = self.classes.iter();
         let layout = classes.fold(Layout::default(), |all, _| all.with(rise, self.particles()));
-        let layout = layout.with(body("brought_in", "heat brought in since time zero [J]"), 1);
-        layout.with(body("lost", "heat lost since time zero [J]"), 1)
+        HeatTotals::at_end_of(layout)
     }
 
     /// Advances `state` by `dt` [s] under sources that are polynomials in time, without time error. `sources` has one
@@ -150,8 +148,7 @@ impl ParticleHeat {
                 let passed = self.advance_class(index, content, (sources, dt), allowance)?;
                 if index == 0 {
                     // Odd parts contain no total heat.
-                    totals[0] += self.setup.copies * passed.brought_in;
-                    totals[1] += self.setup.copies * passed.lost;
+                    passed.times(self.setup.copies).add_to(totals);
                 }
             }
         }
@@ -199,8 +196,7 @@ impl ParticleHeat {
     }
 
     pub fn totals(&self, state: &[f64]) -> HeatTotals {
-        let n = state.len();
-        HeatTotals { brought_in: state[n - 2], lost: state[n - 1] }
+        HeatTotals::read(state)
     }
 
     /// Temperature of all particles above the initial one, class by class [K], held ones at the present `faces`; empty

@@ -43,6 +43,8 @@ pub struct DropletTotals {
     pub density_range: [f64; 2],
     /// Lowest and highest temperature [K].
     pub temperature_range: [f64; 2],
+    /// Mean temperature by mass [K].
+    pub mean_temperature: f64,
     /// Number of time steps since time zero, and of particles, images excluded.
     pub steps: f64,
     pub particles: f64,
@@ -99,6 +101,7 @@ pub fn totals(
         let temperature = cloud.temperature[i] + reference;
         totals.temperature_range = [low.min(temperature), high.max(temperature)];
     }
+    totals.mean_temperature = reference + totals.heat / (totals.mass * plan.fluid.specific_heat);
     let body = body(plan, ledger, cloud);
     for (i, &in_body) in body.iter().enumerate() {
         if in_body {
