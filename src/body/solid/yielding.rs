@@ -17,7 +17,7 @@ use crate::state::{Field, Layout, Per};
 pub struct Yielding {
     problem: InelasticProblem,
     layout: StateLayout,
-    /// Where interfaces have two levels along z, one of these levels for each level of the mesh.
+    /// For each level of the mesh along z, one of the levels of the list with doubled interfaces.
     levels: Vec<usize>,
     /// True if the stress is bounded.
     yields: bool,

@@ -32,7 +32,7 @@ pub struct QuadrilateralMatrices {
     locking: LockingTreatment,
 }
 
-/// What keeps the element from locking.
+/// Treatment that keeps the element from locking.
 enum LockingTreatment {
     Enhanced(Enhanced),
     Projected(Projected),
@@ -104,7 +104,7 @@ impl QuadrilateralMatrices {
         element
     }
 
-    /// Strains rr, tt, zz and rz at a local place, as the element's stress follows from them.
+    /// Returns the strains rr, tt, zz and rz at a local place that determine the element's stress.
     pub fn strain(&self, xi: f64, eta: f64, displacement: &[f64], temperature: &[f64]) -> [f64; 4] {
         let point = point_at(self.order, self.rectangle, xi, eta, 0.0);
         let u = DVector::from_column_slice(displacement);
