@@ -25,8 +25,8 @@ impl Timeline {
         if i < self.count { i as f64 * self.step } else { self.stop }
     }
 
-    /// Length of the step that begins after `i` steps [s]: bit for bit the same for all but a
-    /// shortened last one, so that a model can reuse what it has factorised for it.
+    /// Length of the step that begins after `i` steps [s]. It is bitwise equal for all steps but a shortened last one,
+    /// so that a model can reuse its factorisations.
     pub fn length(&self, i: usize) -> f64 {
         let rest = self.stop - self.time(i);
         let is_shortened = rest < self.step - Self::ROUNDING * self.stop;
