@@ -1,21 +1,21 @@
 /// Stefan's and Boltzmann's constant σ [W/(m² K⁴)], CODATA 2018.
 const STEFAN_BOLTZMANN: f64 = 5.670374419e-8;
 
-/// Flux `ε σ (T∞⁴ − T⁴)` [W/m²] into a grey surface at T from surroundings at T∞ [K].
+/// Radiative flux `ε σ (T∞⁴ − T⁴)` [W/m²] into a grey surface at T from surroundings at T∞ [K].
 ///
-/// The fourth power keeps the sign of its base, so that the flux falls with T even where an iterate is below 0 K.
+/// The fourth power keeps the sign of its base, so that the flux decreases with T even if an iterate is below 0 K.
 pub fn radiative_flux(emissivity: f64, temperature: f64, ambient: f64) -> f64 {
     let fourth = |t: f64| t * t.abs().powi(3);
     emissivity * STEFAN_BOLTZMANN * (fourth(ambient) - fourth(temperature))
 }
 
-/// `q/(T∞ − T)` of it [W/(m² K)], also where they are equal.
+/// Radiative coefficient `q/(T∞ − T)` [W/(m² K)], also for equal temperatures.
 pub fn radiative_coefficient(emissivity: f64, temperature: f64, ambient: f64) -> f64 {
     let squares = temperature.powi(2) + ambient.powi(2);
     emissivity * STEFAN_BOLTZMANN * (temperature + ambient) * squares
 }
 
-/// `−∂q/∂T` of it [W/(m² K)].
+/// Slope `−∂q/∂T` of the radiative flux [W/(m² K)].
 pub fn radiative_slope(emissivity: f64, temperature: f64) -> f64 {
     4.0 * emissivity * STEFAN_BOLTZMANN * temperature.abs().powi(3)
 }
