@@ -1,4 +1,4 @@
-//! The GUID of a unit: it ties a modelDescription.xml to the scene and the library beside it.
+//! The GUID of a unit: it identifies the scene and the library that belong to a modelDescription.xml.
 
 use sha2::{Digest, Sha256};
 
@@ -14,7 +14,7 @@ pub fn guid(scene_text: &str, registry: &Registry) -> String {
         hash.update(part);
     };
     add(env!("CARGO_PKG_VERSION"));
-    // What packing adds follows from the rest.
+    // The text added by packing follows from the rest.
     add(scene_text.split(PACKED).next().unwrap_or_default());
     for variable in &registry.variables {
         add(&variable.name);
