@@ -2,9 +2,9 @@ use crate::method::mesh::Mesh;
 
 /// Splits a load on a face into nodal vectors of the mesh's symmetry classes, in their order.
 ///
-/// `of_image(image)` integrates shape functions of the meshed part against the load as it is at
-/// the mirror image of each point. `flips` says along which axes a mirror turns the quantity round:
-/// x for a traction along x, none for heat. A class without load gets an empty vector.
+/// `of_image(image)` integrates shape functions of the meshed part against the load at the mirror image of each point.
+/// `flips` contains the axes along which a mirror reverses the sign of the quantity: x for a traction along x, none for
+/// heat. A class without load gets an empty vector.
 pub fn split_load(
     mesh: &Mesh,
     flips: [bool; 2],

@@ -9,7 +9,7 @@ pub struct InputPath {
 }
 
 impl InputPath {
-    /// The path through `inputs` with these derivatives; those that are zero are as if they were not given.
+    /// Creates the path through `inputs` with these derivatives; trailing zero derivatives are dropped.
     pub fn new(inputs: &[f64], derivatives: &[Vec<f64>]) -> Self {
         let last = derivatives.iter().rposition(|list| list.iter().any(|&v| v != 0.0));
         let higher = &derivatives[..last.map_or(0, |last| last + 1)];
@@ -45,7 +45,7 @@ impl InputPath {
         sum
     }
 
-    /// What is left of the path from `s` [s] on.
+    /// Remainder of the path from `s` [s] on.
     pub fn from(&self, s: f64) -> Self {
         Self { derivatives: (0..self.derivatives.len()).map(|order| self.at(order, s)).collect() }
     }

@@ -269,7 +269,7 @@ mod tests {
     }
 
     #[test]
-    fn a_table_is_linear_between_and_held_outside() {
+    fn tables_interpolate_linearly_and_extrapolate_constantly() {
         let property = table(&[200.0, 300.0, 500.0], &[4.0, 2.0, 6.0]);
         for (t, value, derivative) in [
             (100.0, 4.0, 0.0),
@@ -323,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_property_is_refused() {
+    fn invalid_properties_are_refused() {
         let refused = |t: &[f64], v: &[f64]| table(t, v).check().unwrap_err();
         assert_eq!(refused(&[1.0], &[1.0]), PropertyError::TooShort(1));
         let lengths = PropertyError::Lengths { temperatures: 2, values: 3 };

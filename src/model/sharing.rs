@@ -87,7 +87,7 @@ mod tests {
     }
 
     #[test]
-    fn those_who_ask_at_once_get_the_same_model() {
+    fn concurrent_callers_share_one_model() {
         let mut scene = parse(SCENE, "scene.toml").unwrap();
         scene.name = "AtOnce".into();
         let models: Vec<Arc<Model>> = std::thread::scope(|scope| {

@@ -163,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_stored_is_read_again_and_what_is_forged_is_refused() {
+    fn reductions_round_trip_and_forged_ones_are_refused() {
         let bytes = reduction().to_bytes("a plate");
         assert_eq!(Reduction::from_bytes(&bytes), Ok(("a plate".to_owned(), reduction())));
         let forged = [

@@ -90,10 +90,10 @@ fn contacts(scene: &Scene, name: &str, solid: &Solid) -> Vec<Refinement> {
     scene.coupling.iter().filter_map(refinement).collect()
 }
 
-/// Part of the size of a contact that the mesh is to see.
+/// Fraction of the contact size that the mesh resolves.
 const PART_OF_CONTACT: f64 = 0.5;
 
-/// Where a load may act, wherever its inputs may move it.
+/// Area where a load may act, for all positions that its inputs may set.
 fn refinement(load: &Load) -> Refinement {
     let start = [load.start.x.unwrap_or(0.0), load.start.y.unwrap_or(0.0)];
     let range = [load.range.x, load.range.y];

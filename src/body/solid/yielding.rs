@@ -318,7 +318,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_stays_between_both_ends_does_not_turn() {
+    fn monotonic_temperatures_do_not_turn() {
         for range in [Range::of(1.0, 3.0), Range::of(3.0, 1.0)] {
             assert_eq!([1.0, 2.0, 3.0].map(|value| range.beyond(value)), [0.0; 3]);
             assert_eq!([0.5, 3.25].map(|value| range.beyond(value)), [0.5, 0.25]);

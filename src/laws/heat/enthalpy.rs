@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn the_slope_of_the_inverse_is_that_of_its_differences() {
+    fn inverse_slope_matches_differences() {
         let law = alloy(800.0, 1000.0).enthalpy(500.0);
         for content in [-3e8, 1e8, 9e8, 1.6e9, 2.9e9, 5e9] {
             let (low, high) = (law.at(content - 1e3), law.at(content + 1e3));
@@ -230,7 +230,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mixture_holds_what_its_parts_hold_at_its_temperature() {
+    fn mixture_enthalpy_is_the_sum_of_its_parts() {
         let (a, b) = (alloy(900.0, 900.0), alloy(700.0, 1100.0));
         let mixture = Enthalpy::of_mixture(&[(0.3, &a), (0.7, &b)], 400.0);
         let laws = [a.enthalpy(400.0), b.enthalpy(400.0)];

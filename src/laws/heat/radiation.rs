@@ -25,13 +25,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_black_surface_at_1000_k_loses_57_kw_to_empty_space() {
+    fn black_surface_at_1000_k_loses_57_kw_to_empty_space() {
         assert!((radiative_flux(1.0, 1000.0, 0.0) + 56703.74419).abs() < 1e-9);
         assert_eq!(radiative_flux(0.7, 450.0, 450.0), 0.0);
     }
 
     #[test]
-    fn the_coefficient_is_the_flux_over_the_difference_and_at_last_the_slope() {
+    fn radiative_coefficient_is_consistent_with_flux_and_slope() {
         for [t, ambient] in [[900.0, 300.0], [300.0, 2000.0], [4.0, 300.0]] {
             let flux = radiative_coefficient(0.9, t, ambient) * (ambient - t);
             assert!((flux / radiative_flux(0.9, t, ambient) - 1.0).abs() < 1e-12);

@@ -98,7 +98,7 @@ mod tests {
     }
 
     #[test]
-    fn the_surface_stands_about_the_back_stress() {
+    fn yield_surface_is_centred_on_the_back_stress() {
         let back = [40.0, -10.0, -30.0, 5.0, 0.0, 1.0];
         for stress in STRESSES {
             for face in [None, Some(2)] {

@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_principal_stress_is_an_eigenvalue() {
+    fn largest_principal_stress_is_an_eigenvalue() {
         let s = [3.0, -1.0, 2.0, 0.7, -0.4, 1.1];
         let m = nalgebra::Matrix3::new(s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2]);
         let largest = m.symmetric_eigenvalues().max();

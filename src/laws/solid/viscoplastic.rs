@@ -223,7 +223,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_excess_parts_whatever_the_numbers() {
+    fn excess_is_split_for_all_magnitudes() {
         for exponent in [1.0, 1.5, 3.0, 5.0, 12.0, 50.0] {
             for beta in [-700.0, -300.0, -30.0, -3.0, -1e-9, 0.0, 1e-9, 2.0, 40.0, 300.0, 3e3, 1e5]
             {

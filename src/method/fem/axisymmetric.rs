@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shift_along_the_axis_costs_no_force() {
+    fn axial_translation_is_force_free() {
         let rectangle = Rectangle { r: [0.0, 0.7], z: [-0.4, -0.1] };
         for order in [1, 2] {
             let element = QuadrilateralMatrices::new(order, rectangle, &law());

@@ -242,7 +242,7 @@ mod tests {
     }
 
     #[test]
-    fn the_number_of_threads_changes_no_bit() {
+    fn displacements_are_bitwise_independent_of_threads() {
         let law = Thermoelastic { young: 200.0, poisson: 0.3, expansion: 1e-3 };
         for order in [1, 2] {
             let mesh = graded(order, [5, 6, 7], 1.2);

@@ -387,7 +387,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_insulated_keeps_its_heat_for_ever() {
+    fn insulated_columns_conserve_heat() {
         let layers = [constants(2e3, 2.0), constants(0.2, 3.0)];
         let depth = DepthProblem::new(&mesh(2, 1e-3), &layers, [EndCondition::Natural; 2]);
         let column = depth.column(0.0, true);

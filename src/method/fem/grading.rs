@@ -76,7 +76,7 @@ mod tests {
     }
 
     #[test]
-    fn no_fine_stretch_gives_equal_elements() {
+    fn equal_elements_without_fine_stretches() {
         let ends = graded_ends(-1.0, 1.0, &[], 0.5);
         assert_eq!(ends.len(), 5);
         assert!((ends[2]).abs() < 1e-12);

@@ -193,14 +193,14 @@ mod tests {
     }
 
     #[test]
-    fn an_insulated_axis_keeps_a_constant_for_ever() {
+    fn insulated_axis_has_a_constant_mode() {
         let modes = AxisModes::of(&line(40, 2), [EndCondition::Natural; 2]);
         assert_eq!(modes.decay[0], 0.0);
         assert!(modes.decay[1] > 9.0);
     }
 
     #[test]
-    fn a_convective_end_satisfies_the_transcendental_equation() {
+    fn convective_end_satisfies_the_transcendental_equation() {
         // φ' = −B φ at x = 1 and φ' = 0 at 0: b tan b = B, decay b².
         let modes =
             AxisModes::of(&line(40, 2), [EndCondition::Natural, EndCondition::Convective(2.0)]);

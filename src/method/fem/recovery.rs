@@ -174,7 +174,7 @@ mod tests {
     }
 
     #[test]
-    fn a_single_linear_element_has_one_value() {
+    fn single_linear_element_has_one_value() {
         let axis = Axis::from_element_ends(&[0.0, 1.0], 1, Weight::Uniform);
         let matrix = Recovery::new(&axis, Beyond::Nothing, [false; 2]).samples;
         assert_eq!((matrix[(0, 0)], matrix[(1, 0)]), (1.0, 1.0));
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn what_vanishes_on_an_axis_does_so() {
+    fn odd_quantities_vanish_on_the_axis() {
         let axis = Axis::from_element_ends(&[0.0, 1.0, 1.8, 3.0], 2, Weight::Radial);
         let matrix = Recovery::new(&axis, Beyond::Vanishing, [false; 2]).samples;
         for (node, &x) in axis.nodes.iter().enumerate() {

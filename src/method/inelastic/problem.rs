@@ -290,8 +290,8 @@ impl InelasticProblem {
         Ok(all)
     }
 
-    /// Smallest temperature rise that makes a layer yield at a temperature [K] if it is held along two directions, `σ_y
-    /// (1 − ν)/(E α)` [K].
+    /// Smallest temperature rise that makes a layer yield at a temperature [K] if it is held along two directions,
+    /// `σ_y (1 − ν)/(E α)` [K].
     pub fn rise_to_yield(&self, temperature: f64) -> f64 {
         let rise = |law: &Arc<dyn FlowLaw>| {
             let at = |temperature| law.over_step(temperature, 0.0);
