@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn all_that_is_given_anywhere_arrives() {
+    fn transfer_is_conservative_everywhere() {
         for mesh in meshes() {
             let face = FaceCells::of(&mesh, false);
             for (x, y) in [(0.0, 0.0), (-0.33, 0.2), (0.7, -1.0), (0.05, 0.05)] {
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn the_parts_of_a_force_give_back_the_force_on_each_side() {
+    fn force_parts_sum_to_the_force_on_each_side() {
         let mesh = mesh(2, [true, false]);
         let face = FaceCells::of(&mesh, false);
         let flips = [true, false]; // A force along x.
@@ -236,7 +236,7 @@ mod tests {
     }
 
     #[test]
-    fn a_uniform_density_becomes_the_load_of_the_shape_functions() {
+    fn uniform_density_is_the_consistent_load() {
         let mesh = mesh(2, [false, false]);
         let face = FaceCells::of(&mesh, false);
         let [x, y] = [&mesh.axes[0], &mesh.axes[1]];
@@ -256,7 +256,7 @@ mod tests {
     }
 
     #[test]
-    fn a_symmetric_fluid_makes_no_odd_part() {
+    fn symmetric_fluid_has_no_odd_part() {
         let mesh = mesh(1, [true, true]);
         let face = FaceCells::of(&mesh, false);
         let amounts: Vec<f64> = (0..face.cells().len()).map(|i| 1.0 + 1e-16 * i as f64).collect();

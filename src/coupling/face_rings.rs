@@ -304,7 +304,7 @@ mod tests {
     }
 
     #[test]
-    fn all_that_rings_get_arrives_and_points_outward() {
+    fn ring_transfer_is_conservative_and_radial() {
         for mesh in meshes() {
             let rings = FaceRings::of(&mesh, false);
             assert_eq!(*rings.radii.last().unwrap(), 1.0);

@@ -333,7 +333,7 @@ mod tests {
     const NO_IMAGE: [bool; 2] = [false; 2];
 
     #[test]
-    fn a_disc_carries_its_area_and_centre_on_any_mesh() {
+    fn disc_has_exact_area_and_centre_on_any_mesh() {
         for order in [1, 2] {
             let x = axis(order);
             for (cx, cy, radius) in [(0.0, 0.0, 0.5), (0.13, -0.2, 0.77), (0.21, 0.4, 0.011)] {
@@ -353,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn a_disc_across_the_edge_carries_what_is_on_the_face() {
+    fn disc_across_the_edge_has_the_area_on_the_face() {
         let x = Axis::from_element_ends(&[0.0, 0.3, 1.0], 1, Weight::Uniform);
         let place = Placement { x: 0.0, y: 0.0, radius: 0.4 };
         let footprint = Footprint::Disc { radius: 0.4 };
@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ring_carries_its_area_on_any_mesh_and_of_any_width() {
+    fn ring_has_exact_area_on_any_mesh_at_any_width() {
         for order in [1, 2] {
             let (x, r) = (
                 axis(order),
@@ -395,7 +395,7 @@ mod tests {
     }
 
     #[test]
-    fn a_gaussian_carries_its_power_even_on_a_coarse_mesh() {
+    fn gaussian_has_exact_power_on_coarse_meshes() {
         let place = Placement { x: 0.1, y: 0.05, radius: 0.08 };
         let footprint = Footprint::Gaussian { radius: 0.08 };
         for order in [1, 2] {
@@ -451,7 +451,7 @@ mod tests {
     }
 
     #[test]
-    fn an_outward_traction_has_no_resultant_but_stretches() {
+    fn outward_traction_has_a_first_moment_and_no_resultant() {
         let x = axis(2);
         let place = Placement { x: 0.05, y: 0.0, radius: 0.4 };
         let rings = Footprint::Rings { count: 2, radius: 0.4 };

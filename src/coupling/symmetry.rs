@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn a_central_load_is_even_and_costs_no_odd_part() {
+    fn central_load_has_no_odd_part() {
         let parts = split_load(&quarter(), [false; 2], |_| vec![1.0; 4]);
         assert_eq!(parts, [vec![1.0; 4], vec![], vec![], vec![]]);
         let shear = split_load(&quarter(), [true, false], |_| vec![1.0; 4]);
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn the_parts_sum_to_the_load_at_every_image() {
+    fn parts_sum_to_the_load_at_every_image() {
         let mesh = quarter();
         let value = |image: [bool; 2]| match image {
             [false, false] => 3.0,

@@ -41,7 +41,7 @@ mod tests {
     "#;
 
     #[test]
-    fn the_guid_has_the_form_of_a_uuid_and_follows_text_and_variables() {
+    fn guid_is_a_uuid_of_text_and_variables() {
         let scene = crate::scene::parse(SCENE, "scene.toml").unwrap();
         let mut registry = Registry::of(&scene);
         let first = guid(SCENE, &registry);

@@ -67,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_rest_of_a_path_goes_on_where_the_path_was() {
+    fn path_remainder_continues_the_path() {
         let path = InputPath::new(&[1.0, -2.0], &[vec![3.0, 0.5], vec![-4.0, 2.0]]);
         let rest = path.from(0.3);
         for s in [0.0, 0.2, 0.7] {

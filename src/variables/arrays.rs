@@ -326,7 +326,7 @@ mod tests {
     }
 
     #[test]
-    fn an_array_of_one_row_keeps_its_letters_in_place() {
+    fn one_row_arrays_keep_the_order_of_index_letters() {
         assert_eq!(common_words("at 1, 1 of", "at 1, 9 of", &[1, 9]), "at 1, j of");
         assert_eq!(common_words("on ring 1, spot", "on ring 24, spot", &[24]), "on ring i, spot");
     }

@@ -391,7 +391,7 @@ fn energy_error(mesh: &Mesh, material: [f64; 6], steps: usize) -> f64 {
 }
 
 #[test]
-fn displacements_are_bitwise_independent_of_threads() {
+fn the_number_of_threads_changes_no_bit() {
     for mesh in spot_bodies() {
         let run = |threads: usize| {
             let problem =

@@ -225,7 +225,7 @@ fn modes_of(fem: &SolidFem) -> Result<SolidModes<'_>, BodyError> {
 struct Row {
     modes: Vec<f64>,
     direct: Vec<f64>,
-    /// Direct terms of the trials, as `direct` has of the drives.
+    /// Direct terms of the trials.
     trials: Vec<f64>,
     offset: f64,
 }

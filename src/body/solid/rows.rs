@@ -32,7 +32,7 @@ pub struct Choice {
     pub rows: usize,
 }
 
-/// Whether stresses and whether displacements are read.
+/// Flags: stresses are read, displacements are read.
 type Kinds = [bool; 2];
 
 /// Number of communication points for which a row pays off.

@@ -178,7 +178,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hosts_rounding_subnormals_and_traps_do_not_matter_and_stay() {
+    fn host_environment_has_no_effect_and_is_restored() {
         let nearest = third();
         let (upward, to_zero, flushing, trapping) = (0x5f80, 0x7f80, 0x9fc0, 0x1000);
         for value in [upward, to_zero, flushing, trapping] {
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn a_logger_runs_in_the_hosts_environment() {
+    fn loggers_run_in_the_host_environment() {
         let nearest = third();
         let stays = as_host(0x5fa0, || {
             standard(|| {

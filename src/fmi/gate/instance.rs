@@ -165,7 +165,7 @@ mod tests {
     use crate::fmi::two::table::Fmi2;
 
     #[test]
-    fn a_panic_leaves_a_unit_that_can_be_reset() {
+    fn units_can_be_reset_after_a_panic() {
         let mut unit = Unit::for_tests();
         let status = run(&mut unit, Fmi2::fmi2SetupExperiment, |_| panic!("a bug"));
         assert_eq!((status, unit.phase), (Status::Error, Phase::Error));

@@ -74,14 +74,14 @@ mod tests {
     use crate::runtime::thread::aside;
 
     #[test]
-    fn a_panic_becomes_its_message_and_place() {
+    fn panics_become_message_and_place() {
         let message = caught(|| panic!("too {}", "hot")).unwrap_err();
         assert!(message.contains("too hot") && message.contains("panics.rs"), "{message}");
         assert_eq!(caught(|| 7), Ok(7));
     }
 
     #[test]
-    fn a_panic_of_a_worker_thread_becomes_its_message() {
+    fn worker_panics_become_messages() {
         let give_up = |i: usize| assert!(i > 64, "worker {}", "gave up");
         let message = caught(|| parallel::map(2, 64, give_up)).unwrap_err();
         assert!(message.contains("worker gave up"), "{message}");

@@ -78,7 +78,7 @@ mod tests {
     }
 
     #[test]
-    fn a_forked_process_does_not_wait_for_threads_of_its_parent() {
+    fn forked_processes_do_not_wait_for_parent_threads() {
         let once = SetUpOnce(AtomicU32::new(process::id().wrapping_add(1).max(1)));
         assert_eq!(once.ensure(|| ()), Err(CutOff));
         assert!(!once.is_done());

@@ -313,7 +313,7 @@ mod tests {
     }
 
     #[test]
-    fn the_model_says_how_many_unknowns_a_body_takes() {
+    fn model_checks_the_number_of_unknowns() {
         refused(|s| s.state.bodies[0].truncate(9), "unknowns of plate");
         refused(|s| s.state.bodies[0].push(0.0), "unknowns of plate");
         refused(|s| s.state.bodies.push(Vec::new()), "unknowns of 2 bodies; the scene has 1");

@@ -123,7 +123,7 @@ fluid = { density = 1000.0, viscosity = 1e-3, specific_heat = 4180.0, conductivi
 "#;
 
     #[test]
-    fn an_error_in_a_later_part_changes_nothing() {
+    fn errors_in_later_parts_change_nothing() {
         let scene = scene::parse(DROP, "scene.toml").unwrap_or_else(|error| panic!("{error}"));
         let model = Model::build(&scene, 1).unwrap_or_else(|error| panic!("{error}"));
         let interrupt = Interrupt::default();

@@ -73,7 +73,7 @@ macro_rules! solid_laws {
             /// Values of the key `model`.
             pub const MODELS: &[&str] = &[$($model),+];
 
-            /// Visits the types of the parts that the table of a model consists of, beside those of heat.
+            /// Visits the types of the parts that the table of a model consists of, except those of heat.
             pub fn visit_parts(model: &str, visitor: &mut impl PartVisitor) {
                 match model {
                     $($model => <$keys>::visit_parts(visitor),)+

@@ -162,11 +162,11 @@ impl BrickStiffness {
         #[cfg(target_arch = "x86_64")]
         {
             if is_x86_feature_detected!("avx512f") {
-                // SAFETY: the processor has what the function asks for.
+                // SAFETY: the processor has the function's instructions.
                 return unsafe { self.layer_avx512(layer, scratch) };
             }
             if is_x86_feature_detected!("avx2") {
-                // SAFETY: the processor has what the function asks for.
+                // SAFETY: the processor has the function's instructions.
                 return unsafe { self.layer_avx2(layer, scratch) };
             }
         }

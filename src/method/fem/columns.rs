@@ -1,6 +1,6 @@
 //! Modes of heat along z through layers that conduct and store it differently.
 //!
-//! For a mode along the surface, of eigenvalue Λ = λ_x + λ_y, what is left of the heat equation is
+//! For a mode along the surface, of eigenvalue Λ = λ_x + λ_y, the heat equation reduces to
 //! `M(c) θ̇ + [K(k) + Λ M(k)] θ = f` along z, with the mass matrices M of c = ρc(z) and k(z) and the stiffness
 //! matrix K, which holds the conductances 1/R of contacts between the two nodes of an interface, and heat transfer
 //! at the ends. Each Λ has an eigenproblem of its own.

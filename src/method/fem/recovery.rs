@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn odd_quantities_vanish_on_the_axis() {
+    fn vanishing_quantities_are_recovered_on_the_axis() {
         let axis = Axis::from_element_ends(&[0.0, 1.0, 1.8, 3.0], 2, Weight::Radial);
         let matrix = Recovery::new(&axis, Beyond::Vanishing, [false; 2]).samples;
         for (node, &x) in axis.nodes.iter().enumerate() {

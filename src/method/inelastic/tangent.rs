@@ -28,7 +28,7 @@ const MOST_POISSON: f64 = 0.45;
 pub struct TangentSolver {
     /// Matrix-free elasticity and its fast inverse, if they are suitable.
     bricks: Option<Bricks>,
-    /// Whether each displacement is held, node after node.
+    /// Flags of held displacements, node after node.
     held: Vec<bool>,
     /// Elimination order of the free displacements.
     order: Vec<usize>,
