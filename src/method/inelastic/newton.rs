@@ -1,10 +1,9 @@
 //! Newton's method with a line search: displacements and enhanced strains under which forces balance.
 //!
 //! Over a step, stress is the derivative of a convex energy, because the laws are associated and do not soften. The
-//! work of the residual forces on a change of displacement therefore decreases along the change. A change is applied
-//! until this work has reversed its sign only slightly. Tangents are consistent, so convergence is quadratic in the
-//! end. Linear systems are solved only as accurately as this requires (S. C. Eisenstat and H. F. Walker 1996, doi
-//! 10.1137/0917003).
+//! work of the residual forces on a change of displacement therefore decreases along the change. A change is shortened
+//! if this work reverses its sign strongly. Tangents are consistent, so convergence is quadratic in the end. Linear
+//! systems are solved only as accurately as this requires (S. C. Eisenstat and H. F. Walker 1996, doi 10.1137/0917003).
 
 use super::grid::{Grid, Iterate};
 use super::problem::InelasticError;

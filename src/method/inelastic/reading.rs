@@ -4,8 +4,8 @@
 //! strain is between zero and the largest value of the points around a node, and the back strain is no longer than the
 //! accumulated plastic strain allows. Stress returns to the yield surface at the plastic strain and temperature of the
 //! node. In a creeping body stress may exceed that surface, but an excess relaxes by flow: a difference δq between two
-//! points decays as `e^{−3G n p/q}` while the strain p accumulates under the stress q. The flow rate at a node is
-//! therefore limited to that of the fastest point around it.
+//! points decays as `e^{−3G n p/q}` while the strain p accumulates under the stress q. At a node this factor is
+//! therefore applied to the part of the stress that would flow faster than the fastest point around it.
 
 use super::problem::{InelasticError, InelasticProblem, PointState};
 use crate::laws::{Overstress, PlasticHistory, PointConstants, admissible};

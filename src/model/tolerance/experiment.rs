@@ -10,9 +10,9 @@ use crate::scene::{Load, Scene};
 /// Largest number of experiments with a body.
 const MOST: usize = 8;
 
-/// Returns the inputs of the experiments with a scene of one body. First come its start values, if they cause any
-/// response, then a unit of every input that is zero at the start. Face temperatures are included only if everything is
-/// at rest. If the radius of a load may decrease from its start value, each experiment is listed twice.
+/// Returns the inputs of the experiments with a scene of one body. First come its start values, unless all are at rest,
+/// then a unit of every input that is zero at the start. Face temperatures are included only if everything is at rest.
+/// If the radius of a load may decrease from its start value, each experiment is listed twice.
 pub fn experiments(scene: &Scene) -> Vec<Vec<f64>> {
     let layout = InputLayout::of(scene);
     let start = initial_inputs(scene);
